@@ -1,0 +1,39 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace slipwave {
+
+/// What ended a tool, as its exit status (docs: tools, "exit status").
+enum class ErrorKind { data = 1, usage = 2, unstable = 3 };
+
+/// The one exception of the library: a sentence that says what was found and what was expected.
+/// Callers that know the place (file, trace, option) add it in front with `within`.
+class Error : public std::runtime_error {
+ public:
+  explicit Error(const std::string& what, ErrorKind kind = ErrorKind::data)
+      : std::runtime_error(what), kind_(kind) {}
+  ErrorKind kind() const noexcept { return kind_; }
+  /// The same error, `place` put in front of its sentence: "model.nc: vs at x=1200 ...".
+  Error within(const std::string& place) const { return Error(place + ": " + what(), kind_); }
+
+ private:
+  ErrorKind kind_;
+};
+
+/// Runs `body`; an Error leaving it gets `place` in front of its sentence.
+template <class Body>
+decltype(auto) in_place(const std::string& place, Body&& body) {
+  try {
+    return std::forward<Body>(body)();
+  } catch (const Error& error) {
+    throw error.within(place);
+  }
+}
+
+/// A number as a message shows it: shortest form that reads back as the same double ("12.5", "1e-300").
+std::string shown(double value);
+
+}  // namespace slipwave

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "base/progress.hpp"
+
+namespace slipwave::cli {
+
+/// What --help, --version and messages say of a tool.
+struct ToolInfo {
+  std::string name;      // "sw-layers"
+  std::string summary;   // one line: what it does
+  std::string synopsis;  // "[options] [MODEL] [-o OUTPUT]"
+  std::string example;   // one command line that works
+};
+
+/// Declares options bound to the tool's Settings. Names are the long option names without dashes; "output,o"
+/// gives a short form. Every option can also stand in the file given by --config, the command line wins.
+class Options {
+ public:
+  /// A value; `to` keeps its present content where the option is not given (shown as the default in --help).
+  void add(const std::string& name, std::string& to, const std::string& placeholder, const std::string& help);
+  void add(const std::string& name, double& to, const std::string& placeholder, const std::string& help);
+  void add(const std::string& name, int& to, const std::string& placeholder, const std::string& help);
+  /// May be given several times.
+  void add(const std::string& name, std::vector<std::string>& to, const std::string& placeholder,
+           const std::string& help);
+  /// A switch: given or not.
+  void add(const std::string& name, bool& to, const std::string& help);
+  /// One word of a fixed list; anything else is a usage error that names the list.
+  void add_choice(const std::string& name, std::string& to, std::vector<std::string> choices,
+                  const std::string& help);
+  /// Must be given: its absence is a usage error.
+  void require(const std::string& name);
+  /// Positional arguments, in order; the last may be a vector that takes all the rest.
+  void positional(std::string& to, const std::string& placeholder);
+  void positional(std::vector<std::string>& to, const std::string& placeholder);
+  /// Declares --threads (only for tools that compute).
+  void add_threads();
+};
+
+/// What run() gets beside its settings.
+struct Context {
+  std::string command_line;  // provenance: program name without path, arguments quoted as a shell needs them
+  std::string version;       // "slipwave 0.1.0"
+  bool quiet = false;
+  bool verbose = false;
+  int threads = 0;           // 0: not given
+
+  /// One line on stderr "sw-x: warning: ..." unless --quiet.
+  void warn(const std::string& sentence) const;
+  /// One line on stderr under --verbose.
+  void note(const std::string& sentence) const;
+  /// A bar with rate and ETA on a terminal, a line every 10 % under --verbose without one, else nothing.
+  Progress progress(const std::string& what) const;
+};
+
+/// The body of every main: options, --help, --version, --config, -q, -v, errors to one line and exit codes.
+int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,
+             const std::function<void(const Context&)>& run);
+
+}  // namespace slipwave::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace slipwave {
+
+template <int D>
+using Point = std::array<double, D>;  // m; 2-D: x, z; 3-D: x, y, z; z points down
+template <int D>
+using Index = std::array<std::int64_t, D>;
+
+/// Names of the axes in storage order, fastest first: "x","z" or "x","y","z".
+template <int D>
+constexpr std::array<char, D> axis_names() {
+  if constexpr (D == 2) return {'x', 'z'};
+  if constexpr (D == 3) return {'x', 'y', 'z'};
+}
+
+/// A plain grid of cubic cells. Cell (i, .., k) has its centre at origin + (i + 1/2) h; the last axis is
+/// depth, its origin the free surface z = 0. Cells are numbered x fastest.
+template <int D>
+struct Grid {
+  Index<D> shape{};       // cells along x, [y,] z
+  double spacing_m = 0;   // h
+  Point<D> origin_m{};    // the low corner of cell (0, .., 0)
+
+  std::int64_t size() const {
+    std::int64_t cells = 1;
+    for (auto n : shape) cells *= n;
+    return cells;
+  }
+  double centre(int axis, std::int64_t i) const { return origin_m[axis] + (double(i) + 0.5) * spacing_m; }
+  double end(int axis) const { return origin_m[axis] + double(shape[axis]) * spacing_m; }
+  std::int64_t flat(const Index<D>& at) const {
+    std::int64_t n = 0;
+    for (int axis = D - 1; axis >= 0; --axis) n = n * shape[axis] + at[axis];
+    return n;
+  }
+  Index<D> index(std::int64_t flat_index) const {
+    Index<D> at{};
+    for (int axis = 0; axis < D; ++axis) {
+      at[axis] = flat_index % shape[axis];
+      flat_index /= shape[axis];
+    }
+    return at;
+  }
+  bool operator==(const Grid&) const = default;
+};
+
+/// "x=1200 z=45": the centre of a cell as messages show it.
+template <int D>
+std::string place_of(const Grid<D>& grid, std::int64_t flat_index);
+
+/// "500 x 600 cells of 5 m": a grid as messages show it.
+template <int D>
+std::string shown(const Grid<D>& grid);
+
+extern template std::string place_of<2>(const Grid<2>&, std::int64_t);
+extern template std::string place_of<3>(const Grid<3>&, std::int64_t);
+extern template std::string shown<2>(const Grid<2>&);
+extern template std::string shown<3>(const Grid<3>&);
+
+}  // namespace slipwave

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid/field.hpp"
+
+namespace slipwave {
+
+/// Isotropic elastic medium, one value a cell. vs = 0 marks fluid, rho = 0 marks void (air).
+template <int D>
+struct Medium {
+  Field<D> vp, vs;  // m/s
+  Field<D> rho;     // kg/m3
+
+  const Grid<D>& grid() const { return vp.grid(); }
+  bool is_void(std::size_t cell) const { return rho[cell] == 0; }
+  bool is_fluid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] == 0; }
+  bool is_solid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] != 0; }
+};
+
+/// One family of parallel slip planes (theory.md, slip law).
+template <int D>
+struct SlipSystem {
+  Point<D> normal{};       // unit vector
+  double friction = 0;     // q, dimensionless
+  double viscosity_s = 0;  // eta, s
+  double strength_pa = 0;  // cohesion added to q max(-s_n, 0)
+};
+
+/// Cells that share slip systems: 1 to D systems.
+template <int D>
+struct FractureSet {
+  std::string name;
+  std::vector<SlipSystem<D>> systems;
+};
+
+/// What a model file holds.
+template <int D>
+struct Model {
+  Medium<D> medium;
+  Field<D, std::uint8_t> fracture;  // 0 = intact, k = fracture_sets[k - 1]; empty when the model has none
+  std::vector<FractureSet<D>> fracture_sets;
+  std::string title, source, history;
+
+  const Grid<D>& grid() const { return medium.grid(); }
+};
+
+/// What `check` lets through beyond the usual.
+struct MediumLimits {
+  bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
+};
+
+/// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values, rho = 0 with
+/// vp or vs set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D,
+/// where the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip
+/// normal that is no unit vector, negative or non-finite slip constants.
+template <int D>
+void check(const Model<D>& model, const MediumLimits& limits = {});
+
+}  // namespace slipwave
