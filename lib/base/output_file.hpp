@@ -1,6 +1,7 @@
 #pragma once
 
-#include <cstdio>
+#include <cstddef>
+#include <memory>
 #include <string>
 
 namespace slipwave {
@@ -8,9 +9,9 @@ namespace slipwave {
 /// An output that appears whole or not at all.
 /// For a path: a private temporary beside it, renamed over it by commit(); the destructor without commit
 /// removes the temporary and leaves an older file of that name untouched. Ended by a signal (INT, TERM, HUP,
-/// PIPE): the temporary is removed too. A path that exists and is no regular file (/dev/null, a fifo) is written in place.
-/// For "-": streams to stdout; binary to a terminal is refused.
-/// Every failed write throws Error naming file and cause ("gather.sgy: No space left on device").
+/// PIPE): the temporary is removed too. A path that exists and is no regular file (/dev/null, a fifo) is
+/// written in place. For "-": streams to stdout; binary to a terminal is refused. Every failed write throws
+/// Error naming file and cause ("gather.sgy: No space left on device").
 class OutputFile {
  public:
   enum class Content { binary, text };
@@ -27,6 +28,16 @@ class OutputFile {
   void commit();
   /// "gather.sgy" or "standard output": as messages name it.
   const std::string& shown_name() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
+
+/// Installs the handlers that remove the temporaries of all living OutputFiles when INT, TERM, HUP or PIPE
+/// ends the process; the process then dies of that signal, so the shell sees 128 + N. A signal that was
+/// ignored at start stays ignored (nohup), PIPE excepted: a closed pipe always ends the process quietly.
+/// XFSZ is ignored, so a file-size limit becomes an Error of write(). Call once, from main.
+void remove_temporaries_on_signals();
 
 }  // namespace slipwave

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ class Options {
   void add(const std::string& name, std::string& to, const std::string& placeholder, const std::string& help);
   void add(const std::string& name, double& to, const std::string& placeholder, const std::string& help);
   void add(const std::string& name, int& to, const std::string& placeholder, const std::string& help);
+  /// A number without a default.
+  void add(const std::string& name, std::optional<double>& to, const std::string& placeholder,
+           const std::string& help);
   /// May be given several times.
   void add(const std::string& name, std::vector<std::string>& to, const std::string& placeholder,
            const std::string& help);
@@ -32,22 +36,37 @@ class Options {
   /// One word of a fixed list; anything else is a usage error that names the list.
   void add_choice(const std::string& name, std::string& to, std::vector<std::string> choices,
                   const std::string& help);
-  /// Must be given: its absence is a usage error.
+  /// Must be given: its absence is a usage error. `name` of an option without its short form, or the
+  /// placeholder of a positional argument. Options of which one must be given are the tool's own business.
   void require(const std::string& name);
   /// Positional arguments, in order; the last may be a vector that takes all the rest.
   void positional(std::string& to, const std::string& placeholder);
   void positional(std::vector<std::string>& to, const std::string& placeholder);
   /// Declares --threads (only for tools that compute).
   void add_threads();
+
+ private:
+  friend class Parser;
+  struct Option;
+  struct Positional;
+  Options();
+  ~Options();
+  Option& declare(const std::string& name, const std::string& placeholder, const std::string& help);
+
+  std::vector<Option> options_;
+  std::vector<Positional> positionals_;
 };
 
 /// What run() gets beside its settings.
 struct Context {
-  std::string command_line;  // provenance: program name without path, arguments quoted as a shell needs them
-  std::string version;       // "slipwave 0.1.0"
+  /// Provenance: program name without path, arguments quoted as a shell needs them. What does not change the
+  /// bytes of the output is left out (-o, --threads, -q, -v), so they are the same wherever they are written.
+  std::string command_line;
+  std::string tool;     // "sw-layers"
+  std::string version;  // "slipwave 0.1.0"
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;           // 0: not given
+  int threads = 0;  // 0: not given
 
   /// One line on stderr "sw-x: warning: ..." unless --quiet.
   void warn(const std::string& sentence) const;

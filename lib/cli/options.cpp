@@ -1,0 +1,162 @@
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "cli/parser.hpp"
+
+namespace slipwave::cli {
+namespace {
+
+int int_of(const std::string& text) {
+  const auto value = parse_integer(text);
+  if (value < std::numeric_limits<int>::min() || value > std::numeric_limits<int>::max()) {
+    throw Error("found '" + text + "', expected a smaller whole number", ErrorKind::usage);
+  }
+  return int(value);
+}
+
+bool truth_of(const std::string& text) {
+  for (const char* yes : {"", "true", "yes", "on", "1"}) {
+    if (text == yes) return true;
+  }
+  for (const char* no : {"false", "no", "off", "0"}) {
+    if (text == no) return false;
+  }
+  throw Error("found '" + text + "', expected true or false", ErrorKind::usage);
+}
+
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+}  // namespace
+
+Options::Options() = default;
+Options::~Options() = default;
+
+Options::Option& Options::declare(const std::string& name, const std::string& placeholder,
+                                  const std::string& help) {
+  Option option;
+  const auto comma = name.find(',');
+  option.name = name.substr(0, comma);
+  if (comma != std::string::npos) option.short_name = name.substr(comma + 1);
+  option.placeholder = placeholder;
+  option.help = help;
+  options_.push_back(option);
+  return options_.back();
+}
+
+void Options::add(const std::string& name, std::string& to, const std::string& placeholder,
+                  const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  option.shown_default = to;
+  option.store = [&to](const auto& values) { to = values.back(); };
+}
+
+void Options::add(const std::string& name, double& to, const std::string& placeholder,
+                  const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  if (to == to) option.shown_default = shown(to);
+  option.store = [&to](const auto& values) { to = parse_number(values.back()); };
+}
+
+void Options::add(const std::string& name, int& to, const std::string& placeholder, const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  option.shown_default = std::to_string(to);
+  option.store = [&to](const auto& values) { to = int_of(values.back()); };
+}
+
+void Options::add(const std::string& name, std::optional<double>& to, const std::string& placeholder,
+                  const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  option.store = [&to](const auto& values) { to = parse_number(values.back()); };
+}
+
+void Options::add(const std::string& name, std::vector<std::string>& to, const std::string& placeholder,
+                  const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  option.many = true;
+  option.shown_default = joined(to, " ");
+  option.store = [&to](const auto& values) { to = values; };
+}
+
+void Options::add(const std::string& name, bool& to, const std::string& help) {
+  auto& option = declare(name, "", help);
+  option.store = [&to](const auto& values) { to = truth_of(values.back()); };
+}
+
+void Options::add_choice(const std::string& name, std::string& to, std::vector<std::string> choices,
+                         const std::string& help) {
+  auto& option = declare(name, joined(choices, "|"), help);
+  option.shown_default = to;
+  option.store = [&to, choices](const auto& values) {
+    if (std::find(choices.begin(), choices.end(), values.back()) == choices.end()) {
+      throw Error("found '" + values.back() + "', expected one of " + joined(choices, ", "),
+                  ErrorKind::usage);
+    }
+    to = values.back();
+  };
+}
+
+void Options::require(const std::string& name) {
+  for (auto& option : options_) option.required = option.required || option.name == name;
+  for (auto& positional : positionals_)
+    positional.required = positional.required || positional.placeholder == name;
+}
+
+void Options::positional(std::string& to, const std::string& placeholder) {
+  positionals_.push_back({placeholder, false, false, [&to](const auto& values) { to = values.back(); }});
+}
+
+void Options::positional(std::vector<std::string>& to, const std::string& placeholder) {
+  positionals_.push_back({placeholder, true, false, [&to](const auto& values) { to = values; }});
+}
+
+void Options::add_threads() { declare("threads", "N", "").store = nullptr; }
+
+std::string nearest_of(const std::vector<std::string>& words, const std::string& word) {
+  std::string best;
+  std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  for (const auto& candidate : words) {
+    // Levenshtein distance, one row at a time; a word begun rightly counts as one slip away.
+    std::vector<std::size_t> row(candidate.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 1; i <= word.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i;
+      for (std::size_t j = 1; j <= candidate.size(); ++j) {
+        const std::size_t replaced = diagonal + (word[i - 1] != candidate[j - 1]);
+        diagonal = row[j];
+        row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+      }
+    }
+    std::size_t distance = row.back();
+    if (word.size() >= 2 && candidate.compare(0, word.size(), word) == 0)
+      distance = std::min<std::size_t>(distance, 1);
+    if (distance < least && distance < candidate.size()) {
+      least = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string quoted(const std::string& word) {
+  const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%^";
+  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char letter : word) {
+    if (letter == '\'') {
+      text += "'\\''";
+    } else {
+      text += letter;
+    }
+  }
+  return text + "'";
+}
+
+}  // namespace slipwave::cli

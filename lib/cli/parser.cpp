@@ -1,0 +1,236 @@
+#include "cli/parser.hpp"
+
+#include <algorithm>
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "base/temporary.hpp"
+
+namespace slipwave::cli {
+namespace {
+
+namespace po = boost::program_options;
+
+// Not part of the provenance: the bytes of the output do not depend on them.
+const std::set<std::string> without_effect = {"output", "threads", "quiet", "verbose"};
+// Only sensible on the command line.
+const std::set<std::string> not_in_config = {"help", "version", "config"};
+
+constexpr int most_threads = 4096;
+
+[[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
+
+std::string without_dashes(const std::string& name) {
+  const auto start = name.find_first_not_of('-');
+  return start == std::string::npos ? "" : name.substr(start);
+}
+
+}  // namespace
+
+void Parser::declare_common() {
+  for (auto& option : options_.options_) {
+    if (option.name == "threads" && !option.store) {
+      option.help = "threads to compute with [all cores]";
+      option.store = [this](const auto& values) {
+        const auto count = parse_integer(values.back());
+        if (count < 1 || count > most_threads) {
+          refuse("found '" + values.back() + "', expected a whole number from 1 to " +
+                 std::to_string(most_threads));
+        }
+        common_.threads = int(count);
+      };
+    }
+  }
+  options_.add("config", common_.config, "FILE", "take options from an INI file too");
+  options_.add("quiet,q", common_.quiet, "no warnings");
+  options_.add("verbose,v", common_.verbose, "say more");
+  options_.add("help,h", common_.help, "show this");
+  options_.add("version", common_.version, "show the version");
+}
+
+void Parser::parse(int argc, const char* const* argv) {
+  read_command_line(argc, argv);
+  for (const auto& option : options_.options_) {
+    if (option.name == "help" || option.name == "version" || option.name == "config") {
+      const auto found = given_.find(option.name);
+      if (found != given_.end()) option.store(found->second);
+    }
+  }
+  if (common_.help || common_.version) return;
+  if (!common_.config.empty()) read_config();
+  store();
+}
+
+void Parser::read_command_line(int argc, const char* const* argv) {
+  po::options_description known;
+  for (const auto& option : options_.options_) {
+    const std::string name = option.name + (option.short_name.empty() ? "" : "," + option.short_name);
+    if (option.placeholder.empty()) {
+      known.add_options()(name.c_str(), "");
+    } else {
+      known.add_options()(name.c_str(), po::value<std::string>(), "");
+    }
+  }
+  po::positional_options_description anywhere;
+  anywhere.add("", -1);
+  using namespace po::command_line_style;
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  std::vector<po::option> parsed;
+  try {
+    parsed =
+        po::command_line_parser(words).options(known).style(default_style & ~allow_guessing).run().options;
+  } catch (const po::unknown_option& error) {
+    std::string name = error.get_option_name();
+    name = name.substr(0, name.find('='));
+    const std::string meant = nearest(without_dashes(name), false);
+    refuse("unknown option " + name +
+           (meant.empty() ? "; --help lists them all" : "; did you mean --" + meant + "?"));
+  } catch (const po::error_with_option_name& error) {
+    const std::string name = without_dashes(error.get_option_name());
+    refuse_without_value(name);
+  } catch (const po::error& error) {
+    refuse(error.what());
+  }
+  command_line_ = info_.name;
+  for (const auto& option : parsed) {
+    if (option.string_key.empty()) {
+      arguments_.insert(arguments_.end(), option.value.begin(), option.value.end());
+    } else {
+      // "--source --plan": Boost takes the next option for the value.
+      if (option.original_tokens.size() == 2 && is_declared(option.original_tokens[1])) {
+        refuse_without_value(option.string_key);
+      }
+      auto& values = given_[option.string_key];
+      values.insert(values.end(), option.value.begin(), option.value.end());
+      if (option.value.empty()) values.emplace_back();
+    }
+    if (without_effect.count(option.string_key)) continue;
+    for (const auto& token : option.original_tokens) command_line_ += ' ' + quoted(token);
+  }
+}
+
+bool Parser::is_declared(const std::string& word) const {
+  return std::any_of(options_.options_.begin(), options_.options_.end(), [&](const auto& option) {
+    return word == "--" + option.name || (!option.short_name.empty() && word == "-" + option.short_name);
+  });
+}
+
+void Parser::refuse_without_value(const std::string& name) const {
+  for (const auto& option : options_.options_) {
+    if (option.name != name && (option.short_name.empty() || option.short_name != name)) continue;
+    if (option.placeholder.empty()) refuse("--" + option.name + ": is a switch, expected no value");
+    refuse("--" + option.name + ": found no value, expected " + option.placeholder);
+  }
+  refuse("--" + name + ": found no value, expected one");
+}
+
+void Parser::read_config() {
+  const std::string& path = common_.config;
+  std::error_code failed;
+  if (std::filesystem::is_directory(path, failed)) throw Error(path + ": is a directory, expected a file");
+  errno = 0;
+  std::ifstream file(path);
+  if (!file) throw Error(path + ": " + cause_of(errno ? errno : EIO));
+  po::options_description known;
+  for (const auto& option : options_.options_) {
+    if (!not_in_config.count(option.name))
+      known.add_options()(option.name.c_str(), po::value<std::string>(), "");
+  }
+  std::vector<po::option> parsed;
+  try {
+    parsed = po::parse_config_file(file, known, true).options;
+  } catch (const po::invalid_config_file_syntax& error) {
+    refuse(path + ": found '" + error.tokens() + "', expected NAME = VALUE");
+  } catch (const po::error& error) {
+    refuse(path + ": " + error.what());
+  }
+  Values from_file;
+  for (const auto& option : parsed) {
+    if (option.unregistered) {
+      const std::string meant = nearest(option.string_key, true);
+      refuse(path + ": unknown option " + option.string_key +
+             (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    }
+    auto& values = from_file[option.string_key];
+    values.insert(values.end(), option.value.begin(), option.value.end());
+  }
+  for (const auto& option : options_.options_) {
+    const auto found = from_file.find(option.name);
+    if (found == from_file.end() || given_.count(option.name)) continue;
+    in_place(path, [&] {
+      if (!option.many && found->second.size() > 1) refuse(option.name + " is given twice, expected once");
+      in_place(option.name, [&] { option.store(found->second); });
+    });
+    given_[option.name];  // present, already stored
+  }
+}
+
+void Parser::store() {
+  for (const auto& option : options_.options_) {
+    const auto found = given_.find(option.name);
+    const std::string name = "--" + option.name;
+    if (found == given_.end()) {
+      if (option.required) refuse(name + " is missing; expected " + name + " " + option.placeholder);
+      continue;
+    }
+    if (found->second.empty()) continue;
+    if (!option.many && !option.placeholder.empty() && found->second.size() > 1) {
+      refuse(name + " is given twice, expected once");
+    }
+    in_place(name, [&] { option.store(found->second); });
+  }
+  std::size_t next = 0;
+  for (const auto& positional : options_.positionals_) {
+    const std::size_t left = arguments_.size() - next;
+    if (left == 0) {
+      if (positional.required)
+        refuse(positional.placeholder + " is missing; usage: " + info_.name + " " + info_.synopsis);
+      break;
+    }
+    const std::size_t count = positional.many ? left : 1;
+    positional.store(
+        {arguments_.begin() + std::ptrdiff_t(next), arguments_.begin() + std::ptrdiff_t(next + count)});
+    next += count;
+  }
+  if (next < arguments_.size()) {
+    refuse("unexpected argument '" + arguments_[next] + "'; usage: " + info_.name + " " + info_.synopsis);
+  }
+}
+
+std::string Parser::nearest(const std::string& name, bool config) const {
+  std::vector<std::string> names;
+  for (const auto& option : options_.options_) {
+    if (!config || !not_in_config.count(option.name)) names.push_back(option.name);
+  }
+  return nearest_of(names, name);
+}
+
+std::string Parser::help() const {
+  constexpr std::size_t width = 100, column = 30;
+  std::string text = "Usage: " + info_.name + " " + info_.synopsis + "\n" + info_.summary + "\n\n";
+  for (const auto& option : options_.options_) {
+    std::string line = option.short_name.empty() ? "  --" : "  -" + option.short_name + ", --";
+    line += option.name + (option.placeholder.empty() ? "" : " " + option.placeholder);
+    line.resize(std::max(column, line.size() + 2), ' ');
+    std::string help = option.help;
+    if (!option.shown_default.empty()) help += " [" + option.shown_default + "]";
+    std::size_t used = line.size();
+    for (const auto& word : split(help, ' ')) {
+      if (used + word.size() > width) {
+        line += "\n" + std::string(column, ' ');
+        used = column;
+      }
+      line += word + ' ';
+      used += word.size() + 1;
+    }
+    line.pop_back();
+    text += line + "\n";
+  }
+  return text + "\nExample:\n  " + info_.example + "\n";
+}
+
+}  // namespace slipwave::cli

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "cli/tool.hpp"
+
+namespace slipwave::cli {
+
+/// One declared option: how it is shown and where its text goes.
+struct Options::Option {
+  std::string name;         // long, without dashes
+  std::string short_name;   // one letter or empty
+  std::string placeholder;  // empty: a switch
+  std::string help;
+  std::string shown_default;
+  bool many = false;
+  bool required = false;
+  std::function<void(const std::vector<std::string>&)> store;  // throws Error "found .., expected .."
+};
+
+/// One positional argument, or all the rest.
+struct Options::Positional {
+  std::string placeholder;
+  bool many = false;
+  bool required = false;
+  std::function<void(const std::vector<std::string>&)> store;
+};
+
+/// What every tool understands beside its own options.
+struct CommonSettings {
+  bool quiet = false, verbose = false, help = false, version = false;
+  int threads = 0;
+  std::string config;
+};
+
+/// Reads a command line and the --config file into the bound settings. All errors are usage Errors of one
+/// sentence; a name nobody declared is answered with the nearest one.
+class Parser {
+ public:
+  explicit Parser(const ToolInfo& info) : info_(info) {}
+  /// The tool's declarations go in here; the common ones follow in parse().
+  Options& options() { return options_; }
+  void declare_common();
+  void parse(int argc, const char* const* argv);
+  const CommonSettings& common() const { return common_; }
+  /// As Context::command_line. After parse().
+  const std::string& command_line() const { return command_line_; }
+  /// The text of --help.
+  std::string help() const;
+
+ private:
+  using Values = std::map<std::string, std::vector<std::string>>;
+
+  void read_command_line(int argc, const char* const* argv);
+  void read_config();
+  void store();
+  bool is_declared(const std::string& word) const;
+  [[noreturn]] void refuse_without_value(const std::string& name) const;
+  std::string nearest(const std::string& name, bool config) const;
+
+  ToolInfo info_;
+  Options options_;
+  CommonSettings common_;
+  Values given_;
+  std::vector<std::string> arguments_;
+  std::string command_line_;
+};
+
+/// The word of `words` that `word` most likely meant, or "".
+std::string nearest_of(const std::vector<std::string>& words, const std::string& word);
+
+/// `word` as a POSIX shell must be given it.
+std::string quoted(const std::string& word);
+
+}  // namespace slipwave::cli

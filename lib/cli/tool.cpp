@@ -1,0 +1,79 @@
+#include "cli/tool.hpp"
+
+#include <omp.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "cli/parser.hpp"
+
+namespace slipwave::cli {
+namespace {
+
+/// One line, whatever the sentence holds: a file name may contain a line break.
+void say(const std::string& tool, std::string sentence) {
+  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+  const char* clear = isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress bar may stand there
+  std::fprintf(stderr, "%s%s: %s\n", clear, tool.c_str(), sentence.c_str());
+}
+
+void print(const std::string& text) {
+  OutputFile out("-", OutputFile::Content::text);
+  out.write(text.data(), text.size());
+  out.commit();
+}
+
+}  // namespace
+
+void Context::warn(const std::string& sentence) const {
+  if (!quiet) say(tool, "warning: " + sentence);
+}
+
+void Context::note(const std::string& sentence) const {
+  if (verbose && !quiet) say(tool, sentence);
+}
+
+int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,
+             const std::function<void(const Context&)>& run) {
+  remove_temporaries_on_signals();
+  const std::string version = "slipwave " SLIPWAVE_VERSION;
+  try {
+    Parser parser(info);
+    declare(parser.options());
+    parser.declare_common();
+    parser.parse(argc, argv);
+    if (parser.common().help) {
+      print(parser.help());
+      return 0;
+    }
+    if (parser.common().version) {
+      print(info.name + " (" + version + ")\n");
+      return 0;
+    }
+    if (parser.common().threads) omp_set_num_threads(parser.common().threads);
+    Context context;
+    context.command_line = parser.command_line();
+    context.tool = info.name;
+    context.version = version;
+    context.quiet = parser.common().quiet;
+    context.verbose = parser.common().verbose;
+    context.threads = parser.common().threads;
+    run(context);
+    return 0;
+  } catch (const Error& error) {
+    say(info.name, error.what());
+    return int(error.kind());
+  } catch (const std::bad_alloc&) {
+    say(info.name, "out of memory");
+    return 1;
+  } catch (const std::exception& error) {
+    say(info.name, error.what());
+    return 1;
+  }
+}
+
+}  // namespace slipwave::cli
