@@ -1,0 +1,188 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <type_traits>
+
+#include "grid/tensor.hpp"
+
+/// Coulomb slip with a small viscosity on planes of one orientation, and what it does to the stress of a cell
+/// after an elastic step (docs/theory.md, section 2; Nikitin & Golubev 2021, J. Sib. Fed. Univ. 14(6)).
+///
+///   s      stress, tension positive                        Pa
+///   n      unit normal of the slip planes                  1
+///   s_n    n.s.n, normal stress                            Pa   (S1)
+///   tau    s.n - s_n n, shear traction, D components       Pa   (S1)
+///   S      q max(-s_n, 0) + cohesion, strength             Pa   (S2)
+///   q      friction, cohesion: strength of an unloaded plane   1, Pa
+///   eta    viscosity of the planes                         s
+///   g      slip strain rate, |tau| = S (1 + eta |g|) while slipping   1/s   (S3)
+///   mu     shear modulus of the rock between the planes    Pa
+///   d      eta/(mu dt)                                     1/Pa
+///   tau_e  shear traction after the elastic step           Pa
+///   G      mu dt g, what a step of slip at rate g takes off the shear traction   Pa
+///
+/// Everything here is meant for the inner loop over fracture cells: no allocation, nothing virtual, no
+/// division by a quantity that may be zero. Finite stress gives finite stress for every eta >= 0, mu >= 0,
+/// dt >= 0, q >= 0 and cohesion >= 0, zero and enormous values included.
+namespace slipwave {
+
+template <int D, class Real>
+using Stress = SymmetricTensor<D, Real>;
+template <int D, class Real>
+using Traction = std::array<Real, std::size_t(D)>;
+
+/// What of a slip system the strength needs; S = friction max(-s_n, 0) + cohesion_pa.
+template <class Real>
+struct SlipStrength {
+  Real friction = 0;
+  Real cohesion_pa = 0;
+};
+
+/// d S above this means: no slip. Its reciprocal is still a normal float.
+inline constexpr double slip_d_limit = 1e30;
+
+/// d = eta/(mu dt) in 1/Pa, for every slip system and cell (of that mu) once before the time loop. Computed
+/// in double and held within 0 .. 1e30, so that it is finite in Real whatever the arguments: dry friction
+/// (eta = 0) gives 0, mu = 0 or dt = 0 (nothing for slip to relax) the upper end.
+template <class Real>
+Real slip_d(double eta_s, double mu_pa, double dt_s) {
+  if (!(eta_s > 0)) return Real(0);
+  const double d = eta_s / mu_pa / dt_s;  // in this order: mu dt may underflow
+  return d < slip_d_limit ? Real(d) : Real(slip_d_limit);
+}
+
+namespace slip {
+
+template <std::size_t N, class Real>
+Real dot(const std::array<Real, N>& a, const std::array<Real, N>& b) {
+  Real sum = 0;
+  for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// The share of `magnitude` that is left when slip of the step's end, weighted by theta, has been taken off:
+/// |tau| + theta G = magnitude with G = (|tau|/S - 1)/d, that is |tau| = S (theta + d magnitude)/(theta + d
+/// S), in a form that takes S = 0, d = 0 and an overflowing d S. `rate` becomes G/magnitude.
+template <class Real>
+Real share_left(Real magnitude, Real strength, Real ds, Real theta, Real& rate) {
+  rate = 0;
+  if (!(magnitude >= strength)) return Real(1);
+  // Both are zero where the plane has no strength and no load; then nothing is left of nothing.
+  const Real reciprocal = Real(1) / std::max(magnitude, std::numeric_limits<Real>::min());
+  const Real excess = magnitude - strength;
+  const Real softening = Real(1) / (ds + theta);
+  rate = excess * softening * reciprocal;
+  return std::min(Real(1), (strength + excess * (ds * softening)) * reciprocal);
+}
+
+/// d S, finite.
+template <class Real>
+Real bounded_ds(Real d, Real strength) {
+  return std::min(d * strength, Real(slip_d_limit));
+}
+
+}  // namespace slip
+
+/// A correction is a policy: the memory it keeps for a slip system in a cell (value-initialised before the
+/// first step), and the shear traction at the end of the step from that after the elastic step, the strength
+/// S at the end of the step and d. A correction that starts from the traction and strength before the step
+/// keeps them in its memory.
+
+/// Implicit Euler, first order in time (theory.md (S5); Nikitin & Golubev 2021 eq. 15-17).
+struct FirstOrder {
+  static constexpr const char* name = "first";
+
+  template <int D, class Real>
+  struct Memory {};
+
+  template <int D, class Real>
+  static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>&) {
+    const Real magnitude = std::sqrt(slip::dot(tau_e, tau_e));
+    Real rate;
+    const Real left = slip::share_left(magnitude, strength, slip::bounded_ds(d, strength), Real(1), rate);
+    for (auto& component : tau_e) component *= left;
+    return tau_e;
+  }
+};
+
+/// Trapezoidal rule, second order in time (theory.md (S6)-(S8); Nikitin & Golubev 2021 eq. 40-49): half of
+/// the slip at the step's beginning, half of that at its end. Where a step is longer than four times the
+/// relaxation time d S dt the weight of the end grows to 1 - 2 d S: the plain rule rings there, this one
+/// damps at least threefold a step, and at d = 0 it is dry friction exactly. Where the slip remembered from
+/// the step's beginning would raise the shear traction (reversed loading) it is left out: a correction never
+/// adds energy.
+struct SecondOrder {
+  static constexpr const char* name = "second";
+
+  template <int D, class Real>
+  struct Memory {
+    Traction<D, Real> g{};  // G along tau at the end of the last step, Pa
+  };
+
+  template <int D, class Real>
+  static Traction<D, Real> shear(const Traction<D, Real>& tau_e, Real strength, Real d,
+                                 Memory<D, Real>& memory) {
+    const Real ds = slip::bounded_ds(d, strength);
+    const Real theta = std::max(Real(0.5), Real(1) - Real(2) * ds);
+    Traction<D, Real> sigma;
+    for (std::size_t i = 0; i < D; ++i) sigma[i] = tau_e[i] - (Real(1) - theta) * memory.g[i];
+    if (slip::dot(sigma, sigma) > slip::dot(tau_e, tau_e)) sigma = tau_e;
+    const Real magnitude = std::sqrt(slip::dot(sigma, sigma));
+    Real rate;
+    const Real left = slip::share_left(magnitude, strength, ds, theta, rate);
+    for (std::size_t i = 0; i < D; ++i) {
+      memory.g[i] = rate * sigma[i];
+      sigma[i] *= left;
+    }
+    return sigma;
+  }
+};
+
+/// s_n of a plane (S1).
+template <int D, class Real>
+Real normal_stress(const std::type_identity_t<Traction<D, Real>>& normal, const Stress<D, Real>& s) {
+  Real sum = 0;
+  for (int i = 0; i < D; ++i) {
+    Real traction = 0;
+    for (int j = 0; j < D; ++j) traction += s(i, j) * normal[std::size_t(j)];
+    sum += normal[std::size_t(i)] * traction;
+  }
+  return sum;
+}
+
+/// One slip system of one cell at the end of an elastic step: s (total stress, Pa) loses what slip on the
+/// planes relaxes, s += (tau - tau_e) n + n (tau - tau_e) (S4). s_n is untouched, and so is all of s that
+/// does not shear the planes. `d` is slip_d() of the cell, `memory` the correction's for this cell and
+/// system.
+template <class Correction, int D, class Real>
+void correct(const std::type_identity_t<SlipStrength<Real>>& law,
+             const std::type_identity_t<Traction<D, Real>>& normal, std::type_identity_t<Real> d,
+             Stress<D, Real>& s, typename Correction::template Memory<D, Real>& memory) {
+  Traction<D, Real> tau_e;
+  for (int i = 0; i < D; ++i) {
+    tau_e[std::size_t(i)] = 0;
+    for (int j = 0; j < D; ++j) tau_e[std::size_t(i)] += s(i, j) * normal[std::size_t(j)];
+  }
+  const Real s_n = slip::dot(normal, tau_e);
+  for (std::size_t i = 0; i < D; ++i) tau_e[i] -= s_n * normal[i];
+  // n is a unit vector to rounding only; without the second projection s_n would drift over many steps.
+  const Real residue = slip::dot(normal, tau_e);
+  for (std::size_t i = 0; i < D; ++i) tau_e[i] -= residue * normal[i];
+
+  const Real strength = law.friction * std::max(-s_n, Real(0)) + law.cohesion_pa;
+  const Traction<D, Real> tau = Correction::template shear<D, Real>(tau_e, strength, d, memory);
+
+  for (int i = 0; i < D; ++i) {
+    const Real change_i = tau[std::size_t(i)] - tau_e[std::size_t(i)];
+    for (int j = i; j < D; ++j) {
+      const Real change_j = tau[std::size_t(j)] - tau_e[std::size_t(j)];
+      s(i, j) += change_i * normal[std::size_t(j)] + change_j * normal[std::size_t(i)];
+    }
+  }
+}
+
+}  // namespace slipwave
