@@ -1,0 +1,39 @@
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace slipwave {
+
+/// Discrete Fourier transform of `length` real numbers, and back:
+///   forward   X_k = sum_n x_n exp(-2 pi i k n / N),  k = 0 .. N/2
+///   backward  x_n = 1/N sum_k X_k exp(+2 pi i k n / N)   (X_{N-k} = conj X_k)
+/// The plan is chosen without timing, so that equal input gives equal bits from run to run.
+/// One object serves one thread at a time; different objects are independent.
+class RealTransform {
+ public:
+  /// length >= 1, below 2^31.
+  explicit RealTransform(std::size_t length);
+  RealTransform(RealTransform&&) noexcept;
+  RealTransform& operator=(RealTransform&&) noexcept;
+  ~RealTransform();
+
+  std::size_t length() const noexcept;
+  /// length()/2 + 1
+  std::size_t bins() const noexcept;
+
+  /// samples.size() <= length(), the rest counts as zero. The answer, bins() numbers, stays until the next
+  /// call.
+  std::span<const std::complex<double>> forward(std::span<const double> samples);
+  /// spectrum.size() == bins(); imaginary parts of the first (and, even length, last) bin are ignored.
+  /// The answer, length() numbers, stays until the next call.
+  std::span<const double> backward(std::span<const std::complex<double>> spectrum);
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+}  // namespace slipwave

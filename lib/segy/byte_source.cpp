@@ -1,0 +1,142 @@
+#include "segy/byte_source.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cerrno>
+#include <cstring>
+
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+
+namespace slipwave::segy {
+namespace {
+
+constexpr std::size_t buffer_bytes = 1 << 18;
+
+Error failure(const std::string& name) { return Error(name + ": " + std::strerror(errno)); }
+
+}  // namespace
+
+ByteSource::ByteSource(const std::string& path, std::vector<std::uint8_t> already_read)
+    : name_(shown_input(path)), buffer_(std::move(already_read)) {
+  end_ = buffer_.size();
+  if (path == "-") {
+    descriptor_ = STDIN_FILENO;
+    if (::isatty(descriptor_)) throw Error(name_ + ": is a terminal, expected a file or a pipe");
+  } else {
+    descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor_ < 0) throw failure(name_);
+    owned_ = true;
+  }
+  struct stat about {};
+  const bool known = ::fstat(descriptor_, &about) == 0;
+  if (known && S_ISDIR(about.st_mode)) {
+    if (owned_) ::close(descriptor_);
+    throw Error(name_ + ": is a directory, expected a file");
+  }
+  if (known && S_ISREG(about.st_mode) && about.st_size > 0) {  // files of /proc say 0 and are not empty
+    const auto here = ::lseek(descriptor_, 0, SEEK_CUR);
+    const auto from = here < 0 ? -1 : here - static_cast<off_t>(end_);
+    if (from >= 0) {
+      start_ = static_cast<std::uint64_t>(from);
+      size_ = static_cast<std::uint64_t>(std::max<off_t>(about.st_size - from, 0));
+    }
+  }
+  buffer_.resize(std::max(buffer_bytes, end_));
+}
+
+ByteSource::~ByteSource() {
+  if (owned_) ::close(descriptor_);
+}
+
+/// Straight from the descriptor, past the buffer.
+std::size_t ByteSource::fill(std::span<std::uint8_t> into) {
+  std::size_t done = 0;
+  while (done < into.size()) {
+    const ssize_t count = ::read(descriptor_, into.data() + done, into.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) throw failure(name_);
+    if (count == 0) break;
+    done += static_cast<std::size_t>(count);
+  }
+  return done;
+}
+
+std::span<const std::uint8_t> ByteSource::peek(std::size_t count) {
+  assert(count <= peek_limit);
+  if (buffered() < count) {
+    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
+              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    end_ -= begin_;
+    begin_ = 0;
+    end_ += fill({buffer_.data() + end_, count - end_});
+  }
+  return {buffer_.data() + begin_, std::min(count, buffered())};
+}
+
+std::size_t ByteSource::read(std::span<std::uint8_t> into) {
+  std::size_t done = 0;
+  while (done < into.size()) {
+    if (buffered() == 0) {
+      const std::size_t wanted = into.size() - done;
+      if (wanted >= buffer_.size()) {
+        done += fill(into.subspan(done));
+        break;
+      }
+      begin_ = 0;
+      end_ = 0;
+      // one read call: what a pipe holds now, without waiting for a full buffer
+      ssize_t count = 0;
+      do count = ::read(descriptor_, buffer_.data(), buffer_.size());
+      while (count < 0 && errno == EINTR);
+      if (count < 0) throw failure(name_);
+      if (count == 0) break;
+      end_ = static_cast<std::size_t>(count);
+    }
+    const std::size_t count = std::min(into.size() - done, buffered());
+    std::memcpy(into.data() + done, buffer_.data() + begin_, count);
+    begin_ += count;
+    done += count;
+  }
+  position_ += done;
+  return done;
+}
+
+std::uint64_t ByteSource::skip(std::uint64_t count) {
+  std::uint64_t done = std::min<std::uint64_t>(count, buffered());
+  begin_ += done;
+  position_ += done;
+  if (done < count && size_) {
+    const std::uint64_t left = std::min(count - done, *size_ > position_ ? *size_ - position_ : 0);
+    if (::lseek(descriptor_, static_cast<off_t>(start_ + position_ + left), SEEK_SET) < 0)
+      throw failure(name_);
+    position_ += left;
+    return done + left;
+  }
+  std::vector<std::uint8_t> waste(static_cast<std::size_t>(std::min<std::uint64_t>(count - done, 1 << 16)));
+  while (done < count) {
+    const std::size_t step = static_cast<std::size_t>(std::min<std::uint64_t>(count - done, waste.size()));
+    const std::size_t got = read({waste.data(), step});
+    done += got;
+    if (got < step) break;
+  }
+  return done;
+}
+
+bool ByteSource::read_at(std::uint64_t offset, std::span<std::uint8_t> into) const {
+  std::size_t done = 0;
+  while (done < into.size()) {
+    const ssize_t count = ::pread(descriptor_, into.data() + done, into.size() - done,
+                                  static_cast<off_t>(start_ + offset + done));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+}  // namespace slipwave::segy

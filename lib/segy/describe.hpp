@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gather/trace.hpp"
+#include "segy/file_header.hpp"
+
+namespace slipwave::segy {
+
+/// Lowest and highest of what was seen; empty() before anything was.
+struct Range {
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = -std::numeric_limits<double>::infinity();
+  void see(double value) {
+    if (value < lowest) lowest = value;
+    if (value > highest) highest = value;
+  }
+  bool empty() const { return lowest > highest; }
+};
+
+/// What is in a file of traces. Samples are plain numbers, before any trace weighting.
+struct Description {
+  FileHeader header;
+  SampleAxis axis;            // of the first trace
+  bool lengths_vary = false;  // traces have other numbers of samples, or start at other times
+  std::int64_t traces = 0;    // whole ones
+  std::int64_t shots = 0;     // runs of traces of one field record
+  std::map<Component, std::int64_t> components;
+  Range source_m[3];  // x, y, z
+  Range receiver_m[3];
+  Range offset_m;  // receiver x - source x
+  Range sample;    // finite samples
+  double rms = 0;
+  std::int64_t not_finite = 0;
+  std::optional<std::string> damage;  // what stopped the reading before the end ("ends within trace 4: ...")
+};
+
+/// Reads everything, in the memory of one trace. Throws Error when the headers cannot be read; what goes
+/// wrong later stands in `damage`.
+Description describe(const std::string& path, const ReadOptions& options = {},
+                     std::vector<std::uint8_t> already_read = {});
+
+}  // namespace slipwave::segy

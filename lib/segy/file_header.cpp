@@ -1,0 +1,136 @@
+#include "segy/file_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "segy/sniff.hpp"
+
+namespace slipwave::segy {
+namespace {
+
+constexpr std::size_t header_bytes = text_bytes + BinaryLayout::size;
+constexpr std::size_t extended_kept = 64;
+
+/// Major and minor revision. Words 0x0001 and 0x0010 are written for 1.0 too (0x0002, 0x0020 for 2.0), and a
+/// little-endian revision 1 file has the two bytes swapped.
+void read_revision(FileHeader& header) {
+  const int first = static_cast<int>(header.binary.get("major"));
+  const int second = static_cast<int>(header.binary.get("minor"));
+  const int word = header.endian == Endian::big ? first << 8 | second : second << 8 | first;
+  if (word == 0x0001 || word == 0x0010) {
+    header.major = 1;
+  } else if (word == 0x0002 || word == 0x0020) {
+    header.major = 2;
+  } else {
+    const bool swapped = header.endian == Endian::little && first < 2;
+    header.major = swapped ? second : first;
+    header.minor = swapped ? first : second;
+  }
+}
+
+const SampleFormat* readable_format(const FileHeader& header, const ReadOptions& options) {
+  const std::int64_t code = options.format ? *options.format : header.binary.get("format");
+  if (const SampleFormat* format = find_format(code)) return format;
+  if (code == 4)
+    throw Error("sample format code 4 (fixed point with gain) is ambiguous; say with --format what it is");
+  throw Error("sample format code " + std::to_string(code) +
+              " (byte 3225), expected 1, 2, 3, 5 to 12, 15 or 16");
+}
+
+void read_revision_2(FileHeader& header) {
+  const BinaryWords& binary = header.binary;
+  if (binary.get("xns") > 0) header.samples = binary.get("xns");
+  const double interval_us = binary.get_real("xdt");
+  if (interval_us > 0 && std::isfinite(interval_us)) header.interval_us = interval_us;
+  header.extra_headers = binary.get("extra_headers");
+  // a count of traces is believed where the revision is one that exists
+  if (header.major == 2 && header.minor <= 1 && binary.get("ntraces") > 0)
+    header.traces = binary.get("ntraces");
+}
+
+bool ends_stanzas(const std::string& text) {
+  std::string dense;
+  std::copy_if(text.begin(), text.end(), std::back_inserter(dense),
+               [](char c) { return c != ' ' && c != '\r' && c != '\n'; });
+  return dense.find("((SEG:EndText))") != std::string::npos;
+}
+
+/// A count of extended headers, or -1: up to the stanza that ends them. Only the first few are kept.
+void read_extended(ByteSource& source, FileHeader& header) {
+  const std::int64_t count = header.binary.get("extended");
+  std::array<std::uint8_t, text_bytes> block{};
+  for (bool more = count != 0; more;) {
+    if (source.read(block) < block.size())
+      throw Error("ends within extended textual header " + std::to_string(header.extended_count + 1) +
+                  (count < 0 ? ", before a stanza ((SEG: EndText))" : " of " + std::to_string(count)));
+    ++header.extended_count;
+    const std::string text = decode_text(block, encoding_of(block));
+    if (header.extended.size() < extended_kept) header.extended.push_back(text);
+    more = count < 0 ? !ends_stanzas(text) : header.extended_count < count;
+  }
+}
+
+void skip_to_first_trace(ByteSource& source, FileHeader& header) {
+  const std::int64_t said = header.major >= 2 ? header.binary.get("first_trace") : 0;
+  const std::uint64_t wanted = said > 0 ? static_cast<std::uint64_t>(said) : 0;
+  if (wanted > source.position()) {
+    const std::uint64_t missing = wanted - source.position();
+    if (source.skip(missing) < missing)
+      throw Error("ends at byte " + std::to_string(source.position()) + ", before the first trace at byte " +
+                  std::to_string(wanted) + " (byte 3521)");
+  }
+  header.first_trace = source.position();
+}
+
+FileHeader read_segy(ByteSource& source, const ReadOptions& options) {
+  std::array<std::uint8_t, header_bytes> bytes{};
+  const std::size_t got = source.read(bytes);
+  if (got < bytes.size())
+    throw Error(std::to_string(got) + " bytes, expected at least the 3600 of the SEG-Y headers");
+  const auto text = std::span<const std::uint8_t>(bytes).first<text_bytes>();
+  const auto binary = std::span<const std::uint8_t>(bytes).subspan<text_bytes, BinaryLayout::size>();
+  FileHeader header;
+  header.encoding = encoding_of(text);
+  header.text = decode_text(text, header.encoding);
+  header.endian = options.endian.value_or(byte_order_of(binary));
+  header.binary = BinaryWords(binary, header.endian);
+  read_revision(header);
+  header.format = readable_format(header, options);
+  header.samples = header.binary.get("ns");
+  header.interval_us = static_cast<double>(header.binary.get("dt"));
+  header.feet = header.binary.get("mfeet") == 2;
+  if (header.major >= 2) read_revision_2(header);
+  read_extended(source, header);
+  skip_to_first_trace(source, header);
+  return header;
+}
+
+FileHeader read_su(ByteSource& source, const ReadOptions& options) {
+  FileHeader header;
+  header.su = true;
+  header.format = find_format(5);
+  const auto first = source.peek(TraceLayout::size);
+  if (first.size() < TraceLayout::size)
+    throw Error(std::to_string(first.size()) + " bytes, expected at least a trace header of 240");
+  header.endian = options.endian.value_or(su_byte_order_of(first.first<TraceLayout::size>(), source.size()));
+  return header;
+}
+
+}  // namespace
+
+FileHeader read_file_header(ByteSource& source, const ReadOptions& options) {
+  const auto first = source.peek(header_bytes);
+  if (first.empty()) throw Error("is empty, expected SEG-Y or Seismic Unix traces");
+  if (options.su) return read_su(source, options);
+  const FileKind kind = kind_of(first, source.size());
+  if (kind == FileKind::su) return read_su(source, options);
+  // a user who says byte order or format knows it is SEG-Y
+  if (kind == FileKind::unknown && first.size() >= header_bytes && !options.endian && !options.format)
+    throw Error(
+        "is neither SEG-Y nor Seismic Unix: no textual header, no sample format, no plausible trace header");
+  return read_segy(source, options);
+}
+
+}  // namespace slipwave::segy

@@ -1,0 +1,197 @@
+#include "segy/geometry.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "base/error.hpp"
+
+namespace slipwave::segy {
+namespace {
+
+struct CodeRow {
+  Component component;
+  std::int64_t code;
+};
+
+constexpr CodeRow codes[] = {
+    {Component::p, 11},    {Component::vz, 12},   {Component::vy, 13},   {Component::vx, 14},
+    {Component::sxx, 257}, {Component::syy, 258}, {Component::szz, 259}, {Component::syz, 260},
+    {Component::sxz, 261}, {Component::sxy, 262}, {Component::other, 1},
+};
+
+constexpr double foot_m = 0.3048;
+
+/// All lengths that become words of one trace header.
+std::array<double, 10> lengths_of(const TraceHeader& h) {
+  return {h.source_m[0],
+          h.source_m[1],
+          h.source_m[2],
+          h.receiver_m[0],
+          h.receiver_m[1],
+          h.receiver_m[2],
+          (h.source_m[0] + h.receiver_m[0]) / 2,
+          (h.source_m[1] + h.receiver_m[1]) / 2,
+          h.water_depth_source_m,
+          h.water_depth_receiver_m};
+}
+
+double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1]);
+}
+
+/// Which scalars hold a length exactly, and in 32 bits: the state of the choice over all traces.
+struct ScalarChoice {
+  static constexpr std::array<int, 4> scalars = {1, -10, -100, -1000};
+  std::array<bool, 4> exact = {true, true, true, true};
+  std::array<bool, 4> fits = {true, true, true, true};
+
+  void see(double length) {
+    for (std::size_t i = 0; i < scalars.size(); ++i) {
+      const double word = length * std::abs(scalars[i]);
+      exact[i] = exact[i] && std::fabs(word - std::nearbyint(word)) < 1e-6;
+      fits[i] = fits[i] && std::fabs(word) < std::numeric_limits<std::int32_t>::max();
+    }
+  }
+  int choose() const {
+    int best = 1;
+    for (std::size_t i = 0; i < scalars.size(); ++i) {
+      if (!fits[i]) break;
+      best = scalars[i];
+      if (exact[i]) break;
+    }
+    return best;
+  }
+};
+
+std::int64_t unit_code(Component component) {
+  const std::string unit = unit_of(component);
+  if (unit == "Pa") return 1;
+  return unit == "m/s" ? 6 : -1;
+}
+
+}  // namespace
+
+std::int64_t code_of(Component component) {
+  for (const CodeRow& row : codes)
+    if (row.component == component) return row.code;
+  return 1;
+}
+
+Component component_of_code(std::int64_t code) {
+  for (const CodeRow& row : codes)
+    if (row.code == code) return row.component;
+  return Component::other;
+}
+
+SurveyLayout layout_of(std::span<const TraceHeader> headers) {
+  SurveyLayout layout;
+  layout.traces = static_cast<std::int64_t>(headers.size());
+  ScalarChoice choice;
+  double spacing = 0;
+  std::int64_t in_shot = 0;
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    for (const double length : lengths_of(headers[i])) {
+      if (!(std::fabs(length) < std::numeric_limits<std::int32_t>::max()))
+        throw Error("trace " + std::to_string(i + 1) + ": coordinate " + shown(length) +
+                    " m, SEG-Y holds whole numbers of 32 bits");
+      choice.see(length);
+    }
+    const bool same_shot = i > 0 && headers[i].shot == headers[i - 1].shot;
+    in_shot = same_shot ? in_shot + 1 : 1;
+    layout.traces_per_shot = std::max(layout.traces_per_shot, in_shot);
+    if (!same_shot || headers[i].component != headers[i - 1].component) continue;
+    const double step = distance(headers[i].receiver_m, headers[i - 1].receiver_m);
+    if (step > 0 && (spacing == 0 || step < spacing)) spacing = step;
+  }
+  layout.coordinate_scalar = choice.choose();
+  if (spacing > 0) layout.bin_m = spacing / 2;
+  return layout;
+}
+
+std::int64_t bin_of(double midpoint_m, double bin_m) {
+  const std::int64_t steps = std::llround(midpoint_m / bin_m);
+  return steps >= 0 ? steps + 1 : steps;
+}
+
+TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) {
+  const auto word = [&](double metres) { return std::llround(metres * std::abs(layout.coordinate_scalar)); };
+  const auto& [sx, sy, sz] = header.source_m;
+  const auto& [gx, gy, gz] = header.receiver_m;
+  const double along = gx != sx ? gx - sx : gy - sy;
+  const double mid_x = (sx + gx) / 2;
+  const double mid_y = (sy + gy) / 2;
+  TraceWords words;
+  words.set("fldr", header.shot);
+  words.set("tracf", header.channel);
+  words.set("ep", header.shot);
+  words.set("cdp", bin_of(mid_x, layout.bin_m));
+  words.set("trid", code_of(header.component));
+  words.set("nvs", 1);
+  words.set("nhs", 1);
+  words.set("duse", 1);
+  words.set("offset", std::llround(std::copysign(distance(header.source_m, header.receiver_m), along)));
+  words.set("gelev", word(-gz));
+  words.set("sdepth", word(sz));
+  words.set("swdep", word(header.water_depth_source_m));
+  words.set("gwdep", word(header.water_depth_receiver_m));
+  words.set("scalel", layout.coordinate_scalar);
+  words.set("scalco", layout.coordinate_scalar);
+  words.set("sx", word(sx));
+  words.set("sy", word(sy));
+  words.set("gx", word(gx));
+  words.set("gy", word(gy));
+  words.set("counit", 1);
+  words.set("cdpx", word(mid_x));
+  words.set("cdpy", word(mid_y));
+  words.set("iline", bin_of(mid_y, layout.bin_m));
+  words.set("xline", bin_of(mid_x, layout.bin_m));
+  words.set("sp", header.shot);
+  words.set("spscal", 1);
+  words.set("unit", unit_code(header.component));
+  words.set("tscal", 1);
+  return words;
+}
+
+double scaled(std::int64_t value, std::int64_t scalar) {
+  const auto number = static_cast<double>(value);
+  if (scalar == 0) return number;
+  return scalar > 0 ? number * static_cast<double>(scalar) : number / -static_cast<double>(scalar);
+}
+
+TraceHeader si_from_words(const TraceWords& words, const FileHeader& file) {
+  const bool geographic = words.get("counit") > 1;
+  const double length_m = file.feet ? foot_m : 1;
+  const double coordinate_m = geographic ? 1 : length_m;
+  const auto coordinate = [&](std::int64_t word) { return coordinate_m * scaled(word, words.get("scalco")); };
+  const auto height = [&](std::int64_t word) { return length_m * scaled(word, words.get("scalel")); };
+  TraceHeader header;
+  header.shot = words.get("fldr");
+  header.channel = words.get("tracf");
+  header.component = component_of_code(words.get("trid"));
+  header.source_m = {coordinate(words.get("sx")), coordinate(words.get("sy")),
+                     height(words.get("sdepth") - words.get("selev"))};
+  header.receiver_m = {coordinate(words.get("gx")), coordinate(words.get("gy")), height(-words.get("gelev"))};
+  header.water_depth_source_m = height(words.get("swdep"));
+  header.water_depth_receiver_m = height(words.get("gwdep"));
+  return header;
+}
+
+double start_s(const TraceWords& words, const FileHeader& file) {
+  const bool has_scalar = !file.su && file.major >= 1;
+  return 1e-3 * scaled(words.get("delrt"), has_scalar ? words.get("tscal") : 1);
+}
+
+void fill_revision_1(TraceWords& words) {
+  words.set("cdpx", (words.get("sx") + words.get("gx")) / 2);
+  words.set("cdpy", (words.get("sy") + words.get("gy")) / 2);
+  words.set("iline", 1);
+  words.set("xline", words.get("cdp"));
+  words.set("sp", words.get("ep"));
+  words.set("spscal", 1);
+  words.set("unit", unit_code(component_of_code(words.get("trid"))));
+  words.set("tscal", 1);
+}
+
+}  // namespace slipwave::segy

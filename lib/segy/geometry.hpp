@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "gather/trace.hpp"
+#include "segy/file_header.hpp"
+#include "segy/words.hpp"
+
+namespace slipwave::segy {
+
+/// Trace identification code (byte 29) of a component: 11 p, 12 vz, 13 vy, 14 vx as the standard has them,
+/// 256 plus the Voigt index of the stress in the range left to users: 257 sxx, 258 syy, 259 szz, 260 syz, 261
+/// sxz, 262 sxy; 1 other. fldr, tracf and trid together so name one trace.
+std::int64_t code_of(Component component);
+Component component_of_code(std::int64_t code);
+
+/// What all trace headers of a file share.
+struct SurveyLayout {
+  int coordinate_scalar = 1;         // 1, -10, -100 or -1000
+  double bin_m = 1;                  // width of a midpoint bin
+  std::int64_t traces_per_shot = 1;  // of the shot that has most
+  std::int64_t traces = 0;           // 0: not known beforehand
+};
+
+/// The coarsest scalar of 1, -10, -100, -1000 that keeps every coordinate, depth and midpoint exactly; where
+/// none does, the finest whose words fit 32 bits. Bins are half the smallest distance between receivers of
+/// consecutive traces of a shot (1 m where there is only one receiver). Throws Error when a coordinate is not
+/// finite or does not fit 32 bits in whole metres.
+SurveyLayout layout_of(std::span<const TraceHeader> headers);
+
+/// Number of the bin of width bin_m whose centre is nearest to the midpoint: 1 for 0 m, 2 for bin_m, ...
+/// and -1 for -bin_m; there is no bin 0, which readers take for "unknown".
+std::int64_t bin_of(double midpoint_m, double bin_m);
+
+/// All words that follow from header and layout; counters, ns, dt and delrt stay 0.
+/// Throws Error naming a word that overflows.
+TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout);
+
+/// The inverse, for any file: scalars applied, feet made metres. Source z is its depth below the surface
+/// minus the surface's elevation, receiver z minus the receiver's elevation. Coordinates in arc (counit 2 to
+/// 4) stay as they are.
+TraceHeader si_from_words(const TraceWords& words, const FileHeader& file);
+
+/// Time of the first sample (delrt and, since revision 1, its scalar).
+double start_s(const TraceWords& words, const FileHeader& file);
+
+/// `value` times a scalar word: positive multiplies, negative divides, 0 is 1.
+double scaled(std::int64_t value, std::int64_t scalar);
+
+/// Fills bytes 181 to 240 of a trace that had none (Seismic Unix) from the others: midpoint, bin, shot point,
+/// unit.
+void fill_revision_1(TraceWords& words);
+
+}  // namespace slipwave::segy

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gather/trace.hpp"
+#include "segy/byte_source.hpp"
+#include "segy/file_header.hpp"
+#include "segy/words.hpp"
+
+namespace slipwave::segy {
+
+/// A trace as it stands in a file: the header untouched, the samples as numbers.
+struct Trace {
+  TraceWords words;
+  std::vector<double> samples;
+};
+
+/// Traces of a SEG-Y or Seismic Unix file, or of standard input ("-"), one after the other in the memory of
+/// one. Every error starts with the input's name.
+///
+/// Samples a trace: the file header's number. Where it is 0, each trace header's; and so where the file's
+/// size is known, does not fit the file header's number and fits the trace headers' exactly (traces of
+/// different length).
+class Reader {
+ public:
+  /// Reads up to the first trace header. `already_read` are bytes taken from standard input before.
+  explicit Reader(const std::string& path, const ReadOptions& options = {},
+                  std::vector<std::uint8_t> already_read = {});
+
+  const std::string& name() const noexcept { return source_.name(); }
+  const FileHeader& header() const noexcept { return header_; }
+  /// Bytes of the whole input, where known, and bytes taken so far: for progress.
+  std::optional<std::uint64_t> size() const noexcept { return source_.size(); }
+  std::uint64_t position() const noexcept { return source_.position(); }
+
+  /// Samples, interval and start of the first trace; interval 0 when the file does not say it.
+  const SampleAxis& axis() const noexcept { return axis_; }
+  /// axis(), refused when the interval is 0.
+  const SampleAxis& axis_with_interval() const;
+
+  /// The next trace into `trace`, whose memory is used again; false after the last one.
+  /// Throws Error when the input ends within a trace (after every whole one was delivered) or with fewer
+  /// traces than it says.
+  bool next(Trace& trace);
+  /// Traces delivered so far.
+  std::int64_t delivered() const noexcept { return delivered_; }
+
+  /// Header and axis of a trace of this input in SI.
+  TraceHeader si_header(const Trace& trace) const;
+  SampleAxis axis_of(const Trace& trace) const;
+
+ private:
+  void look_at_first_trace();
+  bool trace_headers_fill(std::uint64_t size) const;
+  std::int64_t samples_of(const TraceWords& words) const;
+  bool read_trace(Trace& trace);
+
+  ByteSource source_;
+  FileHeader header_;
+  SampleAxis axis_;
+  bool lengths_by_trace_ = false;
+  std::int64_t delivered_ = 0;
+  std::vector<std::uint8_t> bytes_;
+};
+
+}  // namespace slipwave::segy

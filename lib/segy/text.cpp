@@ -1,0 +1,153 @@
+#include "segy/text.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "base/error.hpp"
+
+namespace slipwave::segy {
+namespace {
+
+constexpr std::size_t prefix = 4;  // "C 1 "
+constexpr std::size_t width = text_columns - prefix;
+constexpr std::size_t free_lines = text_lines - 2;
+
+std::string numbered(std::size_t index, const std::string& content) {
+  char number[16];
+  std::snprintf(number, sizeof number, "C%2u ", static_cast<unsigned>(index + 1));
+  std::string line = number + content;
+  line.resize(text_columns, ' ');
+  return line;
+}
+
+char transliterated(char character) {
+  switch (character) {
+    case '[':
+      return '(';
+    case ']':
+      return ')';
+    case '|':
+      return '/';
+    case '\t':
+      return ' ';
+    case '!':
+    case '^':
+      return '.';
+    default:
+      return character >= ' ' && character <= '~' ? character : '.';
+  }
+}
+
+/// The columns of one entry: broken at blanks where there are some, what follows the first line indented.
+std::vector<std::string> wrapped(const std::string& entry) {
+  std::string rest = entry;
+  std::transform(rest.begin(), rest.end(), rest.begin(), transliterated);
+  std::vector<std::string> lines;
+  while (true) {
+    const std::string indent = lines.empty() ? "" : "  ";
+    const std::size_t room = width - indent.size();
+    if (rest.size() <= room) {
+      lines.push_back(indent + rest);
+      return lines;
+    }
+    std::size_t cut = rest.rfind(' ', room);
+    if (cut == std::string::npos || cut == 0) cut = room;
+    lines.push_back(indent + rest.substr(0, cut));
+    rest.erase(0, rest[cut] == ' ' ? cut + 1 : cut);
+  }
+}
+
+std::string stamp(int revision) {
+  return revision >= 2 ? "SEG-Y REV2.1" : "SEG Y REV" + std::to_string(revision);
+}
+
+/// What stands behind the line's number, trailing blanks off.
+std::string content_of(std::string_view line) {
+  if (line.size() > 3 && (line[0] == 'C' || line[0] == 'c')) line.remove_prefix(3);
+  const std::size_t first = line.find_first_not_of(std::string_view(" \0", 2));
+  if (first == std::string_view::npos) return "";
+  const std::size_t last = line.find_last_not_of(std::string_view(" \0", 2));
+  return std::string(line.substr(first, last + 1 - first));
+}
+
+bool may_be_stamped(const std::string& content) {
+  return content.empty() || content.starts_with("SEG Y REV") || content.starts_with("SEG-Y REV") ||
+         content.starts_with("SEG-Y_REV") || content.starts_with("END TEXTUAL HEADER") ||
+         content.starts_with("END EBCDIC");
+}
+
+/// Puts `lines` into the 38 free ones from `from` on, so that the last `kept` of them are there whatever the
+/// room.
+void fill(std::vector<std::string>& into, std::size_t from, const std::vector<std::string>& lines,
+          std::size_t kept) {
+  const std::size_t room = free_lines - from;
+  if (lines.size() <= room) {
+    for (std::size_t i = 0; i < lines.size(); ++i) into[from + i] = numbered(from + i, lines[i]);
+    return;
+  }
+  kept = std::min(kept, free_lines - 1);
+  const std::size_t gap = free_lines - kept - 1;  // the line "..."
+  for (std::size_t i = from; i < gap; ++i) into[i] = numbered(i, lines[i - from]);
+  into[gap] = numbered(gap, "...");
+  for (std::size_t i = 0; i < kept; ++i)
+    into[gap + 1 + i] = numbered(gap + 1 + i, lines[lines.size() - kept + i]);
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text;
+}
+
+std::vector<std::string> split(std::string_view text) {
+  if (text.size() != text_bytes)
+    throw Error("a textual header of " + std::to_string(text.size()) + " characters, expected 3200");
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < text_lines; ++i)
+    lines.emplace_back(text.substr(i * text_columns, text_columns));
+  return lines;
+}
+
+}  // namespace
+
+std::string lay_out_text(std::span<const std::string> entries, int revision) {
+  std::vector<std::string> lines;
+  std::size_t of_last = 0;
+  for (const std::string& entry : entries) {
+    const std::vector<std::string> more = wrapped(entry);
+    of_last = more.size();
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  std::vector<std::string> laid(text_lines);
+  for (std::size_t i = 0; i < text_lines; ++i) laid[i] = numbered(i, "");
+  fill(laid, 0, lines, of_last);
+  laid[38] = numbered(38, stamp(revision));
+  laid[39] = numbered(39, "END TEXTUAL HEADER");
+  return joined(laid);
+}
+
+std::string with_entry(std::string_view text, const std::string& entry, int revision) {
+  std::vector<std::string> laid = split(text);
+  std::size_t used = free_lines;
+  while (used > 0 && content_of(laid[used - 1]).empty()) --used;
+  const std::vector<std::string> more = wrapped(entry);
+  fill(laid, used, more, more.size());
+  for (std::size_t i = used + more.size(); i < free_lines; ++i) laid[i] = numbered(i, "");
+  if (may_be_stamped(content_of(laid[38]))) laid[38] = numbered(38, stamp(revision));
+  if (may_be_stamped(content_of(laid[39]))) laid[39] = numbered(39, "END TEXTUAL HEADER");
+  return joined(laid);
+}
+
+std::vector<std::string> shown_lines(std::string_view text) {
+  std::vector<std::string> lines;
+  for (std::string& line : split(text)) {
+    if (content_of(line).empty()) continue;
+    for (char& character : line)
+      if (character < ' ' || character > '~') character = '.';
+    line.erase(line.find_last_not_of(' ') + 1);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+}  // namespace slipwave::segy

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/output_file.hpp"
+#include "gather/trace.hpp"
+#include "segy/geometry.hpp"
+#include "segy/reader.hpp"
+#include "segy/text.hpp"
+
+namespace slipwave::segy {
+
+/// How a file is written. Default: what everybody reads.
+struct FileFormat {
+  int code = 5;      // of sample_formats(); those that came with revision 2 need it
+  int revision = 1;  // 0, 1 or 2 (written as 2.1)
+  Endian endian = Endian::big;
+  TextEncoding encoding = TextEncoding::ebcdic;
+  bool su = false;  // Seismic Unix: no reel headers, format 5, bytes 181 to 240 zero; endian applies
+};
+
+/// Everything that must be known before the first trace is written.
+struct FileInfo {
+  FileFormat format;
+  SampleAxis axis;
+  SurveyLayout layout;
+  std::string text;                    // 3200 characters (lay_out_text, with_entry); empty: stamps only
+  std::vector<std::string> extended;   // extended textual headers of 3200 characters each
+  std::optional<BinaryWords> carried;  // the binary header of the input, for what this does not say
+};
+
+/// Sentences about what some readers will not take (samples or interval above 32767).
+std::vector<std::string> warnings_of(const FileInfo& info);
+
+/// The same kind of file as was read, for a tool that changes samples only: revision, byte order and SU-ness
+/// kept, samples IEEE floats, or doubles where the input's were doubles or wider integers. The text is the
+/// input's with `entry` (a command line) added, the binary header its own.
+FileInfo info_like(const Reader& reader, const std::string& entry);
+
+/// Writes traces as they come, in the memory of one. Every number that goes into the file header is in
+/// `info`. Errors: a sampling the revision cannot hold; a trace of another length; a value the sample format
+/// cannot hold
+/// ("trace 3: sample 17: nan ..."); a header word that overflows.
+class Writer {
+ public:
+  /// Writes the file headers. `out` must outlive the writer; committing it is the caller's business.
+  Writer(OutputFile& out, FileInfo info);
+
+  /// A trace described in SI.
+  void write(const TraceHeader& header, std::span<const double> samples);
+  /// A trace of another file, its header carried along; counters, ns and dt are made to fit.
+  void write(const Trace& trace, bool from_su);
+
+  std::int64_t written() const noexcept { return written_; }
+
+ private:
+  void write_words(TraceWords words, std::span<const double> samples);
+
+  OutputFile& out_;
+  FileInfo info_;
+  const SampleFormat& sample_format_;
+  std::int64_t interval_word_ = 0;
+  std::int64_t written_ = 0;
+  std::unordered_map<std::int64_t, std::int64_t> in_bin_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Entries of the textual header that any gather in SI needs: components with unit, code and sign convention,
+/// sampling, and where the coordinates are.
+std::vector<std::string> convention_entries(std::span<const Component> components, const SampleAxis& axis,
+                                            const SurveyLayout& layout);
+
+/// A whole gather, traces sorted by shot: layout from its headers, text from `entries` (program, source,
+/// scheme, command lines) followed by convention_entries.
+void write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
+                  const std::vector<std::string>& entries);
+
+}  // namespace slipwave::segy

@@ -1,0 +1,185 @@
+#include "segy/writer_headers.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "base/error.hpp"
+
+namespace slipwave::segy {
+namespace {
+
+constexpr std::int64_t highest_16 = 65535;
+constexpr std::int64_t highest_signed_16 = 32767;
+constexpr std::int64_t highest_signed_32 = 2147483647;
+
+std::string file_kind(const FileFormat& format) {
+  return format.su ? "Seismic Unix" : "SEG-Y revision " + std::to_string(format.revision);
+}
+
+/// Counted to the nearest nanosecond's thousandth, so that 0.0007 s is 700 us.
+bool is_whole(double value) { return std::fabs(value - std::nearbyint(value)) <= 1e-6; }
+
+bool has_wide_words(const FileFormat& format) { return !format.su && format.revision >= 2; }
+
+void check_sampling(const FileInfo& info) {
+  const SampleAxis& axis = info.axis;
+  const std::string kind = file_kind(info.format);
+  const bool wide = has_wide_words(info.format);
+  const std::int64_t most = wide ? highest_signed_32 : highest_16;
+  if (axis.count < 1 || axis.count > most)
+    throw Error(std::to_string(axis.count) + " samples a trace, " + kind + " holds 1 to " +
+                std::to_string(most));
+  if (!(axis.interval_s >= 0) || !std::isfinite(axis.interval_s))
+    throw Error("sample interval " + shown(axis.interval_s) + " s, expected a positive number");
+  const double us = axis.interval_s * 1e6;
+  if (!wide && (!is_whole(us) || us > static_cast<double>(highest_16)))
+    throw Error("sample interval " + shown(axis.interval_s) + " s, " + kind +
+                " holds whole microseconds up to 65535 (resample, or write revision 2)");
+  delay_word(axis.start_s);
+}
+
+void set_unless_carried(BinaryWords& words, FieldName<BinaryLayout> name, std::int64_t value) {
+  if (words.get(name) == 0) words.set(name, value);
+}
+
+void set_revision_2(BinaryWords& words, const FileInfo& info) {
+  words.clear(3261, 3300);
+  words.clear(3507, 3532);
+  if (info.format.revision < 2) return;
+  words.set("xntrpr", info.layout.traces_per_shot);
+  words.set("xns", info.axis.count);
+  words.set_real("xdt", info.axis.interval_s * 1e6);
+  words.set_real("xdto", info.axis.interval_s * 1e6);
+  words.set("xnso", info.axis.count);
+  words.set("byte_order", 0x01020304);
+  words.set("ntraces", info.layout.traces);
+}
+
+}  // namespace
+
+const SampleFormat& checked_format(const FileInfo& info) {
+  const SampleFormat* const format = find_format(info.format.code);
+  if (format == nullptr)
+    throw Error("sample format code " + std::to_string(info.format.code) + " is unknown");
+  if (info.format.revision < 0 || info.format.revision > 2)
+    throw Error("revision " + std::to_string(info.format.revision) + ", expected 0, 1 or 2");
+  if (info.format.su && format->code != 5)
+    throw Error(std::string("sample format ") + format->name + ", Seismic Unix holds ieee only");
+  if (info.format.revision < 2 && format->since >= 2)
+    throw Error(std::string("sample format ") + format->name +
+                " exists since revision 2, the file is of revision " + std::to_string(info.format.revision));
+  check_sampling(info);
+  return *format;
+}
+
+BinaryWords binary_header(const FileInfo& info) {
+  BinaryWords words = info.carried.value_or(BinaryWords{});
+  const std::int64_t interval = interval_word(info.axis.interval_s);
+  const std::int64_t count = info.axis.count <= highest_16 ? info.axis.count : 0;
+  set_unless_carried(words, "job", 1);
+  set_unless_carried(words, "line", 1);
+  set_unless_carried(words, "reel", 1);
+  if (info.layout.traces_per_shot <= highest_signed_16)
+    set_unless_carried(words, "ntrpr", info.layout.traces_per_shot);
+  words.set("dt", interval);
+  words.set("ns", count);
+  set_unless_carried(words, "dto", interval);
+  set_unless_carried(words, "nso", count);
+  words.set("format", info.format.code);
+  set_unless_carried(words, "fold", 1);
+  set_unless_carried(words, "sort", 5);
+  set_unless_carried(words, "vsum", 1);
+  set_unless_carried(words, "mfeet", 1);
+  set_revision_2(words, info);
+  words.set("fixed", info.format.revision >= 1 ? 1 : 0);
+  words.set("extended", static_cast<std::int64_t>(info.extended.size()));
+  return words;
+}
+
+BinaryWords::Bytes with_revision_stamp(BinaryWords::Bytes bytes, const FileFormat& format) {
+  std::uint8_t* const at = bytes.data() + (3501 - BinaryLayout::first);
+  if (format.revision >= 2) {
+    at[0] = 2;
+    at[1] = 1;
+  } else {
+    store_bytes(at, 2, format.endian, format.revision == 1 ? 0x0100 : 0);
+  }
+  return bytes;
+}
+
+std::int64_t interval_word(double interval_s) {
+  const double us = std::nearbyint(interval_s * 1e6);
+  return us <= static_cast<double>(highest_16) ? static_cast<std::int64_t>(us) : 0;
+}
+
+std::int64_t delay_word(double start_s) {
+  const double ms = start_s * 1e3;
+  if (!is_whole(ms) || !(std::fabs(ms) <= static_cast<double>(highest_signed_16)))
+    throw Error("first sample at " + shown(start_s) + " s, SEG-Y holds whole milliseconds up to 32.767 s");
+  return std::llround(ms);
+}
+
+void clear_for_su(TraceWords& words) {
+  const std::int64_t scalar = words.get("tscal");
+  if (scalar != 0 && scalar != 1)
+    for (const Field& field : TraceLayout::fields) {
+      if (field.byte < 95 || field.byte > 113) continue;
+      const FieldName<TraceLayout> name(field);
+      words.set(name, std::llround(scaled(words.get(name), scalar)));
+    }
+  words.clear(181, 240);
+}
+
+std::vector<std::string> warnings_of(const FileInfo& info) {
+  std::vector<std::string> warnings;
+  if (info.axis.count > highest_signed_16 && !has_wide_words(info.format))
+    warnings.push_back(
+        std::to_string(info.axis.count) +
+        " samples a trace: readers that take the word as signed see a negative number above 32767");
+  if (interval_word(info.axis.interval_s) > highest_signed_16)
+    warnings.push_back("sample interval " + shown(info.axis.interval_s) +
+                       " s: readers that take the word as signed see a negative number above 0.032767 s");
+  return warnings;
+}
+
+FileInfo info_like(const Reader& reader, const std::string& entry) {
+  const FileHeader& header = reader.header();
+  FileInfo info;
+  info.axis = reader.axis();
+  info.format.su = header.su;
+  info.format.endian = header.endian;
+  info.format.encoding = header.encoding;
+  info.format.revision = std::min(header.major, 2);
+  info.format.code = header.format->code == 6 || header.format->bytes == 8 ? 6 : 5;
+  if (info.format.code == 6) info.format.revision = 2;
+  if (header.su) {
+    info.format.revision = 1;
+    return info;
+  }
+  info.text = with_entry(header.text, entry, info.format.revision);
+  info.carried = header.binary;
+  return info;
+}
+
+std::vector<std::string> convention_entries(std::span<const Component> components, const SampleAxis& axis,
+                                            const SurveyLayout& layout) {
+  std::vector<std::string> entries;
+  std::string recorded;
+  for (const Component component : components)
+    recorded += (recorded.empty() ? "" : ", ") + std::string(name_of(component)) + " " + unit_of(component) +
+                " (trid " + std::to_string(code_of(component)) + ")";
+  entries.push_back("Recorded: " + recorded);
+  entries.push_back("Signs: z and vz positive down, x along the line; stress positive in tension,");
+  entries.push_back("  p = -(sum of normal stresses)/dimensions, positive in compression");
+  entries.push_back("trid 256 + n: stress n = 1 sxx, 2 syy, 3 szz, 4 syz, 5 sxz, 6 sxy");
+  entries.push_back("Sampling: " + std::to_string(axis.count) + " samples every " + shown(axis.interval_s) +
+                    " s from " + shown(axis.start_s) + " s");
+  entries.push_back("Bytes: source x 73 y 77 depth 49, receiver x 81 y 85 elevation 41,");
+  entries.push_back("  midpoint x 181 y 185, midpoint bin 21 and 193, shot 9, channel 13");
+  entries.push_back("Lengths in metres, scalar (bytes 69 and 71) " +
+                    std::to_string(layout.coordinate_scalar) + ", midpoint bins of " + shown(layout.bin_m) +
+                    " m");
+  return entries;
+}
+
+}  // namespace slipwave::segy

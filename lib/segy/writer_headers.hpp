@@ -1,0 +1,26 @@
+#pragma once
+
+#include "segy/writer.hpp"
+
+namespace slipwave::segy {
+
+/// The sample format of `info`, after refusing what its revision cannot hold: the format, the number of
+/// samples, the interval, the delay. Each refusal says what was found and what fits.
+const SampleFormat& checked_format(const FileInfo& info);
+
+/// The binary header as `info` says it, carried words where it says nothing.
+BinaryWords binary_header(const FileInfo& info);
+
+/// Bytes of the binary header in file order with the revision: two bytes since 2, one 16-bit word before.
+BinaryWords::Bytes with_revision_stamp(BinaryWords::Bytes bytes, const FileFormat& format);
+
+/// Microseconds for a 16-bit word, rounded; 0 when they do not fit (revision 2 has a double beside it).
+std::int64_t interval_word(double interval_s);
+
+/// Whole milliseconds of the first sample's time; throws Error when they are not whole or do not fit 16 bits.
+std::int64_t delay_word(double start_s);
+
+/// Makes bytes 181 to 240 zero, the time scalar applied to the times before.
+void clear_for_su(TraceWords& words);
+
+}  // namespace slipwave::segy
