@@ -1,0 +1,244 @@
+#include "base/netcdf_file.hpp"
+
+#include <netcdf.h>
+#include <netcdf_mem.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+#include "base/netcdf_container.hpp"
+#include "base/netcdf_impl.hpp"
+#include "base/temporary.hpp"
+
+namespace slipwave {
+namespace {
+
+int code_of(NetcdfFile::Type type) {
+  switch (type) {
+    case NetcdfFile::Type::f64:
+      return NC_DOUBLE;
+    case NetcdfFile::Type::f32:
+      return NC_FLOAT;
+    case NetcdfFile::Type::i32:
+      return NC_INT;
+    case NetcdfFile::Type::u8:
+      return NC_UBYTE;
+    case NetcdfFile::Type::text:
+      return NC_STRING;
+    case NetcdfFile::Type::other:
+      break;
+  }
+  throw Error("netCDF variables can be written as double, float, int, ubyte and string only");
+}
+
+NetcdfFile::Type type_of(nc_type code) {
+  switch (code) {
+    case NC_DOUBLE:
+      return NetcdfFile::Type::f64;
+    case NC_FLOAT:
+      return NetcdfFile::Type::f32;
+    case NC_INT:
+      return NetcdfFile::Type::i32;
+    case NC_UBYTE:
+      return NetcdfFile::Type::u8;
+    case NC_STRING:
+      return NetcdfFile::Type::text;
+    default:
+      return NetcdfFile::Type::other;
+  }
+}
+
+}  // namespace
+
+void NetcdfFile::Impl::fail(const std::string& variable, const std::string& sentence) const {
+  throw Error(shown_name + ": " + (variable.empty() ? "" : variable + ": ") + sentence);
+}
+
+void NetcdfFile::Impl::check(int status, const std::string& variable) const {
+  if (status == NC_NOERR) return;
+  const int system_cause = errno;
+  if (status > 0) fail(variable, cause_of(status));
+  if (status == NC_EHDFERR) {
+    // HDF5 keeps the cause to itself, but leaves what the system said.
+    for (const int cause : {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, ENOMEM}) {
+      if (system_cause == cause) fail(variable, cause_of(cause));
+    }
+    fail(variable, "damaged: the HDF5 library cannot read or write it");
+  }
+  if (status == NC_ENOTNC) fail(variable, "is no netCDF file");
+  std::string text = nc_strerror(status);
+  const std::string prefix = "NetCDF: ";
+  if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());
+  fail(variable, text);
+}
+
+int NetcdfFile::Impl::variable_id(const std::string& name) const {
+  if (name.empty()) return NC_GLOBAL;
+  int variable = 0;
+  if (nc_inq_varid(id, name.c_str(), &variable) != NC_NOERR) {
+    throw Error(shown_name + ": found no variable '" + name + "'");
+  }
+  return variable;
+}
+
+void NetcdfFile::Impl::check_size(const std::string& variable, const std::vector<std::size_t>& shape,
+                                  std::size_t width) const {
+  // deflate reaches 1032 : 1 at most; the rest is room for values that were never written.
+  const double most = 1100.0 * double(file_bytes) + double(std::size_t(16) << 20);
+  double bytes = double(width);
+  for (const auto length : shape) bytes *= double(length);
+  if (bytes > most) {
+    fail(variable, "found a size of " + shown(bytes) + " bytes in a file of " + std::to_string(file_bytes) +
+                       ", which cannot hold as many");
+  }
+}
+
+std::size_t NetcdfFile::Variable::size() const {
+  std::size_t values = 1;
+  for (const auto length : shape) values *= length;
+  return values;
+}
+
+NetcdfFile::NetcdfFile(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+NetcdfFile::NetcdfFile(NetcdfFile&&) noexcept = default;
+NetcdfFile& NetcdfFile::operator=(NetcdfFile&&) noexcept = default;
+NetcdfFile::~NetcdfFile() = default;
+
+NetcdfFile NetcdfFile::create(const std::string& path, const std::string& shown_name) {
+  auto impl = std::make_unique<Impl>();
+  impl->shown_name = shown_name;
+  errno = 0;
+  impl->check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &impl->id));
+  return NetcdfFile(std::move(impl));
+}
+
+NetcdfFile NetcdfFile::open(const std::string& path) {
+  if (!is_regular_input(path)) return open(read_all(path), shown_input(path));
+  auto impl = std::make_unique<Impl>();
+  impl->shown_name = path;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw Error(path + ": " + cause_of(errno));
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) throw Error(path + ": " + cause_of(errno));
+  impl->file_bytes = std::uint64_t(status.st_size);
+  in_place(path, [&] {
+    const auto read_at = [&](std::uint64_t offset, void* to, std::size_t count) {
+      file.clear();
+      file.seekg(std::streamoff(offset));
+      return bool(file.read(static_cast<char*>(to), std::streamsize(count)));
+    };
+    check_not_truncated(read_at, impl->file_bytes);
+  });
+  errno = 0;
+  impl->check(nc_open(path.c_str(), NC_NOWRITE, &impl->id));
+  return NetcdfFile(std::move(impl));
+}
+
+NetcdfFile NetcdfFile::open(std::vector<char> bytes, const std::string& shown_name) {
+  auto impl = std::make_unique<Impl>();
+  impl->shown_name = shown_name;
+  impl->bytes = std::move(bytes);
+  impl->file_bytes = impl->bytes.size();
+  const auto& kept = impl->bytes;
+  in_place(shown_name, [&] {
+    const auto read_at = [&](std::uint64_t offset, void* to, std::size_t count) {
+      if (count > kept.size() || offset > kept.size() - count) return false;
+      std::memcpy(to, kept.data() + offset, count);
+      return true;
+    };
+    check_not_truncated(read_at, impl->file_bytes);
+  });
+  // LOCKED: the library neither frees nor enlarges our bytes.
+  NC_memio memory{impl->bytes.size(), impl->bytes.data(), NC_MEMIO_LOCKED};
+  errno = 0;
+  impl->check(nc_open_memio("memory", NC_NOWRITE, &memory, &impl->id));
+  return NetcdfFile(std::move(impl));
+}
+
+void NetcdfFile::close() {
+  const int id = impl_->id;
+  impl_->id = -1;
+  errno = 0;
+  if (id >= 0) impl_->check(nc_close(id));
+}
+
+void NetcdfFile::flush() {
+  errno = 0;
+  impl_->check(nc_sync(impl_->id));
+}
+
+const std::string& NetcdfFile::shown_name() const { return impl_->shown_name; }
+
+void NetcdfFile::define_dimension(const std::string& name, std::size_t length) {
+  int dimension = 0;
+  impl_->check(nc_def_dim(impl_->id, name.c_str(), length ? length : NC_UNLIMITED, &dimension), name);
+}
+
+void NetcdfFile::define_variable(const std::string& name, Type type,
+                                 const std::vector<std::string>& dimensions, const Storage& storage) {
+  std::vector<int> ids(dimensions.size());
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    impl_->check(nc_inq_dimid(impl_->id, dimensions[i].c_str(), &ids[i]), dimensions[i]);
+  }
+  int variable = 0;
+  impl_->check(nc_def_var(impl_->id, name.c_str(), code_of(type), int(ids.size()), ids.data(), &variable),
+               name);
+  if (ids.empty() || type == Type::text) return;
+  if (!storage.chunk.empty()) {
+    impl_->check(nc_def_var_chunking(impl_->id, variable, NC_CHUNKED, storage.chunk.data()), name);
+  }
+  if (storage.compress) impl_->check(nc_def_var_deflate(impl_->id, variable, 1, 1, 1), name);
+}
+
+std::vector<NetcdfFile::Variable> NetcdfFile::variables() const {
+  int count = 0;
+  impl_->check(nc_inq_nvars(impl_->id, &count));
+  std::vector<Variable> all;
+  for (int id = 0; id < count; ++id) {
+    std::array<char, NC_MAX_NAME + 1> name{};
+    impl_->check(nc_inq_varname(impl_->id, id, name.data()));
+    all.push_back(variable(name.data()));
+  }
+  return all;
+}
+
+bool NetcdfFile::has_variable(const std::string& name) const {
+  int variable = 0;
+  return nc_inq_varid(impl_->id, name.c_str(), &variable) == NC_NOERR;
+}
+
+NetcdfFile::Variable NetcdfFile::variable(const std::string& name) const {
+  const int id = impl_->variable_id(name);
+  Variable found;
+  found.name = name;
+  nc_type type = 0;
+  int rank = 0;
+  impl_->check(nc_inq_var(impl_->id, id, nullptr, &type, &rank, nullptr, nullptr), name);
+  std::vector<int> dimensions(std::size_t(rank), 0);
+  impl_->check(nc_inq_vardimid(impl_->id, id, dimensions.data()), name);
+  found.type = type_of(type);
+  for (const int dimension : dimensions) {
+    std::array<char, NC_MAX_NAME + 1> dimension_name{};
+    std::size_t length = 0;
+    impl_->check(nc_inq_dim(impl_->id, dimension, dimension_name.data(), &length), name);
+    found.dimensions.emplace_back(dimension_name.data());
+    found.shape.push_back(length);
+  }
+  return found;
+}
+
+std::optional<std::size_t> NetcdfFile::dimension_length(const std::string& name) const {
+  int id = 0;
+  std::size_t length = 0;
+  if (nc_inq_dimid(impl_->id, name.c_str(), &id) != NC_NOERR) return {};
+  impl_->check(nc_inq_dimlen(impl_->id, id, &length), name);
+  return length;
+}
+
+}  // namespace slipwave

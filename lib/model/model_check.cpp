@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+namespace {
+
+// Room for the rounding of vp and vs to float.
+constexpr double slack = 1 + 1e-6;
+
+/// "vs at x=1200 z=45 is NaN, expected ..."
+template <int D>
+[[noreturn]] void refuse(const Grid<D>& grid, std::size_t cell, const std::string& name,
+                         const std::string& rest) {
+  throw Error(name + " at " + place_of(grid, std::int64_t(cell)) + " " + rest);
+}
+
+template <int D>
+void check_values(const Field<D>& field, const std::string& name) {
+  for (std::size_t cell = 0; cell < field.size(); ++cell) {
+    const double value = double(field[cell]);
+    if (value >= 0 && std::isfinite(value)) continue;
+    const std::string found = std::isnan(value) ? "NaN" : shown(field[cell]);
+    refuse(field.grid(), cell, name, "is " + found + ", expected a finite number not below zero");
+  }
+}
+
+template <int D>
+void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& limits) {
+  const double vp = double(medium.vp[cell]), vs = double(medium.vs[cell]);
+  if (medium.is_void(cell)) {
+    if (vp == 0 && vs == 0) return;
+    refuse(medium.grid(), cell, "rho",
+           "is 0 with vp " + shown(vp) + " and vs " + shown(vs) + ", expected both 0 in void or a density");
+  }
+  if (vp == 0) refuse(medium.grid(), cell, "vp", "is 0, expected a speed above zero outside void");
+  const std::string start = "is " + shown(vs) + ", expected ";
+  if (limits.allow_auxetic) {
+    const double limit = vp * std::sqrt(0.75);
+    if (vs * slack >= limit) {
+      refuse(medium.grid(), cell, "vs",
+             start + "below vp sqrt(3)/2 = " + shown(limit) + " (positive bulk modulus)");
+    }
+  } else if (vs > vp / std::sqrt(2.0) * slack) {
+    refuse(
+        medium.grid(), cell, "vs",
+        start + "at most vp/sqrt(2) = " + shown(vp / std::sqrt(2.0)) + " (lambda < 0 needs --allow-auxetic)");
+  }
+}
+
+template <int D>
+void check_set(const FractureSet<D>& set, std::size_t number) {
+  const std::string name = "fracture set " + std::to_string(number) + " '" + set.name + "'";
+  if (set.systems.empty() || set.systems.size() > std::size_t(D)) {
+    throw Error(name + " has " + std::to_string(set.systems.size()) + " slip systems, expected 1 to " +
+                std::to_string(D));
+  }
+  for (const auto& system : set.systems) {
+    double square = 0;
+    for (const double part : system.normal) square += part * part;
+    if (!(std::abs(square - 1) < 1e-6)) {
+      throw Error(name + ": found a normal of length " + shown(std::sqrt(square)) +
+                  ", expected a unit vector");
+    }
+    const auto check_constant = [&](const std::string& what, double value) {
+      if (value >= 0 && std::isfinite(value)) return;
+      throw Error(name + ": " + what + " is " + shown(value) + ", expected a finite number not below zero");
+    };
+    check_constant("friction", system.friction);
+    check_constant("viscosity", system.viscosity_s);
+    check_constant("strength", system.strength_pa);
+  }
+}
+
+}  // namespace
+
+template <int D>
+void check(const Model<D>& model, const MediumLimits& limits) {
+  const auto& medium = model.medium;
+  if (medium.vp.empty()) throw Error("the model has no cells");
+  if (!(medium.vs.grid() == medium.grid()) || !(medium.rho.grid() == medium.grid())) {
+    throw Error("vp, vs and rho have different grids: " + shown(medium.grid()) + ", " +
+                shown(medium.vs.grid()) + ", " + shown(medium.rho.grid()));
+  }
+  check_values(medium.vp, "vp");
+  check_values(medium.vs, "vs");
+  check_values(medium.rho, "rho");
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) check_cell(medium, cell, limits);
+  for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) check_set(model.fracture_sets[k], k + 1);
+  if (model.fracture.empty()) return;
+  if (!(model.fracture.grid() == medium.grid())) {
+    throw Error("fracture and vp have different grids: " + shown(model.fracture.grid()) + ", " +
+                shown(medium.grid()));
+  }
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    const std::size_t code = model.fracture[cell];
+    if (code == 0) continue;
+    if (code > model.fracture_sets.size()) {
+      refuse(model.grid(), cell, "fracture",
+             "is " + std::to_string(code) + ", expected at most " +
+                 std::to_string(model.fracture_sets.size()) + ", the number of sets");
+    }
+    if (!medium.is_solid(cell)) {
+      refuse(model.grid(), cell, "fracture",
+             std::string("stands in ") + (medium.is_void(cell) ? "void" : "fluid") +
+                 ", expected it in solid cells only");
+    }
+  }
+}
+
+template void check(const Model<2>&, const MediumLimits&);
+template void check(const Model<3>&, const MediumLimits&);
+
+}  // namespace slipwave

@@ -1,0 +1,209 @@
+#include "model/model_netcdf.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "grid/grid_netcdf.hpp"
+
+namespace slipwave {
+namespace {
+
+using Type = NetcdfFile::Type;
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+template <int D>
+void check_dimensions(const NetcdfFile& file, const std::string& name) {
+  if (!file.has_variable(name))
+    throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model");
+  const auto found = file.variable(name).dimensions;
+  if (found != field_dimensions<D>()) {
+    throw Error(file.shown_name() + ": " + name + ": found dimensions (" + listed(found) + "), expected (" +
+                listed(field_dimensions<D>()) + ")");
+  }
+}
+
+template <int D>
+Field<D> read_field(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
+  check_dimensions<D>(file, name);
+  const auto values = file.get_physical(name);
+  Field<D> field(grid);
+  std::copy(values.begin(), values.end(), field.begin());
+  return field;
+}
+
+/// A column of a slip constant: one value a slip system.
+std::vector<double> read_column(const NetcdfFile& file, const std::string& name, std::size_t systems,
+                                std::size_t width = 1) {
+  auto values = file.get<double>(name);
+  if (values.size() != systems * width) {
+    throw Error(file.shown_name() + ": " + name + ": found " + std::to_string(values.size()) +
+                " values, expected " + std::to_string(systems * width));
+  }
+  return values;
+}
+
+template <int D>
+std::vector<FractureSet<D>> read_sets(const NetcdfFile& file) {
+  std::vector<FractureSet<D>> sets;
+  for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}});
+  const auto owner = file.get<int>("slip_set");
+  const auto normal = read_column(file, "slip_normal", owner.size(), D);
+  const auto friction = read_column(file, "slip_friction", owner.size());
+  const auto viscosity = read_column(file, "slip_viscosity", owner.size());
+  const auto strength = read_column(file, "slip_strength", owner.size());
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
+      throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +
+                  std::to_string(std::int64_t(sets.size()) - 1));
+    }
+    SlipSystem<D> system;
+    for (std::size_t axis = 0; axis < D; ++axis) system.normal[axis] = normal[i * D + axis];
+    system.friction = friction[i];
+    system.viscosity_s = viscosity[i];
+    system.strength_pa = strength[i];
+    sets[std::size_t(owner[i])].systems.push_back(system);
+  }
+  return sets;
+}
+
+template <int D>
+void define_property(NetcdfFile& file, const Field<D>& field, const std::string& name,
+                     const std::string& long_name, const std::string& units) {
+  file.define_variable(name, Type::f32, field_dimensions<D>());
+  file.put_attribute(name, "_FillValue", std::vector<float>{std::numeric_limits<float>::quiet_NaN()});
+  file.put_attribute(name, "long_name", long_name);
+  file.put_attribute(name, "units", units);
+  const auto [low, high] = std::minmax_element(field.begin(), field.end());
+  file.put_attribute(name, "actual_range", std::vector<float>{*low, *high});
+}
+
+template <int D>
+void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
+  std::size_t systems = 0;
+  for (const auto& set : sets) systems += set.systems.size();
+  file.define_dimension("fracture_set", sets.size());
+  file.define_dimension("slip_system", systems);
+  file.define_dimension("axis", D);
+  file.define_variable("fracture", Type::u8, field_dimensions<D>());
+  file.put_attribute("fracture", "long_name",
+                     "fracture set of the cell, 0 = intact, k = row k-1 of fracture_set");
+  file.define_variable("fracture_name", Type::text, {"fracture_set"});
+  file.put_attribute("fracture_name", "long_name", "name of the fracture set");
+  const auto define = [&](const std::string& name, Type type, const std::string& long_name,
+                          const std::string& units) {
+    std::vector<std::string> dimensions = {"slip_system"};
+    if (name == "slip_normal") dimensions.push_back("axis");
+    file.define_variable(name, type, dimensions, {false, {}});
+    file.put_attribute(name, "long_name", long_name);
+    if (!units.empty()) file.put_attribute(name, "units", units);
+  };
+  define("slip_set", Type::i32, "row of fracture_set the slip system belongs to", "");
+  define("slip_normal", Type::f64, "unit normal of the slip planes", "1");
+  define("slip_friction", Type::f64, "coefficient of friction", "1");
+  define("slip_viscosity", Type::f64, "viscosity of slip", "s");
+  define("slip_strength", Type::f64, "cohesion", "Pa");
+}
+
+template <int D>
+void put_sets(NetcdfFile& file, const Model<D>& model) {
+  file.put("fracture", model.fracture.data());
+  std::vector<std::string> names;
+  std::vector<int> owner;
+  std::vector<double> normal, friction, viscosity, strength;
+  for (const auto& set : model.fracture_sets) {
+    for (const auto& system : set.systems) {
+      owner.push_back(int(names.size()));
+      normal.insert(normal.end(), system.normal.begin(), system.normal.end());
+      friction.push_back(system.friction);
+      viscosity.push_back(system.viscosity_s);
+      strength.push_back(system.strength_pa);
+    }
+    names.push_back(set.name);
+  }
+  file.put_text("fracture_name", names);
+  file.put("slip_set", owner.data());
+  file.put("slip_normal", normal.data());
+  file.put("slip_friction", friction.data());
+  file.put("slip_viscosity", viscosity.data());
+  file.put("slip_strength", strength.data());
+}
+
+}  // namespace
+
+template <int D>
+Model<D> read_model(const NetcdfFile& file) {
+  check_dimensions<D>(file, "vp");
+  const auto grid = read_grid<D>(file);
+  Model<D> model;
+  model.medium.vp = read_field(file, grid, "vp");
+  model.medium.vs = read_field(file, grid, "vs");
+  model.medium.rho = read_field(file, grid, "rho");
+  if (file.has_variable("fracture")) {
+    check_dimensions<D>(file, "fracture");
+    const auto codes = file.get<std::uint8_t>("fracture");
+    model.fracture = Field<D, std::uint8_t>(grid);
+    std::copy(codes.begin(), codes.end(), model.fracture.begin());
+    model.fracture_sets = read_sets<D>(file);
+  }
+  model.title = file.text_attribute("", "title").value_or("");
+  model.source = file.text_attribute("", "source").value_or("");
+  model.history = file.text_attribute("", "history").value_or("");
+  return model;
+}
+
+template <int D>
+Model<D> read_model(const std::string& path) {
+  return read_model<D>(NetcdfFile::open(path));
+}
+
+template <int D>
+void write_model(const Model<D>& model, OutputFile& out) {
+  auto file = NetcdfFile::create(out.path_for_libraries(), out.shown_name());
+  const bool fractured = !model.fracture.empty() && !model.fracture_sets.empty();
+  file.put_attribute("", "Conventions", "CF-1.10");
+  if (!model.title.empty()) file.put_attribute("", "title", model.title);
+  if (!model.source.empty()) file.put_attribute("", "source", model.source);
+  if (!model.history.empty()) file.put_attribute("", "history", model.history);
+  define_grid(file, model.grid());
+  define_property(file, model.medium.vp, "vp", "P-wave speed", "m s-1");
+  define_property(file, model.medium.vs, "vs", "S-wave speed, 0 = fluid", "m s-1");
+  define_property(file, model.medium.rho, "rho", "density, 0 = void", "kg m-3");
+  if (fractured) define_sets(file, model.fracture_sets);
+  put_grid(file, model.grid());
+  file.put("vp", model.medium.vp.data());
+  file.put("vs", model.medium.vs.data());
+  file.put("rho", model.medium.rho.data());
+  if (fractured) put_sets(file, model);
+  file.close();
+  out.commit();
+}
+
+template <int D>
+void write_model(const Model<D>& model, const std::string& path) {
+  OutputFile out(path, OutputFile::Content::binary);
+  write_model(model, out);
+}
+
+void append_history(std::string& history, const std::string& command) {
+  if (!history.empty() && history.back() != '\n') history += '\n';
+  history += command;
+}
+
+template Model<2> read_model<2>(const NetcdfFile&);
+template Model<3> read_model<3>(const NetcdfFile&);
+template Model<2> read_model<2>(const std::string&);
+template Model<3> read_model<3>(const std::string&);
+template void write_model(const Model<2>&, OutputFile&);
+template void write_model(const Model<3>&, OutputFile&);
+template void write_model(const Model<2>&, const std::string&);
+template void write_model(const Model<3>&, const std::string&);
+
+}  // namespace slipwave

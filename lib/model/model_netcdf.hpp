@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+
+#include "model/model.hpp"
+
+namespace slipwave {
+
+class NetcdfFile;
+class OutputFile;
+
+/// Reads a model file (docs/formats.md, Model), from standard input for "-". Structure is checked here
+/// (names, dimensions, equal steps, sets), values by check(). Throws Error naming file, place, found and
+/// expected.
+template <int D>
+Model<D> read_model(const std::string& path);
+template <int D>
+Model<D> read_model(const NetcdfFile& file);
+
+/// Writes a model file to a path or "-"; it appears whole or not at all.
+template <int D>
+void write_model(const Model<D>& model, const std::string& path);
+/// The same into an output opened beforehand; commits it.
+template <int D>
+void write_model(const Model<D>& model, OutputFile& out);
+
+/// Adds a command to a history attribute: one line each, the newest last, as the pipeline ran.
+void append_history(std::string& history, const std::string& command);
+
+}  // namespace slipwave
