@@ -1,0 +1,95 @@
+#!/bin/sh
+# can_fail.sh ROOT: breaks each rule of the house once, in a small house of its own, and wants it noticed by name.
+set -eu
+rules=$1/tests/house
+house=$(mktemp -d)
+trap 'rm -rf "$house"' EXIT
+status=0
+
+# fresh: a small house that keeps every rule.
+fresh() {
+  rm -rf "$house"
+  mkdir -p "$house/lib/base" "$house/lib/gather" "$house/lib/output" "$house/tools" "$house/tests/unit" \
+    "$house/docs/man" "$house/surveys" "$house/build/bin"
+  echo '#include <vector>' > "$house/lib/base/error.hpp"
+  echo '#include <fftw3.h>' > "$house/lib/base/fft.cpp"
+  echo '#include "base/error.hpp"' > "$house/lib/gather/trace.cpp"
+  echo '#include "solver/state.hpp"' > "$house/lib/output/snapshot.cpp"
+  echo 'int main() {}' > "$house/tools/sw_x.cpp"
+  echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
+  printf 'v = c (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
+  echo 'See [the theory](docs/theory.md).' > "$house/README.md"
+  printf '```sh\nsw-x\n```\n' > "$house/docs/tools.md"
+  printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size\n.SH EXIT STATUS\n.SH EXAMPLES\n' \
+    > "$house/docs/man/sw-x.1"
+  printf '#!/bin/sh\necho "  --size S"\necho "  sw-x --size 2"\n' > "$house/build/bin/sw-x"
+  chmod +x "$house/build/bin/sw-x"
+}
+
+run_rule() {
+  case $1 in
+    help) sh "$rules/help.sh" "$house" "$house/build/bin" sw-x 2>&1 ;;
+    readme) sh "$rules/readme.sh" "$house" "$house/build" 2>&1 ;;
+    *) sh "$rules/$1.sh" "$house" 2>&1 ;;
+  esac
+}
+
+fresh
+for rule in layers style words top_level equations links help readme; do
+  said=$(run_rule "$rule") || { echo "$rule finds fault with a house in order: $said"; status=1; }
+done
+
+# noticed RULE FILE TEXT EXPECTED: TEXT appended to FILE must make RULE fail and say EXPECTED.
+noticed() {
+  fresh
+  mkdir -p "$(dirname "$house/$2")"
+  printf '%b\n' "$3" >> "$house/$2"
+  if said=$(run_rule "$1"); then
+    echo "$1 let this pass: $3 in $2"
+    status=1
+    return 0
+  fi
+  case $said in
+    *"$4"*) ;;
+    *)
+      echo "$1 on '$3' in $2 did not say '$4' but: $said"
+      status=1
+      ;;
+  esac
+}
+
+noticed layers lib/base/error.hpp '#include "gather/trace.hpp"' 'lib/base/error.hpp:2: base must not include'
+noticed layers lib/gather/trace.cpp '#include "model/model.hpp"' 'gather must not include'
+noticed layers lib/output/snapshot.cpp '#include "solver/sweeps.hpp"' 'output must not include'
+noticed layers lib/gather/trace.cpp '#include "trace.hpp"' 'write "room/file.hpp"'
+noticed layers lib/gather/trace.cpp '#include <fftw3.h>' '<fftw3.h> belongs in'
+noticed layers lib/gather/trace.cpp '# include <netcdf.h>' '<netcdf.h> belongs in'
+noticed layers lib/gather/trace.cpp '#include <boost/any.hpp>' '<boost/any.hpp> belongs in'
+noticed layers lib/gather/trace.cpp '#include <cairo/cairo.h>' '<cairo/cairo.h> belongs in'
+noticed layers lib/misc/bits.hpp '' 'lib/misc has no place'
+noticed style tools/sw_x.cpp "$(seq 300)" 'longer than 300 lines'
+noticed style lib/base/error.hpp 'std::cerr << 1;' 'nothing below main prints'
+noticed style lib/base/error.hpp '  printf("x");' 'nothing below main prints'
+noticed style lib/base/error.hpp 'std::exit(1);' 'nothing below main exits'
+noticed style lib/base/error.hpp '#define X 1' 'no macros'
+noticed style lib/base/error.hpp 'std::shared_ptr<int> p;' 'no shared ownership'
+noticed style tests/unit/wave_test.cpp 'using namespace std;' 'names of std'
+noticed words docs/theory.md "kept in $(printf '/%s/' home)somebody" 'docs/theory.md:4'
+noticed words docs/theory.md "see $(printf '%s %s' issue 12)" 'docs/theory.md:4'
+noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:2'
+noticed top_level notes.txt x 'notes.txt: the top level holds'
+noticed top_level 'docs/two words.md' x 'a plain file name'
+noticed equations docs/theory.md 's = rho c v (E2)' '(E2) names no test'
+noticed equations docs/theory.md 's = rho c v (E2)\n`Wave.Stops`' 'there is no test Wave.Stops'
+noticed equations docs/theory.md 's = rho c v (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
+noticed links README.md '[more](docs/more.md)' 'docs/more.md leads nowhere'
+noticed help build/bin/sw-x 'echo "  --step H"; echo " sw-x"' '--step is not documented'
+noticed help build/bin/sw-x 'echo done' 'does not end with its example'
+noticed help build/bin/sw-x 'seq 70; echo "sw-x --size 3"' 'longer than a screen'
+noticed help build/bin/sw-x 'exit 3' 'exit status 3'
+noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x has no option --colour'
+noticed help docs/man/sw-y.1 '.SH NAME' 'sw-y.1: there is no such tool'
+noticed help tools/sw_y.cpp 'int main() {}' 'sw-y is not built'
+noticed readme README.md '```sh\nsw-x --size 2\nsw-z\n```' 'README.md.01: a command failed'
+
+exit "$status"

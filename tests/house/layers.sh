@@ -1,0 +1,47 @@
+#!/bin/sh
+# layers.sh ROOT: includes of lib/ go downwards only, and each foreign library is included in its own place.
+set -eu
+cd "$1"
+find lib tools -name '*.?pp' | sort | xargs awk '
+  BEGIN {
+    below["base"] = "base"
+    below["grid"] = below["base"] " grid"
+    below["model"] = below["grid"] " model"
+    below["fracture"] = below["grid"] " fracture"
+    below["acquisition"] = below["grid"] " acquisition"
+    below["gather"] = below["grid"] " gather"
+    below["scene"] = below["grid"] " model fracture acquisition gather scene"
+    below["solver"] = below["scene"] " solver"
+    below["segy"] = "base gather segy"
+    below["output"] = below["scene"] " output"
+    below["plot"] = below["output"] " plot"
+    below["cli"] = "base cli"
+  }
+  function broken(what) {
+    printf "%s:%d: %s\n", FILENAME, FNR, what
+    bad = 1
+  }
+  function only_in(library, header, place) {
+    if (header !~ library) return
+    if (FILENAME !~ place) broken("<" header "> belongs in " place)
+  }
+  FNR == 1 { split(FILENAME, part, "/"); room = part[1] == "lib" ? part[2] : "" }
+  FNR == 1 && room != "" && !(room in below) { broken("lib/" room " has no place in the order of rooms") }
+  /^[ \t]*#[ \t]*include[ \t]*"/ {
+    split($0, quoted, "\"")
+    if (room == "") next
+    if (quoted[2] !~ "^[a-z0-9_]+/[a-z0-9_]+[.]hpp$") broken("include \"" quoted[2] "\": write \"room/file.hpp\"")
+    split(quoted[2], part, "/")
+    state = (room == "output" || room == "plot") && quoted[2] ~ "^solver/state"
+    if (index(" " below[room] " ", " " part[1] " ") == 0 && !state) broken(room " must not include \"" quoted[2] "\"")
+  }
+  /^[ \t]*#[ \t]*include[ \t]*</ {
+    header = $0
+    sub(/^[^<]*</, "", header)
+    sub(/>.*$/, "", header)
+    only_in("^fftw", header, "^lib/base/fft[.]cpp$")
+    only_in("^netcdf", header, "^lib/.*netcdf[a-z_]*[.][ch]pp$")
+    only_in("^boost/", header, "^(lib/cli|tools)/")
+    only_in("^cairo", header, "^lib/plot/")
+  }
+  END { exit bad }'

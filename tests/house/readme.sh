@@ -1,0 +1,30 @@
+#!/bin/sh
+# readme.sh ROOT BUILD: runs the ```sh blocks of README.md and docs/tools.md in a temporary directory, a block at a
+# time; every command must succeed. Surveys put their results there too. tests/run itself is not run again.
+set -eu
+root=$1
+build=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+PATH=$build/bin:$PATH
+SLIPWAVE_BUILD=$build
+MAKEFLAGS="OUT=$work/out"
+export PATH SLIPWAVE_BUILD MAKEFLAGS
+blocks=0
+for page in README.md docs/tools.md; do
+  awk -v base="$work/$(basename "$page")" '
+    /^```sh$/ { inside = 1; name = sprintf("%s.%02d.sh", base, ++block); next }
+    /^```/ { inside = 0 }
+    inside { print > name }' "$root/$page"
+done
+cd "$work"
+for block in "$work"/*.md.*.sh; do
+  [ -f "$block" ] || continue
+  # The commands are written to be typed in the checkout.
+  sed -e '/^\.\/tests\/run/d' -e "s|^\\./surveys/run|'$root'/surveys/run|" "$block" > "$block.run"
+  echo "--- $(basename "$block" .sh)"
+  cat "$block"
+  sh -eu "$block.run" </dev/null || { echo "$(basename "$block" .sh): a command failed"; exit 1; }
+  blocks=$((blocks + 1))
+done
+[ "$blocks" -gt 0 ] || { echo "no \`\`\`sh block found"; exit 1; }
