@@ -217,10 +217,12 @@ std::string Parser::help() const {
     line += option.name + (option.placeholder.empty() ? "" : " " + option.placeholder);
     line.resize(std::max(column, line.size() + 2), ' ');
     std::string help = option.help;
-    if (!option.shown_default.empty()) help += " [" + option.shown_default + "]";
+    if (option.required) help += " (required)";
+    if (!option.required && !option.shown_default.empty()) help += " [" + option.shown_default + "]";
     std::size_t used = line.size();
     for (const auto& word : split(help, ' ')) {
       if (used + word.size() > width) {
+        line.pop_back();
         line += "\n" + std::string(column, ' ');
         used = column;
       }

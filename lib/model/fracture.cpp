@@ -1,0 +1,132 @@
+#include "model/fracture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+
+namespace slipwave {
+
+Point<2> normal_of_dip(double dip_deg) {
+  if (!(std::abs(dip_deg) <= 90)) {
+    throw Error("found a dip of " + shown(dip_deg) + " degrees, expected it from -90 to 90",
+                ErrorKind::usage);
+  }
+  const double dip = dip_deg * std::numbers::pi / 180;
+  Point<2> normal = {std::sin(dip), -std::cos(dip)};
+  // Horizontal and vertical planes exactly so.
+  for (auto& part : normal) {
+    if (std::abs(part) < 1e-15) part = 0;
+  }
+  return normal;
+}
+
+template <int D>
+Point<D> unit_normal(const Point<D>& direction) {
+  double length = 0;
+  for (const double part : direction) length = std::hypot(length, part);
+  if (!(length > 0) || !std::isfinite(length)) {
+    throw Error("found a normal of length " + shown(length) + ", expected a direction", ErrorKind::usage);
+  }
+  Point<D> normal = direction;
+  for (auto& part : normal) part /= length;
+  return normal;
+}
+
+Polygon::Polygon(std::vector<Point<2>> vertices) : vertices_(std::move(vertices)) {
+  if (vertices_.size() < 3) {
+    throw Error("found " + std::to_string(vertices_.size()) + " vertices, expected at least 3");
+  }
+}
+
+Polygon Polygon::read(const std::string& path) {
+  const auto bytes = read_all(path);
+  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  std::vector<Point<2>> vertices;
+  std::string line;
+  for (int number = 1; std::getline(text, line); ++number) {
+    line.resize(std::min(line.find('#'), line.size()));
+    for (char& letter : line) {
+      if (letter == ',' || letter == '\r') letter = ' ';
+    }
+    std::istringstream words(line);
+    const std::vector<std::string> parts{std::istream_iterator<std::string>(words), {}};
+    if (parts.empty()) continue;
+    const std::string place = shown_input(path) + ": line " + std::to_string(number);
+    if (parts.size() != 2)
+      throw Error(place + ": found " + std::to_string(parts.size()) + " values, expected X Z");
+    try {
+      vertices.push_back({parse_number(parts[0]), parse_number(parts[1])});
+    } catch (const Error& error) {
+      throw Error(place + ": " + error.what());  // bad data, not a bad command line
+    }
+  }
+  return in_place(shown_input(path), [&] { return Polygon(std::move(vertices)); });
+}
+
+bool Polygon::contains(const Point<2>& point) const {
+  bool inside = false;
+  for (std::size_t i = 0, j = vertices_.size() - 1; i < vertices_.size(); j = i++) {
+    const auto& a = vertices_[i];
+    const auto& b = vertices_[j];
+    if ((a[1] > point[1]) == (b[1] > point[1])) continue;
+    if (point[0] < a[0] + (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1])) inside = !inside;
+  }
+  return inside;
+}
+
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
+                            const std::function<bool(const Point<D>&)>& inside) {
+  constexpr std::size_t most_sets = 255;  // the code of a cell is one byte
+  if (model.fracture_sets.size() >= most_sets) {
+    throw Error("the model has " + std::to_string(most_sets) +
+                " fracture sets already, expected room for one more");
+  }
+  for (std::size_t i = 0; i < set.systems.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      double product = 0;
+      for (std::size_t axis = 0; axis < D; ++axis)
+        product += set.systems[i].normal[axis] * set.systems[j].normal[axis];
+      if (std::abs(product) > 1 - 1e-9) {
+        throw Error("two slip systems of the set are parallel, expected different planes", ErrorKind::usage);
+      }
+    }
+  }
+  if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(model.grid());
+  const auto code = std::uint8_t(model.fracture_sets.size() + 1);
+  FractureCount count;
+  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
+    const auto at = model.grid().index(n);
+    Point<D> centre{};
+    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
+    if (!inside(centre)) continue;
+    const auto cell = std::size_t(n);
+    if (!model.medium.is_solid(cell)) {
+      ++count.left;
+      continue;
+    }
+    ++count.marked;
+    count.taken += model.fracture[cell] != 0;
+    model.fracture[cell] = code;
+  }
+  if (count.marked == 0) {
+    throw Error("found " + std::to_string(count.left) +
+                " cell centres in the region and none of them solid, expected at least one solid cell");
+  }
+  model.fracture_sets.push_back(set);
+  return count;
+}
+
+template Point<2> unit_normal<2>(const Point<2>&);
+template Point<3> unit_normal<3>(const Point<3>&);
+template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
+                                        const std::function<bool(const Point<2>&)>&);
+template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,
+                                        const std::function<bool(const Point<3>&)>&);
+
+}  // namespace slipwave

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/parse.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+
+/// The unit normal of a plane that dips `dip_deg` from the horizontal, deepening towards +x when positive:
+/// the plane runs along (cos dip, sin dip), so n = (sin dip, -cos dip). Horizontal planes have dip 0,
+/// vertical ones
+/// 90. Throws a usage Error beyond -90 to 90.
+Point<2> normal_of_dip(double dip_deg);
+
+/// `direction` scaled to length 1. Throws a usage Error when it has none.
+template <int D>
+Point<D> unit_normal(const Point<D>& direction);
+
+/// A closed polygon in the x-z plane.
+class Polygon {
+ public:
+  /// One vertex "X Z" or "X,Z" a line; # begins a comment. At least three. Throws Error naming file and line.
+  static Polygon read(const std::string& path);
+  explicit Polygon(std::vector<Point<2>> vertices);
+  /// Even-odd rule.
+  bool contains(const Point<2>& point) const;
+
+ private:
+  std::vector<Point<2>> vertices_;
+};
+
+/// How many cells a new fracture set took and did not take.
+struct FractureCount {
+  std::int64_t marked = 0;  // solid cells now of the new set
+  std::int64_t left = 0;    // fluid and void cells in the region, left intact
+  std::int64_t taken = 0;   // marked cells that belonged to an earlier set
+};
+
+/// Adds `set` to the model and marks with it the solid cells whose centres are inside(centre); an earlier set
+/// gives way. Fluid and void cells stay intact: nothing slips there. Throws Error when no solid cell is
+/// inside, when the model has 255 sets, when two systems of the set are parallel; constants: check().
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
+                            const std::function<bool(const Point<D>&)>& inside);
+
+}  // namespace slipwave

@@ -1,0 +1,58 @@
+#include "model/import.hpp"
+
+#include <bit>
+#include <cstring>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+float little_endian_float(const char* from) {
+  std::uint32_t bits = 0;
+  for (int i = 3; i >= 0; --i) bits = bits << 8 | std::uint32_t(static_cast<unsigned char>(from[i]));
+  return std::bit_cast<float>(bits);
+}
+
+}  // namespace
+
+template <int D>
+Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast) {
+  const std::size_t expected = std::size_t(grid.size()) * 4;
+  if (bytes.size() != expected) {
+    throw Error("found " + std::to_string(bytes.size()) + " bytes, expected " + std::to_string(expected) +
+                " for " + shown(grid) + ", 4 bytes each");
+  }
+  Field<D> field(grid);
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    std::int64_t from = n;
+    if (fast == FastAxis::z) {
+      const auto at = grid.index(n);
+      from = 0;
+      for (std::size_t axis = 0; axis < D; ++axis) from = from * grid.shape[axis] + at[axis];
+    }
+    field[std::size_t(n)] = little_endian_float(bytes.data() + from * 4);
+  }
+  return field;
+}
+
+Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, double spacing_m) {
+  if (columns.empty() || columns.front().empty()) throw Error("found no samples, expected a section");
+  Grid<2> grid;
+  grid.shape = {std::int64_t(columns.size()), std::int64_t(columns.front().size())};
+  grid.spacing_m = spacing_m;
+  Field<2> field(grid);
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (columns[i].size() != columns.front().size()) {
+      throw Error("trace " + std::to_string(i + 1) + ": found " + std::to_string(columns[i].size()) +
+                  " samples, expected " + std::to_string(columns.front().size()) + " as in the first");
+    }
+    for (std::size_t k = 0; k < columns[i].size(); ++k) field[k * columns.size() + i] = float(columns[i][k]);
+  }
+  return field;
+}
+
+template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);
+template Field<3> field_from_raw(const std::vector<char>&, const Grid<3>&, FastAxis);
+
+}  // namespace slipwave

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace slipwave {
+
+class NetcdfFile;
+
+/// Which axis of a raw file runs fastest.
+enum class FastAxis { z, x };
+
+/// A field from raw little-endian float32 values, `grid` saying how many; z-fast: columns of depth one after
+/// the other, y before x in 3-D; x-fast: rows, top first. Throws Error when the number of bytes is another.
+template <int D>
+Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast);
+
+/// A section from columns of equal length (the traces of a SEG-Y model, left to right, each from the top
+/// down).
+Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, double spacing_m);
+
+/// A section from a netCDF variable of two dimensions. `name` "" takes the variable called `property`, else
+/// the only one of two dimensions. Depth is the dimension named z or depth or whose coordinate has axis "Z"
+/// or a `positive` attribute, else the first one. Coordinates give the step (or must agree with `spacing_m`),
+/// in m or km; speeds in m/s or km/s, densities in kg/m3 or g/cm3; ascending depth may run up or down. Throws
+/// Error naming file and variable.
+Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, const std::string& name,
+                           std::optional<double> spacing_m);
+
+}  // namespace slipwave

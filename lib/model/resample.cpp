@@ -1,0 +1,164 @@
+#include "model/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "model/layers.hpp"
+
+namespace slipwave {
+namespace {
+
+enum class Kind { nothing, fluid, solid };
+
+template <int D>
+Kind kind_of(const Medium<D>& medium, std::size_t cell) {
+  if (medium.is_void(cell)) return Kind::nothing;
+  return medium.is_fluid(cell) ? Kind::fluid : Kind::solid;
+}
+
+/// Along one axis, where the centre of a new cell lies among the old ones.
+struct Foot {
+  std::int64_t nearest = 0;        // the old cell it lies in
+  std::int64_t low = 0, high = 0;  // the old centres on either side; -1 outside
+  double share = 0;                // of `high`
+};
+
+std::vector<Foot> feet_of(std::int64_t old_count, double old_step, std::int64_t new_count, double new_step) {
+  std::vector<Foot> feet(std::size_t(new_count), Foot{});
+  for (std::int64_t i = 0; i < new_count; ++i) {
+    const double at = (double(i) + 0.5) * new_step / old_step;  // in old cells from the edge
+    Foot& foot = feet[std::size_t(i)];
+    // A centre on a face (to rounding) belongs to the far cell.
+    foot.nearest = std::clamp<std::int64_t>(std::int64_t(std::floor(at + 1e-9)), 0, old_count - 1);
+    const double low = std::floor(at - 0.5);
+    foot.share = at - 0.5 - low;
+    foot.low = std::int64_t(low);
+    foot.high = foot.low + 1 < old_count ? foot.low + 1 : -1;
+  }
+  return feet;
+}
+
+/// A corner of the cube of old centres round a new one.
+struct Corner {
+  std::size_t cell = 0;
+  double weight = 0;
+};
+
+/// The corners of the kind of `nearest`, their weights summing to 1.
+template <int D>
+std::vector<Corner> corners_of(const Medium<D>& medium, const std::array<const Foot*, D>& feet,
+                               std::size_t nearest) {
+  const Kind kind = kind_of(medium, nearest);
+  std::vector<Corner> corners;
+  double sum = 0;
+  for (int corner = 0; corner < 1 << D; ++corner) {
+    Index<D> at{};
+    double weight = 1;
+    bool inside = true;
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const bool high = corner >> axis & 1;
+      at[axis] = high ? feet[axis]->high : feet[axis]->low;
+      weight *= high ? feet[axis]->share : 1 - feet[axis]->share;
+      inside = inside && at[axis] >= 0;
+    }
+    if (!inside || weight == 0) continue;
+    const auto cell = std::size_t(medium.grid().flat(at));
+    if (kind_of(medium, cell) != kind) continue;
+    corners.push_back({cell, weight});
+    sum += weight;
+  }
+  // The nearest cell is one of the corners but for rounding on a face.
+  if (corners.empty()) return {{nearest, 1}};
+  for (auto& corner : corners) corner.weight /= sum;
+  return corners;
+}
+
+template <int D>
+float blend(const Field<D>& field, const std::vector<Corner>& corners) {
+  // Sums of differences keep a constant exactly constant.
+  const double base = double(field[corners.front().cell]);
+  double value = base;
+  for (const auto& corner : corners) value += corner.weight * (double(field[corner.cell]) - base);
+  return float(value);
+}
+
+}  // namespace
+
+template <int D>
+Model<D> resampled(const Model<D>& model, double spacing_m) {
+  const auto& from = model.grid();
+  Point<D> size{};
+  for (std::size_t axis = 0; axis < D; ++axis) size[axis] = double(from.shape[axis]) * from.spacing_m;
+  Grid<D> grid = grid_of_size<D>(size, spacing_m);
+  grid.origin_m = from.origin_m;
+  std::array<std::vector<Foot>, D> feet;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    feet[axis] = feet_of(from.shape[axis], from.spacing_m, grid.shape[axis], spacing_m);
+  }
+  Model<D> result = model;
+  result.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+  if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    std::array<const Foot*, D> round{};
+    Index<D> nearest{};
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      round[axis] = &feet[axis][std::size_t(at[axis])];
+      nearest[axis] = round[axis]->nearest;
+    }
+    const auto source = std::size_t(from.flat(nearest));
+    const auto corners = corners_of<D>(model.medium, round, source);
+    const auto cell = std::size_t(n);
+    result.medium.vp[cell] = blend(model.medium.vp, corners);
+    result.medium.vs[cell] = blend(model.medium.vs, corners);
+    result.medium.rho[cell] = blend(model.medium.rho, corners);
+    if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
+  }
+  return result;
+}
+
+template <int D>
+Model<D> cropped(const Model<D>& model, const Box<D>& box) {
+  const auto& from = model.grid();
+  Grid<D> grid = from;
+  Index<D> first{};
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const double h = from.spacing_m, slack = 1e-6 * h;
+    const int a = int(axis);
+    if (box.low_m[axis] < from.origin_m[axis] - slack || box.high_m[axis] > from.end(a) + slack) {
+      throw Error(std::string("found ") + axis_names<D>()[axis] + " from " + shown(box.low_m[axis]) + " to " +
+                      shown(box.high_m[axis]) + ", expected it within the model, " +
+                      shown(from.origin_m[axis]) + " to " + shown(from.end(a)),
+                  ErrorKind::usage);
+    }
+    const auto low = std::int64_t(std::ceil((box.low_m[axis] - from.origin_m[axis] - slack) / h - 0.5));
+    const auto high = std::int64_t(std::floor((box.high_m[axis] - from.origin_m[axis] + slack) / h - 0.5));
+    first[axis] = std::max<std::int64_t>(low, 0);
+    grid.shape[axis] = std::min(high, from.shape[axis] - 1) - first[axis] + 1;
+    if (grid.shape[axis] < 1)
+      throw Error("the box holds no cell centre, expected at least one", ErrorKind::usage);
+    grid.origin_m[axis] = from.origin_m[axis] + double(first[axis]) * h;
+  }
+  grid.origin_m[D - 1] = 0;
+  Model<D> result = model;
+  result.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+  if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    auto at = grid.index(n);
+    for (std::size_t axis = 0; axis < D; ++axis) at[axis] += first[axis];
+    const auto source = std::size_t(from.flat(at)), cell = std::size_t(n);
+    result.medium.vp[cell] = model.medium.vp[source];
+    result.medium.vs[cell] = model.medium.vs[source];
+    result.medium.rho[cell] = model.medium.rho[source];
+    if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
+  }
+  return result;
+}
+
+template Model<2> resampled(const Model<2>&, double);
+template Model<3> resampled(const Model<3>&, double);
+template Model<2> cropped(const Model<2>&, const Box<2>&);
+template Model<3> cropped(const Model<3>&, const Box<3>&);
+
+}  // namespace slipwave

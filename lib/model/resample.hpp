@@ -1,0 +1,21 @@
+#pragma once
+
+#include "base/parse.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+
+/// The same model in cells of another size; its extent stays and must be a whole number of new steps (usage
+/// Error). A new cell is fluid, solid or void, and fractured, as the old cell its centre lies in; so no
+/// interface is smeared. Its vp, vs and rho are interpolated (bi-, trilinearly) between the centres of the
+/// old cells round it that are of its kind, their weights scaled up to 1: exact for linear fields where all
+/// of them are, never outside the range of the old values.
+template <int D>
+Model<D> resampled(const Model<D>& model, double spacing_m);
+
+/// The cells whose centres lie in `box`. x (and y) keep their coordinates; depth is counted from the new top,
+/// which becomes the surface. The box must hold a cell and not reach out of the model (usage Error).
+template <int D>
+Model<D> cropped(const Model<D>& model, const Box<D>& box);
+
+}  // namespace slipwave

@@ -1,0 +1,62 @@
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/parse.hpp"
+#include "cli/tool.hpp"
+#include "model/layers.hpp"
+#include "model/model_netcdf.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string size;
+  double step_m = 0;
+  std::vector<std::string> layers;
+  MediumLimits limits;
+  std::string title = "layered model";
+  std::string output = "-";
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.add("size", settings.size, "LXxLZ", "size of the model, m");
+  options.add("step", settings.step_m, "H", "edge of a cell, m");
+  options.add(
+      "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
+      "a layer from DEPTH down; DIP in degrees, deepening towards +x, DEPTH at x = 0; repeat it from the top "
+      "down; VS 0 is fluid, above the first layer is void (air)");
+  options.add("title", settings.title, "TEXT", "title of the model file");
+  options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
+  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  for (const char* name : {"size", "step", "layer"}) options.require(name);
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto size = in_place("--size", [&] { return parse_size<2>(settings.size); });
+  const auto grid = in_place("--size, --step", [&] { return grid_of_size<2>(size, settings.step_m); });
+  std::vector<Layer> layers;
+  for (const auto& text : settings.layers) {
+    layers.push_back(in_place("--layer", [&] { return parse_layer(text); }));
+  }
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  Model<2> model;
+  model.medium = in_place("--layer", [&] { return layered_medium(grid, layers); });
+  check(model, settings.limits);
+  model.title = settings.title;
+  model.source = context.version;
+  model.history = context.command_line;
+  write_model(model, out);
+  context.note(shown(grid));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  return cli::run_tool(
+      argc, argv,
+      {"sw-layers", "Builds a model of horizontal and dipping layers.", "[options] [-o M]",
+       "sw-layers --size 2500x3000 --step 5 --layer 0:1500:0:1000 --layer 400:4500:2250:2500:5 -o model.nc"},
+      [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
