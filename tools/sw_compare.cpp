@@ -1,0 +1,90 @@
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "cli/tool.hpp"
+#include "gather/comparison.hpp"
+#include "segy/pair.hpp"
+#include "segy/reader.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string a;
+  std::string b;
+  std::string output = "-";
+  std::optional<double> tolerance;
+  bool summary = false;
+  bool su = false;
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.positional(settings.a, "A");
+  options.positional(settings.b, "B");
+  options.require("A");
+  options.require("B");
+  options.add("output,o", settings.output, "FILE", "where the table goes, - is standard output");
+  options.add("tolerance", settings.tolerance, "L2", "exit 1 when |A - B|/|B| of all traces is above this");
+  options.add("summary", settings.summary, "only the line of all traces");
+  options.add("su", settings.su, "read both as Seismic Unix files, also where they do not look like it");
+}
+
+std::string row(const std::string& place, const Misfit& misfit) {
+  char line[200];
+  std::snprintf(line, sizeof line, "%-28s %12.6g %14.6g %12.6g %14.6g\n", place.c_str(), misfit.nrms_percent,
+                misfit.relative_l2, misfit.peak_ratio, misfit.lag_s);
+  return line;
+}
+
+/// "3 vz 1 17": number, component, shot, channel.
+std::string place_of(std::int64_t trace, const TraceHeader& header) {
+  char place[80];
+  std::snprintf(place, sizeof place, "%8lld %-5s %6lld %6lld", static_cast<long long>(trace),
+                name_of(header.component), static_cast<long long>(header.shot),
+                static_cast<long long>(header.channel));
+  return place;
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  if (settings.a == "-" && settings.b == "-")
+    throw Error("A and B are both standard input, expected two inputs", ErrorKind::usage);
+  segy::ReadOptions options;
+  options.su = settings.su;
+  segy::Reader a(settings.a, options);
+  segy::Reader b(settings.b, options);
+  segy::PairReader pair(a, b);
+  Comparison comparison(a.axis_with_interval());
+  OutputFile out(settings.output, OutputFile::Content::text);
+  const auto print = [&](const std::string& line) {
+    if (!context.quiet) out.write(line.data(), line.size());
+  };
+  print("#  trace comp    shot  chan       NRMS_%    relative_L2   peak_ratio          lag_s\n");
+  segy::Trace trace_a;
+  segy::Trace trace_b;
+  while (pair.next(trace_a, trace_b)) {
+    const Misfit misfit = comparison.add(trace_a.samples, trace_b.samples);
+    if (!settings.summary) print(row(place_of(a.delivered(), a.si_header(trace_a)), misfit));
+  }
+  const Misfit all = comparison.overall();
+  print(row("     all", all));
+  out.commit();
+  if (settings.tolerance && !(all.relative_l2 <= *settings.tolerance))
+    throw Error(a.name() + ": relative L2 difference to " + b.name() + " is " + shown(all.relative_l2) +
+                ", expected at most " + shown(*settings.tolerance));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  const cli::ToolInfo info{"sw-compare",
+                           "How far A is from B: NRMS, relative L2, peak ratio and lag of each trace",
+                           "[options] A B [-o OUTPUT]", "sw-compare new.sgy old.sgy --tolerance 1e-3"};
+  return cli::run_tool(
+      argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
