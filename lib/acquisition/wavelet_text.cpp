@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "acquisition/wavelet.hpp"
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+#include "base/parse.hpp"
+
+namespace slipwave {
+
+namespace {
+
+constexpr const char* expected_kinds = "expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or file:PATH";
+
+double positive_frequency(const std::string& text, const std::string& number) {
+  const double hz = in_place("wavelet '" + text + "'", [&] { return parse_number(number); });
+  if (!(hz >= 1e-6 && hz <= 1e9))
+    throw Error("wavelet '" + text + "': found a frequency of " + shown(hz) + " Hz, expected 1e-6 to 1e9",
+                ErrorKind::usage);
+  return hz;
+}
+
+double whole_half_cycles(const std::string& text, const std::string& number) {
+  const double cycles = in_place("wavelet '" + text + "'", [&] { return parse_number(number); });
+  // Any other number would end with a jump.
+  if (!(cycles > 0) || cycles > 1e4 || 2 * cycles != std::floor(2 * cycles))
+    throw Error("wavelet '" + text + "': found " + shown(cycles) +
+                    " cycles, expected a multiple of 0.5 above 0 and up to 10000",
+                ErrorKind::usage);
+  return cycles;
+}
+
+std::string_view trimmed(std::string_view line) {
+  const auto first = line.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
+}
+
+/// Columns between blanks, tabs or one comma with blanks round it.
+std::vector<std::string_view> columns_of(std::string_view line) {
+  std::vector<std::string_view> columns;
+  for (;;) {
+    const auto end = line.find_first_of(" \t,");
+    columns.push_back(line.substr(0, end));
+    if (end == std::string_view::npos) return columns;
+    line = trimmed(line.substr(end));
+    if (line.starts_with(',')) line = trimmed(line.substr(1));
+  }
+}
+
+/// The number after "dt=" in a comment line, if that is what the comment is.
+std::optional<double> interval_in(std::string_view comment) {
+  comment = trimmed(comment.substr(1));
+  if (!comment.starts_with("dt")) return {};
+  comment = trimmed(comment.substr(2));
+  if (!comment.starts_with('=')) return {};
+  const double interval = parse_number(trimmed(comment.substr(1)));
+  if (!(interval > 0)) throw Error("found dt=" + shown(interval) + ", expected a sample interval above 0 s");
+  return interval;
+}
+
+/// Samples as they stand in a file, line by line.
+class SampleReader {
+ public:
+  void take(std::string_view line) {
+    line = trimmed(line);
+    if (line.empty()) return;
+    if (line.starts_with('#')) {
+      if (const auto interval = interval_in(line)) {
+        if (!values_.empty()) throw Error("found dt= after the first sample, expected it before");
+        interval_ = interval;
+      }
+      return;
+    }
+    const auto columns = columns_of(line);
+    const std::size_t expected = interval_ ? 1 : 2;
+    if (columns.size() != expected)
+      throw Error("found " + std::to_string(columns.size()) + (columns.size() == 1 ? " column" : " columns") +
+                  ", expected " +
+                  (interval_ ? "one (a value, as dt= is given)"
+                             : "two (time and value; or a line '# dt=SECONDS' and one column)"));
+    const double time = interval_ ? double(values_.size()) * *interval_ : parse_number(columns.front());
+    if (!times_.empty() && !(time > times_.back()))
+      throw Error("found time " + shown(time) + " s after " + shown(times_.back()) +
+                  " s, expected growing times");
+    times_.push_back(time);
+    values_.push_back(parse_number(columns.back()));
+  }
+
+  shape::Sampled finish() && {
+    if (values_.size() < 2)
+      throw Error("found " + std::to_string(values_.size()) + (values_.size() == 1 ? " sample" : " samples") +
+                  ", expected at least 2");
+    if (std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0; }))
+      throw Error("found only zeros, expected a wavelet");
+    if (values_.front() != 0) {
+      times_.insert(times_.begin(), 2 * times_[0] - times_[1]);
+      values_.insert(values_.begin(), 0);
+    }
+    if (values_.back() != 0) {
+      times_.push_back(2 * times_.back() - times_[times_.size() - 2]);
+      values_.push_back(0);
+    }
+    const double delay = std::max(0., -times_.front());
+    for (auto& time : times_) time += delay;
+    return shape::Sampled(std::move(times_), std::move(values_), delay);
+  }
+
+ private:
+  std::optional<double> interval_;
+  std::vector<double> times_, values_;
+};
+
+}  // namespace
+
+shape::Sampled read_wavelet(const std::string& path) {
+  const auto bytes = read_all(path);
+  SampleReader reader;
+  std::string_view rest(bytes.data(), bytes.size());
+  for (int number = 1; !rest.empty(); ++number) {
+    const auto end = rest.find('\n');
+    try {
+      reader.take(rest.substr(0, end));
+    } catch (const Error& error) {
+      // What the number parser calls a usage error is bad data here.
+      throw Error(shown_input(path) + ": line " + std::to_string(number) + ": " + error.what());
+    }
+    rest = end == std::string_view::npos ? std::string_view() : rest.substr(end + 1);
+  }
+  return in_place(shown_input(path), [&] { return std::move(reader).finish(); });
+}
+
+Wavelet parse_wavelet(const std::string& text) {
+  const auto parts = split(text, ':');
+  if (parts[0] == "file" && text.size() > 5) return {read_wavelet(text.substr(5)), text};
+  if (parts[0] == "ricker" && parts.size() == 2)
+    return {shape::Ricker{positive_frequency(text, parts[1])}, text};
+  if (parts[0] == "gauss" && parts.size() == 2)
+    return {shape::Gaussian{positive_frequency(text, parts[1])}, text};
+  if (parts[0] == "sine" && (parts.size() == 2 || parts.size() == 3)) {
+    const double hz = positive_frequency(text, parts[1]);
+    return {shape::Sine{hz, parts.size() == 3 ? whole_half_cycles(text, parts[2]) : 1}, text};
+  }
+  throw Error("wavelet: found '" + text + "', " + expected_kinds, ErrorKind::usage);
+}
+
+}  // namespace slipwave
