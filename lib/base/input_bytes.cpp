@@ -16,10 +16,25 @@ namespace {
 struct Descriptor {
   int number;
   bool owned;
+  Descriptor(int number_, bool owned_) : number(number_), owned(owned_) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
   ~Descriptor() {
     if (owned && number >= 0) close(number);
   }
 };
+
+Descriptor opened(const std::string& path) {
+  if (path == "-") {
+    if (isatty(STDIN_FILENO)) {
+      throw Error("standard input is a terminal; expected a file name, or a pipe for -", ErrorKind::usage);
+    }
+    return {STDIN_FILENO, false};
+  }
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) throw Error(path + ": " + cause_of(errno));
+  return {descriptor, true};
+}
 
 }  // namespace
 
@@ -34,15 +49,11 @@ bool is_regular_input(const std::string& path) {
   return S_ISREG(status.st_mode);
 }
 
-std::vector<char> read_all(const std::string& path) {
+std::vector<char> read_all(const std::string& path, std::vector<char> already_read) {
   const bool regular = is_regular_input(path);
   const std::string name = shown_input(path);
-  if (path == "-" && isatty(STDIN_FILENO)) {
-    throw Error(name + " is a terminal; expected a file name, or a pipe for -", ErrorKind::usage);
-  }
-  const Descriptor from{path == "-" ? STDIN_FILENO : open(path.c_str(), O_RDONLY | O_CLOEXEC), path != "-"};
-  if (from.number < 0) throw Error(name + ": " + cause_of(errno));
-  std::vector<char> bytes;
+  const Descriptor from = opened(path);
+  std::vector<char> bytes = std::move(already_read);
   struct stat status {};
   if (regular && fstat(from.number, &status) == 0) bytes.reserve(std::size_t(status.st_size) + 1);
   constexpr std::size_t block = std::size_t(1) << 18;
@@ -57,6 +68,28 @@ std::vector<char> read_all(const std::string& path) {
     if (count < 0) throw Error(name + ": " + cause_of(error_number));
     if (count == 0) return bytes;
   }
+}
+
+InputStart::InputStart(const std::string& path, std::size_t count) : regular_(is_regular_input(path)) {
+  Descriptor from = opened(path);
+  bytes_.resize(count);
+  std::size_t done = 0;
+  while (done < count) {
+    const ssize_t got = ::read(from.number, bytes_.data() + done, count - done);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw Error(shown_input(path) + ": " + cause_of(errno));
+    if (got == 0) break;
+    done += std::size_t(got);
+  }
+  bytes_.resize(done);
+  if (!regular_ && from.owned) {
+    descriptor_ = from.number;
+    from.owned = false;
+  }
+}
+
+InputStart::~InputStart() {
+  if (descriptor_ >= 0) close(descriptor_);
 }
 
 }  // namespace slipwave

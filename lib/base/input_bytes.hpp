@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -9,10 +10,32 @@ namespace slipwave {
 std::string shown_input(const std::string& path);
 
 /// All bytes of a file, fifo or ("-") standard input. Throws Error naming it: missing, a directory,
-/// unreadable, standard input that is a terminal.
-std::vector<char> read_all(const std::string& path);
+/// unreadable, standard input that is a terminal. `already_read` bytes were taken from it before and come
+/// first.
+std::vector<char> read_all(const std::string& path, std::vector<char> already_read = {});
 
 /// Is `path` a regular file? Throws Error naming it when it is missing or a directory. "-" is none.
 bool is_regular_input(const std::string& path);
+
+/// The first bytes of an input, to tell its kind. From a pipe they are taken for good: whoever reads on must
+/// be given taken() first. Keeps a fifo open meanwhile, so that its writer does not see it closed.
+class InputStart {
+ public:
+  /// At most `count` bytes; fewer only where the input ends. Errors as read_all().
+  InputStart(const std::string& path, std::size_t count);
+  InputStart(const InputStart&) = delete;
+  InputStart& operator=(const InputStart&) = delete;
+  ~InputStart();
+
+  const std::vector<char>& bytes() const { return bytes_; }
+  bool is_regular() const { return regular_; }
+  /// What reading the path again will not give: nothing for a regular file, else bytes().
+  std::vector<char> taken() const { return regular_ ? std::vector<char>() : bytes_; }
+
+ private:
+  bool regular_ = false;
+  int descriptor_ = -1;
+  std::vector<char> bytes_;
+};
 
 }  // namespace slipwave

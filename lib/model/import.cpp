@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
+#include "model/relations.hpp"
 
 namespace slipwave {
 namespace {
@@ -52,7 +53,25 @@ Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, dou
   return field;
 }
 
+template <int D>
+Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp) {
+  const auto check_grid = [&](const std::optional<Field<D>>& field, const std::string& name) {
+    if (!field || field->grid() == vp.grid()) return;
+    throw Error(name + ": found " + shown(field->grid()) + ", expected " + shown(vp.grid()) + " as of vp");
+  };
+  check_grid(vs, "vs");
+  check_grid(rho, "rho");
+  Medium<D> medium;
+  medium.vs = vs ? std::move(*vs) : vs_by_castagna(vp, fluid_vp);
+  medium.rho = rho ? std::move(*rho) : rho_by_gardner(vp, medium.vs);
+  medium.vp = std::move(vp);
+  return medium;
+}
+
 template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);
 template Field<3> field_from_raw(const std::vector<char>&, const Grid<3>&, FastAxis);
+
+template Medium<2> medium_of(Field<2>, std::optional<Field<2>>, std::optional<Field<2>>, double);
+template Medium<3> medium_of(Field<3>, std::optional<Field<3>>, std::optional<Field<3>>, double);
 
 }  // namespace slipwave

@@ -30,4 +30,9 @@ Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, dou
 Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, const std::string& name,
                            std::optional<double> spacing_m);
 
+/// The medium of imported fields. Without vs: Castagna's line, fluid where vp is at most `fluid_vp`; without
+/// rho: Gardner's relation (model/relations.hpp). Throws Error when the grids differ.
+template <int D>
+Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp);
+
 }  // namespace slipwave

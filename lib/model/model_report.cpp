@@ -1,0 +1,175 @@
+#include "model/model_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "base/netcdf_file.hpp"
+#include "grid/grid_netcdf.hpp"
+
+namespace slipwave {
+namespace {
+
+struct Range {
+  double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
+  std::int64_t not_finite = 0;
+  void see(double value) {
+    if (!std::isfinite(value)) {
+      ++not_finite;
+      return;
+    }
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+};
+
+void report(Report& report, const std::string& key, const Range& range, const std::string& unit) {
+  if (range.low <= range.high) report.range(key, range.low, range.high, unit);
+  if (range.not_finite) report.count(key + " not finite", range.not_finite);
+}
+
+template <int D>
+void report_grid(Report& report, const Grid<D>& grid) {
+  report.text("grid", shown(grid));
+  report.number("step", grid.spacing_m, "m");
+  for (int axis = 0; axis < D; ++axis) {
+    report.range(std::string(1, axis_names<D>()[std::size_t(axis)]), grid.origin_m[std::size_t(axis)],
+                 grid.end(axis), "m");
+  }
+}
+
+template <int D>
+void report_field(Report& into, const std::string& key, const Field<D>& field, const std::string& unit) {
+  Range range;
+  for (const float value : field) range.see(double(value));
+  report(into, key, range, unit);
+}
+
+template <int D>
+Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
+  Report of_set;
+  of_set.text("name", set.name);
+  of_set.count("cells", cells);
+  std::vector<Report> systems;
+  for (const auto& system : set.systems) {
+    std::string normal;
+    for (const double part : system.normal) {
+      normal += (normal.empty() ? "" : ",") + shown(std::round(part * 1e6) / 1e6 + 0.0);
+    }
+    systems.emplace_back();
+    systems.back().text("normal", normal);
+    systems.back().number("friction", system.friction, "");
+    systems.back().number("viscosity", system.viscosity_s, "s");
+    systems.back().number("strength", system.strength_pa, "Pa");
+  }
+  of_set.list("slip", systems);
+  return of_set;
+}
+
+template <int D>
+bool has_coordinates(const NetcdfFile& file) {
+  for (const auto& name : field_dimensions<D>()) {
+    if (!file.has_variable(name)) return false;
+  }
+  return true;
+}
+
+Range range_of(const NetcdfFile& file, const NetcdfFile::Variable& variable) {
+  Range range;
+  if (variable.size() == 0) return range;
+  if (variable.shape.size() < 2) {
+    for (const double value : file.get<double>(variable.name)) range.see(value);
+    return range;
+  }
+  std::vector<std::size_t> start(variable.shape.size(), 0), count = variable.shape;
+  count[0] = 1;
+  for (start[0] = 0; start[0] < variable.shape[0]; ++start[0]) {
+    for (const double value : file.get<double>(variable.name, start, count)) range.see(value);
+  }
+  return range;
+}
+
+}  // namespace
+
+template <int D>
+Report report_of(const Model<D>& model) {
+  Report of_model;
+  const auto& medium = model.medium;
+  report_grid(of_model, model.grid());
+  report_field(of_model, "vp", medium.vp, "m/s");
+  report_field(of_model, "vs", medium.vs, "m/s");
+  report_field(of_model, "rho", medium.rho, "kg/m3");
+  std::int64_t solid = 0, fluid = 0, nothing = 0;
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (medium.is_void(cell)) {
+      ++nothing;
+    } else {
+      (medium.is_fluid(cell) ? fluid : solid) += 1;
+      slowest = std::min(slowest, double(medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell]));
+    }
+  }
+  of_model.count("solid cells", solid);
+  of_model.count("fluid cells", fluid);
+  of_model.count("void cells", nothing);
+  if (std::isfinite(slowest)) of_model.number("slowest wave", slowest, "m/s");
+  std::vector<std::int64_t> cells(model.fracture_sets.size() + 1, 0);
+  for (const auto code : model.fracture) {
+    if (code < cells.size()) ++cells[code];
+  }
+  std::vector<Report> sets;
+  for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) {
+    sets.push_back(report_of_set(model.fracture_sets[k], cells[k + 1]));
+  }
+  of_model.list("fractures", sets);
+  if (!model.title.empty()) of_model.text("title", model.title);
+  if (!model.source.empty()) of_model.text("source", model.source);
+  if (!model.history.empty()) of_model.text("history", model.history);
+  return of_model;
+}
+
+Report report_of(const NetcdfFile& file) {
+  Report of_file;
+  if (has_coordinates<3>(file)) {
+    report_grid(of_file, read_grid<3>(file));
+  } else if (has_coordinates<2>(file)) {
+    report_grid(of_file, read_grid<2>(file));
+  }
+  std::vector<Report> variables;
+  for (const auto& variable : file.variables()) {
+    if (variable.name == "x" || variable.name == "y" || variable.name == "z") continue;
+    std::string dimensions;
+    for (std::size_t i = 0; i < variable.shape.size(); ++i) {
+      dimensions += (i ? " x " : "") + variable.dimensions[i] + " " + std::to_string(variable.shape[i]);
+    }
+    Report of_variable;
+    of_variable.text("name", variable.name);
+    if (!dimensions.empty()) of_variable.text("of", dimensions);
+    const bool numbers = variable.type != NetcdfFile::Type::text && variable.type != NetcdfFile::Type::other;
+    if (numbers) {
+      report(of_variable, "values", range_of(file, variable),
+             file.text_attribute(variable.name, "units").value_or(""));
+    }
+    variables.push_back(of_variable);
+  }
+  of_file.list("variable", variables);
+  for (const char* name : {"title", "source", "history"}) {
+    if (const auto text = file.text_attribute("", name)) of_file.text(name, *text);
+  }
+  return of_file;
+}
+
+std::string kind_of(const NetcdfFile& file) {
+  if (file.has_variable("vp") && file.has_variable("vs") && file.has_variable("rho") &&
+      !file.dimension_length("time")) {
+    return "model";
+  }
+  const bool in_space = has_coordinates<2>(file) || has_coordinates<3>(file);
+  return in_space && file.dimension_length("time") ? "snapshots" : "netCDF";
+}
+
+template Report report_of(const Model<2>&);
+template Report report_of(const Model<3>&);
+
+}  // namespace slipwave

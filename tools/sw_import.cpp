@@ -1,0 +1,150 @@
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+#include "base/netcdf_container.hpp"
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "base/parse.hpp"
+#include "cli/tool.hpp"
+#include "model/import.hpp"
+#include "model/layers.hpp"
+#include "model/model_netcdf.hpp"
+#include "model/resample.hpp"
+#include "segy/reader.hpp"
+#include "segy/sniff.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string vp, vs, rho;
+  std::string shape, order = "z-fast";
+  std::optional<double> step_m, resample_m;
+  std::string crop, vs_from, rho_from;
+  double fluid_vp = 1500;
+  MediumLimits limits;
+  std::string title = "imported model";
+  std::string output = "-";
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.add("vp", settings.vp, "F", "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)");
+  options.add("vs", settings.vs, "F", "S-wave speed, 0 is fluid");
+  options.add("rho", settings.rho, "F", "density, 0 is void (air)");
+  options.add("shape", settings.shape, "NXxNZ", "the files are raw little-endian float32 of that many cells");
+  options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "which axis runs fastest in raw files");
+  options.add("step", settings.step_m, "H", "edge of a cell, m; for raw files and SEG-Y");
+  options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 below the fluid");
+  options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
+  options.add_choice("rho-from-vp", settings.rho_from, {"gardner"}, "rho = 310 vp^0.25, 1000 in fluid");
+  options.add("resample", settings.resample_m, "H", "cells of that size; kinds of cells are not mixed");
+  options.add("crop", settings.crop, "X0:X1,Z0:Z1",
+              "keep a box, after resampling; its top becomes the surface");
+  options.add("title", settings.title, "TEXT", "title of the model file");
+  options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
+  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.require("vp");
+}
+
+void check_choices(const Settings& settings) {
+  const auto one_of = [](const std::string& file, const std::string& relation, const std::string& name) {
+    if (file.empty() != relation.empty()) return;
+    throw Error(std::string("found ") + (file.empty() ? "neither --" : "both --") + name +
+                    (file.empty() ? " nor --" : " and --") + name + "-from-vp, expected one of them",
+                ErrorKind::usage);
+  };
+  one_of(settings.vs, settings.vs_from, "vs");
+  one_of(settings.rho, settings.rho_from, "rho");
+  if (!settings.shape.empty() && !settings.step_m)
+    throw Error("--step is missing; raw files need it", ErrorKind::usage);
+  if (settings.step_m && !(*settings.step_m > 0)) {
+    throw Error("--step: found " + shown(*settings.step_m) + ", expected it above zero", ErrorKind::usage);
+  }
+  if ((settings.vp == "-") + (settings.vs == "-") + (settings.rho == "-") > 1) {
+    throw Error("found - more than once, expected one input on standard input", ErrorKind::usage);
+  }
+}
+
+Field<2> read_raw(const Settings& settings, const std::string& path) {
+  const auto shape = in_place("--shape", [&] { return parse_shape<2>(settings.shape); });
+  const double step = *settings.step_m;
+  const auto grid = in_place("--shape", [&] {
+    return grid_of_size<2>({double(shape[0]) * step, double(shape[1]) * step}, step);
+  });
+  const auto bytes = read_all(path);
+  const auto fast = settings.order == "z-fast" ? FastAxis::z : FastAxis::x;
+  return in_place(shown_input(path), [&] { return field_from_raw(bytes, grid, fast); });
+}
+
+Field<2> read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken) {
+  if (!settings.step_m) {
+    throw Error(shown_input(path) + ": a SEG-Y model does not say its cells' size; expected --step",
+                ErrorKind::usage);
+  }
+  segy::Reader reader(path, {}, {taken.begin(), taken.end()});
+  std::vector<std::vector<double>> columns;
+  for (segy::Trace trace; reader.next(trace);) columns.push_back(trace.samples);
+  return in_place(shown_input(path), [&] { return field_from_columns(columns, *settings.step_m); });
+}
+
+/// A property from a file of any kind; `history` is what a netCDF file says of its own.
+Field<2> read_property(const Settings& settings, const std::string& name, const std::string& given,
+                       std::string& history) {
+  if (!settings.shape.empty()) return read_raw(settings, given);
+  std::string path = given, variable;
+  std::error_code failed;
+  if (const auto colon = given.rfind(':');
+      colon != std::string::npos && !std::filesystem::exists(given, failed)) {
+    path = given.substr(0, colon);
+    variable = given.substr(colon + 1);
+  }
+  const InputStart start(path, 3600);
+  const auto& first = start.bytes();
+  if (begins_netcdf({first.data(), first.size()})) {
+    const auto file = start.is_regular() ? NetcdfFile::open(path)
+                                         : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
+    history = file.text_attribute("", "history").value_or("");
+    return field_from_netcdf(file, name, variable, settings.step_m);
+  }
+  const std::vector<std::uint8_t> bytes(first.begin(), first.end());
+  if (segy::looks_like_segy(bytes)) return read_segy(settings, path, start.taken());
+  throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  check_choices(settings);
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  Model<2> model;
+  std::string other;
+  auto vp = read_property(settings, "vp", settings.vp, model.history);
+  std::optional<Field<2>> vs, rho;
+  if (!settings.vs.empty()) vs = read_property(settings, "vs", settings.vs, other);
+  if (!settings.rho.empty()) rho = read_property(settings, "rho", settings.rho, other);
+  model.medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
+  check(model, settings.limits);
+  if (settings.resample_m)
+    model = in_place("--resample", [&] { return resampled(model, *settings.resample_m); });
+  if (!settings.crop.empty()) {
+    model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
+  }
+  model.title = settings.title;
+  model.source = context.version;
+  append_history(model.history, context.command_line);
+  write_model(model, out);
+  context.note(shown(model.grid()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  return cli::run_tool(
+      argc, argv,
+      {"sw-import", "Makes a model of files of vp, vs and density.",
+       "--vp F [--vs F] [--rho F] [options] [-o M]",
+       "sw-import --vp m.vp --vs m.vs --rho m.rho --shape 500x174 --step 20 --resample 5 -o model.nc"},
+      [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
