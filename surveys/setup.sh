@@ -34,10 +34,17 @@ as_root() {
   if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# apt_get [ARGUMENT...]: apt-get that asks nothing and waits for another apt to finish.
+# apt_get [ARGUMENT...]: apt-get that asks nothing, waits for another apt to finish and speaks only when it fails.
 apt_get() {
-  as_root env DEBIAN_FRONTEND=noninteractive \
-    apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null >&2
+  log=$(mktemp)
+  if as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get -qq -o DPkg::Lock::Timeout=300 -o Dpkg::Use-Pty=0 "$@" </dev/null >"$log" 2>&1; then
+    rm -f "$log"
+    return 0
+  fi
+  cat "$log" >&2
+  rm -f "$log"
+  return 1
 }
 
 # install_needs PACKAGE=PROGRAM ... : installs what is missing, saying what; leaves apt alone when nothing is.

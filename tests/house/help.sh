@@ -23,13 +23,24 @@ for page in "$root"/docs/man/*.1; do
   [ -f "$root/tools/$(echo "$tool" | tr - _).cpp" ] || broken "docs/man/$tool.1: there is no such tool"
 done
 
-options_in() { grep -oE -- '(^|[^[:alnum:]-])--[a-z][a-z0-9-]*' | sed 's/^[^-]*//' | sort -u; }
+# "--size LXxLZ" for each option, without its short form.
+in_help() { awk '/^  (-., )?--[a-z]/ { sub(/^  (-., )?/, ""); sub(/  .*/, ""); print }' | sort; }
+# An option is documented by the line after .TP.
+in_page() {
+  awk '/^\.TP/ { getline; gsub(/\\f[BIRP]/, ""); gsub(/\\-/, "-"); sub(/^\.[BIR]+ /, ""); sub(/^-., /, ""); if (/^--/) print }' "$1" | sort
+}
+# lines_without LINES OTHERS: the lines that are not among the others.
+lines_without() {
+  printf '%s\n' "$1" | while IFS= read -r line; do
+    [ -z "$line" ] || printf '%s\n' "$2" | grep -qxF -- "$line" || printf '%s; ' "$line"
+  done
+}
 
 for tool in "$@"; do
   help=$("$bin/$tool" --help 2>&1) || { broken "$tool --help: exit status $?"; continue; }
   [ "$(printf '%s\n' "$help" | wc -l)" -le 60 ] || broken "$tool --help: longer than a screen of 60 lines"
-  wide=$(printf '%s\n' "$help" | awk 'length($0) > 100')
-  [ -z "$wide" ] || broken "$tool --help: wider than 100 columns: $wide"
+  wide=$(printf '%s\n' "$help" | awk 'length($0) > 120')
+  [ -z "$wide" ] || broken "$tool --help: wider than 120 columns: $wide"
   case $(printf '%s\n' "$help" | tail -n 1) in
     *"$tool "*) ;;
     *) broken "$tool --help: does not end with its example" ;;
@@ -40,14 +51,11 @@ for tool in "$@"; do
   for section in NAME SYNOPSIS DESCRIPTION OPTIONS 'EXIT STATUS' EXAMPLES; do
     grep -qE "^\\.SH \"?$section\"?\$" "$page" || broken "docs/man/$tool.1: no section $section"
   done
-  # An option is documented by the tagged line after .TP.
-  documented=$(awk '/^\.TP/ { getline; print }' "$page" | sed 's/\\-/-/g; s/\\f[BIRP]//g; s/"//g' | options_in)
-  declared=$(printf '%s\n' "$help" | options_in)
-  for option in $declared; do
-    printf '%s\n' "$documented" | grep -qx -- "$option" || broken "docs/man/$tool.1: $option is not documented"
-  done
-  for option in $documented; do
-    printf '%s\n' "$declared" | grep -qx -- "$option" || broken "docs/man/$tool.1: $tool has no option $option"
-  done
+  declared=$(printf '%s\n' "$help" | in_help)
+  documented=$(in_page "$page")
+  missing=$(lines_without "$declared" "$documented")
+  [ -z "$missing" ] || broken "docs/man/$tool.1 does not document: $missing"
+  invented=$(lines_without "$documented" "$declared")
+  [ -z "$invented" ] || broken "docs/man/$tool.1 documents what $tool --help does not list: $invented"
 done
 exit "$status"
