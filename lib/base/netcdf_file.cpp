@@ -1,5 +1,6 @@
 #include "base/netcdf_file.hpp"
 
+#include <dlfcn.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 #include <sys/stat.h>
@@ -52,6 +53,20 @@ NetcdfFile::Type type_of(nc_type code) {
     default:
       return NetcdfFile::Type::other;
   }
+}
+
+/// HDF5 flushes what is open when the process exits, and crashes there after a write that failed. Our files
+/// are closed before, so it need not; this must come before the library's first use. (The netCDF library
+/// brings HDF5 along without offering this call.)
+void keep_hdf5_from_exit_handlers() {
+  using Function = int (*)();
+  if (const auto function = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, "H5dont_atexit"))) function();
+}
+
+/// To be called before every file is opened; only the first call acts.
+void prepare_library() {
+  static const bool done = (keep_hdf5_from_exit_handlers(), true);
+  (void)done;
 }
 
 }  // namespace
@@ -113,6 +128,7 @@ NetcdfFile::~NetcdfFile() = default;
 NetcdfFile NetcdfFile::create(const std::string& path, const std::string& shown_name) {
   auto impl = std::make_unique<Impl>();
   impl->shown_name = shown_name;
+  prepare_library();
   errno = 0;
   impl->check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &impl->id));
   return NetcdfFile(std::move(impl));
@@ -135,6 +151,7 @@ NetcdfFile NetcdfFile::open(const std::string& path) {
     };
     check_not_truncated(read_at, impl->file_bytes);
   });
+  prepare_library();
   errno = 0;
   impl->check(nc_open(path.c_str(), NC_NOWRITE, &impl->id));
   return NetcdfFile(std::move(impl));
@@ -156,6 +173,7 @@ NetcdfFile NetcdfFile::open(std::vector<char> bytes, const std::string& shown_na
   });
   // LOCKED: the library neither frees nor enlarges our bytes.
   NC_memio memory{impl->bytes.size(), impl->bytes.data(), NC_MEMIO_LOCKED};
+  prepare_library();
   errno = 0;
   impl->check(nc_open_memio("memory", NC_NOWRITE, &memory, &impl->id));
   return NetcdfFile(std::move(impl));

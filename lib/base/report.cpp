@@ -94,7 +94,8 @@ void Report::list(const std::string& key, const std::vector<Report>& items) {
   std::string json = "[";
   for (const auto& item : items) {
     entries_.push_back({key, item.joined(), ""});
-    json += (json.size() > 1 ? ", " : "") + item.json();
+    if (json.size() > 1) json += ", ";
+    json += item.json();
   }
   entries_.push_back({key, "", json + "]"});
 }
@@ -123,7 +124,8 @@ std::string Report::json() const {
     if (entry.json.empty()) continue;
     std::string key = entry.key;
     std::replace(key.begin(), key.end(), ' ', '_');
-    text += (text.size() > 1 ? ", " : "") + json_string(key) + ": " + entry.json;
+    if (text.size() > 1) text += ", ";
+    text.append(json_string(key)).append(": ").append(entry.json);
   }
   return text + '}';
 }
@@ -131,7 +133,9 @@ std::string Report::json() const {
 std::string Report::joined() const {
   std::string text;
   for (const auto& entry : entries_) {
-    if (!entry.shown.empty()) text += (text.empty() ? "" : ", ") + entry.key + " " + entry.shown;
+    if (entry.shown.empty()) continue;
+    if (!text.empty()) text += ", ";
+    text.append(entry.key).append(" ").append(entry.shown);
   }
   return text;
 }
