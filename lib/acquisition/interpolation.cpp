@@ -1,0 +1,159 @@
+#include "acquisition/interpolation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <utility>
+
+namespace slipwave {
+
+namespace {
+
+/// Nearer than this to a cell's centre (in cells) counts as on it: coordinates carry rounding of that size.
+constexpr double on_centre = 1e-9;
+
+/// Waves up to this many radians a cell enter the least-squares fit. Larger values help below six cells a
+/// wavelength and hurt above.
+constexpr double highest_wavenumber = 0.35 * std::numbers::pi;
+
+/// Keeps the fit solvable; far below the errors it leaves.
+constexpr double ridge = 1e-13;
+
+constexpr int most_unknowns = widest_stencil + 4;
+using Row = std::array<double, most_unknowns + 1>;
+
+/// Solves the first `n` equations, right-hand sides in column n, by elimination with pivoting.
+std::array<double, most_unknowns> solve(std::array<Row, most_unknowns>& a, int n) {
+  for (int k = 0; k < n; ++k) {
+    int pivot = k;
+    for (int i = k + 1; i < n; ++i)
+      if (std::abs(a[i][k]) > std::abs(a[pivot][k])) pivot = i;
+    std::swap(a[k], a[pivot]);
+    for (int i = k + 1; i < n; ++i) {
+      const double factor = a[i][k] / a[k][k];
+      for (int j = k; j <= n; ++j) a[i][j] -= factor * a[k][j];
+    }
+  }
+  std::array<double, most_unknowns> x{};
+  for (int k = n; k-- > 0;) {
+    x[k] = a[k][n];
+    for (int j = k + 1; j < n; ++j) x[k] -= a[k][j] * x[j];
+    x[k] /= a[k][k];
+  }
+  return x;
+}
+
+/// Weights on the cells `first` .. `first + count - 1` for the value at `position`: the least mean square of
+/// |sum w_j exp(i k (j - position)) - 1| over 0 <= k <= highest_wavenumber, moments 0 to 3 exact, by Lagrange
+/// multipliers.
+std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count) {
+  const auto mean_cosine = [](double x) {
+    const double phase = highest_wavenumber * x;
+    return std::abs(phase) < 1e-6 ? 1 : std::sin(phase) / phase;
+  };
+  const int moments = std::min(count, 4), unknowns = count + moments;
+  std::array<Row, most_unknowns> a{};
+  for (int i = 0; i < count; ++i) {
+    const double x = double(first + i) - position;
+    for (int j = 0; j < count; ++j) a[i][j] = mean_cosine(double(i - j));
+    a[i][i] += ridge;
+    a[i][unknowns] = mean_cosine(x);
+    double power = 1;
+    for (int m = 0; m < moments; ++m) {
+      a[i][count + m] = a[count + m][i] = power;
+      power *= x;
+    }
+  }
+  a[count][unknowns] = 1;
+  return solve(a, unknowns);
+}
+
+/// Mirror images of cells outside low .. high, until inside.
+CellWeight folded(CellWeight weight, const AxisCells& usable) {
+  while (weight.cell < usable.low || weight.cell > usable.high) {
+    const bool below = weight.cell < usable.low;
+    weight.cell = (below ? 2 * usable.low - 1 : 2 * usable.high + 1) - weight.cell;
+    if ((below ? usable.below : usable.above) == Beyond::odd) weight.weight = -weight.weight;
+  }
+  return weight;
+}
+
+}  // namespace
+
+std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, int most_cells) {
+  assert(usable.low <= usable.high && most_cells >= 2 && most_cells <= widest_stencil);
+  assert(position >= double(usable.low) - 0.5 - on_centre &&
+         position <= double(usable.high) + 0.5 + on_centre);
+  const double nearest = std::round(position);
+  if (std::abs(position - nearest) < on_centre && nearest >= double(usable.low) &&
+      nearest <= double(usable.high))
+    return {{std::int64_t(nearest), 1.}};
+
+  // The window of cells, images included, that may be taken: an image must be that of a usable cell.
+  const std::int64_t length = usable.high - usable.low + 1;
+  const bool images_below = usable.below != Beyond::unknown, images_above = usable.above != Beyond::unknown;
+  const std::int64_t reach = images_below && images_above ? widest_stencil : length;
+  const std::int64_t low = images_below ? usable.low - reach : usable.low;
+  const std::int64_t high = images_above ? usable.high + reach : usable.high;
+  const int count = int(std::min<std::int64_t>(most_cells, high - low + 1));
+  const auto centred = std::int64_t(std::floor(position - 0.5 * (count - 2)));
+  const std::int64_t first = std::clamp(centred, low, high - count + 1);
+
+  const auto weights = fitted(position, first, count);
+  std::vector<CellWeight> found;
+  for (int i = 0; i < count; ++i) {
+    const auto weight = folded({first + i, weights[std::size_t(i)]}, usable);
+    const auto same =
+        std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.cell == weight.cell; });
+    if (same == found.end())
+      found.push_back(weight);
+    else
+      same->weight += weight.weight;
+  }
+  return found;
+}
+
+template <int D>
+std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
+                                          const std::array<AxisCells, D>& usable, int most_cells) {
+  std::vector<PointWeight<D>> product{{{}, 1.}};
+  for (int axis = 0; axis < D; ++axis) {
+    const double position = (point_m[axis] - grid.origin_m[axis]) / grid.spacing_m - 0.5;
+    const auto along = axis_weights(position, usable[axis], most_cells);
+    std::vector<PointWeight<D>> wider;
+    for (const auto& weight : along)
+      for (auto partial : product) {
+        partial.cell[axis] = weight.cell;
+        partial.weight *= weight.weight;
+        wider.push_back(partial);
+      }
+    product = std::move(wider);
+  }
+  return product;
+}
+
+TimeWeights time_weights(double position, std::int64_t low, std::int64_t high) {
+  assert(low <= high && position >= double(low) - on_centre && position <= double(high) + on_centre);
+  const auto nearest = std::int64_t(std::round(position));
+  if (std::abs(position - double(nearest)) < on_centre) return {nearest, 1, {1.}};
+  TimeWeights result;
+  result.count = int(std::min<std::int64_t>(8, high - low + 1));
+  result.first = std::clamp(std::int64_t(std::floor(position)) - 3, low, high - result.count + 1);
+  const double x = position - double(result.first);
+  for (int i = 0; i < result.count; ++i) {
+    double weight = 1;
+    for (int j = 0; j < result.count; ++j)
+      if (j != i) weight *= (x - j) / double(i - j);
+    result.weights[std::size_t(i)] = weight;
+  }
+  return result;
+}
+
+template std::vector<PointWeight<2>> point_weights<2>(const Grid<2>&, const Point<2>&,
+                                                      const std::array<AxisCells, 2>&, int);
+template std::vector<PointWeight<3>> point_weights<3>(const Grid<3>&, const Point<3>&,
+                                                      const std::array<AxisCells, 3>&, int);
+
+}  // namespace slipwave

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "grid/grid.hpp"
+
+namespace slipwave {
+
+/// How a field goes on past the last usable cell: not known, or as its mirror image about that cell's far
+/// face, with the same sign (even) or the opposite one (odd). At a free surface velocities are even and the
+/// tractions on it odd.
+enum class Beyond { unknown, even, odd };
+
+/// The cells low .. high of an axis in which a field is smooth round a point: up to a contact, a span end or
+/// the end of the grid.
+struct AxisCells {
+  std::int64_t low = 0, high = 0;
+  Beyond below = Beyond::unknown, above = Beyond::unknown;
+};
+
+struct CellWeight {
+  std::int64_t cell = 0;
+  double weight = 0;
+};
+
+template <int D>
+struct PointWeight {
+  Index<D> cell{};
+  double weight = 0;
+};
+
+/// Widest stencil along an axis.
+inline constexpr int widest_stencil = 8;
+
+/// Weights for the value of a field at `position` from its values at cell centres, along one axis (theory.md
+/// (A1)-(A3)). position is in cells: the centre of cell i is at i. Taken are up to `most_cells` (2 .. 8)
+/// usable cells nearest to the point; weights are those that reproduce polynomials up to the third degree (as
+/// far as the number of cells allows) and beyond that have the least error over all waves down to 5.7 cells a
+/// wavelength. A point on a usable cell's centre gets that cell with weight 1. The same weights, divided by
+/// the cell's length, spread a point source (delta function). The largest error of a wave of unit amplitude,
+/// by cells a wavelength (measured in the tests):
+///   cells taken                         20    10    8     6     5     4
+///   4 on both sides                     7e-6  4e-5  7e-6  6e-6  1e-3  1e-2
+///   8, point between cells 1 and 2      2e-5  9e-5  2e-5  2e-5  3e-3  3e-2
+///   8, point between cells 0 and 1      9e-5  4e-4  1e-4  8e-5  1e-2  0.1
+///   8, point beyond the last centre     9e-4  4e-3  1e-3  9e-4  0.1   1
+/// position must lie in cells low .. high, faces included: low - 1/2 <= position <= high + 1/2.
+std::vector<CellWeight> axis_weights(double position, const AxisCells& usable,
+                                     int most_cells = widest_stencil);
+
+/// The same at a point in space: products of the axes' weights, at most 8^D of them. The weights of a
+/// receiver as they stand; a point source of strength Q puts Q weight/h^D into each cell. Usable cells are
+/// given per axis: where they differ from line to line, give those common to all.
+template <int D>
+std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
+                                          const std::array<AxisCells, D>& usable,
+                                          int most_cells = widest_stencil);
+
+/// Weights for a value between time steps: Lagrange polynomials through `count` samples number first, first +
+/// 1, ...
+struct TimeWeights {
+  std::int64_t first = 0;
+  int count = 0;
+  std::array<double, 8> weights{};
+};
+
+/// Order 8 (eight samples, four on each side) where low .. high, the samples there are, allow it; nearer
+/// their ends the eight are not centred, with fewer than eight samples all are taken. position is in samples,
+/// low <= position <= high; on a sample that one alone has weight, 1.
+TimeWeights time_weights(double position, std::int64_t low, std::int64_t high);
+
+extern template std::vector<PointWeight<2>> point_weights<2>(const Grid<2>&, const Point<2>&,
+                                                             const std::array<AxisCells, 2>&, int);
+extern template std::vector<PointWeight<3>> point_weights<3>(const Grid<3>&, const Point<3>&,
+                                                             const std::array<AxisCells, 3>&, int);
+
+}  // namespace slipwave
