@@ -1,0 +1,143 @@
+#include "solver/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipwave::solver {
+namespace {
+
+/// Impedance of the ghost beyond an edge, as a factor on that of the cell before it: 0 takes no traction.
+int ghost_impedance(EdgeLaw law, Wave wave) {
+  return continuation(law, wave) == Continuation::traction_free ? 0 : 1;
+}
+
+}  // namespace
+
+template <int D>
+Index<D> Domain<D>::model_cell(Index<D> at) const {
+  for (int axis = 0; axis < D; ++axis)
+    at[axis] = std::clamp<std::int64_t>(at[axis] - low_zone[axis], 0, model_grid.shape[axis] - 1);
+  return at;
+}
+
+template <int D>
+bool Domain<D>::shear() const {
+  return std::any_of(impedance[wave_s].begin(), impedance[wave_s].end(), [](float z) { return z > 0; });
+}
+
+template <int D>
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells) {
+  Domain<D> domain;
+  domain.model_grid = domain.grid = medium.grid();
+  domain.edges = edges;
+  for (int axis = 0; axis < D; ++axis) {
+    domain.low_zone[axis] = edges[axis][0] == EdgeLaw::absorbing ? zone_cells : 0;
+    domain.high_zone[axis] = edges[axis][1] == EdgeLaw::absorbing ? zone_cells : 0;
+    domain.grid.shape[axis] += domain.low_zone[axis] + domain.high_zone[axis];
+    domain.grid.origin_m[axis] -= double(domain.low_zone[axis]) * domain.grid.spacing_m;
+  }
+  for (auto& z : domain.impedance) z = Field<D>(domain.grid);
+  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
+    domain.impedance[wave_p][std::size_t(n)] = medium.rho[cell] * medium.vp[cell];
+    domain.impedance[wave_s][std::size_t(n)] = medium.rho[cell] * medium.vs[cell];
+  }
+  return domain;
+}
+
+template <int D>
+double fastest_wave(const Medium<D>& medium) {
+  double fastest = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (!medium.is_void(cell)) fastest = std::max(fastest, double(medium.vp[cell]));
+  return fastest;
+}
+
+template <int D, class Real>
+void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
+  const auto& layout = state.layout;
+  const double courant = dt_s / domain.grid.spacing_m;
+  const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
+    const bool empty = medium.is_void(cell), solid = medium.is_solid(cell);
+    const double rho = medium.rho[cell], vp = medium.vp[cell], vs = medium.vs[cell];
+    const double values[material_rows] = {
+        empty || ghost ? 0 : courant / rho,         empty ? 0 : p_factor * rho * vp,
+        ghost ? 0 : empty ? no_wave : vp * courant, solid ? s_factor * rho * vs : 0,
+        ghost ? 0 : solid ? vs * courant : no_wave,
+    };
+    Index<D> line = at;
+    line[0] = 0;
+    for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);
+  };
+  const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
+#pragma omp parallel for schedule(static)
+  for (std::int64_t line = 0; line < lines; ++line) {
+    Index<D> at = layout.line_index(line);
+    for (at[0] = 0; at[0] < nx; ++at[0]) write(at, at, false, 1, 1);
+    for (const int side : {0, 1}) {
+      Index<D> from = at;
+      from[0] = side ? nx - 1 : 0;
+      at[0] = side ? nx : -1;
+      const EdgeLaw law = domain.edges[0][side];
+      write(at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+    }
+    // Ghost lines beyond the edges of the other axes repeat the line before them.
+    for (int axis = 1; axis < D; ++axis) {
+      Index<D> cell = layout.line_index(line);
+      if (cell[axis] != 0 && cell[axis] != layout.shape()[axis] - 1) continue;
+      for (const int side : {0, 1}) {
+        if (cell[axis] != (side ? layout.shape()[axis] - 1 : 0)) continue;
+        const EdgeLaw law = domain.edges[axis][side];
+        for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
+          Index<D> ghost = cell;
+          ghost[axis] += side ? 1 : -1;
+          write(ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+        }
+      }
+    }
+  }
+}
+
+template <int D, class Real>
+double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium) {
+  using Rows = FieldRows<D>;
+  double total = 0;
+  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
+    const auto cell = std::size_t(n);
+    if (medium.is_void(cell)) continue;
+    Index<D> at = domain.computed_cell(domain.model_grid.index(n));
+    const auto x = at[0];
+    at[0] = 0;
+    const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
+    const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
+    const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
+    double kinetic = 0, squares = 0, trace = 0, shear = 0;
+    for (int axis = 0; axis < D; ++axis) {
+      kinetic += rho * value(Rows::velocity(axis)) * value(Rows::velocity(axis));
+      const double s = value(Rows::normal_stress(axis));
+      squares += s * s;
+      trace += s;
+      for (int other = axis + 1; other < D; ++other) {
+        const double t = value(Rows::shear_stress(axis, other));
+        shear += t * t;
+      }
+    }
+    // s:C^-1:s; in plane strain C acts on the in-plane components alone.
+    const double elastic =
+        mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
+               : trace * trace / (D * D * lambda);
+    total += 0.5 * (kinetic + elastic);
+  }
+  return total * std::pow(domain.grid.spacing_m, D);
+}
+
+template struct Domain<2>;
+template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int);
+template double fastest_wave(const Medium<2>&);
+template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
+template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
+template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
+template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <array>
+
+#include "model/model.hpp"
+#include "scene/edges.hpp"
+#include "solver/span_ends.hpp"
+#include "solver/state.hpp"
+
+namespace slipwave::solver {
+
+/// The computed grid: the model and, outside its absorbing edges, zones that continue the medium of the edge.
+template <int D>
+struct Domain {
+  Grid<D> model_grid;
+  Grid<D> grid;          // zones included
+  Index<D> low_zone{};   // cells added below the model along each axis
+  Index<D> high_zone{};  // and above
+  EdgeLaws<D> edges;
+  std::array<Field<D>, 2> impedance;  // [wave], kg/(m2 s), 0 where the wave is not carried
+
+  /// Whether any cell carries S waves.
+  bool shear() const;
+  /// Cell of the model whose medium a cell of the computed grid has.
+  Index<D> model_cell(Index<D> at) const;
+  /// Cell of the computed grid of a cell of the model.
+  Index<D> computed_cell(Index<D> at) const {
+    for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
+    return at;
+  }
+};
+
+template <int D>
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells);
+
+/// Largest vp in m/s of the cells that are not void.
+template <int D>
+double fastest_wave(const Medium<D>& medium);
+
+/// Writes b, impedances and Courant numbers of every cell and of the ghosts beyond the edges into the state.
+template <int D, class Real>
+void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s);
+
+/// Kinetic and elastic energy of the model's cells, J (2-D: J per metre), zones left out: the sum over cells
+/// of h^D/2 (rho v.v + s:C^-1:s). Zero in void.
+template <int D, class Real>
+double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,174 @@
+#include "solver/span_ends.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "solver/reconstruction.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+bool strong(double z, double other) { return z > contact_ratio * other || other > contact_ratio * z; }
+
+/// One side of a cell: the cells to the end of its span, at most `reach`, and what stands there.
+struct Side {
+  int cells = 0;
+  Continuation law = Continuation::none;
+  int beyond = 0;
+  double share = 0;
+  bool inside = false;  // an end inside the grid
+};
+
+/// Impedances met from a cell outwards along one axis.
+template <int D>
+class Walk {
+ public:
+  Walk(const Field<D>& impedance, const Index<D>& from, int axis, int step)
+      : impedance_(impedance), at_(from), axis_(axis), step_(step) {}
+  bool leaves_grid(int n) const {
+    const auto i = at_[std::size_t(axis_)] + n * step_;
+    return i < 0 || i >= impedance_.grid().shape[std::size_t(axis_)];
+  }
+  double operator()(int n) const {
+    Index<D> at = at_;
+    at[std::size_t(axis_)] += n * step_;
+    return impedance_(at);
+  }
+
+ private:
+  const Field<D>& impedance_;
+  Index<D> at_;
+  int axis_, step_;
+};
+
+template <int D>
+Side side_of(const Walk<D>& z, Continuation edge, int reach) {
+  Side side;
+  for (; side.cells < reach; ++side.cells) {
+    const int next = side.cells + 1;
+    if (z.leaves_grid(next)) {
+      side.law = edge;
+      return side;
+    }
+    const double own = z(side.cells), other = z(next);
+    if (other == 0) {
+      side.law = Continuation::traction_free;
+      side.inside = true;
+      return side;
+    }
+    if (strong(own, other)) {
+      side.law = Continuation::contact;
+      side.share = other / (own + other);
+      side.inside = true;
+      for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
+        const int further = next + side.beyond;
+        if (z.leaves_grid(further) || z(further) == 0 || strong(z(further - 1), z(further))) break;
+      }
+      return side;
+    }
+  }
+  return side;
+}
+
+/// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
+/// more: with more, random media of single cells grew at order 5 and 7 (docs/theory.md).
+int reach_within(const Side& low, const Side& high, int reach) {
+  const bool enclosed = low.law == Continuation::contact && high.law == Continuation::contact;
+  return enclosed ? std::min(reach, low.cells + high.cells) : reach;
+}
+
+/// Value of the pair at a stencil offset, continued beyond the ends of the cell's span (E10), (E11).
+template <class Real>
+void continued(const SpanEnd& end, int offset, std::int64_t stride, const Real* v, const Real* s, Real& v_at,
+               Real& s_at) {
+  const bool below = offset < -end.low;
+  if (!below && offset <= end.high) {
+    v_at = v[offset * stride];
+    s_at = s[offset * stride];
+    return;
+  }
+  const Continuation law = below ? end.low_law : end.high_law;
+  if (law == Continuation::level) {
+    const std::int64_t last = below ? -end.low : end.high;
+    v_at = v[last * stride];
+    s_at = s[last * stride];
+    return;
+  }
+  // The mirror image lies nearer to the cell with each fold, so this ends.
+  const int mirrored = below ? -2 * end.low - 1 - offset : 2 * end.high + 1 - offset;
+  continued(end, mirrored, stride, v, s, v_at, s_at);
+  if (law == Continuation::traction_free) {
+    s_at = -s_at;
+  } else if (law == Continuation::motionless) {
+    v_at = -v_at;
+  } else {
+    const std::int64_t across =
+        below ? std::max(offset, -end.low - end.beyond_low) : std::min(offset, end.high + end.beyond_high);
+    const Real twice = 2 * Real(below ? end.share_low : end.share_high);
+    v_at += twice * (v[across * stride] - v_at);
+    s_at += (2 - twice) * (s[across * stride] - s_at);
+  }
+}
+
+template <int Order, class Real>
+void correct_cell(const SpanEnd& end, std::int64_t stride, const Real* v, const Real* s, Real impedance,
+                  Real courant, Real scale, Real& up, Real& down) {
+  constexpr int reach = reach_of(Order);
+  Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
+  for (int k = -reach; k <= reach; ++k)
+    continued(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
+  leave_cell<Order>(v_stencil + reach, s_stencil + reach, 1, impedance, courant, scale, up, down);
+}
+
+}  // namespace
+
+template <int D>
+SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach) {
+  const auto& grid = impedance.grid();
+  const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
+  starts_.assign(1, 0);
+  for (std::int64_t line = 0; line < lines; ++line) {
+    for (std::int64_t x = 0; x < nx; ++x) {
+      const auto at = grid.index(line * nx + x);
+      if (impedance(at) == 0) continue;
+      const Side low = side_of(Walk<D>(impedance, at, axis, -1), continuation(edges[axis][0], wave), reach);
+      const Side high = side_of(Walk<D>(impedance, at, axis, +1), continuation(edges[axis][1], wave), reach);
+      // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
+      if (!low.inside && !high.inside) continue;
+      cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
+                        std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
+                        float(high.share), std::int8_t(reach_within(low, high, reach))});
+    }
+    starts_.push_back(std::int64_t(cells_.size()));
+  }
+}
+
+template <class Real>
+void SpanEnds::correct(int order, std::int64_t line, std::int64_t x_first, std::int64_t x_last,
+                       std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
+                       const Real* courant, Real scale, Real* up, Real* down) const {
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  auto cell = cells_.begin() + starts_[std::size_t(line)];
+  if (cell == stop) return;
+  using CorrectCell =
+      void(const SpanEnd&, std::int64_t, const Real*, const Real*, Real, Real, Real, Real&, Real&);
+  static constexpr CorrectCell* correct_as[] = {correct_cell<1, Real>, correct_cell<3, Real>,
+                                                correct_cell<5, Real>, correct_cell<7, Real>};
+  if (x_first > 0)
+    cell =
+        std::lower_bound(cell, stop, x_first, [](const SpanEnd& end, std::int64_t x) { return end.x < x; });
+  for (; cell != stop && cell->x < x_last; ++cell) {
+    const auto i = cell->x - x_first;
+    correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],
+                                                            courant[i], scale, up[i], down[i]);
+  }
+}
+
+template SpanEnds::SpanEnds(const Field<2>&, const EdgeLaws<2>&, int, Wave, int);
+template SpanEnds::SpanEnds(const Field<3>&, const EdgeLaws<3>&, int, Wave, int);
+template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const float*,
+                                const float*, const float*, const float*, float, float*, float*) const;
+template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const double*,
+                                const double*, const double*, const double*, double, double*, double*) const;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "grid/field.hpp"
+#include "scene/edges.hpp"
+#include "solver/kernels.hpp"
+
+namespace slipwave::solver {
+
+enum Wave : int { wave_p, wave_s };
+
+/// How a pair (v, s) continues beyond an end of its span.
+enum class Continuation : std::uint8_t {
+  none,           // the span goes on as far as the stencil reaches
+  traction_free,  // v evenly, s oddly
+  motionless,     // v oddly, s evenly
+  level,          // the last value stays
+  contact,        // as both sides of a welded contact make it
+};
+
+/// The continuation an edge law means for P (v_n, s_nn) or S (v_t, s_nt).
+constexpr Continuation continuation(EdgeLaw law, Wave wave) {
+  switch (law) {
+    case EdgeLaw::free:
+      return Continuation::traction_free;
+    case EdgeLaw::rigid:
+      return Continuation::motionless;
+    case EdgeLaw::mirror:
+      return wave == wave_s ? Continuation::traction_free : Continuation::motionless;
+    case EdgeLaw::absorbing:
+      break;
+  }
+  return Continuation::level;
+}
+
+/// From this ratio of impedances on a contact between neighbouring cells ends the spans on both of its sides.
+/// Below it stencils run across: the contrasts tried at random up to 1.5 stay stable at every order.
+constexpr double contact_ratio = 1.5;
+
+/// A cell whose stencil would reach past an end of its span: the cells of a line that carry the wave without
+/// a gap or a strong contact. Beyond the end the wave field continues as the law says (theory.md (E10),
+/// (E11)).
+struct SpanEnd {
+  std::int32_t x;         // the cell's place on its row
+  std::int8_t low, high;  // cells of the span before and behind it, as far as the stencil reaches
+  Continuation low_law, high_law;
+  std::int8_t beyond_low, beyond_high;  // contact: cells of the neighbouring span that may be read
+  float share_low, share_high;          // contact: Z of the other side over the sum of both
+  std::int8_t reach;                    // of the reconstruction used here
+};
+
+/// Such cells of all lines of one axis and wave; the bulk kernel runs over everything without a branch, then
+/// these are put right.
+class SpanEnds {
+ public:
+  SpanEnds() = default;
+  /// `impedance` of the wave on the computed grid, 0 where it is not carried; laws of the grid's edges; cells
+  /// the reconstruction reaches to each side.
+  template <int D>
+  SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach);
+
+  std::size_t size() const { return cells_.size(); }
+  /// Overwrites up and down (index 0 = cell x_first) for the listed cells x_first <= x < x_last of a row.
+  template <class Real>
+  void correct(int order, std::int64_t line, std::int64_t x_first, std::int64_t x_last, std::int64_t stride,
+               const Real* v, const Real* s, const Real* impedance, const Real* courant, Real scale, Real* up,
+               Real* down) const;
+
+ private:
+  std::vector<SpanEnd> cells_;        // by line, then x
+  std::vector<std::int64_t> starts_;  // of each line in cells_, and the end
+};
+
+}  // namespace slipwave::solver

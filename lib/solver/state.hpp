@@ -1,0 +1,114 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <new>
+
+#include "grid/field.hpp"
+#include "solver/kernels.hpp"
+
+namespace slipwave::solver {
+
+/// Memory aligned for the widest vectors, zeroed by the threads that will use it.
+template <class Real>
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(std::int64_t count)
+      : values_(static_cast<Real*>(::operator new(std::size_t(count) * sizeof(Real), alignment))),
+        count_(count) {}
+  Real* data() { return values_.get(); }
+  const Real* data() const { return values_.get(); }
+  std::int64_t size() const { return count_; }
+
+ private:
+  static constexpr std::align_val_t alignment{64};
+  struct Free {
+    void operator()(Real* values) const { ::operator delete(values, alignment); }
+  };
+  std::unique_ptr<Real[], Free> values_;
+  std::int64_t count_ = 0;
+};
+
+/// Where values stand in memory: lines along x, each holding one row of every field, [line][field][x].
+/// Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the other axes and at
+/// least 16 ghost values at both ends of a row.
+template <int D>
+class Layout {
+ public:
+  static constexpr std::int64_t lead = 16;
+  static constexpr std::int64_t ghost_lines = max_reach + 1;
+
+  Layout() = default;
+  Layout(const Index<D>& shape, int rows_a_line);
+
+  const Index<D>& shape() const { return shape_; }
+  /// Cells of a row rounded up to whole vectors: what kernels are given.
+  std::int64_t padded_nx() const { return padded_nx_; }
+  std::int64_t row_pitch() const { return row_pitch_; }
+  /// From a cell to its neighbour along `axis`, in values.
+  std::int64_t stride(int axis) const { return strides_[axis]; }
+  /// Values in all, ghosts included.
+  std::int64_t total() const { return total_; }
+  std::int64_t lines() const;
+  /// Where row 0 of the line at these indices (x ignored, ghosts allowed) starts: its cell x = 0.
+  std::int64_t line(const Index<D>& at) const {
+    std::int64_t offset = lead;
+    for (int axis = 1; axis < D; ++axis) offset += (at[axis] + ghost_lines) * strides_[axis];
+    return offset;
+  }
+  std::int64_t cell(const Index<D>& at) const { return line(at) + at[0]; }
+  /// Indices of line number n (x fastest of the others), its x = 0.
+  Index<D> line_index(std::int64_t n) const;
+  std::int64_t line_number(const Index<D>& at) const {
+    return D == 2 ? at[1] : at[D - 1] * shape_[1] + at[1];
+  }
+
+ private:
+  Index<D> shape_{};
+  Index<D> strides_{};
+  std::int64_t padded_nx_ = 0, row_pitch_ = 0, total_ = 0;
+};
+
+/// Rows of a line of the wave field: velocities, normal stresses, shear stresses (xz | xy, xz, yz).
+template <int D>
+struct FieldRows {
+  static constexpr int count = D + D * (D + 1) / 2;
+  static constexpr int velocity(int axis) { return axis; }
+  static constexpr int normal_stress(int axis) { return D + axis; }
+  static constexpr int shear_stress(int axis_a, int axis_b) {
+    return D == 2 ? 4 : 5 + axis_a + axis_b;  // xy 6, xz 7, yz 8
+  }
+};
+
+/// Rows of a line of the material: b = dt/(rho h), impedances rho c and Courant numbers c dt/h of P and S.
+enum MaterialRow : int { row_b, row_zp, row_cp, row_zs, row_cs, material_rows };
+
+/// Courant number that marks cells without the wave (fluid for S, void for both); see leave_cell.
+constexpr double no_wave = 2;
+
+/// Wave field and material of the computed grid: the model and the absorbing zones round it.
+template <int D, class Real>
+struct State {
+  Layout<D> layout, material_layout;
+  Buffer<Real> fields, material;
+
+  Real* field_row(const Index<D>& at, int row) {
+    return fields.data() + layout.line(at) + row * layout.row_pitch();
+  }
+  const Real* field_row(const Index<D>& at, int row) const {
+    return fields.data() + layout.line(at) + row * layout.row_pitch();
+  }
+  Real* material_row(const Index<D>& at, int row) {
+    return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
+  }
+  const Real* material_row(const Index<D>& at, int row) const {
+    return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
+  }
+};
+
+/// State with zero fields and zero material, memory touched first by the threads that own its lines.
+template <int D, class Real>
+State<D, Real> make_state(const Index<D>& shape);
+
+}  // namespace slipwave::solver

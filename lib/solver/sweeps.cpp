@@ -1,0 +1,249 @@
+#include "solver/sweeps.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+
+namespace slipwave::solver {
+namespace {
+
+/// Columns swept together: few enough for the ring of faces to stay in the first cache.
+constexpr std::int64_t widest_stripe = 256;
+/// Rows of faces kept while their cells are still needed unchanged.
+constexpr int ring_rows = max_reach + 2;
+constexpr int buffers_a_pair = 4 + 2 * ring_rows;
+
+}  // namespace
+
+template <class Real>
+void edge_state(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering) {
+  const bool motionless = continuation(law, wave) == Continuation::motionless;
+  for (std::int64_t i = 0; i < n; ++i) entering[i] = motionless ? -leaving[i] : Real(0);
+}
+
+template <int D, class Real>
+Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int order)
+    : state_(state),
+      kernels_(kernels<Real>(order)),
+      edges_(domain.edges),
+      order_(order),
+      reach_(reach_of(order)),
+      shear_(domain.shear()) {
+  for (int axis = 0; axis < D; ++axis)
+    for (const Wave wave : {wave_p, wave_s})
+      ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_);
+  const auto row = std::max(state.layout.padded_nx() + 2 * Layout<D>::lead, widest_stripe);
+  for (int thread = 0; thread < omp_get_max_threads(); ++thread)
+    scratch_.emplace_back(row * buffers_a_pair * D);
+}
+
+template <int D, class Real>
+auto Sweeps<D, Real>::pairs(int axis) const -> std::array<Pair, D> {
+  using Rows = FieldRows<D>;
+  std::array<Pair, D> all{};
+  all[0] = {wave_p, Rows::velocity(axis), Rows::normal_stress(axis), &ends_[axis][wave_p]};
+  int n = 1;
+  for (int other = 0; other < D; ++other)
+    if (other != axis)
+      all[n++] = {wave_s, Rows::velocity(other),
+                  Rows::shear_stress(std::min(axis, other), std::max(axis, other)), &ends_[axis][wave_s]};
+  return all;
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_x(const std::function<Real(std::int64_t)>& part) {
+  const std::int64_t lines = state_.layout.lines();
+#pragma omp parallel
+  {
+    Real* scratch = scratch_[std::size_t(omp_get_thread_num())].data();
+#pragma omp for schedule(static)
+    for (std::int64_t line = 0; line < lines; ++line)
+      if (const Real scale = part(line); scale > 0) sweep_line(line, scale, scratch);
+  }
+}
+
+/// The values a stencil finds beyond both ends of a row.
+template <int D, class Real>
+void Sweeps<D, Real>::fill_ghost_cells(const Index<D>& at, const Pair& pair) {
+  const std::int64_t n = state_.layout.shape()[0];
+  Real* v = state_.field_row(at, pair.v);
+  Real* s = state_.field_row(at, pair.s);
+  for (const int side : {0, 1}) {
+    const Continuation law = continuation(edges_[0][side], pair.wave);
+    const Real v_sign = law == Continuation::motionless ? -1 : 1,
+               s_sign = law == Continuation::traction_free ? -1 : 1;
+    for (std::int64_t j = 0; j < reach_; ++j) {
+      const std::int64_t from = law == Continuation::level ? 0 : std::min(j, n - 1);
+      const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - from : from;
+      v[ghost] = v_sign * v[cell];
+      s[ghost] = s_sign * s[cell];
+    }
+  }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::update(const Index<D>& at, int axis, const Pair& pair, std::int64_t width, Real scale,
+                             const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi) {
+  const auto material = [&](int row) { return state_.material_row(at, row) + at[0]; };
+  const auto field = [&](int row) { return state_.field_row(at, row) + at[0]; };
+  if (pair.wave == wave_s) {
+    kernels_.update_shear(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zs),
+                          material(row_cs), field(pair.v), field(pair.s));
+    return;
+  }
+  Real* passive[2] = {nullptr, nullptr};
+  int n = 0;
+  for (int other = 0; other < D; ++other)
+    if (other != axis) passive[n++] = field(FieldRows<D>::normal_stress(other));
+  kernels_.update_normal(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zp),
+                         material(row_cp), material(row_zs), material(row_cs), field(pair.v), field(pair.s),
+                         passive[0], passive[1]);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::sweep_line(std::int64_t line, Real scale, Real* scratch) {
+  const Index<D> at = state_.layout.line_index(line);
+  const std::int64_t n = state_.layout.shape()[0], width = state_.layout.padded_nx();
+  const std::int64_t row = width + 2 * Layout<D>::lead;
+  // Index -1 (below the first cell) and n (beyond the last) exist in all four.
+  Real* const up = scratch + Layout<D>::lead;
+  Real* const down = up + row;
+  Real* const v_face = down + row;  // v_face[i] lies below cell i
+  Real* const s_face = v_face + row;
+  const auto all = pairs(0);
+  for (int p = 0; p < pair_count(); ++p) {
+    const Pair& pair = all[p];
+    fill_ghost_cells(at, pair);
+    const Real* v = state_.field_row(at, pair.v);
+    const Real* s = state_.field_row(at, pair.s);
+    const Real* impedance = state_.material_row(at, pair.wave == wave_p ? row_zp : row_zs);
+    const Real* courant = state_.material_row(at, pair.wave == wave_p ? row_cp : row_cs);
+    kernels_.leave(width, 1, v, s, impedance, courant, scale, up, down);
+    pair.ends->correct(order_, line, 0, n, 1, v, s, impedance, courant, scale, up, down);
+    edge_state(edges_[0][0], pair.wave, 1, down, up - 1);
+    edge_state(edges_[0][1], pair.wave, 1, up + n - 1, down + n);
+    kernels_.meet(width, up - 1, impedance - 1, down, impedance, v_face, s_face);
+    // Where the row fills whole vectors the last face lies one beyond what the kernel did.
+    kernels_.meet(1, up + n - 1, impedance + n - 1, down + n, impedance + n, v_face + n, s_face + n);
+    for (std::int64_t i = n + 1; i <= width; ++i) v_face[i] = s_face[i] = 0;
+    update(at, 0, pair, width, scale, v_face, v_face + 1, s_face, s_face + 1);
+  }
+}
+
+template <int D, class Real>
+std::int64_t Sweeps<D, Real>::stripe_width() const {
+  // A multiple of four stripes shares out evenly among the usual numbers of threads.
+  const std::int64_t nx = state_.layout.padded_nx();
+  const std::int64_t stripes = (nx + 4 * widest_stripe - 1) / (4 * widest_stripe) * 4;
+  return ((nx + stripes - 1) / stripes + 15) / 16 * 16;
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::across(int axis, Real scale) {
+  const std::int64_t nx = state_.layout.padded_nx(), width = stripe_width();
+  const std::int64_t stripes = (nx + width - 1) / width;
+  std::int64_t others = 1;
+  for (int other = 1; other < D; ++other)
+    if (other != axis) others *= state_.layout.shape()[other];
+#pragma omp parallel
+  {
+    Real* scratch = scratch_[std::size_t(omp_get_thread_num())].data();
+#pragma omp for schedule(dynamic)
+    for (std::int64_t n = 0; n < others * stripes; ++n) {
+      Index<D> first{};
+      first[0] = n % stripes * width;
+      if constexpr (D == 3) first[axis == 1 ? 2 : 1] = n / stripes;
+      sweep_columns(axis, first, std::min(width, nx - first[0]), scale, scratch);
+    }
+  }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width,
+                                       const Pair& pair) {
+  const std::int64_t n = state_.layout.shape()[axis];
+  for (const int side : {0, 1}) {
+    const Continuation law = continuation(edges_[axis][side], pair.wave);
+    const Real v_sign = law == Continuation::motionless ? -1 : 1,
+               s_sign = law == Continuation::traction_free ? -1 : 1;
+    for (std::int64_t j = 0; j < reach_; ++j) {
+      const std::int64_t from = law == Continuation::level ? 0 : std::min(j, n - 1);
+      Index<D> ghost = first, cell = first;
+      ghost[axis] = side ? n + j : -1 - j;
+      cell[axis] = side ? n - 1 - from : from;
+      for (const auto& [row, sign] : {std::pair(pair.v, v_sign), std::pair(pair.s, s_sign)}) {
+        Real* to = state_.field_row(ghost, row) + first[0];
+        const Real* source = state_.field_row(cell, row) + first[0];
+        for (std::int64_t i = 0; i < width; ++i) to[i] = sign * source[i];
+      }
+    }
+  }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale,
+                                    Real* scratch) {
+  const std::int64_t n = state_.layout.shape()[axis], stride = state_.layout.stride(axis);
+  const std::int64_t lag = std::max(reach_, 1);
+  const auto all = pairs(axis);
+  struct Rows {
+    Real *up[2], *down, *entering, *v_face[ring_rows], *s_face[ring_rows];
+  } rows[D];
+  for (auto& r : rows) {
+    r.up[0] = scratch, r.up[1] = scratch + width, r.down = scratch + 2 * width,
+    r.entering = scratch + 3 * width;
+    for (int k = 0; k < ring_rows; ++k) {
+      r.v_face[k] = scratch + (4 + 2 * k) * width;
+      r.s_face[k] = scratch + (5 + 2 * k) * width;
+    }
+    scratch += buffers_a_pair * width;
+  }
+  for (int p = 0; p < pair_count(); ++p) fill_ghost_lines(axis, first, width, all[p]);
+
+  // Row k sends out its states, they meet those of row k-1 at face k; row k - lag is needed unchanged no
+  // more.
+  for (std::int64_t k = 0; k < n + lag; ++k) {
+    Index<D> at = first;
+    at[axis] = k;
+    for (int p = 0; p < pair_count(); ++p) {
+      const Pair& pair = all[p];
+      Rows& r = rows[p];
+      const int z_row = pair.wave == wave_p ? row_zp : row_zs, c_row = pair.wave == wave_p ? row_cp : row_cs;
+      Real *up = r.up[k % 2], *up_before = r.up[(k + 1) % 2];
+      if (k < n) {
+        const Real* v = state_.field_row(at, pair.v) + first[0];
+        const Real* s = state_.field_row(at, pair.s) + first[0];
+        const Real* impedance = state_.material_row(at, z_row) + first[0];
+        const Real* courant = state_.material_row(at, c_row) + first[0];
+        kernels_.leave(width, stride, v, s, impedance, courant, scale, up, r.down);
+        pair.ends->correct(order_, state_.layout.line_number(at), first[0], first[0] + width, stride, v, s,
+                           impedance, courant, scale, up, r.down);
+      }
+      if (k <= n) {
+        Index<D> before = at;
+        before[axis] = k - 1;
+        const Real *arriving_up = up_before, *arriving_down = r.down;
+        if (k == 0)
+          edge_state(edges_[axis][0], pair.wave, width, r.down, r.entering), arriving_up = r.entering;
+        if (k == n)
+          edge_state(edges_[axis][1], pair.wave, width, up_before, r.entering), arriving_down = r.entering;
+        kernels_.meet(width, arriving_up, state_.material_row(before, z_row) + first[0], arriving_down,
+                      state_.material_row(at, z_row) + first[0], r.v_face[k % ring_rows],
+                      r.s_face[k % ring_rows]);
+      }
+      if (k >= lag) {
+        Index<D> done = at;
+        done[axis] = k - lag;
+        const auto lo = (k - lag) % ring_rows, hi = (k - lag + 1) % ring_rows;
+        update(done, axis, pair, width, scale, r.v_face[lo], r.v_face[hi], r.s_face[lo], r.s_face[hi]);
+      }
+    }
+  }
+}
+
+template void edge_state(EdgeLaw, Wave, std::int64_t, const float*, float*);
+template void edge_state(EdgeLaw, Wave, std::int64_t, const double*, double*);
+template class Sweeps<2, float>;
+template class Sweeps<2, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "scene/edges.hpp"
+#include "solver/domain.hpp"
+#include "solver/span_ends.hpp"
+#include "solver/state.hpp"
+
+namespace slipwave::solver {
+
+/// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
+/// by `scale` of the time step under the part of the equations with derivatives along its axis. Lines of a
+/// sweep along x, and columns of a sweep across, do not depend on each other: threads share them out and the
+/// result does not depend on their number.
+template <int D, class Real>
+class Sweeps {
+ public:
+  /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
+  /// only.
+  Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
+
+  /// Along x, on every line for which part(line) gives a scale above 0.
+  void along_x(const std::function<Real(std::int64_t line)>& part);
+  /// Along y or z.
+  void across(int axis, Real scale);
+
+ private:
+  /// A wave family along one axis on one row: its fields, material and span ends.
+  struct Pair {
+    Wave wave;
+    int v, s;  // rows of the line
+    const SpanEnds* ends;
+  };
+  void sweep_line(std::int64_t line, Real scale, Real* scratch);
+  void sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale, Real* scratch);
+  void fill_ghost_cells(const Index<D>& at, const Pair& pair);
+  void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, const Pair& pair);
+  void update(const Index<D>& at, int axis, const Pair& pair, std::int64_t width, Real scale,
+              const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi);
+  std::array<Pair, D> pairs(int axis) const;
+  int pair_count() const { return shear_ ? D : 1; }
+  std::int64_t stripe_width() const;
+
+  State<D, Real>& state_;
+  const Kernels<Real>& kernels_;
+  EdgeLaws<D> edges_;
+  int order_, reach_;
+  bool shear_;
+  std::array<std::array<SpanEnds, 2>, D> ends_;  // [axis][wave]
+  std::vector<Buffer<Real>> scratch_;            // one a thread
+};
+
+/// What enters the grid through its low (up) or high (down) edge, given what leaves it there (E11).
+/// The impedance of the ghost beyond the edge is part of the law: see ghost_impedance.
+template <class Real>
+void edge_state(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering);
+
+}  // namespace slipwave::solver
