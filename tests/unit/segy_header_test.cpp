@@ -1,0 +1,174 @@
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "base/error.hpp"
+#include "segy/geometry.hpp"
+#include "segy/words.hpp"
+
+using namespace slipwave;
+using namespace slipwave::segy;
+
+namespace {
+
+template <class Layout>
+void check_layout() {
+  std::set<std::string_view> names;
+  std::vector<int> owners(static_cast<std::size_t>(Layout::size), 0);
+  for (const Field& field : Layout::fields) {
+    EXPECT_TRUE(names.insert(field.name).second) << field.name;
+    EXPECT_FALSE(field.meaning.empty());
+    for (int byte = field.byte; byte < field.byte + size_of(field.type); ++byte) {
+      ASSERT_GE(byte, Layout::first);
+      ASSERT_LT(byte, Layout::first + Layout::size);
+      EXPECT_EQ(owners[static_cast<std::size_t>(byte - Layout::first)]++, 0) << field.name;
+    }
+  }
+}
+
+TraceHeader header_at(double source_x, double receiver_x) {
+  TraceHeader header;
+  header.shot = 3;
+  header.channel = 17;
+  header.component = Component::vz;
+  header.source_m = {source_x, 0, 12.5};
+  header.receiver_m = {receiver_x, 0, 2.5};
+  header.water_depth_source_m = 450;
+  return header;
+}
+
+}  // namespace
+
+TEST(HeaderLayout, HasNoFieldTwiceAndNoByteTwice) {
+  check_layout<TraceLayout>();
+  check_layout<BinaryLayout>();
+}
+
+TEST(HeaderLayout, CoversEveryByteOfRevision1) {
+  int covered = 0;
+  for (const Field& field : TraceLayout::fields) covered += size_of(field.type);
+  EXPECT_EQ(covered, 232);  // 233 to 240 are unassigned
+}
+
+TEST(HeaderWords, StandWhereTheStandardPutsThem) {
+  TraceWords words;
+  words.set("sx", -2);
+  words.set("ns", 60000);
+  const auto big = words.in_file_order(Endian::big);
+  EXPECT_EQ((std::vector<int>{big[72], big[73], big[74], big[75]}), (std::vector<int>{255, 255, 255, 254}));
+  EXPECT_EQ((std::vector<int>{big[114], big[115]}), (std::vector<int>{0xEA, 0x60}));
+  const auto little = words.in_file_order(Endian::little);
+  EXPECT_EQ((std::vector<int>{little[72], little[75]}), (std::vector<int>{254, 255}));
+  EXPECT_EQ(TraceWords(little, Endian::little), words);
+  EXPECT_EQ(words.get("sx"), -2);
+  EXPECT_EQ(words.get("ns"), 60000);
+}
+
+TEST(HeaderWords, RefuseWhatDoesNotFitAndNameTheWord) {
+  TraceWords words;
+  EXPECT_THROW(words.set("ns", 65536), Error);
+  EXPECT_THROW(words.set("delrt", 32768), Error);
+  EXPECT_NO_THROW(words.set("fldr", -2147483648));
+  try {
+    words.set("fldr", 2147483648);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(),
+                 "header word fldr (byte 9) would be 2147483648, its range is -2147483648 to 2147483647");
+  }
+}
+
+TEST(SurveyLayout, ChoosesTheCoarsestScalarThatIsExact) {
+  const auto scalar = [](double source_x, double receiver_x) {
+    TraceHeader header = header_at(source_x, receiver_x);
+    header.source_m[2] = header.receiver_m[2] = 0;
+    return layout_of(std::vector<TraceHeader>{header}).coordinate_scalar;
+  };
+  EXPECT_EQ(scalar(100, 200), 1);
+  EXPECT_EQ(scalar(100, 201), -10);  // the midpoint is 150.5
+  EXPECT_EQ(scalar(100.5, 200.5), -10);
+  EXPECT_EQ(scalar(100.25, 200.25), -100);
+  EXPECT_EQ(scalar(0.125, 0.125), -1000);
+  EXPECT_EQ(scalar(1.0 / 3, 200), -1000);  // never exact: the finest
+  EXPECT_EQ(scalar(1.0 / 3, 10e6), -100);  // 10^10 mm do not fit, 10^9 cm do
+  EXPECT_THROW(scalar(0, 3e9), Error);
+  EXPECT_THROW(scalar(0, std::numeric_limits<double>::quiet_NaN()), Error);
+}
+
+TEST(SurveyLayout, TakesHalfTheReceiverSpacingForBins) {
+  std::vector<TraceHeader> headers;
+  for (const Component component : {Component::vz, Component::p})
+    for (int i = 0; i < 4; ++i) {
+      headers.push_back(header_at(1000, 1000 + 25.0 * i));
+      headers.back().component = component;
+    }
+  const SurveyLayout layout = layout_of(headers);
+  EXPECT_EQ(layout.bin_m, 12.5);
+  EXPECT_EQ(layout.traces_per_shot, 8);
+  EXPECT_EQ(layout.traces, 8);
+}
+
+TEST(SurveyLayout, NumbersBinsWithoutAZero) {
+  EXPECT_EQ(bin_of(0, 5), 1);
+  EXPECT_EQ(bin_of(5, 5), 2);
+  EXPECT_EQ(bin_of(2.4, 5), 1);
+  EXPECT_EQ(bin_of(-5, 5), -1);
+  EXPECT_EQ(bin_of(100, 12.5), 9);
+}
+
+TEST(TraceWords, FollowTheTableOfTheFormat) {
+  const TraceHeader header = header_at(1000, 850.5);
+  const TraceWords words = words_from_si(header, layout_of(std::vector<TraceHeader>{header}));
+  EXPECT_EQ(words.get("scalco"), -100);  // midpoint 925.25
+  EXPECT_EQ(words.get("scalel"), -100);
+  EXPECT_EQ(words.get("sx"), 100000);
+  EXPECT_EQ(words.get("gx"), 85050);
+  EXPECT_EQ(words.get("cdpx"), 92525);
+  EXPECT_EQ(words.get("sdepth"), 1250);
+  EXPECT_EQ(words.get("gelev"), -250);
+  EXPECT_EQ(words.get("swdep"), 45000);
+  EXPECT_EQ(words.get("offset"), -150);  // 149.5 to the next whole metre, the receiver before the source
+  EXPECT_EQ(words.get("trid"), 12);
+  EXPECT_EQ(words.get("unit"), 6);
+  EXPECT_EQ(words.get("fldr"), 3);
+  EXPECT_EQ(words.get("ep"), 3);
+  EXPECT_EQ(words.get("tracf"), 17);
+  EXPECT_EQ(words.get("counit"), 1);
+}
+
+TEST(TraceWords, GiveTheSameSiBack) {
+  FileHeader file;
+  file.major = 1;
+  for (const Component component :
+       {Component::vx, Component::vy, Component::vz, Component::p, Component::sxx, Component::syy,
+        Component::szz, Component::sxy, Component::sxz, Component::syz, Component::other}) {
+    TraceHeader header = header_at(1234.5, -77.25);
+    header.component = component;
+    header.source_m[1] = 3;
+    const TraceHeader back =
+        si_from_words(words_from_si(header, layout_of(std::vector<TraceHeader>{header})), file);
+    EXPECT_EQ(back.component, component);
+    EXPECT_EQ(back.source_m, header.source_m);
+    EXPECT_EQ(back.receiver_m, header.receiver_m);
+    EXPECT_EQ(back.water_depth_source_m, 450);
+    EXPECT_EQ(back.shot, 3);
+    EXPECT_EQ(back.channel, 17);
+  }
+}
+
+TEST(TraceWords, ApplyScalarsFeetAndTheTimeScalar) {
+  EXPECT_EQ(scaled(12, 100), 1200);
+  EXPECT_EQ(scaled(12, -100), 0.12);
+  EXPECT_EQ(scaled(12, 0), 12);
+  FileHeader file;
+  file.major = 1;
+  file.feet = true;
+  TraceWords words;
+  words.set("gx", 1000);
+  words.set("delrt", 10000);
+  words.set("tscal", -10);
+  EXPECT_DOUBLE_EQ(si_from_words(words, file).receiver_m[0], 304.8);
+  EXPECT_DOUBLE_EQ(start_s(words, file), 1);
+  file.major = 0;  // byte 215 is free there
+  EXPECT_DOUBLE_EQ(start_s(words, file), 10);
+}
