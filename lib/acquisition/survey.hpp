@@ -1,0 +1,97 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "acquisition/wavelet.hpp"
+#include "grid/grid.hpp"
+#include "grid/tensor.hpp"
+
+namespace slipwave {
+
+/// Pushes outward alike in all directions: M' = w in every normal stress.
+struct Explosion {};
+
+/// A force w times this vector on the medium.
+template <int D>
+struct PointForce {
+  Point<D> vector{};
+};
+
+/// A moment whose rate is w times this tensor.
+template <int D>
+struct MomentTensor {
+  SymmetricTensor<D, double> tensor;
+};
+
+/// A plane P wave that comes in from outside. In 3-D it travels in the x-z plane.
+template <int D>
+struct PlaneWave {
+  double angle_deg = 0;
+  Point<D> direction{};  // of travel; unit vector
+};
+
+template <int D>
+using Mechanism = std::variant<Explosion, PointForce<D>, MomentTensor<D>, PlaneWave<D>>;
+
+/// What sets the medium in motion (theory.md (A4)-(A7)). w(t) is the wavelet, dimensionless, A = amplitude:
+///   explosion  moment rate A w, N m/s in 3-D, N m/s per metre of the line source in 2-D
+///   force      A w times the vector, N (2-D: N/m)
+///   moment     moment rate A w times the tensor, N m/s (2-D: N m/s per m)
+///   plane      particle velocity A w along the direction of travel, m/s; w(0) is at the wavefront that runs
+///              through position_m at t = 0
+template <int D>
+struct Source {
+  Point<D> position_m{};
+  Mechanism<D> mechanism;
+  Wavelet wavelet;
+  double amplitude = 1;
+};
+
+/// Shots, one source each, into the same receivers.
+template <int D>
+struct Survey {
+  std::vector<Source<D>> sources;
+  std::vector<Point<D>> receivers_m;
+};
+
+/// What a point source does, per unit of its wavelet and before it is spread over cells of volume V = h^D:
+///   v_i' += force_i w/(rho V),   s_ij' -= moment_ij w/V   (tension positive: M > 0 pushes outward)
+template <int D>
+struct PointInjection {
+  Point<D> force{};
+  SymmetricTensor<D, double> moment_rate;
+};
+
+/// Nothing for a plane wave.
+template <int D>
+std::optional<PointInjection<D>> point_injection(const Source<D>& source);
+
+/// "explosion", "force:AX,AZ", "moment:MXX,MZZ,MXZ" or "plane:ANGLE"; in 3-D "force:AX,AY,AZ" and
+/// "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ". ANGLE in degrees: 0 travels straight down, positive angles tilt towards
+/// +x, 90 travels towards +x, 180 up. Vector and tensor are taken as they are, not normalised, and must not
+/// vanish. Throws a usage Error.
+template <int D>
+Mechanism<D> parse_mechanism(const std::string& text);
+
+/// "explosion", "force", "moment" or "plane".
+template <int D>
+const char* name_of(const Mechanism<D>& mechanism);
+
+/// Throws an Error naming the first source or receiver that is not in the grid (its faces belong to it) or
+/// not finite. The position of a plane wave is only a point of reference and may lie anywhere.
+template <int D>
+void check(const Survey<D>& survey, const Grid<D>& grid);
+
+extern template std::optional<PointInjection<2>> point_injection<2>(const Source<2>&);
+extern template std::optional<PointInjection<3>> point_injection<3>(const Source<3>&);
+extern template Mechanism<2> parse_mechanism<2>(const std::string&);
+extern template Mechanism<3> parse_mechanism<3>(const std::string&);
+extern template const char* name_of<2>(const Mechanism<2>&);
+extern template const char* name_of<3>(const Mechanism<3>&);
+extern template void check<2>(const Survey<2>&, const Grid<2>&);
+extern template void check<3>(const Survey<3>&, const Grid<3>&);
+
+}  // namespace slipwave
