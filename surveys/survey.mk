@@ -26,12 +26,13 @@ $(TOOLS) &:
 $(OUT):
 	mkdir -p '$@'
 
-clean:
+clean:## removes the results
 	rm -rf '$(OUT)'
 
+# A rule's comment, with the names that it makes and $(OUT) put in.
 help:
-	@echo 'make TARGET [SETTING=VALUE]. Targets:'
-	@awk -F ':.*##' '/^[^#\t].*:.*##/ { printf "  %-28s%s\n", $$1, $$2 }' $(firstword $(MAKEFILE_LIST)) | sed 's|$$(OUT)|$(OUT)|'
-	@echo '  clean                        removes $(OUT)'
-	@echo 'Settings:'
+	@echo 'make TARGET [SETTING=VALUE]; targets:'
+	@cat $(MAKEFILE_LIST) | sed -n 's|$$(OUT)|$(OUT)|g; s|^\([^#:	][^:]*[^:& ]\) *&*:.*##|\1\t|p' | \
+	  awk -F '\t *' '{ printf "  %-38s %s\n", $$1, $$2 }'
+	@echo 'settings:'
 	@echo '  OUT=$(OUT)  THREADS=$(THREADS)  BUILD=$(abspath $(BUILD))'
