@@ -64,7 +64,7 @@ install_needs() {
   say "installing$how: $missing"
   # Without package lists, or with lists that do not know a package, ask for new ones first.
   # shellcheck disable=SC2086
-  apt-cache show $missing >/dev/null 2>&1 || apt_get update || fail "apt-get update failed"
+  apt-get -qq -s install $missing >/dev/null 2>&1 || apt_get update || fail "apt-get update failed"
   # shellcheck disable=SC2086
   apt_get install -y --no-install-recommends $missing && return 0
   say "that failed; once more with new package lists"
