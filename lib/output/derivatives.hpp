@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+
+#include "grid/field.hpp"
+
+namespace slipwave {
+
+/// Derivative of a field along an axis, per metre: central differences of fourth order, of second order and
+/// one-sided towards the edges of the grid. For looking at; across contacts it sees the jump.
+template <int D>
+Field<D> derivative(const Field<D>& field, int axis);
+
+/// d v_i/d x_i.
+template <int D>
+Field<D> divergence(const std::array<Field<D>, std::size_t(D)>& velocity);
+
+/// dvx/dz - dvz/dx.
+Field<2> curl(const std::array<Field<2>, 2>& velocity);
+/// x, y and z component.
+std::array<Field<3>, 3> curl(const std::array<Field<3>, 3>& velocity);
+
+extern template Field<2> derivative<2>(const Field<2>&, int);
+extern template Field<3> derivative<3>(const Field<3>&, int);
+extern template Field<2> divergence<2>(const std::array<Field<2>, 2>&);
+extern template Field<3> divergence<3>(const std::array<Field<3>, 3>&);
+
+}  // namespace slipwave

@@ -1,0 +1,149 @@
+#include "output/snapshot_netcdf.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "grid/grid_netcdf.hpp"
+
+namespace slipwave {
+
+namespace {
+
+template <int D>
+const SnapshotField& field_named(const std::string& name) {
+  const auto& known = snapshot_fields<D>();
+  const auto at =
+      std::find_if(known.begin(), known.end(), [&](const auto& field) { return field.name == name; });
+  if (at != known.end()) return *at;
+  std::string names;
+  for (const auto& field : known) names += (names.empty() ? "" : ", ") + field.name;
+  throw Error("found the field '" + name + "', expected one of " + names, ErrorKind::usage);
+}
+
+}  // namespace
+
+template <>
+const std::vector<SnapshotField>& snapshot_fields<2>() {
+  static const std::vector<SnapshotField> fields = {
+      {"vx", "particle velocity along x", "m s-1"},
+      {"vz", "particle velocity along z, positive down", "m s-1"},
+      {"p", "pressure, -(sxx + szz)/2", "Pa"},
+      {"sxx", "normal stress along x, tension positive", "Pa"},
+      {"szz", "normal stress along z, tension positive", "Pa"},
+      {"sxz", "shear stress", "Pa"},
+      {"div", "divergence of particle velocity", "s-1"},
+      {"curl", "curl of particle velocity, dvx/dz - dvz/dx", "s-1"},
+  };
+  return fields;
+}
+
+template <>
+const std::vector<SnapshotField>& snapshot_fields<3>() {
+  static const std::vector<SnapshotField> fields = {
+      {"vx", "particle velocity along x", "m s-1"},
+      {"vy", "particle velocity along y", "m s-1"},
+      {"vz", "particle velocity along z, positive down", "m s-1"},
+      {"p", "pressure, -(sxx + syy + szz)/3", "Pa"},
+      {"sxx", "normal stress along x, tension positive", "Pa"},
+      {"syy", "normal stress along y, tension positive", "Pa"},
+      {"szz", "normal stress along z, tension positive", "Pa"},
+      {"sxy", "shear stress", "Pa"},
+      {"sxz", "shear stress", "Pa"},
+      {"syz", "shear stress", "Pa"},
+      {"div", "divergence of particle velocity", "s-1"},
+      {"curlx", "curl of particle velocity along x, dvz/dy - dvy/dz", "s-1"},
+      {"curly", "curl of particle velocity along y, dvx/dz - dvz/dx", "s-1"},
+      {"curlz", "curl of particle velocity along z, dvy/dx - dvx/dy", "s-1"},
+  };
+  return fields;
+}
+
+template <int D>
+std::vector<std::string> parse_snapshot_fields(const std::string& text) {
+  const auto names = split(text, ',');
+  for (auto name = names.begin(); name != names.end(); ++name) {
+    field_named<D>(*name);
+    if (std::find(names.begin(), name, *name) != name)
+      throw Error("found the field '" + *name + "' twice, expected each once", ErrorKind::usage);
+  }
+  return names;
+}
+
+template <int D>
+SnapshotWriter<D>::SnapshotWriter(const std::string& path, const Grid<D>& grid,
+                                  std::vector<std::string> fields, const SnapshotHistory& history)
+    : grid_(grid),
+      fields_(std::move(fields)),
+      out_(path, OutputFile::Content::binary),
+      file_(NetcdfFile::create(out_.path_for_libraries(), out_.shown_name())),
+      low_(fields_.size(), std::numeric_limits<float>::infinity()),
+      high_(fields_.size(), -std::numeric_limits<float>::infinity()) {
+  file_.put_attribute("", "Conventions", "CF-1.10");
+  for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"title", history.title},
+                                   {"source", history.source},
+                                   {"history", history.history}})
+    if (!text.empty()) file_.put_attribute("", name, text);
+  define_grid(file_, grid);
+  file_.define_dimension("time", 0);
+  file_.define_variable("time", NetcdfFile::Type::f64, {"time"}, {false, {1024}});
+  file_.put_attribute("time", "standard_name", "time");
+  file_.put_attribute("time", "long_name", "time since the start of the run");
+  file_.put_attribute("time", "units", "s");
+  file_.put_attribute("time", "axis", "T");
+  auto dimensions = field_dimensions<D>();
+  dimensions.insert(dimensions.begin(), "time");
+  std::vector<std::size_t> chunk = {1};
+  for (int axis = D; axis-- > 0;) chunk.push_back(std::size_t(grid.shape[std::size_t(axis)]));
+  for (const auto& name : fields_) {
+    const auto& field = field_named<D>(name);
+    file_.define_variable(name, NetcdfFile::Type::f32, dimensions, {true, chunk});
+    file_.put_attribute(name, "_FillValue", std::vector<float>{std::numeric_limits<float>::quiet_NaN()});
+    file_.put_attribute(name, "long_name", field.long_name);
+    file_.put_attribute(name, "units", field.units);
+  }
+  put_grid(file_, grid);
+}
+
+template <int D>
+void SnapshotWriter<D>::write(double time_s, std::span<const Field<D>> fields) {
+  assert(fields.size() == fields_.size());
+  assert(times_ == 0 || time_s > last_s_);
+  std::vector<std::size_t> start(D + 1, 0), count = {1};
+  start[0] = times_;
+  for (int axis = D; axis-- > 0;) count.push_back(std::size_t(grid_.shape[std::size_t(axis)]));
+  file_.put("time", {times_}, {1}, &time_s);
+  for (std::size_t n = 0; n < fields_.size(); ++n) {
+    assert(fields[n].grid() == grid_);
+    file_.put(fields_[n], start, count, fields[n].data());
+    for (const float value : fields[n]) {
+      low_[n] = std::min(low_[n], value);
+      high_[n] = std::max(high_[n], value);
+    }
+  }
+  if (times_ == 0) first_s_ = time_s;
+  last_s_ = time_s;
+  ++times_;
+}
+
+template <int D>
+void SnapshotWriter<D>::commit() {
+  if (times_ > 0) {
+    file_.put_attribute("time", "actual_range", std::vector<double>{first_s_, last_s_});
+    for (std::size_t n = 0; n < fields_.size(); ++n)
+      if (low_[n] <= high_[n])
+        file_.put_attribute(fields_[n], "actual_range", std::vector<float>{low_[n], high_[n]});
+  }
+  file_.close();
+  out_.commit();
+}
+
+template std::vector<std::string> parse_snapshot_fields<2>(const std::string&);
+template std::vector<std::string> parse_snapshot_fields<3>(const std::string&);
+template class SnapshotWriter<2>;
+template class SnapshotWriter<3>;
+
+}  // namespace slipwave

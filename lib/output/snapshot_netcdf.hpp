@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "grid/field.hpp"
+
+namespace slipwave {
+
+/// A field a snapshot file can hold.
+struct SnapshotField {
+  std::string name, long_name, units;
+};
+
+/// All of them. 2-D: vx vz p sxx szz sxz div curl (div and curl of the velocity, curl = dvx/dz - dvz/dx).
+/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz.
+template <int D>
+const std::vector<SnapshotField>& snapshot_fields();
+
+/// "vx,vz,div": names of snapshot_fields(), each once, in the order given. Throws a usage Error that lists
+/// them.
+template <int D>
+std::vector<std::string> parse_snapshot_fields(const std::string& text);
+
+/// Global attributes; empty ones are left out.
+struct SnapshotHistory {
+  std::string title, source, history;
+};
+
+/// Writes snapshots of a run as netCDF-4 (docs/formats): dimensions time (unlimited), z, [y,] x; coordinates
+/// as in the model file; every field float(time, z, [y,] x), one chunk a time, shuffled and deflated. The
+/// file appears when commit() is called; destroyed before, the writer leaves nothing behind.
+template <int D>
+class SnapshotWriter {
+ public:
+  /// `fields`: names of snapshot_fields(). path "-" is standard output. Throws Error when it cannot be
+  /// written.
+  SnapshotWriter(const std::string& path, const Grid<D>& grid, std::vector<std::string> fields,
+                 const SnapshotHistory& history);
+
+  /// The state at a time, later than the last one: one field on the writer's grid for each name, in that
+  /// order, in SI.
+  void write(double time_s, std::span<const Field<D>> fields);
+  /// Finishes the file and puts it in place. Once, at the end.
+  void commit();
+
+  const std::vector<std::string>& fields() const { return fields_; }
+  std::size_t times() const { return times_; }
+
+ private:
+  Grid<D> grid_;
+  std::vector<std::string> fields_;
+  OutputFile out_;
+  NetcdfFile file_;
+  std::size_t times_ = 0;
+  double first_s_ = 0, last_s_ = 0;
+  std::vector<float> low_, high_;  // of each field over all times
+};
+
+extern template class SnapshotWriter<2>;
+extern template class SnapshotWriter<3>;
+
+}  // namespace slipwave
