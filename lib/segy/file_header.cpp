@@ -94,6 +94,10 @@ FileHeader read_segy(ByteSource& source, const ReadOptions& options) {
   FileHeader header;
   header.encoding = encoding_of(text);
   header.text = decode_text(text, header.encoding);
+  const auto mark = binary.subspan<3297 - BinaryLayout::first, 4>();
+  if ((mark[0] == 2 && mark[1] == 1 && mark[2] == 4 && mark[3] == 3) ||
+      (mark[0] == 3 && mark[1] == 4 && mark[2] == 1 && mark[3] == 2))
+    throw Error("bytes are swapped in pairs (byte 3297), expected big- or little-endian order");
   header.endian = options.endian.value_or(byte_order_of(binary));
   header.binary = BinaryWords(binary, header.endian);
   read_revision(header);

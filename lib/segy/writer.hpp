@@ -21,7 +21,8 @@ struct FileFormat {
   int revision = 1;  // 0, 1 or 2 (written as 2.1)
   Endian endian = Endian::big;
   TextEncoding encoding = TextEncoding::ebcdic;
-  bool su = false;  // Seismic Unix: no reel headers, format 5, bytes 181 to 240 zero; endian applies
+  bool su =
+      false;  // Seismic Unix: no reel headers, format 5, bytes 181 to 240 zero; SU itself wants native_endian
 };
 
 /// Everything that must be known before the first trace is written.

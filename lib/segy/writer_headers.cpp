@@ -156,6 +156,10 @@ FileInfo info_like(const Reader& reader, const std::string& entry) {
     info.format.revision = 1;
     return info;
   }
+  info.layout.traces = header.traces.value_or(0);
+  info.layout.traces_per_shot = header.binary.get("ntrpr");
+  if (header.major >= 2 && header.binary.get("xntrpr") > 0)
+    info.layout.traces_per_shot = header.binary.get("xntrpr");
   info.text = with_entry(header.text, entry, info.format.revision);
   info.carried = header.binary;
   return info;
