@@ -12,7 +12,8 @@ template <int D, class Value = float>
 class Field {
  public:
   Field() = default;
-  explicit Field(const Grid<D>& grid, Value fill = {}) : grid_(grid), values_(std::size_t(grid.size()), fill) {}
+  explicit Field(const Grid<D>& grid, Value fill = {})
+      : grid_(grid), values_(std::size_t(grid.size()), fill) {}
 
   const Grid<D>& grid() const { return grid_; }
   bool empty() const { return values_.empty(); }

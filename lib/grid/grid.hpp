@@ -8,9 +8,9 @@
 namespace slipwave {
 
 template <int D>
-using Point = std::array<double, D>;  // m; 2-D: x, z; 3-D: x, y, z; z points down
+using Point = std::array<double, std::size_t(D)>;  // m; 2-D: x, z; 3-D: x, y, z; z points down
 template <int D>
-using Index = std::array<std::int64_t, D>;
+using Index = std::array<std::int64_t, std::size_t(D)>;
 
 /// Names of the axes in storage order, fastest first: "x","z" or "x","y","z".
 template <int D>
@@ -23,9 +23,9 @@ constexpr std::array<char, D> axis_names() {
 /// depth, its origin the free surface z = 0. Cells are numbered x fastest.
 template <int D>
 struct Grid {
-  Index<D> shape{};       // cells along x, [y,] z
-  double spacing_m = 0;   // h
-  Point<D> origin_m{};    // the low corner of cell (0, .., 0)
+  Index<D> shape{};      // cells along x, [y,] z
+  double spacing_m = 0;  // h
+  Point<D> origin_m{};   // the low corner of cell (0, .., 0)
 
   std::int64_t size() const {
     std::int64_t cells = 1;
