@@ -8,6 +8,7 @@
 #include "gather/comparison.hpp"
 #include "segy/pair.hpp"
 #include "segy/reader.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -19,7 +20,7 @@ struct Settings {
   std::string output = "-";
   std::optional<double> tolerance;
   bool summary = false;
-  bool su = false;
+  TraceInput input_options;
 };
 
 void declare(cli::Options& options, Settings& settings) {
@@ -30,7 +31,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("output,o", settings.output, "FILE", "where the table goes, - is standard output");
   options.add("tolerance", settings.tolerance, "L2", "exit 1 when |A - B|/|B| of all traces is above this");
   options.add("summary", settings.summary, "only the line of all traces");
-  options.add("su", settings.su, "read both as Seismic Unix files, also where they do not look like it");
+  settings.input_options.declare(options);
 }
 
 std::string row(const std::string& place, const Misfit& misfit) {
@@ -52,8 +53,7 @@ std::string place_of(std::int64_t trace, const TraceHeader& header) {
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.a == "-" && settings.b == "-")
     throw Error("A and B are both standard input, expected two inputs", ErrorKind::usage);
-  segy::ReadOptions options;
-  options.su = settings.su;
+  const segy::ReadOptions options = settings.input_options.read_options();
   segy::Reader a(settings.a, options);
   segy::Reader b(settings.b, options);
   segy::PairReader pair(a, b);

@@ -7,6 +7,7 @@
 #include "segy/pair.hpp"
 #include "segy/reader.hpp"
 #include "segy/writer.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -16,7 +17,7 @@ struct Settings {
   std::string a;
   std::string b;
   std::string output = "-";
-  bool su = false;
+  TraceInput input_options;
 };
 
 void declare(cli::Options& options, Settings& settings) {
@@ -25,14 +26,13 @@ void declare(cli::Options& options, Settings& settings) {
   options.require("A");
   options.require("B");
   options.add("output,o", settings.output, "FILE", "where A - B goes, - is standard output");
-  options.add("su", settings.su, "read both as Seismic Unix files, also where they do not look like it");
+  settings.input_options.declare(options);
 }
 
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.a == "-" && settings.b == "-")
     throw Error("A and B are both standard input, expected two inputs", ErrorKind::usage);
-  segy::ReadOptions options;
-  options.su = settings.su;
+  const segy::ReadOptions options = settings.input_options.read_options();
   segy::Reader a(settings.a, options);
   segy::Reader b(settings.b, options);
   segy::PairReader pair(a, b);

@@ -7,6 +7,7 @@
 #include "gather/spectrum.hpp"
 #include "gather/spectrum_file.hpp"
 #include "segy/reader.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -19,7 +20,7 @@ struct Settings {
   SpectrumSettings spectrum;
   bool each = false;
   bool text = false;
-  bool su = false;
+  TraceInput input_options;
 };
 
 void declare(cli::Options& options, Settings& settings) {
@@ -31,12 +32,11 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("pad", settings.spectrum.pad, "FACTOR",
               "transform length over trace length, filled with zeros");
   options.add("text", settings.text, "columns of numbers, not netCDF");
-  options.add("su", settings.su, "read a Seismic Unix file, also where it does not look like one");
+  settings.input_options.declare(options);
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  segy::ReadOptions options;
-  options.su = settings.su;
+  const segy::ReadOptions options = settings.input_options.read_options();
   segy::Reader reader(settings.input, options);
   SpectrumSettings wanted = settings.spectrum;
   wanted.window = window_named(settings.window);

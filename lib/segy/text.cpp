@@ -61,13 +61,14 @@ std::string stamp(int revision) {
   return revision >= 2 ? "SEG-Y REV2.1" : "SEG Y REV" + std::to_string(revision);
 }
 
-/// What stands behind the line's number, trailing blanks off.
+bool is_blank(char character) { return character <= ' ' || character > '~'; }
+
+/// What stands behind the line's number; control characters at its ends count as blanks.
 std::string content_of(std::string_view line) {
   if (line.size() > 3 && (line[0] == 'C' || line[0] == 'c')) line.remove_prefix(3);
-  const std::size_t first = line.find_first_not_of(std::string_view(" \0", 2));
-  if (first == std::string_view::npos) return "";
-  const std::size_t last = line.find_last_not_of(std::string_view(" \0", 2));
-  return std::string(line.substr(first, last + 1 - first));
+  while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
+  while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
+  return std::string(line);
 }
 
 bool may_be_stamped(const std::string& content) {
@@ -143,7 +144,7 @@ std::vector<std::string> shown_lines(std::string_view text) {
   for (std::string& line : split(text)) {
     if (content_of(line).empty()) continue;
     for (char& character : line)
-      if (character < ' ' || character > '~') character = '.';
+      if (is_blank(character) && character != ' ') character = '.';
     line.erase(line.find_last_not_of(' ') + 1);
     lines.push_back(std::move(line));
   }
