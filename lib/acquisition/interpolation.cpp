@@ -117,7 +117,8 @@ std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, i
 
 template <int D>
 std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
-                                          const std::array<AxisCells, D>& usable, int most_cells) {
+                                          const std::array<AxisCells, std::size_t(D)>& usable,
+                                          int most_cells) {
   std::vector<PointWeight<D>> product{{{}, 1.}};
   for (int axis = 0; axis < D; ++axis) {
     const double position = (point_m[axis] - grid.origin_m[axis]) / grid.spacing_m - 0.5;

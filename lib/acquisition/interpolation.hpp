@@ -55,7 +55,7 @@ std::vector<CellWeight> axis_weights(double position, const AxisCells& usable,
 /// given per axis: where they differ from line to line, give those common to all.
 template <int D>
 std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
-                                          const std::array<AxisCells, D>& usable,
+                                          const std::array<AxisCells, std::size_t(D)>& usable,
                                           int most_cells = widest_stencil);
 
 /// Weights for a value between time steps: Lagrange polynomials through `count` samples number first, first +
