@@ -109,7 +109,7 @@ struct FirstOrder {
   }
 };
 
-/// Trapezoidal rule, second order in time (theory.md (S6)-(S8); Nikitin & Golubev 2021 eq. 40-49): half of
+/// Trapezoidal rule, second order in time (theory.md (S6), (S7); Nikitin & Golubev 2021 eq. 40-49): half of
 /// the slip at the step's beginning, half of that at its end. Where a step is longer than four times the
 /// relaxation time d S dt the weight of the end grows to 1 - 2 d S: the plain rule rings there, this one
 /// damps at least threefold a step, and at d = 0 it is dry friction exactly. Where the slip remembered from

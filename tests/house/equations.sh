@@ -1,5 +1,5 @@
 #!/bin/sh
-# equations.sh ROOT: every equation tag (E1), (E2a) ... defined in docs/theory.md names tests, and those exist.
+# equations.sh ROOT: every equation tag (E1), (S2a) ... defined in docs/theory.md names tests, and those exist.
 # A tag is defined where it ends a line of mathematics or starts a row of a table; its tests are named as
 # `Suite.Test` on the lines down to the next definition.
 set -eu
@@ -24,9 +24,9 @@ awk -v tests="$tests" -v theory="$theory" '
     if (tag != "" && !named) { printf "%s:%d: (%s) names no test\n", theory, at, tag; bad = 1 }
   }
   BEGIN { while ((getline name < tests) > 0) exists[name] = 1 }
-  /\(E[0-9]+[a-z]?\)[ \t`$]*$/ || /^\|[ \t]*\(E[0-9]+[a-z]?\)/ {
+  /\([A-Z][0-9]+[a-z]?\)[ \t`$]*$/ || /^\|[ \t]*\([A-Z][0-9]+[a-z]?\)/ {
     close_tag()
-    match($0, /\(E[0-9]+[a-z]?\)[ \t`$]*$/) || match($0, /\(E[0-9]+[a-z]?\)/)
+    match($0, /\([A-Z][0-9]+[a-z]?\)[ \t`$]*$/) || match($0, /\([A-Z][0-9]+[a-z]?\)/)
     tag = substr($0, RSTART + 1)
     sub(/\).*/, "", tag)
     at = FNR
