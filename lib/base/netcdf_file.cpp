@@ -78,14 +78,14 @@ void NetcdfFile::Impl::fail(const std::string& variable, const std::string& sent
 void NetcdfFile::Impl::check(int status, const std::string& variable) const {
   if (status == NC_NOERR) return;
   const int system_cause = errno;
-  if (status > 0) fail(variable, cause_of(status));
-  if (status == NC_EHDFERR) {
+  if (status > 0 || status == NC_EHDFERR) {
     // HDF5 keeps the cause to itself, but leaves what the system said.
     for (const int cause : {ENOSPC, EDQUOT, EFBIG, EIO, EROFS, ENOMEM}) {
-      if (system_cause == cause) fail(variable, cause_of(cause));
+      if (system_cause == cause) fail("", cause_of(cause));
     }
-    fail(variable, "damaged: the HDF5 library cannot read or write it");
   }
+  if (status > 0) fail("", cause_of(status));
+  if (status == NC_EHDFERR) fail(variable, "damaged: the HDF5 library cannot read or write it");
   if (status == NC_ENOTNC) fail(variable, "is no netCDF file");
   std::string text = nc_strerror(status);
   const std::string prefix = "NetCDF: ";

@@ -53,14 +53,20 @@ void Parser::declare_common() {
 }
 
 void Parser::parse(int argc, const char* const* argv) {
+  // Who asks for help gets it, whatever else is wrong.
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    common_.help = common_.help || word == "--help" || word == "-h";
+  }
+  if (common_.help) return;
   read_command_line(argc, argv);
   for (const auto& option : options_.options_) {
-    if (option.name == "help" || option.name == "version" || option.name == "config") {
+    if (option.name == "version" || option.name == "config") {
       const auto found = given_.find(option.name);
       if (found != given_.end()) option.store(found->second);
     }
   }
-  if (common_.help || common_.version) return;
+  if (common_.version) return;
   if (!common_.config.empty()) read_config();
   store();
 }

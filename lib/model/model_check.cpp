@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -8,6 +9,13 @@ namespace {
 
 // Room for the rounding of vp and vs to float.
 constexpr double slack = 1 + 1e-6;
+
+/// Values of a model are floats: the shortest number that reads back as that float.
+std::string shown_float(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, float(value));
+  return std::string(text, end.ptr);
+}
 
 /// "vs at x=1200 z=45 is NaN, expected ..."
 template <int D>
@@ -21,7 +29,7 @@ void check_values(const Field<D>& field, const std::string& name) {
   for (std::size_t cell = 0; cell < field.size(); ++cell) {
     const double value = double(field[cell]);
     if (value >= 0 && std::isfinite(value)) continue;
-    const std::string found = std::isnan(value) ? "NaN" : shown(field[cell]);
+    const std::string found = std::isnan(value) ? "NaN" : shown_float(field[cell]);
     refuse(field.grid(), cell, name, "is " + found + ", expected a finite number not below zero");
   }
 }
@@ -32,20 +40,21 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
   if (medium.is_void(cell)) {
     if (vp == 0 && vs == 0) return;
     refuse(medium.grid(), cell, "rho",
-           "is 0 with vp " + shown(vp) + " and vs " + shown(vs) + ", expected both 0 in void or a density");
+           "is 0 with vp " + shown_float(vp) + " and vs " + shown_float(vs) +
+               ", expected both 0 in void or a density");
   }
   if (vp == 0) refuse(medium.grid(), cell, "vp", "is 0, expected a speed above zero outside void");
-  const std::string start = "is " + shown(vs) + ", expected ";
+  const std::string start = "is " + shown_float(vs) + ", expected ";
   if (limits.allow_auxetic) {
     const double limit = vp * std::sqrt(0.75);
     if (vs * slack >= limit) {
       refuse(medium.grid(), cell, "vs",
-             start + "below vp sqrt(3)/2 = " + shown(limit) + " (positive bulk modulus)");
+             start + "below vp sqrt(3)/2 = " + shown_float(limit) + " (positive bulk modulus)");
     }
   } else if (vs > vp / std::sqrt(2.0) * slack) {
-    refuse(
-        medium.grid(), cell, "vs",
-        start + "at most vp/sqrt(2) = " + shown(vp / std::sqrt(2.0)) + " (lambda < 0 needs --allow-auxetic)");
+    refuse(medium.grid(), cell, "vs",
+           start + "at most vp/sqrt(2) = " + shown_float(vp / std::sqrt(2.0)) +
+               " (lambda < 0 needs --allow-auxetic)");
   }
 }
 

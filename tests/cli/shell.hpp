@@ -1,0 +1,35 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+/// What a command line left behind.
+struct Ran {
+  int code = 0;  // of bash with pipefail: of the last command that failed; 128 + N when a signal ended it
+  std::string out, err;
+};
+
+/// A test that runs shell lines in a fresh temporary directory, removed afterwards, with the tools of this
+/// build first on PATH. The name of a file in a line is relative to that directory.
+class Shell : public ::testing::Test {
+ protected:
+  Shell();
+  ~Shell() override;
+
+  Ran run(const std::string& line) const;
+  /// Runs and expects exit 0 and nothing on stderr; returns stdout.
+  std::string done(const std::string& line) const;
+  /// Runs and expects this exit code and exactly this line on stderr.
+  void expect_refused(const std::string& line, int code, const std::string& message) const;
+
+  std::string path(const std::string& name) const { return directory_ + '/' + name; }
+  bool exists(const std::string& name) const;
+  std::string content(const std::string& name) const;
+  void write(const std::string& name, const std::string& content) const;
+  /// Names of all files in the directory, hidden ones too, sorted, blanks between.
+  std::string files() const;
+
+ private:
+  std::string directory_;
+};

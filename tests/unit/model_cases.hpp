@@ -1,0 +1,42 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+
+#include "base/error.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+
+inline Grid<2> grid_of(std::int64_t nx, std::int64_t nz, double spacing_m) {
+  Grid<2> grid;
+  grid.shape = {nx, nz};
+  grid.spacing_m = spacing_m;
+  return grid;
+}
+
+/// Rock below `fluid_rows` rows of water.
+inline Model<2> water_over_rock(const Grid<2>& grid, std::int64_t fluid_rows) {
+  Model<2> model;
+  model.medium = {Field<2>(grid), Field<2>(grid), Field<2>(grid)};
+  for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
+    const bool fluid = grid.index(cell)[1] < fluid_rows;
+    model.medium.vp[std::size_t(cell)] = fluid ? 1500 : 3000;
+    model.medium.vs[std::size_t(cell)] = fluid ? 0 : 1500;
+    model.medium.rho[std::size_t(cell)] = fluid ? 1000 : 2200;
+  }
+  return model;
+}
+
+inline std::string sentence_of(const std::function<void()>& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace slipwave

@@ -1,0 +1,193 @@
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/netcdf_file.hpp"
+#include "grid/grid_netcdf.hpp"
+#include "model/import.hpp"
+#include "model/model_netcdf.hpp"
+#include "model_cases.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ModelFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path().string() + "/slipwave-unit-XXXXXX";
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    directory_ = name;
+    path_ = (directory_ / "m.nc").string();
+  }
+  void TearDown() override { fs::remove_all(directory_); }
+
+  fs::path directory_;
+  std::string path_;
+};
+
+template <int D>
+void expect_equal(const Model<D>& found, const Model<D>& expected) {
+  EXPECT_EQ(found.grid(), expected.grid());
+  const auto same = [](const auto& a, const auto& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  };
+  EXPECT_TRUE(same(found.medium.vp, expected.medium.vp));
+  EXPECT_TRUE(same(found.medium.vs, expected.medium.vs));
+  EXPECT_TRUE(same(found.medium.rho, expected.medium.rho));
+  EXPECT_TRUE(same(found.fracture, expected.fracture));
+  ASSERT_EQ(found.fracture_sets.size(), expected.fracture_sets.size());
+  for (std::size_t k = 0; k < found.fracture_sets.size(); ++k) {
+    EXPECT_EQ(found.fracture_sets[k].name, expected.fracture_sets[k].name);
+    const auto& systems = found.fracture_sets[k].systems;
+    ASSERT_EQ(systems.size(), expected.fracture_sets[k].systems.size());
+    for (std::size_t i = 0; i < systems.size(); ++i) {
+      EXPECT_EQ(systems[i].normal, expected.fracture_sets[k].systems[i].normal);
+      EXPECT_EQ(systems[i].friction, expected.fracture_sets[k].systems[i].friction);
+      EXPECT_EQ(systems[i].viscosity_s, expected.fracture_sets[k].systems[i].viscosity_s);
+      EXPECT_EQ(systems[i].strength_pa, expected.fracture_sets[k].systems[i].strength_pa);
+    }
+  }
+  EXPECT_EQ(found.title, expected.title);
+  EXPECT_EQ(found.source, expected.source);
+  EXPECT_EQ(found.history, expected.history);
+}
+
+}  // namespace
+
+TEST_F(ModelFile, BringsBackATwoDimensionalModelBitForBit) {
+  auto model = water_over_rock(grid_of(7, 5, 0.1), 2);
+  for (std::size_t cell = 0; cell < model.medium.vp.size(); ++cell)
+    model.medium.vp[cell] += 0.1f * float(cell);
+  model.fracture = Field<2, std::uint8_t>(model.grid());
+  model.fracture({3, 4}) = 2;
+  model.fracture({4, 4}) = 1;
+  model.fracture_sets = {{"one", {{{0.6, 0.8}, 0.1, 1e-3, 5}}},
+                         {"two", {{{1, 0}, 0.2, 0, 0}, {{0, 1}, 0.3, 7, 1e6}}}};
+  model.title = "a title";
+  model.source = "a source";
+  model.history = "first\nsecond";
+  write_model(model, path_);
+  expect_equal(read_model<2>(path_), model);
+}
+
+TEST_F(ModelFile, BringsBackAThreeDimensionalModelBitForBit) {
+  Grid<3> grid;
+  grid.shape = {3, 4, 5};
+  grid.spacing_m = 1.0 / 3;
+  grid.origin_m = {620000.5, -10, 0};
+  Model<3> model;
+  model.medium = {Field<3>(grid, 3000), Field<3>(grid, 1500), Field<3>(grid, 2000)};
+  for (std::size_t cell = 0; cell < model.medium.vp.size(); ++cell) model.medium.vp[cell] += float(cell);
+  write_model(model, path_);
+  const auto found = read_model<3>(path_);
+  EXPECT_EQ(found.grid().shape, grid.shape);
+  EXPECT_NEAR(found.grid().spacing_m, grid.spacing_m, 1e-9);
+  EXPECT_NEAR(found.grid().origin_m[0], grid.origin_m[0], 1e-9);
+  EXPECT_TRUE(std::equal(found.medium.vp.begin(), found.medium.vp.end(), model.medium.vp.begin()));
+}
+
+TEST_F(ModelFile, KeepsItsStepAndOriginThroughManyPasses) {
+  for (const double step : {5.0, 0.1, 12.5, 1.0 / 3}) {
+    auto model = water_over_rock(grid_of(300, 2, step), 1);
+    write_model(model, path_);
+    for (int pass = 0; pass < 3; ++pass) {
+      auto again = read_model<2>(path_);
+      EXPECT_EQ(again.grid(), model.grid()) << step;
+      write_model(again, path_);
+    }
+  }
+}
+
+TEST_F(ModelFile, SaysWhatAFileLacks) {
+  write_model(water_over_rock(grid_of(3, 2, 5), 1), path_);
+  EXPECT_EQ(sentence_of([&] { read_model<3>(path_); }),
+            path_ + ": vp: found dimensions (z, x), expected (z, y, x)");
+  const auto other = (directory_ / "other.nc").string();
+  {
+    auto file = NetcdfFile::create(other, other);
+    define_grid(file, grid_of(3, 2, 5));
+    file.define_variable("vp", NetcdfFile::Type::f32, {"z", "x"});
+    put_grid(file, grid_of(3, 2, 5));
+    file.close();
+  }
+  EXPECT_EQ(sentence_of([&] { read_model<2>(other); }), other + ": found no variable 'vs', expected a model");
+}
+
+TEST_F(ModelFile, RefusesUnevenUnequalOrLoweredGrids) {
+  const auto with = [&](const std::vector<double>& x, const std::vector<double>& z) {
+    auto file = NetcdfFile::create(path_, "m.nc");
+    file.define_dimension("z", z.size());
+    file.define_dimension("x", x.size());
+    file.define_variable("x", NetcdfFile::Type::f64, {"x"});
+    file.define_variable("z", NetcdfFile::Type::f64, {"z"});
+    file.put("x", x.data());
+    file.put("z", z.data());
+    const auto sentence = sentence_of([&] { read_grid<2>(file); });
+    file.close();
+    return sentence;
+  };
+  EXPECT_EQ(with({5, 15, 25}, {5, 15}), "no error");
+  EXPECT_NE(with({5, 15, 26}, {5, 15}).find("x: found unevenly spaced"), std::string::npos);
+  EXPECT_NE(with({25, 15, 5}, {5, 15}).find("x: found unevenly spaced or descending"), std::string::npos);
+  EXPECT_EQ(with({5, 15, 25}, {2.5, 7.5}),
+            "m.nc: found a step of 10 m along x and of 5 m along z, expected equal steps");
+  EXPECT_EQ(with({5, 15, 25}, {0, 10}), "m.nc: z begins at 0, expected 5, half a step below the surface");
+}
+
+TEST(RawField, RunsDownTheColumnsWhenZIsFast) {
+  // 3 columns of 2: the values 0 .. 5 as little-endian floats.
+  std::vector<char> bytes;
+  for (int i = 0; i < 6; ++i) {
+    const float value = float(i);
+    const auto* raw = reinterpret_cast<const char*>(&value);
+    bytes.insert(bytes.end(), raw, raw + 4);
+  }
+  const auto z_fast = field_from_raw(bytes, grid_of(3, 2, 5), FastAxis::z);
+  EXPECT_EQ(z_fast({0, 1}), 1);
+  EXPECT_EQ(z_fast({2, 0}), 4);
+  const auto x_fast = field_from_raw(bytes, grid_of(3, 2, 5), FastAxis::x);
+  EXPECT_EQ(x_fast({2, 0}), 2);
+  EXPECT_EQ(x_fast({0, 1}), 3);
+  EXPECT_EQ(sentence_of([&] { field_from_raw(bytes, grid_of(3, 3, 5), FastAxis::z); }),
+            "found 24 bytes, expected 36 for 3 x 3 cells of 5 m, 4 bytes each");
+}
+
+TEST(SectionOfColumns, PutsTracesSideBySide) {
+  const auto field = field_from_columns({{1, 2}, {3, 4}, {5, 6}}, 10);
+  EXPECT_EQ(field.grid(), grid_of(3, 2, 10));
+  EXPECT_EQ(field({1, 0}), 3);
+  EXPECT_EQ(field({2, 1}), 6);
+  EXPECT_EQ(sentence_of([] {
+              field_from_columns({{1, 2}, {3}}, 10);
+            }),
+            "trace 2: found 1 samples, expected 2 as in the first");
+}
+
+TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
+  {
+    // speed(x, elevation) in km/s, elevation in km upwards, from the bottom.
+    auto file = NetcdfFile::create(path_, path_);
+    file.define_dimension("x", 2);
+    file.define_dimension("elevation", 3);
+    file.define_variable("elevation", NetcdfFile::Type::f64, {"elevation"});
+    file.put_attribute("elevation", "units", "km");
+    file.put_attribute("elevation", "positive", "up");
+    file.put("elevation", std::vector<double>{-0.05, -0.03, -0.01}.data());
+    file.define_variable("speed", NetcdfFile::Type::f64, {"x", "elevation"});
+    file.put_attribute("speed", "units", "km/s");
+    file.put("speed", std::vector<double>{4, 3, 2, 4.5, 3.5, 2.5}.data());
+    file.close();
+  }
+  const auto field = field_from_netcdf(NetcdfFile::open(path_), "vp", "", {});
+  EXPECT_EQ(field.grid(), grid_of(2, 3, 20));
+  EXPECT_EQ(field({0, 0}), 2000);
+  EXPECT_EQ(field({1, 0}), 2500);
+  EXPECT_EQ(field({0, 2}), 4000);
+  EXPECT_NE(sentence_of([&] {
+              field_from_netcdf(NetcdfFile::open(path_), "vp", "", 10);
+            }).find("found a step of 20 m"),
+            std::string::npos);
+}
