@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <new>
 
+#include "base/parallel.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/parser.hpp"
@@ -54,7 +55,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
       print(info.name + " (" + version + ")\n");
       return 0;
     }
-    if (parser.common().threads) omp_set_num_threads(parser.common().threads);
+    const ThreadLimit limit(parser.common().threads);
     Context context;
     context.command_line = parser.command_line();
     context.tool = info.name;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -71,32 +73,33 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
     for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);
   };
   const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
-#pragma omp parallel for schedule(static)
-  for (std::int64_t line = 0; line < lines; ++line) {
-    Index<D> at = layout.line_index(line);
-    for (at[0] = 0; at[0] < nx; ++at[0]) write(at, at, false, 1, 1);
-    for (const int side : {0, 1}) {
-      Index<D> from = at;
-      from[0] = side ? nx - 1 : 0;
-      at[0] = side ? nx : -1;
-      const EdgeLaw law = domain.edges[0][side];
-      write(at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
-    }
-    // Ghost lines beyond the edges of the other axes repeat the line before them.
-    for (int axis = 1; axis < D; ++axis) {
-      Index<D> cell = layout.line_index(line);
-      if (cell[axis] != 0 && cell[axis] != layout.shape()[axis] - 1) continue;
+  parallel_for(lines, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      Index<D> at = layout.line_index(line);
+      for (at[0] = 0; at[0] < nx; ++at[0]) write(at, at, false, 1, 1);
       for (const int side : {0, 1}) {
-        if (cell[axis] != (side ? layout.shape()[axis] - 1 : 0)) continue;
-        const EdgeLaw law = domain.edges[axis][side];
-        for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
-          Index<D> ghost = cell;
-          ghost[axis] += side ? 1 : -1;
-          write(ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+        Index<D> from = at;
+        from[0] = side ? nx - 1 : 0;
+        at[0] = side ? nx : -1;
+        const EdgeLaw law = domain.edges[0][side];
+        write(at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+      }
+      // Ghost lines beyond the edges of the other axes repeat the line before them.
+      for (int axis = 1; axis < D; ++axis) {
+        Index<D> cell = layout.line_index(line);
+        if (cell[axis] != 0 && cell[axis] != layout.shape()[axis] - 1) continue;
+        for (const int side : {0, 1}) {
+          if (cell[axis] != (side ? layout.shape()[axis] - 1 : 0)) continue;
+          const EdgeLaw law = domain.edges[axis][side];
+          for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
+            Index<D> ghost = cell;
+            ghost[axis] += side ? 1 : -1;
+            write(ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+          }
         }
       }
     }
-  }
+  });
 }
 
 template <int D, class Real>

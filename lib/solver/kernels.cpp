@@ -3,10 +3,6 @@
 #include <cassert>
 #include <cstring>
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 namespace slipwave::solver {
 
 #if defined(__x86_64__)
@@ -46,16 +42,6 @@ const Kernels<Real>& kernels(int order) {
   if (!found) found = kernels_generic(order, Real());
   assert(found);
   return *found;
-}
-
-void flush_subnormals() {
-#if defined(__x86_64__)
-  _mm_setcsr(_mm_getcsr() | 0x8040);  // FTZ | DAZ
-#elif defined(__aarch64__)
-  std::uint64_t fpcr;
-  asm volatile("mrs %0, fpcr" : "=r"(fpcr));
-  asm volatile("msr fpcr, %0" : : "r"(fpcr | (1ull << 24)));
-#endif
 }
 
 template const Kernels<float>& kernels<float>(int);

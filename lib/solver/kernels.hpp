@@ -42,9 +42,6 @@ const Kernels<Real>& kernels(int order);
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
 const char* instruction_set();
 
-/// From now on the calling thread treats subnormal numbers as zero.
-void flush_subnormals();
-
 extern template const Kernels<float>& kernels<float>(int);
 extern template const Kernels<double>& kernels<double>(int);
 

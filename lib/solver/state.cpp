@@ -2,6 +2,8 @@
 
 #include <cstring>
 
+#include "base/parallel.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -46,9 +48,9 @@ Index<D> Layout<D>::line_index(std::int64_t n) const {
 template <class Real>
 void clear(Buffer<Real>& buffer, std::int64_t piece) {
   const std::int64_t pieces = buffer.size() / piece;
-#pragma omp parallel for schedule(static)
-  for (std::int64_t n = 0; n < pieces; ++n)
-    std::memset(buffer.data() + n * piece, 0, std::size_t(piece) * sizeof(Real));
+  parallel_for(pieces, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    std::memset(buffer.data() + begin * piece, 0, std::size_t((end - begin) * piece) * sizeof(Real));
+  });
 }
 
 template <int D, class Real>

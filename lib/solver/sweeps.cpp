@@ -1,8 +1,8 @@
 #include "solver/sweeps.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
+
+#include "base/parallel.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -33,8 +33,15 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (const Wave wave : {wave_p, wave_s})
       ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_);
   const auto row = std::max(state.layout.padded_nx() + 2 * Layout<D>::lead, widest_stripe);
-  for (int thread = 0; thread < omp_get_max_threads(); ++thread)
-    scratch_.emplace_back(row * buffers_a_pair * D);
+  for (int worker = 0; worker < parallel_workers(); ++worker) scratch_.emplace_back(row * buffers_a_pair * D);
+}
+
+template <int D, class Real>
+std::int64_t Sweeps<D, Real>::span_end_cells() const {
+  std::size_t cells = 0;
+  for (const auto& axis : ends_)
+    for (const auto& wave : axis) cells += wave.size();
+  return std::int64_t(cells);
 }
 
 template <int D, class Real>
@@ -53,23 +60,35 @@ auto Sweeps<D, Real>::pairs(int axis) const -> std::array<Pair, D> {
 template <int D, class Real>
 void Sweeps<D, Real>::along_x(const std::function<Real(std::int64_t)>& part) {
   const std::int64_t lines = state_.layout.lines();
-#pragma omp parallel
-  {
-    Real* scratch = scratch_[std::size_t(omp_get_thread_num())].data();
-#pragma omp for schedule(static)
-    for (std::int64_t line = 0; line < lines; ++line)
-      if (const Real scale = part(line); scale > 0) sweep_line(line, scale, scratch);
-  }
+  parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Real* scratch = scratch_[std::size_t(worker)].data();
+    for (std::int64_t line = begin; line < end; ++line)
+      if (const Real scale = part(line); scale > 0)
+        sweep_line(line, state_.field_row(state_.layout.line_index(line), 0), scale, scratch);
+  });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines,
+                                    const std::function<Real*(std::int64_t)>& to) {
+  const std::int64_t values = FieldRows<D>::count * state_.layout.row_pitch();
+  parallel_for(std::int64_t(lines.size()), 4, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Real* scratch = scratch_[std::size_t(worker)].data();
+    for (auto n = std::size_t(begin); n < std::size_t(end); ++n) {
+      const Real* from = state_.field_row(state_.layout.line_index(lines[n]), 0);
+      Real* const copy = to(lines[n]);
+      std::copy(from - Layout<D>::lead, from - Layout<D>::lead + values, copy - Layout<D>::lead);
+      sweep_line(lines[n], copy, Real(0.5), scratch);
+    }
+  });
 }
 
 /// The values a stencil finds beyond both ends of a row.
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_cells(const Index<D>& at, const Pair& pair) {
+void Sweeps<D, Real>::fill_ghost_cells(Real* v, Real* s, Wave wave) const {
   const std::int64_t n = state_.layout.shape()[0];
-  Real* v = state_.field_row(at, pair.v);
-  Real* s = state_.field_row(at, pair.s);
   for (const int side : {0, 1}) {
-    const Continuation law = continuation(edges_[0][side], pair.wave);
+    const Continuation law = continuation(edges_[0][side], wave);
     const Real v_sign = law == Continuation::motionless ? -1 : 1,
                s_sign = law == Continuation::traction_free ? -1 : 1;
     for (std::int64_t j = 0; j < reach_; ++j) {
@@ -82,10 +101,11 @@ void Sweeps<D, Real>::fill_ghost_cells(const Index<D>& at, const Pair& pair) {
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::update(const Index<D>& at, int axis, const Pair& pair, std::int64_t width, Real scale,
-                             const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi) {
+void Sweeps<D, Real>::update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width,
+                             Real scale, const Real* v_lo, const Real* v_hi, const Real* s_lo,
+                             const Real* s_hi) {
   const auto material = [&](int row) { return state_.material_row(at, row) + at[0]; };
-  const auto field = [&](int row) { return state_.field_row(at, row) + at[0]; };
+  const auto field = [&](int row) { return fields + row * state_.layout.row_pitch() + at[0]; };
   if (pair.wave == wave_s) {
     kernels_.update_shear(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zs),
                           material(row_cs), field(pair.v), field(pair.s));
@@ -101,7 +121,7 @@ void Sweeps<D, Real>::update(const Index<D>& at, int axis, const Pair& pair, std
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::sweep_line(std::int64_t line, Real scale, Real* scratch) {
+void Sweeps<D, Real>::sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch) {
   const Index<D> at = state_.layout.line_index(line);
   const std::int64_t n = state_.layout.shape()[0], width = state_.layout.padded_nx();
   const std::int64_t row = width + 2 * Layout<D>::lead;
@@ -113,9 +133,9 @@ void Sweeps<D, Real>::sweep_line(std::int64_t line, Real scale, Real* scratch) {
   const auto all = pairs(0);
   for (int p = 0; p < pair_count(); ++p) {
     const Pair& pair = all[p];
-    fill_ghost_cells(at, pair);
-    const Real* v = state_.field_row(at, pair.v);
-    const Real* s = state_.field_row(at, pair.s);
+    Real* const v = fields + pair.v * state_.layout.row_pitch();
+    Real* const s = fields + pair.s * state_.layout.row_pitch();
+    fill_ghost_cells(v, s, pair.wave);
     const Real* impedance = state_.material_row(at, pair.wave == wave_p ? row_zp : row_zs);
     const Real* courant = state_.material_row(at, pair.wave == wave_p ? row_cp : row_cs);
     kernels_.leave(width, 1, v, s, impedance, courant, scale, up, down);
@@ -126,7 +146,7 @@ void Sweeps<D, Real>::sweep_line(std::int64_t line, Real scale, Real* scratch) {
     // Where the row fills whole vectors the last face lies one beyond what the kernel did.
     kernels_.meet(1, up + n - 1, impedance + n - 1, down + n, impedance + n, v_face + n, s_face + n);
     for (std::int64_t i = n + 1; i <= width; ++i) v_face[i] = s_face[i] = 0;
-    update(at, 0, pair, width, scale, v_face, v_face + 1, s_face, s_face + 1);
+    update(at, fields, 0, pair, width, scale, v_face, v_face + 1, s_face, s_face + 1);
   }
 }
 
@@ -145,17 +165,15 @@ void Sweeps<D, Real>::across(int axis, Real scale) {
   std::int64_t others = 1;
   for (int other = 1; other < D; ++other)
     if (other != axis) others *= state_.layout.shape()[other];
-#pragma omp parallel
-  {
-    Real* scratch = scratch_[std::size_t(omp_get_thread_num())].data();
-#pragma omp for schedule(dynamic)
-    for (std::int64_t n = 0; n < others * stripes; ++n) {
+  parallel_for(others * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Real* scratch = scratch_[std::size_t(worker)].data();
+    for (std::int64_t n = begin; n < end; ++n) {
       Index<D> first{};
       first[0] = n % stripes * width;
       if constexpr (D == 3) first[axis == 1 ? 2 : 1] = n / stripes;
       sweep_columns(axis, first, std::min(width, nx - first[0]), scale, scratch);
     }
-  }
+  });
 }
 
 template <int D, class Real>
@@ -235,7 +253,8 @@ void Sweeps<D, Real>::sweep_columns(int axis, const Index<D>& first, std::int64_
         Index<D> done = at;
         done[axis] = k - lag;
         const auto lo = (k - lag) % ring_rows, hi = (k - lag + 1) % ring_rows;
-        update(done, axis, pair, width, scale, r.v_face[lo], r.v_face[hi], r.s_face[lo], r.s_face[hi]);
+        update(done, state_.field_row(done, 0), axis, pair, width, scale, r.v_face[lo], r.v_face[hi],
+               r.s_face[lo], r.s_face[hi]);
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "scene/edges.hpp"
@@ -24,8 +25,13 @@ class Sweeps {
 
   /// Along x, on every line for which part(line) gives a scale above 0.
   void along_x(const std::function<Real(std::int64_t line)>& part);
+  /// The fields of a line (all rows, as in the state, from its cell 0 in row 0) half a step further along x
+  /// than the state has them, written to `to`; the state stays as it is. Lines are shared out to threads.
+  void ahead_along_x(std::span<const std::int64_t> lines, const std::function<Real*(std::int64_t line)>& to);
   /// Along y or z.
   void across(int axis, Real scale);
+  /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
+  std::int64_t span_end_cells() const;
 
  private:
   /// A wave family along one axis on one row: its fields, material and span ends.
@@ -34,11 +40,11 @@ class Sweeps {
     int v, s;  // rows of the line
     const SpanEnds* ends;
   };
-  void sweep_line(std::int64_t line, Real scale, Real* scratch);
+  void sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch);
   void sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale, Real* scratch);
-  void fill_ghost_cells(const Index<D>& at, const Pair& pair);
+  void fill_ghost_cells(Real* v, Real* s, Wave wave) const;
   void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, const Pair& pair);
-  void update(const Index<D>& at, int axis, const Pair& pair, std::int64_t width, Real scale,
+  void update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width, Real scale,
               const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi);
   std::array<Pair, D> pairs(int axis) const;
   int pair_count() const { return shear_ ? D : 1; }

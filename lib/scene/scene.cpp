@@ -1,0 +1,204 @@
+#include "scene/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+template <int D>
+Index<D> cell_of(const Grid<D>& grid, const std::type_identity_t<Point<D>>& point) {
+  Index<D> at;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    at[axis] = std::clamp<std::int64_t>(
+        std::int64_t(std::floor((point[axis] - grid.origin_m[axis]) / grid.spacing_m)), 0,
+        grid.shape[axis] - 1);
+  return at;
+}
+
+template <int D>
+void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
+  const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), point)));
+  if (!scene.model.medium.is_void(cell)) return;
+  throw Error(who + " at " + place_of(scene.model.grid(), std::int64_t(cell)) +
+              " is in void, expected rock or fluid");
+}
+
+void check_positive(double value, const char* what, const char* unit) {
+  if (!(value > 0) || !std::isfinite(value))
+    throw Error("found " + std::string(what) + " of " + shown(value) + ' ' + unit + ", expected it above 0",
+                ErrorKind::usage);
+}
+
+/// The medium of all cells along an edge must be one for a plane wave to be known there.
+template <int D>
+void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional<std::size_t>& reference) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    if (at[std::size_t(axis)] != (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
+    const auto cell = std::size_t(n);
+    if (!reference) reference = cell;
+    const bool same = medium.vp[cell] == medium.vp[*reference] && medium.vs[cell] == medium.vs[*reference] &&
+                      medium.rho[cell] == medium.rho[*reference];
+    if (same && !medium.is_void(cell)) continue;
+    throw Error("the plane wave meets vp " + shown(medium.vp[cell]) + " vs " + shown(medium.vs[cell]) +
+                " rho " + shown(medium.rho[cell]) + " at " + place_of(grid, n) + " and vp " +
+                shown(medium.vp[*reference]) + " vs " + shown(medium.vs[*reference]) + " rho " +
+                shown(medium.rho[*reference]) + " at " + place_of(grid, std::int64_t(*reference)) +
+                ", expected one solid or fluid along the edge");
+  }
+}
+
+/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it meets at the sides are
+/// followed there. An oblique one is known only where all absorbing edges lie in one medium.
+template <int D>
+void check_plane_wave(const Scene<D>& scene, const PlaneWave<D>& wave) {
+  constexpr int z = D - 1;
+  const double across = wave.direction[0], down = wave.direction[z];
+  const bool vertical = std::abs(across) < 1e-9;
+  const int entry = down > 0 ? 0 : 1;
+  const char* entry_name = entry == 0 ? "top" : "bottom";
+  if (std::abs(down) > 1e-9 && scene.edges[z][entry] != EdgeLaw::absorbing)
+    throw Error("the plane wave enters by the " + std::string(entry_name) + ", expected --" + entry_name +
+                " absorbing");
+  if (std::abs(across) > 1e-9 && scene.edges[0][across > 0 ? 0 : 1] != EdgeLaw::absorbing)
+    throw Error("the plane wave enters by a side, expected --sides absorbing");
+  std::optional<std::size_t> reference;
+  if (vertical) return check_uniform_edge(scene, z, entry, reference);
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1})
+      if (scene.edges[axis][side] == EdgeLaw::absorbing) check_uniform_edge(scene, axis, side, reference);
+}
+
+template <int D>
+bool has(Component component) {
+  switch (component) {
+    case Component::vx:
+    case Component::vz:
+    case Component::p:
+    case Component::sxx:
+    case Component::szz:
+    case Component::sxz:
+      return true;
+    case Component::vy:
+    case Component::syy:
+    case Component::sxy:
+    case Component::syz:
+      return D == 3;
+    case Component::other:
+      break;
+  }
+  return false;
+}
+
+template <int D>
+void check_components(const std::vector<Component>& components) {
+  for (const Component component : components)
+    if (!has<D>(component))
+      throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
+                      "-D, expected vx, vz, p, sxx, szz or sxz",
+                  ErrorKind::usage);
+}
+
+}  // namespace
+
+std::int64_t Recording::samples() const {
+  // A duration of 0.3 s at 1 ms must not lose its last sample to the last bit of a quotient.
+  return std::int64_t(std::floor(duration_s / interval_s * (1 + 1e-12) + 1e-9)) + 1;
+}
+
+template <int D>
+bool Scene<D>::slips() const {
+  return with_slip &&
+         std::any_of(model.fracture.begin(), model.fracture.end(), [](auto code) { return code != 0; });
+}
+
+template <int D>
+double stable_time_step_s(const Scene<D>& scene) {
+  double fastest = 0;
+  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
+    if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
+  return scene.model.grid().spacing_m / fastest;
+}
+
+template <int D>
+double time_step_s(const Scene<D>& scene) {
+  return scene.numerics.time_step_s ? *scene.numerics.time_step_s
+                                    : scene.numerics.cfl * stable_time_step_s(scene);
+}
+
+template <int D>
+void check(const Scene<D>& scene) {
+  const auto& medium = scene.model.medium;
+  bool any = false;
+  for (std::size_t cell = 0; cell < medium.vp.size() && !any; ++cell) any = !medium.is_void(cell);
+  if (!any) throw Error("every cell of the model is void, expected rock or fluid");
+  if (scene.survey.sources.empty()) throw Error("found no source, expected --source X,Z", ErrorKind::usage);
+  check(scene.survey, scene.model.grid());
+  for (const auto& source : scene.survey.sources) {
+    if (const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism))
+      check_plane_wave(scene, *wave);
+    else
+      refuse_void(scene, source.position_m, "the source");
+    if (!std::isfinite(source.amplitude))
+      throw Error("found amplitude " + shown(source.amplitude) + ", expected a finite number",
+                  ErrorKind::usage);
+  }
+  for (const auto& receiver : scene.survey.receivers_m) refuse_void(scene, receiver, "the receiver");
+  check_components<D>(scene.recording.components);
+  check_positive(scene.recording.duration_s, "--time", "s");
+  check_positive(scene.recording.interval_s, "--dt", "s");
+  if (scene.snapshot_every_s) check_positive(*scene.snapshot_every_s, "--every", "s");
+  const auto& numerics = scene.numerics;
+  if (numerics.order != 1 && numerics.order != 3 && numerics.order != 5 && numerics.order != 7)
+    throw Error("found order " + std::to_string(numerics.order) + ", expected 1, 3, 5 or 7",
+                ErrorKind::usage);
+  if (numerics.zone_cells < 1 || numerics.zone_cells > 10000)
+    throw Error("found --edge-width " + std::to_string(numerics.zone_cells) + ", expected 1 to 10000 cells",
+                ErrorKind::usage);
+  const double limit = stable_time_step_s(scene);
+  if (numerics.time_step_s) {
+    check_positive(*numerics.time_step_s, "--time-step", "s");
+    if (*numerics.time_step_s > limit * (1 + 1e-12))
+      throw Error("found a time step of " + shown(*numerics.time_step_s) +
+                      " s, expected at most h/vp_max = " + shown(limit) + " s",
+                  ErrorKind::usage);
+  } else if (!(numerics.cfl > 0) || numerics.cfl > 1) {
+    throw Error("found --cfl " + shown(numerics.cfl) + ", expected above 0 and at most 1: h/vp_max is " +
+                    shown(limit) + " s",
+                ErrorKind::usage);
+  }
+}
+
+template <int D>
+SlowestWave slowest_wave(const Medium<D>& medium) {
+  SlowestWave slowest;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (medium.is_void(cell)) continue;
+    const double speed = medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell];
+    if (slowest.speed == 0 || speed < slowest.speed) slowest = {speed, std::int64_t(cell)};
+  }
+  return slowest;
+}
+
+template <int D>
+double highest_frequency_hz(const Survey<D>& survey) {
+  double highest = 0;
+  for (const auto& source : survey.sources)
+    highest = std::max(highest, source.wavelet.highest_frequency_hz(0.1));
+  return highest;
+}
+
+template struct Scene<2>;
+template double stable_time_step_s(const Scene<2>&);
+template double time_step_s(const Scene<2>&);
+template void check(const Scene<2>&);
+template SlowestWave slowest_wave(const Medium<2>&);
+template double highest_frequency_hz(const Survey<2>&);
+
+}  // namespace slipwave

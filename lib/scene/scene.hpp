@@ -1,0 +1,74 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "acquisition/survey.hpp"
+#include "gather/trace.hpp"
+#include "model/model.hpp"
+#include "scene/edges.hpp"
+
+namespace slipwave {
+
+enum class SlipCorrection { first, second };
+
+/// How the scene is computed. Defaults are those of sw-shoot.
+struct Numerics {
+  int order = 5;                      // of the reconstruction: 1, 3, 5, 7
+  double cfl = 0.9;                   // time step over its stability limit h/vp_max
+  std::optional<double> time_step_s;  // instead of cfl
+  int zone_cells = 40;                // width of the absorbing zones
+  SlipCorrection correction = SlipCorrection::second;
+  bool double_precision = false;
+};
+
+/// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included.
+struct Recording {
+  std::vector<Component> components;
+  double duration_s = 0;
+  double interval_s = 0;
+  std::int64_t samples() const;
+};
+
+/// Everything a run depends on.
+template <int D>
+struct Scene {
+  Model<D> model;
+  Survey<D> survey;
+  EdgeLaws<D> edges;
+  Numerics numerics;
+  Recording recording;
+  std::optional<double> snapshot_every_s;  // whole fields at the first step after each multiple of it
+  bool with_slip = true;                   // false: fracture sets of the model stay intact
+
+  /// Whether slip happens anywhere.
+  bool slips() const;
+};
+
+/// Largest stable time step, s: h/vp_max.
+template <int D>
+double stable_time_step_s(const Scene<D>& scene);
+/// The time step of the run, s.
+template <int D>
+double time_step_s(const Scene<D>& scene);
+
+/// Throws an Error on the first thing that can not be computed, the model's values apart (check(model)): a
+/// source or receiver outside the model or in void, a time step above the limit, a component the dimension
+/// does not have, a plane wave through edges that do not let it in. Nothing checks again later.
+template <int D>
+void check(const Scene<D>& scene);
+
+/// The slowest wave in m/s of any cell that is not void: vs of solids, vp of fluids; and where.
+struct SlowestWave {
+  double speed = 0;
+  std::int64_t cell = 0;
+};
+template <int D>
+SlowestWave slowest_wave(const Medium<D>& medium);
+
+/// Highest frequency that matters, Hz: above it lies 1 % of the energy of the wavelets.
+template <int D>
+double highest_frequency_hz(const Survey<D>& survey);
+
+}  // namespace slipwave

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "solver/background.hpp"
+
+namespace slipwave::solver {
+
+/// Absorbing zones: all fields decay towards the background at the same rate, which leaves the impedance, so
+/// that nothing is reflected at normal incidence and little at others (theory.md (E13)).
+template <int D, class Real>
+class AbsorbingZones : public Pass {
+ public:
+  /// `background` may be null: the zones then damp to zero. Keeps references.
+  AbsorbingZones(State<D, Real>& state, const Domain<D>& domain, double dt_s, double vp_max,
+                 Background<D, Real>* background);
+  void run(const StepTime& time) override;
+  std::string name() const override {
+    return background_ ? "absorbing zones, incoming wave" : "absorbing zones";
+  }
+  std::int64_t cells() const override;
+  std::span<const std::int64_t> lines() const override { return lines_; }
+
+ private:
+  void damp(int axis, int side, const Index<D>& line, std::int64_t x_first, std::int64_t count, Real factor);
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  Background<D, Real>* background_;
+  std::array<std::vector<Real>, D> factors_;
+  std::vector<std::int64_t> lines_;
+};
+
+}  // namespace slipwave::solver

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+
+#include "scene/scene.hpp"
+#include "solver/domain.hpp"
+#include "solver/pass.hpp"
+
+namespace slipwave::solver {
+
+/// The wave field that comes in from outside, known in the absorbing zones: what the zones damp the fields
+/// to. In scenes without such a wave there is none and the zones damp to zero.
+template <int D, class Real>
+class Background {
+ public:
+  virtual ~Background() = default;
+  /// Brings it to time.end_s().
+  virtual void advance(const StepTime& time) = 0;
+  /// Its values of one field row in `count` cells of a line from x_first on, which lie in the zone of `axis`,
+  /// `side` (0 low, 1 high).
+  virtual void values(int axis, int side, const Index<D>& line, std::int64_t x_first, std::int64_t count,
+                      int field_row, Real* out) const = 0;
+  /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
+  virtual bool needs_whole_step() const = 0;
+};
+
+/// Damping of each cell of an axis over one step, 1 outside the zones (theory.md (E13)).
+template <int D>
+std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s, double vp_max);
+
+/// A plane P wave in one medium, in closed form (theory.md (A7)). 2-D.
+/// Everywhere in scenes whose edges are uniform; with `columns`, at the sides the solution of the column of
+/// cells along each side edge, which follows a vertical wave through any layers.
+template <class Real>
+std::unique_ptr<Background<2, Real>> make_plane_wave(const Scene<2>& scene, const Source<2>& source,
+                                                     const Domain<2>& domain, double dt_s);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,151 @@
+#include "solver/point_access.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/interpolation.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// How a field row goes on beyond an edge across `axis`. Stresses that are no traction on the edge follow it
+/// only in fluid, where all of them are the pressure.
+template <int D>
+Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
+  using Rows = FieldRows<D>;
+  if (law == EdgeLaw::absorbing) return Beyond::unknown;
+  bool velocity = row < D, normal = row == Rows::velocity(axis) || row == Rows::normal_stress(axis);
+  if (!velocity && !normal) {
+    bool traction = false;
+    for (int other = 0; other < D; ++other)
+      traction |= other != axis && row == Rows::shear_stress(std::min(axis, other), std::max(axis, other));
+    if (!traction && !fluid) return Beyond::unknown;
+    normal = !traction;
+  }
+  const bool motionless = continuation(law, normal ? wave_p : wave_s) == Continuation::motionless;
+  return velocity == motionless ? Beyond::odd : Beyond::even;
+}
+
+/// The largest box of cells of one kind round a cell that stays within reach of a stencil, grown one layer at
+/// a time on each side.
+template <int D>
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
+  const auto kind = [&](const Index<D>& at) {
+    return (domain.impedance[wave_p](at) > 0) + (domain.impedance[wave_s](at) > 0);
+  };
+  std::array<AxisCells, D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
+  const int wanted = kind(centre);
+  const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
+    if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
+    Index<D> at;
+    for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
+    at[axis] = layer;
+    for (;;) {
+      if (kind(at) != wanted) return false;
+      std::size_t other = 0;
+      for (; other < D; ++other) {
+        if (other == axis) continue;
+        if (++at[other] <= box[other].high) break;
+        at[other] = box[other].low;
+      }
+      if (other == D) return true;
+    }
+  };
+  for (int ring = 0; ring < widest_stencil; ++ring)
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      if (box[axis].low == centre[axis] - ring && layer_fits(axis, box[axis].low - 1)) --box[axis].low;
+      if (box[axis].high == centre[axis] + ring && layer_fits(axis, box[axis].high + 1)) ++box[axis].high;
+    }
+  return box;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
+  std::vector<std::int64_t> lines;
+  for (const auto& value : values) lines.push_back(value.line);
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return lines;
+}
+
+template <int D>
+Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m) {
+  Index<D> at;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const auto cell = std::int64_t(
+        std::floor((point_m[axis] - domain.model_grid.origin_m[axis]) / domain.model_grid.spacing_m));
+    at[axis] = std::clamp<std::int64_t>(cell, 0, domain.model_grid.shape[axis] - 1);
+  }
+  return domain.computed_cell(at);
+}
+
+template <int D>
+std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                     const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  const bool fluid = domain.impedance[wave_s](centre) == 0;
+  auto usable = usable_cells(domain, centre);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    if (usable[axis].low == 0)
+      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
+    if (usable[axis].high == domain.grid.shape[axis] - 1)
+      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+  }
+  std::vector<ValueWeight> weights;
+  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
+    weights.push_back(
+        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+  return weights;
+}
+
+template <int D>
+int row_of(Component component) {
+  using Rows = FieldRows<D>;
+  switch (component) {
+    case Component::vx:
+      return Rows::velocity(0);
+    case Component::vy:
+      return Rows::velocity(1);
+    case Component::vz:
+      return Rows::velocity(D - 1);
+    case Component::sxx:
+      return Rows::normal_stress(0);
+    case Component::syy:
+      return Rows::normal_stress(1);
+    case Component::szz:
+      return Rows::normal_stress(D - 1);
+    case Component::sxy:
+      return Rows::shear_stress(0, 1);
+    case Component::sxz:
+      return Rows::shear_stress(0, D - 1);
+    case Component::syz:
+      return Rows::shear_stress(1, D - 1);
+    case Component::p:
+    case Component::other:
+      break;
+  }
+  return -1;
+}
+
+template <int D>
+std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                           const Point<D>& point_m, Component component) {
+  if (component != Component::p) return row_weights(layout, domain, point_m, row_of<D>(component));
+  std::vector<ValueWeight> all;
+  for (int axis = 0; axis < D; ++axis)
+    for (auto weight : row_weights(layout, domain, point_m, FieldRows<D>::normal_stress(axis))) {
+      weight.weight /= -D;
+      all.push_back(weight);
+    }
+  return all;
+}
+
+template Index<2> cell_at(const Domain<2>&, const Point<2>&);
+template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
+                                                    Component);
+template int row_of<2>(Component);
+
+}  // namespace slipwave::solver

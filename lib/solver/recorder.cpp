@@ -1,0 +1,115 @@
+#include "solver/recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/interpolation.hpp"
+#include "base/parallel.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+template <int D>
+std::array<double, 3> in_space(const Point<D>& point) {
+  if constexpr (D == 2) return {point[0], 0, point[1]};
+  if constexpr (D == 3) return point;
+}
+
+}  // namespace
+
+template <int D>
+double water_depth_m(const Medium<D>& medium, const Point<D>& point_m) {
+  const auto& grid = medium.grid();
+  Index<D> at;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    at[axis] = std::clamp<std::int64_t>(
+        std::int64_t(std::floor((point_m[axis] - grid.origin_m[axis]) / grid.spacing_m)), 0,
+        grid.shape[axis] - 1);
+  std::int64_t fluid = 0;
+  for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1]; ++at[D - 1]) {
+    const auto cell = std::size_t(grid.flat(at));
+    if (medium.is_solid(cell)) break;
+    fluid += medium.is_fluid(cell);
+  }
+  return double(fluid) * grid.spacing_m;
+}
+
+template <int D, class Real>
+Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
+                            std::size_t shot) {
+  const auto& source = scene.survey.sources[shot - 1];
+  gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
+  TraceHeader header;
+  header.shot = std::int64_t(shot);
+  header.source_m = in_space<D>(source.position_m);
+  header.water_depth_source_m = water_depth_m(scene.model.medium, source.position_m);
+  for (const Component component : scene.recording.components) {
+    header.component = component;
+    header.channel = 0;
+    for (const auto& receiver : scene.survey.receivers_m) {
+      ++header.channel;
+      header.receiver_m = in_space<D>(receiver);
+      header.water_depth_receiver_m = water_depth_m(scene.model.medium, receiver);
+      gather_.traces.push_back({header, {}});
+      gather_.traces.back().samples.reserve(std::size_t(gather_.axis.count));
+      first_weight_.push_back(weights_.size());
+      for (const auto& weight : component_weights<D>(layout, domain, receiver, component))
+        weights_.push_back(weight);
+    }
+  }
+  first_weight_.push_back(weights_.size());
+  history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
+  lines_ = lines_of(weights_);
+  for (auto& weight : weights_)
+    weight.line = std::lower_bound(lines_.begin(), lines_.end(), weight.line) - lines_.begin();
+}
+
+template <int D, class Real>
+std::int64_t Recorder<D, Real>::steps_needed(const Recording& recording, double dt_s) {
+  const double last = double(recording.samples() - 1) * recording.interval_s;
+  return std::int64_t(std::ceil(last / dt_s)) + kept / 2;
+}
+
+template <int D, class Real>
+void Recorder<D, Real>::run(const StepTime& time, const WholeLine<Real>& whole_line) {
+  const auto traces = std::int64_t(gather_.traces.size());
+  const std::int64_t instant = time.step + 1;
+  double* const now = history_.data() + instant % kept * traces;
+  std::vector<const Real*> fields;
+  for (const auto line : lines_) fields.push_back(whole_line(line));
+  parallel_for(traces, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t trace = begin; trace < end; ++trace) {
+      double sum = 0;
+      for (auto n = first_weight_[std::size_t(trace)]; n < first_weight_[std::size_t(trace) + 1]; ++n)
+        sum += weights_[n].weight * double(fields[std::size_t(weights_[n].line)][weights_[n].place]);
+      now[trace] = sum;
+    }
+  });
+  interpolate(instant, time.dt_s);
+}
+
+/// All samples whose eight steps are there. Before t = 0 nothing moves: those instants count as zero.
+template <int D, class Real>
+void Recorder<D, Real>::interpolate(std::int64_t newest, double dt_s) {
+  const auto traces = gather_.traces.size();
+  for (; next_sample_ < gather_.axis.count; ++next_sample_) {
+    const double position = double(next_sample_) * gather_.axis.interval_s / dt_s;
+    if (std::int64_t(std::floor(position)) + kept / 2 > newest) return;
+    const auto weights = time_weights(position, newest - kept + 1, newest);
+    for (std::size_t trace = 0; trace < traces; ++trace) {
+      double sum = 0;
+      for (int n = 0; n < weights.count; ++n) {
+        const std::int64_t instant = weights.first + n;
+        if (instant >= 0)
+          sum += weights.weights[std::size_t(n)] * history_[std::size_t(instant % kept) * traces + trace];
+      }
+      gather_.traces[trace].samples.push_back(sum);
+    }
+  }
+}
+
+template double water_depth_m(const Medium<2>&, const Point<2>&);
+template class Recorder<2, float>;
+template class Recorder<2, double>;
+
+}  // namespace slipwave::solver

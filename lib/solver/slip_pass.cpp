@@ -1,0 +1,104 @@
+#include "solver/slip_pass.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "fracture/slip_law.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+template <int D, class Real, class Correction>
+class SlipPass : public Pass {
+ public:
+  SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s)
+      : state_(state) {
+    const auto& model = scene.model;
+    for (std::size_t set = 0; set < model.fracture_sets.size(); ++set)
+      for (const auto& system : model.fracture_sets[set].systems) {
+        Group group;
+        for (std::size_t axis = 0; axis < D; ++axis) group.normal[axis] = Real(system.normal[axis]);
+        group.law = {Real(system.friction), Real(system.strength_pa)};
+        for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+          if (model.fracture[cell] != set + 1) continue;
+          const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
+          const double mu = double(model.medium.rho[cell]) * model.medium.vs[cell] * model.medium.vs[cell];
+          group.cells.push_back(state.layout.cell(at));
+          group.d.push_back(slip_d<Real>(system.viscosity_s, mu, dt_s));
+        }
+        group.memory.resize(group.cells.size());
+        cells_ += std::int64_t(group.cells.size());
+        if (!group.cells.empty()) groups_.push_back(std::move(group));
+      }
+    lines_ = fracture_lines(state.layout, domain, model);
+  }
+
+  void run(const StepTime&) override {
+    using Rows = FieldRows<D>;
+    const std::int64_t pitch = state_.layout.row_pitch();
+    Real* const fields = state_.fields.data();
+    for (auto& group : groups_) {
+      const auto count = std::int64_t(group.cells.size());
+      parallel_for(count, 1024, [&](std::int64_t begin, std::int64_t end, int) {
+        for (std::int64_t n = begin; n < end; ++n) {
+          Real* const cell = fields + group.cells[std::size_t(n)];
+          Stress<D, Real> s;
+          for (int i = 0; i < D; ++i) {
+            s(i, i) = cell[Rows::normal_stress(i) * pitch];
+            for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
+          }
+          correct<Correction, D, Real>(group.law, group.normal, group.d[std::size_t(n)], s,
+                                       group.memory[std::size_t(n)]);
+          for (int i = 0; i < D; ++i) {
+            cell[Rows::normal_stress(i) * pitch] = s(i, i);
+            for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
+          }
+        }
+      });
+    }
+  }
+  std::string name() const override { return "slip, " + std::string(Correction::name) + " order"; }
+  std::int64_t cells() const override { return cells_; }
+  std::span<const std::int64_t> lines() const override { return lines_; }
+
+ private:
+  struct Group {
+    Traction<D, Real> normal{};
+    SlipStrength<Real> law;
+    std::vector<std::int64_t> cells;  // places of the cells in field row 0
+    std::vector<Real> d;
+    std::vector<typename Correction::template Memory<D, Real>> memory;
+  };
+  State<D, Real>& state_;
+  std::vector<Group> groups_;  // one a slip system
+  std::vector<std::int64_t> lines_;
+  std::int64_t cells_ = 0;
+};
+
+}  // namespace
+
+template <int D, class Real>
+std::unique_ptr<Pass> make_slip_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
+                                     double dt_s) {
+  if (scene.numerics.correction == SlipCorrection::first)
+    return std::make_unique<SlipPass<D, Real, FirstOrder>>(state, domain, scene, dt_s);
+  return std::make_unique<SlipPass<D, Real, SecondOrder>>(state, domain, scene, dt_s);
+}
+
+template <int D>
+std::vector<std::int64_t> fracture_lines(const Layout<D>& layout, const Domain<D>& domain,
+                                         const Model<D>& model) {
+  std::vector<std::int64_t> lines;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
+    if (model.fracture[cell] != 0)
+      lines.push_back(layout.line_number(domain.computed_cell(model.grid().index(std::int64_t(cell)))));
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return lines;
+}
+
+template std::vector<std::int64_t> fracture_lines(const Layout<2>&, const Domain<2>&, const Model<2>&);
+template std::unique_ptr<Pass> make_slip_pass(State<2, float>&, const Domain<2>&, const Scene<2>&, double);
+template std::unique_ptr<Pass> make_slip_pass(State<2, double>&, const Domain<2>&, const Scene<2>&, double);
+
+}  // namespace slipwave::solver

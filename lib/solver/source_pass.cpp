@@ -1,0 +1,76 @@
+#include "solver/source_pass.hpp"
+
+#include <cmath>
+
+#include "solver/point_access.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+template <int D, class Real>
+class SourcePass : public Pass {
+ public:
+  SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source)
+      : state_(state), wavelet_(source.wavelet) {
+    using Rows = FieldRows<D>;
+    const auto injection = *point_injection(source);
+    const auto centre = cell_at(domain, source.position_m);
+    const auto& medium = scene.model.medium;
+    const double rho = medium.rho(domain.model_cell(centre));
+    const double volume = std::pow(domain.grid.spacing_m, D);
+    const bool fluid = domain.impedance[wave_s](centre) == 0;
+    // An isotropic source works on all normal stresses through the same cells: it must not make shear of its
+    // own.
+    const bool isotropic = std::holds_alternative<Explosion>(source.mechanism);
+    for (int i = 0; i < D; ++i) {
+      add(domain, source, Rows::velocity(i), Rows::velocity(i),
+          injection.force[std::size_t(i)] / (rho * volume));
+      const int like = isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
+      add(domain, source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+      for (int j = i + 1; j < D && !fluid; ++j)
+        add(domain, source, Rows::shear_stress(i, j), Rows::shear_stress(i, j),
+            -injection.moment_rate(i, j) / volume);
+    }
+    lines_ = lines_of(values_);
+  }
+  void run(const StepTime& time) override {
+    if (!acts(time)) return;
+    const double amount = 0.5 * time.dt_s * wavelet_(time.end_s());
+    for (const auto& value : values_)
+      state_.field_row(state_.layout.line_index(value.line), 0)[value.place] += Real(amount * value.weight);
+  }
+  std::string name() const override { return "source"; }
+  std::int64_t cells() const override { return std::int64_t(values_.size()); }
+  std::span<const std::int64_t> lines() const override { return lines_; }
+  bool acts(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+
+ private:
+  /// Spreads `strength` over cells of `row` with the weights a receiver of row `like` would have.
+  void add(const Domain<D>& domain, const Source<D>& source, int row, int like, double strength) {
+    if (strength == 0) return;
+    for (auto value : row_weights(state_.layout, domain, source.position_m, like)) {
+      value.place += (row - like) * state_.layout.row_pitch();
+      value.weight *= strength;
+      values_.push_back(value);
+    }
+  }
+  State<D, Real>& state_;
+  Wavelet wavelet_;
+  std::vector<ValueWeight> values_;
+  std::vector<std::int64_t> lines_;
+};
+
+}  // namespace
+
+template <int D, class Real>
+std::unique_ptr<Pass> make_source_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
+                                       const Source<D>& source) {
+  return std::make_unique<SourcePass<D, Real>>(state, domain, scene, source);
+}
+
+template std::unique_ptr<Pass> make_source_pass(State<2, float>&, const Domain<2>&, const Scene<2>&,
+                                                const Source<2>&);
+template std::unique_ptr<Pass> make_source_pass(State<2, double>&, const Domain<2>&, const Scene<2>&,
+                                                const Source<2>&);
+
+}  // namespace slipwave::solver

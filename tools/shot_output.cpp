@@ -1,0 +1,124 @@
+#include "shot_output.hpp"
+
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "base/error.hpp"
+#include "output/derivatives.hpp"
+#include "output/snapshot_netcdf.hpp"
+#include "segy/writer.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave {
+namespace {
+
+bool replace(std::string& text, const std::string& mark, const std::string& by) {
+  bool found = false;
+  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size())) {
+    text.replace(at, mark.size(), by);
+    found = true;
+  }
+  return found;
+}
+
+std::string name_for(std::string pattern, std::size_t shot, const std::string& component) {
+  replace(pattern, "{shot}", std::to_string(shot));
+  replace(pattern, "{component}", component);
+  return pattern;
+}
+
+bool holds(std::string pattern, const std::string& mark) { return replace(pattern, mark, ""); }
+
+/// What the textual header says of a run.
+std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& history,
+                                    const std::string& version) {
+  const auto& source = scene.survey.sources.front();
+  const auto& n = scene.numerics;
+  std::vector<std::string> entries = {
+      version + ": synthetic seismograms",
+      "source: " + std::string(name_of<2>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
+          ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
+          shown(source.wavelet.delay_s()) + " s",
+      "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
+          shown(time_step_s(scene)) + " s, grid " + shown(scene.model.grid()) +
+          (scene.slips() ? std::string(", slip of ") +
+                               (n.correction == SlipCorrection::first ? "first" : "second") + " order"
+                         : std::string(", no slip")),
+  };
+  for (std::size_t begin = 0; begin < history.size();) {
+    const auto end = std::min(history.find('\n', begin), history.size());
+    if (end > begin) entries.push_back(history.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return entries;
+}
+
+Field<2> snapshot_of(const std::string& name, const FieldReader<2>& field) {
+  if (name == "div") return divergence<2>({field(Component::vx), field(Component::vz)});
+  if (name == "curl") return curl({field(Component::vx), field(Component::vz)});
+  return field(component_named(name));
+}
+
+/// A trace file that is being collected.
+struct Collected {
+  std::unique_ptr<OutputFile> out;
+  Gather gather;
+};
+
+}  // namespace
+
+void ShotOutput::check(std::size_t shots) const {
+  if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<2>(snapshot_fields); });
+  if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
+    throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
+                    ", expected {shot} in the name",
+                ErrorKind::usage);
+  if (!snapshots.empty() && holds(snapshots, "{component}"))
+    throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
+                ErrorKind::usage);
+}
+
+void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
+                           const cli::Context& context) const {
+  const auto entries = entries_of(scene, history, context.version);
+  const bool any_trace = !scene.survey.receivers_m.empty();
+  std::map<std::string, Collected> files;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
+    const auto file_of = [&](Component component) { return name_for(traces, shot, name_of(component)); };
+    for (const Component component : scene.recording.components) {
+      auto& file = files[file_of(component)];
+      if (!file.out && any_trace)
+        file.out = std::make_unique<OutputFile>(file_of(component), OutputFile::Content::binary);
+    }
+    std::optional<SnapshotWriter<2>> writer;
+    SnapshotSink<2> sink;
+    if (!snapshots.empty()) {
+      writer.emplace(
+          name_for(snapshots, shot, ""), scene.model.grid(), parse_snapshot_fields<2>(snapshot_fields),
+          SnapshotHistory{"wave fields of shot " + std::to_string(shot), context.version, history});
+      sink = [&](double time_s, const FieldReader<2>& field) {
+        std::vector<Field<2>> fields;
+        for (const auto& name : writer->fields()) fields.push_back(snapshot_of(name, field));
+        writer->write(time_s, fields);
+      };
+    }
+    Gather gather = shoot(scene, shot, context.progress("shot " + std::to_string(shot)), sink);
+    for (auto& trace : gather.traces) {
+      auto& collected = files[file_of(trace.header.component)].gather;
+      collected.axis = gather.axis;
+      collected.traces.push_back(std::move(trace));
+    }
+    if (writer) writer->commit();
+    // With {shot} in the name nothing more comes for these files.
+    if (!holds(traces, "{shot}") && shot < scene.survey.sources.size()) continue;
+    for (auto& [name, file] : files) {
+      if (!file.out) continue;
+      segy::write_gather(*file.out, file.gather, {}, entries);
+      file.out->commit();
+    }
+    files.clear();
+  }
+}
+
+}  // namespace slipwave

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+
+#include "cli/tool.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// Where the shots of sw-shoot go. Names may hold {shot} and {component}; what they do not tell apart goes
+/// into one file.
+struct ShotOutput {
+  std::string traces = "-";
+  std::string snapshots;  // empty: none
+  std::string snapshot_fields = "vx,vz";
+
+  /// Throws a usage Error when the names can not hold all shots.
+  void check(std::size_t shots) const;
+  /// Shoots every shot of a checked scene and writes what it recorded. Outputs are opened before the run they
+  /// belong to, so that a name that can not be written costs no computing.
+  void shoot_all(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
+};
+
+}  // namespace slipwave
