@@ -7,7 +7,7 @@
 
 SURVEYS := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 BUILD = $(SURVEYS)/../build/release# where the tools are built
-BIN = $(BUILD)/bin# where they stand
+BIN = $(abspath $(BUILD))/bin# where they stand
 OUT = out# where the results go
 THREADS = $(shell nproc)# threads of one simulation
 

@@ -17,7 +17,7 @@ fresh() {
   echo '#include "solver/state.hpp"' > "$house/lib/output/snapshot.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
   echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
-  printf 'v = c (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
+  printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
   echo 'See [the theory](docs/theory.md).' > "$house/README.md"
   printf '```sh\nsw-x\n```\n' > "$house/docs/tools.md"
   printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size S\n.SH EXIT STATUS\n.SH EXAMPLES\n' \
@@ -79,9 +79,9 @@ noticed words docs/theory.md "see $(printf '%s%s 12' is sue)" 'docs/theory.md:4'
 noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:2'
 noticed top_level notes.txt x 'notes.txt: the top level holds'
 noticed top_level 'docs/two words.md' x 'a plain file name'
-noticed equations docs/theory.md 's = rho c v (E2)' '(E2) names no test'
-noticed equations docs/theory.md 's = rho c v (E2)\n`Wave.Stops`' 'there is no test Wave.Stops'
-noticed equations docs/theory.md 's = rho c v (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
+noticed equations docs/theory.md 's = rho c v  (E2)' '(E2) names no test'
+noticed equations docs/theory.md 's = rho c v  (E2)\n`Wave.Stops`' 'there is no test Wave.Stops'
+noticed equations docs/theory.md 's = rho c v  (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
 noticed links README.md '[more](docs/more.md)' 'docs/more.md leads nowhere'
 noticed help build/bin/sw-x 'echo "  --step H"; echo " sw-x"' 'does not document: --step H'
 noticed help build/bin/sw-x 'echo done' 'does not end with its example'

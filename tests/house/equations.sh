@@ -24,16 +24,15 @@ awk -v tests="$tests" -v theory="$theory" '
     if (tag != "" && !named) { printf "%s:%d: (%s) names no test\n", theory, at, tag; bad = 1 }
   }
   BEGIN { while ((getline name < tests) > 0) exists[name] = 1 }
-  /\([A-Z][0-9]+[a-z]?\)[ \t`$]*$/ || /^\|[ \t]*\([A-Z][0-9]+[a-z]?\)/ {
+  /  \([A-Z][0-9]+[a-z]?\)$/ {
     close_tag()
-    match($0, /\([A-Z][0-9]+[a-z]?\)[ \t`$]*$/) || match($0, /\([A-Z][0-9]+[a-z]?\)/)
-    tag = substr($0, RSTART + 1)
-    sub(/\).*/, "", tag)
-    at = FNR
     named = 0
-    tags++
+    at = FNR
+    match($0, /\([A-Z][0-9]+[a-z]?\)$/)
+    tag = substr($0, RSTART + 1, RLENGTH - 2)
     if (tag in seen) { printf "%s:%d: (%s) stands at line %d already\n", theory, FNR, tag, seen[tag]; bad = 1 }
     seen[tag] = FNR
+    tags++
   }
   {
     rest = $0

@@ -1,0 +1,17 @@
+#!/bin/sh
+# marmousi2.sh ROOT BUILD SHARED: the survey marmousi2 from beginning to end, where the model is at hand.
+set -eu
+data=${SLIPWAVE_SHARED:-$3}/data/marmousi2
+if [ ! -f "$data/marmousi_II_marine.vp" ]; then
+  echo "skipped: $data does not hold the Marmousi-II model"
+  exit 77
+fi
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+unset MAKEFLAGS MAKELEVEL
+SLIPWAVE_BUILD=$2 "$1/surveys/run" marmousi2 DATA="$data" OUT="$out"
+
+# The response of the cluster is near one per cent of the full field, over all traces.
+tail -n 1 "$out/comparison.txt" | awk '
+  { for (i = 1; i < NF; i++) if ($i == "all") l2 = $(i + 2) }
+  END { if (!(l2 > 0.001 && l2 < 0.1)) { print "relative L2 of the response: " l2 ", expected 0.001 to 0.1"; exit 1 } }'
