@@ -54,10 +54,33 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional
   }
 }
 
+/// At t = 0 the wave stands on the near side of its front; that must lie in the medium it comes from.
+template <int D>
+void check_beginning(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave,
+                     std::size_t from) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const double length = source.wavelet.duration_s() * medium.vp[from];
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    double behind = 0;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      behind += (source.position_m[axis] - grid.centre(int(axis), at[axis])) * wave.direction[axis];
+    const auto cell = std::size_t(n);
+    if (behind < 0 || behind > length) continue;
+    if (medium.vp[cell] == medium.vp[from] && medium.vs[cell] == medium.vs[from] &&
+        medium.rho[cell] == medium.rho[from])
+      continue;
+    throw Error(
+        "the plane wave would stand in another medium than that of the edge it comes from at t = 0, at " +
+        place_of(grid, n) + ", expected --source further back along its way");
+  }
+}
+
 /// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it meets at the sides are
 /// followed there. An oblique one is known only where all absorbing edges lie in one medium.
 template <int D>
-void check_plane_wave(const Scene<D>& scene, const PlaneWave<D>& wave) {
+void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
   const double across = wave.direction[0], down = wave.direction[z];
   const bool vertical = std::abs(across) < 1e-9;
@@ -69,10 +92,11 @@ void check_plane_wave(const Scene<D>& scene, const PlaneWave<D>& wave) {
   if (std::abs(across) > 1e-9 && scene.edges[0][across > 0 ? 0 : 1] != EdgeLaw::absorbing)
     throw Error("the plane wave enters by a side, expected --sides absorbing");
   std::optional<std::size_t> reference;
-  if (vertical) return check_uniform_edge(scene, z, entry, reference);
-  for (int axis = 0; axis < D; ++axis)
+  if (vertical) check_uniform_edge(scene, z, entry, reference);
+  for (int axis = 0; axis < D && !vertical; ++axis)
     for (const int side : {0, 1})
       if (scene.edges[axis][side] == EdgeLaw::absorbing) check_uniform_edge(scene, axis, side, reference);
+  check_beginning(scene, source, wave, *reference);
 }
 
 template <int D>
@@ -142,7 +166,7 @@ void check(const Scene<D>& scene) {
   check(scene.survey, scene.model.grid());
   for (const auto& source : scene.survey.sources) {
     if (const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism))
-      check_plane_wave(scene, *wave);
+      check_plane_wave(scene, source, *wave);
     else
       refuse_void(scene, source.position_m, "the source");
     if (!std::isfinite(source.amplitude))

@@ -40,6 +40,18 @@ class PlaneForm {
   std::array<double, 5> factor_{};
 };
 
+/// The wave of t = 0 in every cell; it has not met anything yet.
+template <class Real>
+void begin_with(const PlaneForm& form, const Grid<2>& grid, State<2, Real>& state) {
+  Index<2> line{};
+  for (line[1] = 0; line[1] < grid.shape[1]; ++line[1])
+    for (int row = 0; row < FieldRows<2>::count; ++row) {
+      Real* u = state.field_row(line, row);
+      for (std::int64_t i = 0; i < grid.shape[0]; ++i)
+        u[i] = Real(form.value(row, grid.centre(0, i), grid.centre(1, line[1]), 0));
+    }
+}
+
 Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   const auto& grid = medium.grid();
   Grid<2> narrow = grid;
@@ -67,6 +79,7 @@ class Column {
         factors_(zone_factors(domain_, 1, dt_s, vp_max)),
         form_(form) {
     fill_material(state_, domain_, medium_, dt_s);
+    begin_with(form_, domain_.grid, state_);
   }
   /// `from_top`: the wave comes in through the top zone, else through the bottom one.
   void advance(double t, bool from_top) {
@@ -112,6 +125,7 @@ class VerticalWave : public Background<2, Real> {
         columns_[std::size_t(side)] =
             std::make_unique<Column<Real>>(scene, side ? last : 0, form, dt_s, vp_max);
   }
+  void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime& time) override {
     time_s_ = time.end_s();
     for (auto& column : columns_)
@@ -141,6 +155,7 @@ template <class Real>
 class ObliqueWave : public Background<2, Real> {
  public:
   ObliqueWave(const PlaneForm& form, const Domain<2>& domain) : form_(form), grid_(domain.grid) {}
+  void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime& time) override { time_s_ = time.end_s(); }
   void values(int, int, const Index<2>& line, std::int64_t x_first, std::int64_t count, int field_row,
               Real* out) const override {

@@ -14,6 +14,8 @@ template <int D, class Real>
 class Background {
  public:
   virtual ~Background() = default;
+  /// Puts the wave of t = 0 into the fields of the computed grid.
+  virtual void begin(State<D, Real>& state) = 0;
   /// Brings it to time.end_s().
   virtual void advance(const StepTime& time) = 0;
   /// Its values of one field row in `count` cells of a line from x_first on, which lie in the zone of `axis`,

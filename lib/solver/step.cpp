@@ -25,6 +25,7 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
   std::iota(all_lines_.begin(), all_lines_.end(), 0);
   fill_material(state_, domain_, scene.model.medium, dt_s_);
   build_step(scene, shot);
+  if (background_) background_->begin(state_);
 }
 
 /// What happens at the end of a step, after the sweeps. The source works half before and half after what is
