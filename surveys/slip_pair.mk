@@ -1,10 +1,10 @@
 # For a survey that includes this after survey.mk: from $(OUT)/model.nc and shot.cfg to two shots, with slip and
 # without, their difference, its spectrum, and a summary. SPECTRUM holds options of sw-spectrum.
 
-SPECTRUM = --window hann
+SPECTRUM =
 SHOOT = $(BIN)/sw-shoot $(OUT)/model.nc --config shot.cfg --threads $(THREADS)
 
-all: summary $(OUT)/spectrum.nc $(OUT)/spectrum.txt## everything, then a summary
+all: summary $(OUT)/spectrum.nc $(OUT)/spectrum.txt $(OUT)/fractured.nc $(OUT)/elastic.nc## everything, then a summary
 
 $(OUT)/fractured.sgy $(OUT)/fractured.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the shot, the fractures slipping
 	$(SHOOT) --snapshots $(OUT)/fractured.nc -o $(OUT)/fractured.sgy

@@ -1,0 +1,43 @@
+#!/bin/sh
+# quickstart.sh ROOT BUILD: the survey quickstart: its figures, files that make trusts, bits that do not depend on
+# the number of threads.
+set -eu
+root=$1
+SLIPWAVE_BUILD=$2
+export SLIPWAVE_BUILD
+unset MAKEFLAGS MAKELEVEL
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+out=$work/out
+status=0
+broken() {
+  echo "$1"
+  status=1
+}
+survey() { "$root/surveys/run" quickstart OUT="$out" "$@"; }
+
+survey
+# The response of the cluster is some per cent of the whole field (the incident wave, mostly).
+tail -n 1 "$out/comparison.txt" | awk '
+  { for (i = 1; i < NF; i++) if ($i == "all") l2 = $(i + 2) }
+  END { if (!(l2 > 0.02 && l2 < 0.1)) { print "relative L2 of the response: " l2 ", expected 0.02 to 0.1"; exit 1 } }' ||
+  status=1
+
+plan=$(survey -n)
+case $plan in
+  *sw-shoot*) broken "make wants to shoot again what is there: $plan" ;;
+esac
+rm "$out/elastic.nc"
+plan=$(survey -n)
+case $plan in
+  *'sw-shoot '*--without*) ;;
+  *) broken "make does not miss snapshots that are gone: $plan" ;;
+esac
+
+mv "$out/response.sgy" "$out/spectrum.txt" "$work"
+survey clean >/dev/null
+[ ! -e "$out" ] || broken 'make clean leaves results'
+survey THREADS=1 "$out/response.sgy" "$out/spectrum.txt" >/dev/null
+cmp "$work/response.sgy" "$out/response.sgy" || broken 'with one thread the traces are others'
+cmp "$work/spectrum.txt" "$out/spectrum.txt" || broken 'with one thread the spectrum is another'
+exit "$status"
