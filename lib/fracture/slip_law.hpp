@@ -64,6 +64,17 @@ Real dot(const std::array<Real, N>& a, const std::array<Real, N>& b) {
   return sum;
 }
 
+/// Length of a vector; its squares neither overflow nor vanish, whatever the unit its amplitude amounts to.
+template <std::size_t N, class Real>
+Real length(const std::array<Real, N>& a) {
+  Real largest = 0;
+  for (const Real component : a) largest = std::max(largest, std::abs(component));
+  if (!(largest > 0)) return largest;
+  Real sum = 0;
+  for (const Real component : a) sum += (component / largest) * (component / largest);
+  return largest * std::sqrt(sum);
+}
+
 /// The share of `magnitude` that is left when slip of the step's end, weighted by theta, has been taken off:
 /// |tau| + theta G = magnitude with G = (|tau|/S - 1)/d, that is |tau| = S (theta + d magnitude)/(theta + d
 /// S), in a form that takes S = 0, d = 0 and an overflowing d S. `rate` becomes G/magnitude.
@@ -101,7 +112,7 @@ struct FirstOrder {
 
   template <int D, class Real>
   static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>&) {
-    const Real magnitude = std::sqrt(slip::dot(tau_e, tau_e));
+    const Real magnitude = slip::length(tau_e);
     Real rate;
     const Real left = slip::share_left(magnitude, strength, slip::bounded_ds(d, strength), Real(1), rate);
     for (auto& component : tau_e) component *= left;
@@ -130,8 +141,8 @@ struct SecondOrder {
     const Real theta = std::max(Real(0.5), Real(1) - Real(2) * ds);
     Traction<D, Real> sigma;
     for (std::size_t i = 0; i < D; ++i) sigma[i] = tau_e[i] - (Real(1) - theta) * memory.g[i];
-    if (slip::dot(sigma, sigma) > slip::dot(tau_e, tau_e)) sigma = tau_e;
-    const Real magnitude = std::sqrt(slip::dot(sigma, sigma));
+    if (slip::length(sigma) > slip::length(tau_e)) sigma = tau_e;
+    const Real magnitude = slip::length(sigma);
     Real rate;
     const Real left = slip::share_left(magnitude, strength, ds, theta, rate);
     for (std::size_t i = 0; i < D; ++i) {

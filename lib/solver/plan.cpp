@@ -70,14 +70,8 @@ Report report_of(const Plan<D>& plan) {
   report.count("cells beside contacts", plan.span_ends);
   report.text("memory", rounded(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
   report.text("instruction set", plan.instruction_set);
-  std::vector<Report> passes;
-  for (const auto& pass : plan.passes) {
-    Report entry;
-    entry.text("pass", pass.name);
-    entry.text("cells", rounded(100 * pass.share, 3) + " %");
-    passes.push_back(entry);
-  }
-  report.list("time step passes", passes);
+  for (const auto& pass : plan.passes)
+    report.text("pass", pass.name + ": " + rounded(100 * pass.share, 3) + " % of the cells");
   return report;
 }
 

@@ -115,6 +115,22 @@ TYPED_TEST(SlipLaw, DoesNotCareWhichSideTheNormalPointsTo) {
             this->after(s, {Real(0.2), Real(10)}, opposite, Real(1e-4)));
 }
 
+TYPED_TEST(SlipLaw, DryFrictionKnowsNoUnit) {
+  // With eta = 0 and no cohesion the law is homogeneous: stress in other units, the same answer in those
+  // units.
+  using Real = typename TypeParam::Real;
+  const auto n = this->any_normal();
+  const auto s = this->any_stress();
+  const auto expected = this->after(s, {Real(0.1), Real(0)}, n, Real(0));
+  for (const double unit : {1e-30, 1e-20, 1e20, 1e30}) {
+    auto scaled = s;
+    for (auto& value : scaled.values) value *= Real(unit);
+    const auto found = this->after(scaled, {Real(0.1), Real(0)}, n, Real(0));
+    for (int k = 0; k < s.components; ++k)
+      EXPECT_NEAR(found.values[k] / unit, expected.values[k], 20 * this->eps * 1e5) << unit;
+  }
+}
+
 TYPED_TEST(SlipLaw, NeverAddsEnergy) {
   // The shear traction enters the elastic energy as |tau|^2/(2 mu), apart from all that slip leaves alone.
   using Real = typename TypeParam::Real;
