@@ -7,9 +7,9 @@
 #include <cstdio>
 #include <new>
 
-#include "base/parallel.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "base/parallel.hpp"
 #include "cli/parser.hpp"
 
 namespace slipwave::cli {
