@@ -1,0 +1,55 @@
+#include "lab.hpp"
+
+namespace slipwave {
+namespace {
+
+class AbsorbingEdges : public ::testing::TestWithParam<std::string> {
+ protected:
+  const ThreadLimit one_thread_{1};
+};
+
+}  // namespace
+
+TEST_P(AbsorbingEdges, NeverFeedEnergyBack) {
+  for (const int order : {1, 3, 5, 7})
+    for (const int zone : {1, 3, 20}) {
+      SCOPED_TRACE("order " + std::to_string(order) + ", zones of " + std::to_string(zone) + " cells");
+      Lab<double>::Setup setup;
+      setup.medium = medium_named(GetParam(), long_form() ? 60 : 28);
+      setup.edges = all_edges(EdgeLaw::absorbing);
+      setup.order = order;
+      setup.zone_cells = zone;
+      Lab<double>(setup).expect_no_growth(long_form() ? 4000 : 400, rounding<double>());
+    }
+}
+
+TEST_P(AbsorbingEdges, BesideAFreeSurfaceNeverFeedEnergyBack) {
+  for (const int order : {3, 5, 7}) {
+    SCOPED_TRACE("order " + std::to_string(order));
+    Lab<float>::Setup setup;
+    setup.medium = medium_named(GetParam(), long_form() ? 60 : 28);
+    setup.edges = all_edges(EdgeLaw::absorbing);
+    setup.edges[1][0] = EdgeLaw::free;
+    setup.order = order;
+    setup.zone_cells = 10;
+    Lab<float>(setup).expect_no_growth(long_form() ? 10000 : 800, rounding<float>());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HardMedia, AbsorbingEdges, ::testing::ValuesIn(medium_names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(AbsorbingZones, LetTheWaveFieldLeave) {
+  const ThreadLimit one_thread(1);
+  Lab<double>::Setup setup;
+  setup.medium = rock(40, 40);
+  setup.edges = all_edges(EdgeLaw::absorbing);
+  setup.zone_cells = 20;
+  Lab<double> lab(setup);
+  const double begin = lab.energy();
+  // The slowest wave crosses the model four times. Random stresses are partly in equilibrium; those stay.
+  for (int n = 0; n < 320; ++n) lab.step();
+  EXPECT_LT(lab.energy(), 2e-2 * begin);
+}
+
+}  // namespace slipwave

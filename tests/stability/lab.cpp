@@ -1,0 +1,117 @@
+#include "lab.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+#include "solver/absorbing.hpp"
+#include "solver/slip_pass.hpp"
+
+namespace slipwave {
+
+bool long_form() {
+  const char* asked = std::getenv("SLIPWAVE_LONG");
+  return asked && *asked && std::string(asked) != "0";
+}
+
+EdgeLaws<2> all_edges(EdgeLaw law) {
+  EdgeLaws<2> edges;
+  for (int axis = 0; axis < 2; ++axis) edges[axis] = {law, law};
+  return edges;
+}
+
+double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,
+                      double sxz) {
+  if (rho == 0) return 0;
+  const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
+  const double sum = sxx + szz, difference = sxx - szz;
+  double elastic = sum * sum / (8 * (lambda + mu));
+  if (mu > 0) elastic += difference * difference / (8 * mu) + sxz * sxz / (2 * mu);
+  return rho * (vx * vx + vz * vz) / 2 + elastic;
+}
+
+template <class Real>
+Lab<Real>::Lab(const Setup& setup) {
+  auto& model = scene_.model;
+  model.medium = setup.medium;
+  model.fracture = setup.fracture;
+  model.fracture_sets = setup.fracture_sets;
+  scene_.numerics.correction = setup.correction;
+  domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells);
+  dt_s_ = setup.cfl * model.grid().spacing_m / solver::fastest_wave(model.medium);
+  state_ = solver::make_state<2, Real>(domain_.grid.shape);
+  solver::fill_material(state_, domain_, model.medium, dt_s_);
+  sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
+  if (domain_.grid.size() > domain_.model_grid.size())
+    passes_.push_back(std::make_unique<solver::AbsorbingZones<2, Real>>(
+        state_, domain_, dt_s_, solver::fastest_wave(model.medium), nullptr));
+  if (scene_.slips()) passes_.push_back(solver::make_slip_pass(state_, domain_, scene_, dt_s_));
+
+  std::mt19937 engine(setup.seed);
+  std::uniform_real_distribution<double> uniform(-0.5, 0.5);
+  for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
+    const auto at = domain_.grid.index(n);
+    const auto cell = std::size_t(model.grid().flat(domain_.model_cell(at)));
+    if (model.medium.is_void(cell)) continue;
+    const auto set = [&](int row, double value) {
+      state_.field_row({0, at[1]}, row)[at[0]] = Real(setup.amplitude * value);
+    };
+    const double z = double(model.medium.rho[cell]) * model.medium.vp[cell];
+    const double pressure = z * uniform(engine);
+    set(0, uniform(engine));
+    set(1, uniform(engine));
+    set(2, pressure);
+    set(3, model.medium.is_solid(cell) ? z * uniform(engine) : pressure);
+    set(4, model.medium.is_solid(cell) ? 0.3 * z * uniform(engine) : 0);
+  }
+}
+
+template <class Real>
+void Lab<Real>::step() {
+  const auto half = [](std::int64_t) { return Real(0.5); };
+  sweeps_->along_x(half);
+  sweeps_->across(1, 1);
+  sweeps_->along_x(half);
+  for (const auto& pass : passes_) pass->run({steps_, dt_s_});
+  ++steps_;
+}
+
+template <class Real>
+double Lab<Real>::energy() const {
+  const auto& medium = scene_.model.medium;
+  const double h = domain_.grid.spacing_m;
+  double total = 0;
+  for (std::int64_t k = 0; k < domain_.grid.shape[1]; ++k) {
+    const Real* row[5];
+    for (int field = 0; field < 5; ++field) row[field] = state_.field_row({0, k}, field);
+    for (std::int64_t i = 0; i < domain_.grid.shape[0]; ++i) {
+      const auto cell = std::size_t(medium.grid().flat(domain_.model_cell({i, k})));
+      total +=
+          h * h *
+          energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
+                         double(row[1][i]), double(row[2][i]), double(row[3][i]), double(row[4][i]));
+    }
+  }
+  return total;
+}
+
+template <class Real>
+void Lab<Real>::expect_no_growth(int steps, double rounding, double floor) {
+  const double begin = energy();
+  ASSERT_GT(begin, 0);
+  double lowest = begin;
+  for (int n = 1; n <= steps; ++n) {
+    step();
+    const double now = energy();
+    // Written so that NaN fails.
+    ASSERT_TRUE(now <= lowest * (1 + rounding) + floor)
+        << "step " << n << ": the energy is " << now << ", it was down to " << lowest << " and began as "
+        << begin;
+    lowest = std::min(lowest, now);
+  }
+}
+
+template class Lab<float>;
+template class Lab<double>;
+
+}  // namespace slipwave

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/parallel.hpp"
+#include "media.hpp"
+#include "scene/scene.hpp"
+#include "solver/pass.hpp"
+#include "solver/sweeps.hpp"
+
+namespace slipwave {
+
+/// Whether SLIPWAVE_LONG asks for the long form.
+bool long_form();
+
+/// The same law on all edges.
+EdgeLaws<2> all_edges(EdgeLaw law);
+
+/// Energy of a cell, J/m3: kinetic and elastic in plane strain; of fluid only the pressure counts.
+double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,
+                      double sxz);
+
+/// A wave field of random values in every cell, let loose: sweeps, absorbing zones and slip as a shot has
+/// them, without a source. Fields in the zones start random too.
+template <class Real>
+class Lab {
+ public:
+  struct Setup {
+    Medium<2> medium;
+    EdgeLaws<2> edges = all_edges(EdgeLaw::free);
+    int order = 5;
+    double cfl = 1;
+    int zone_cells = 8;
+    double amplitude = 1;  // velocities up to half of it, m/s; stresses such as belong to them
+    std::vector<FractureSet<2>> fracture_sets;
+    Field<2, std::uint8_t> fracture;
+    SlipCorrection correction = SlipCorrection::second;
+    unsigned seed = 1;
+  };
+  explicit Lab(const Setup& setup);
+
+  void step();
+  /// Of the whole computed grid, zones included, J per metre; NaN where a field is.
+  double energy() const;
+  /// Runs and expects that the energy never rises above the lowest value so far by more than `rounding` of
+  /// it, and ends finite. Energies below `floor` are rounding itself.
+  void expect_no_growth(int steps, double rounding, double floor = 0);
+
+ private:
+  Scene<2> scene_;
+  solver::Domain<2> domain_;
+  double dt_s_;
+  solver::State<2, Real> state_;
+  std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
+  std::vector<std::unique_ptr<solver::Pass>> passes_;
+  std::int64_t steps_ = 0;
+};
+
+/// What rounding may add to the energy over a run of ten thousand steps, as a share of it.
+template <class Real>
+constexpr double rounding() {
+  return sizeof(Real) == 4 ? 1e-5 : 1e-11;
+}
+
+extern template class Lab<float>;
+extern template class Lab<double>;
+
+}  // namespace slipwave

@@ -1,0 +1,150 @@
+#include "media.hpp"
+
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <stdexcept>
+
+#include "solver/span_ends.hpp"
+
+namespace slipwave {
+namespace {
+
+struct Cell {
+  double vp, vs, rho;
+};
+
+constexpr Cell basement{4500, 2250, 2500}, water{1500, 0, 1000}, air{340, 0, 1.2}, steel{5900, 3200, 7800},
+    hole{0, 0, 0};
+
+/// What fills cell (i, k) of a square of n cells; draws come from `random`, uniform in 0 .. 1.
+using Filling = std::function<Cell(int i, int k, int n, const std::function<double()>& random)>;
+
+Cell solid_of(double f, double g) { return {1500 + 4500 * f, 500 + 2000 * f, 1500 + 1500 * g}; }
+
+/// Draws that are the same for all cells of a block.
+std::array<double, 2> draws_of(int column, int row, unsigned seed) {
+  std::seed_seq mixed{unsigned(column), unsigned(row), seed};
+  std::mt19937 engine(mixed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const double first = uniform(engine);
+  return {first, uniform(engine)};
+}
+
+Filling blocks(int size) {
+  return [size](int i, int k, int, const auto&) {
+    const auto [f, g] = draws_of(i / size, k / size, 7);
+    return solid_of(f, g);
+  };
+}
+
+Filling layers(int size) {
+  return [size](int, int k, int, const auto&) {
+    const auto [f, g] = draws_of(0, k / size, 11);
+    return solid_of(f, g);
+  };
+}
+
+Filling over(Cell upper, Cell lower) {
+  return [=](int, int k, int n, const auto&) { return k < n / 2 ? upper : lower; };
+}
+
+Filling pixels(Cell one, Cell other, double share = 0.5) {
+  return [=](int, int, int, const auto& random) { return random() < share ? one : other; };
+}
+
+Filling checkerboard(int size, Cell one, Cell other) {
+  return [=](int i, int k, int, const auto&) { return (i / size + k / size) % 2 ? one : other; };
+}
+
+/// Contrasts as large as those a stencil still runs across, and a hair larger.
+Cell scaled(double ratio) { return {4500 / ratio, 2250 / ratio, 2500}; }
+Cell denser(double ratio) { return {4500, 2250, 2500 * ratio}; }
+
+const std::map<std::string, Filling>& fillings() {
+  constexpr double r = solver::contact_ratio;
+  static const std::map<std::string, Filling> all = {
+      {"WaterOverRock", over(water, basement)},
+      {"WaterOverCurvedRock",
+       [](int i, int k, int n, const auto&) {
+         return k < n / 2 + n / 8. * std::sin(i * 0.2) ? water : basement;
+       }},
+      {"WaterOverSteel", over(water, steel)},
+      {"AirOverRock", over(air, basement)},
+      {"AirOverSteel", over(air, steel)},
+      {"RandomWaterAndRock", pixels(water, basement)},
+      {"RandomAirAndRock", pixels(air, basement)},
+      {"RandomAirAndSteel", pixels(air, steel)},
+      {"RandomDensityRatio100", pixels({4500, 2250, 25}, basement)},
+      {"RandomSolids",
+       [](int, int, int, const auto& random) {
+         const double f = random();
+         return solid_of(f, random());
+       }},
+      {"SolidBlocksOf2Cells", blocks(2)},
+      {"SolidBlocksOf3Cells", blocks(3)},
+      {"SolidBlocksOf4Cells", blocks(4)},
+      {"SolidBlocksOf5Cells", blocks(5)},
+      {"SolidLayersOf1Cell", layers(1)},
+      {"SolidLayersOf3Cells", layers(3)},
+      {"RandomVoids", pixels(hole, basement, 0.3)},
+      {"SoftCheckerboard", checkerboard(5, {1000, 100, 1500}, basement)},
+      {"VpOverVs10",
+       [](int, int, int, const auto&) {
+         return Cell{4500, 450, 2500};
+       }},
+      {"Checkerboard1To20", checkerboard(1, {450, 225, 1250}, basement)},
+      {"RandomMixture",
+       [](int, int, int, const auto& random) {
+         const double u = random();
+         return u < 0.3 ? hole : u < 0.6 ? water : basement;
+       }},
+      {"ContrastBelowTheContactRatio", checkerboard(1, scaled(r * 0.99), basement)},
+      {"ContrastAboveTheContactRatio", checkerboard(1, scaled(r * 1.01), basement)},
+      {"RandomSpeedsBelowTheContactRatio",
+       [](int, int, int, const auto& random) {
+         const double f = 1 + (r * 0.99 - 1) * random();
+         return Cell{3000 * f, 1500, 2500};
+       }},
+      {"RandomDensitiesBelowTheContactRatio",
+       [](int, int, int, const auto& random) { return denser(1 + (r * 0.99 - 1) * random()); }},
+      {"RandomDensitiesAboutTheContactRatio", pixels(denser(1), denser(r * 1.001))},
+  };
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& medium_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [name, filling] : fillings()) all.push_back(name);
+    return all;
+  }();
+  return names;
+}
+
+Medium<2> rock(int nx, int nz) {
+  const Grid<2> grid{{nx, nz}, 5, {0, 0}};
+  return {Field<2>(grid, float(basement.vp)), Field<2>(grid, float(basement.vs)),
+          Field<2>(grid, float(basement.rho))};
+}
+
+Medium<2> medium_named(const std::string& name, int cells, unsigned seed) {
+  Medium<2> medium = rock(cells, cells);
+  std::mt19937 engine(seed);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const std::function<double()> random = [&] { return uniform(engine); };
+  for (int k = 0; k < cells; ++k)
+    for (int i = 0; i < cells; ++i) {
+      const Cell cell = fillings().at(name)(i, k, cells, random);
+      const auto n = std::size_t(k * cells + i);
+      medium.vp[n] = float(cell.vp);
+      medium.vs[n] = float(cell.vs);
+      medium.rho[n] = float(cell.rho);
+    }
+  return medium;
+}
+
+}  // namespace slipwave

@@ -1,0 +1,95 @@
+#include <tuple>
+
+#include "lab.hpp"
+
+namespace slipwave {
+namespace {
+
+struct Length {
+  int cells, steps;
+};
+
+Length length() { return long_form() ? Length{80, 6000} : Length{40, 1200}; }
+
+template <class Real>
+void expect_no_growth_in(const std::string& name, int order, EdgeLaw edges, Length run) {
+  typename Lab<Real>::Setup setup;
+  setup.medium = medium_named(name, run.cells);
+  setup.edges = all_edges(edges);
+  setup.order = order;
+  Lab<Real>(setup).expect_no_growth(run.steps, rounding<Real>());
+}
+
+class EnergyIn : public ::testing::TestWithParam<std::tuple<std::string, int>> {
+ protected:
+  const ThreadLimit one_thread_{1};
+};
+
+}  // namespace
+
+TEST_P(EnergyIn, NeverRisesInDouble) {
+  const auto& [medium, order] = GetParam();
+  expect_no_growth_in<double>(medium, order, EdgeLaw::free, length());
+}
+
+TEST_P(EnergyIn, NeverRisesInFloat) {
+  const auto& [medium, order] = GetParam();
+  expect_no_growth_in<float>(medium, order, EdgeLaw::free, length());
+}
+
+INSTANTIATE_TEST_SUITE_P(HardMedia, EnergyIn,
+                         ::testing::Combine(::testing::ValuesIn(medium_names()),
+                                            ::testing::Values(1, 3, 5, 7)),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + "AtOrder" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
+
+TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
+  const ThreadLimit one_thread(1);
+  for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror})
+    for (const int order : {1, 3, 5, 7})
+      for (const std::string medium : {"WaterOverCurvedRock", "RandomAirAndSteel", "RandomMixture"}) {
+        SCOPED_TRACE(medium + " order " + std::to_string(order) + (edges == EdgeLaw::rigid ? " rigid" : " mirror"));
+        expect_no_growth_in<double>(medium, order, edges, {32, 800});
+      }
+}
+
+TEST(Energy, NeverRisesInTenThousandSteps) {
+  const ThreadLimit one_thread(1);
+  for (const std::string medium : {"WaterOverCurvedRock", "AirOverSteel", "RandomSolids"})
+    for (const int order : {5, 7}) {
+      SCOPED_TRACE(medium + " order " + std::to_string(order));
+      expect_no_growth_in<float>(medium, order, EdgeLaw::free, {32, 10000});
+    }
+}
+
+TEST(Energy, NeverRisesAtAnyCourantNumber) {
+  const ThreadLimit one_thread(1);
+  for (const double cfl : {0.1, 0.3, 0.5, 0.7, 0.9})
+    for (const std::string medium : {"WaterOverCurvedRock", "RandomAirAndSteel", "RandomSolids"})
+      for (const int order : {3, 5, 7}) {
+        SCOPED_TRACE(medium + " order " + std::to_string(order) + " cfl " + std::to_string(cfl));
+        Lab<double>::Setup setup;
+        setup.medium = medium_named(medium, 32);
+        setup.order = order;
+        setup.cfl = cfl;
+        Lab<double>(setup).expect_no_growth(600, rounding<double>());
+      }
+}
+
+TEST(Energy, NeverRisesOnGridsOfAFewCells) {
+  const ThreadLimit one_thread(1);
+  for (const auto& [nx, nz] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {4, 4}, {17, 2}})
+    for (const auto edges : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror})
+      for (const int order : {1, 3, 5, 7}) {
+        SCOPED_TRACE(std::to_string(nx) + " x " + std::to_string(nz) + " order " + std::to_string(order));
+        Lab<double>::Setup setup;
+        setup.medium = rock(nx, nz);
+        setup.order = order;
+        setup.edges = all_edges(edges);
+        Lab<double>(setup).expect_no_growth(2000, rounding<double>());
+      }
+}
+
+}  // namespace slipwave
