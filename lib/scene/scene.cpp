@@ -27,6 +27,19 @@ void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& po
               " is in void, expected rock or fluid");
 }
 
+/// Fluid carries the same normal stress in all directions: any other moment would stay in it for good.
+template <int D>
+void check_moment_in_fluid(const Scene<D>& scene, const Source<D>& source) {
+  const auto* moment = std::get_if<MomentTensor<D>>(&source.mechanism);
+  const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), source.position_m)));
+  if (!moment || !scene.model.medium.is_fluid(cell)) return;
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j)
+      if (moment->tensor(i, j) != (i == j ? moment->tensor(0, 0) : 0))
+        throw Error("the source at " + place_of(scene.model.grid(), std::int64_t(cell)) +
+                    " is in fluid and its moment differs between directions, expected --kind explosion there");
+}
+
 void check_positive(double value, const char* what, const char* unit) {
   if (!(value > 0) || !std::isfinite(value))
     throw Error("found " + std::string(what) + " of " + shown(value) + ' ' + unit + ", expected it above 0",
@@ -169,6 +182,7 @@ void check(const Scene<D>& scene) {
       check_plane_wave(scene, source, *wave);
     else
       refuse_void(scene, source.position_m, "the source");
+    check_moment_in_fluid(scene, source);
     if (!std::isfinite(source.amplitude))
       throw Error("found amplitude " + shown(source.amplitude) + ", expected a finite number",
                   ErrorKind::usage);
