@@ -20,7 +20,7 @@ struct Settings {
   std::string order = "5", correction = "second", precision = "float", without;
   double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
   std::optional<double> time_step_s, every_s;
-  int edge_width = 40;
+  int edge_width = 0;
   bool plan = false;
   MediumLimits limits;
   ShotOutput output;
@@ -41,7 +41,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add_choice("top", s.top, edges, "the surface z = 0");
   options.add_choice("sides", s.sides, edges, "the left and right edges");
   options.add_choice("bottom", s.bottom, edges, "the bottom edge");
-  options.add("edge-width", s.edge_width, "CELLS", "width of the absorbing zones outside the model");
+  options.add("edge-width", s.edge_width, "CELLS",
+              "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
   options.add_choice("order", s.order, {"1", "3", "5", "7"}, "order of the scheme in space");
   options.add_choice("correction", s.correction, {"first", "second"}, "order of the slip correction in time");
   options.add_choice("without", s.without, {"slip"}, "switch an effect of the model off");

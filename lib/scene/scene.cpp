@@ -36,8 +36,9 @@ void check_moment_in_fluid(const Scene<D>& scene, const Source<D>& source) {
   for (int i = 0; i < D; ++i)
     for (int j = i; j < D; ++j)
       if (moment->tensor(i, j) != (i == j ? moment->tensor(0, 0) : 0))
-        throw Error("the source at " + place_of(scene.model.grid(), std::int64_t(cell)) +
-                    " is in fluid and its moment differs between directions, expected --kind explosion there");
+        throw Error(
+            "the source at " + place_of(scene.model.grid(), std::int64_t(cell)) +
+            " is in fluid and its moment differs between directions, expected --kind explosion there");
 }
 
 void check_positive(double value, const char* what, const char* unit) {
@@ -170,6 +171,12 @@ double time_step_s(const Scene<D>& scene) {
 }
 
 template <int D>
+int zone_cells(const Scene<D>& scene, const Source<D>& source) {
+  if (scene.numerics.zone_cells > 0) return scene.numerics.zone_cells;
+  return std::holds_alternative<PlaneWave<D>>(source.mechanism) ? 40 : 20;
+}
+
+template <int D>
 void check(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
   bool any = false;
@@ -196,8 +203,8 @@ void check(const Scene<D>& scene) {
   if (numerics.order != 1 && numerics.order != 3 && numerics.order != 5 && numerics.order != 7)
     throw Error("found order " + std::to_string(numerics.order) + ", expected 1, 3, 5 or 7",
                 ErrorKind::usage);
-  if (numerics.zone_cells < 1 || numerics.zone_cells > 10000)
-    throw Error("found --edge-width " + std::to_string(numerics.zone_cells) + ", expected 1 to 10000 cells",
+  if (numerics.zone_cells < 0 || numerics.zone_cells > 10000)
+    throw Error("found --edge-width " + std::to_string(numerics.zone_cells) + ", expected 0 to 10000 cells",
                 ErrorKind::usage);
   const double limit = stable_time_step_s(scene);
   if (numerics.time_step_s) {
@@ -235,6 +242,7 @@ double highest_frequency_hz(const Survey<D>& survey) {
 template struct Scene<2>;
 template double stable_time_step_s(const Scene<2>&);
 template double time_step_s(const Scene<2>&);
+template int zone_cells(const Scene<2>&, const Source<2>&);
 template void check(const Scene<2>&);
 template SlowestWave slowest_wave(const Medium<2>&);
 template double highest_frequency_hz(const Survey<2>&);

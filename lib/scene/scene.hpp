@@ -18,7 +18,7 @@ struct Numerics {
   int order = 5;                      // of the reconstruction: 1, 3, 5, 7
   double cfl = 0.9;                   // time step over its stability limit h/vp_max
   std::optional<double> time_step_s;  // instead of cfl
-  int zone_cells = 40;                // width of the absorbing zones
+  int zone_cells = 0;  // width of the absorbing layers; 0: as their kind needs, see zone_cells()
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
 };
@@ -52,6 +52,11 @@ double stable_time_step_s(const Scene<D>& scene);
 /// The time step of the run, s.
 template <int D>
 double time_step_s(const Scene<D>& scene);
+
+/// Width in cells of the absorbing layers of a shot: 20 for the matched layer, 40 for the zones of a plane
+/// wave, unless numerics say otherwise. Either sends back less than 2 % of what meets it at up to 60 degrees.
+template <int D>
+int zone_cells(const Scene<D>& scene, const Source<D>& source);
 
 /// Throws an Error on the first thing that can not be computed, the model's values apart (check(model)): a
 /// source or receiver outside the model or in void, a time step above the limit, a component the dimension

@@ -7,8 +7,9 @@
 
 namespace slipwave::solver {
 
-/// Absorbing zones: all fields decay towards the background at the same rate, which leaves the impedance, so
-/// that nothing is reflected at normal incidence and little at others (theory.md (E13)).
+/// Absorbing zones of a scene with a wave that comes in from outside: all fields decay towards that
+/// background at the same rate, which leaves the impedance, so that nothing else is reflected at normal
+/// incidence and little at others (theory.md (E13)).
 template <int D, class Real>
 class AbsorbingZones : public Pass {
  public:

@@ -71,9 +71,10 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
 template <class Real>
 class Column {
  public:
-  Column(const Scene<2>& scene, std::int64_t x, const PlaneForm& form, double dt_s, double vp_max)
+  Column(const Scene<2>& scene, int zone_cells, std::int64_t x, const PlaneForm& form, double dt_s,
+         double vp_max)
       : medium_(column_of(scene.model.medium, x)),
-        domain_(make_domain(medium_, edges_of(scene), scene.numerics.zone_cells)),
+        domain_(make_domain(medium_, edges_of(scene), zone_cells)),
         state_(make_state<2, Real>(domain_.grid.shape)),
         sweeps_(state_, domain_, scene.numerics.order),
         factors_(zone_factors(domain_, 1, dt_s, vp_max)),
@@ -123,7 +124,8 @@ class VerticalWave : public Background<2, Real> {
     for (const int side : {0, 1})
       if (domain.edges[0][side] == EdgeLaw::absorbing)
         columns_[std::size_t(side)] =
-            std::make_unique<Column<Real>>(scene, side ? last : 0, form, dt_s, vp_max);
+            std::make_unique<Column<Real>>(scene, int(std::max(domain.low_zone[1], domain.high_zone[1])),
+                                           side ? last : 0, form, dt_s, vp_max);
   }
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime& time) override {

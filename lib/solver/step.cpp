@@ -13,7 +13,8 @@ namespace slipwave::solver {
 template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
-      domain_(make_domain(scene.model.medium, scene.edges, scene.numerics.zone_cells)),
+      domain_(
+          make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
       state_(make_state<D, Real>(domain_.grid.shape)),
       sweeps_(state_, domain_, scene.numerics.order),
       ahead_(std::size_t(state_.layout.lines())),
@@ -40,9 +41,16 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     before_recording_.push_back(pass.get());
     owned_.push_back(std::move(pass));
   };
-  if (domain_.grid.size() > domain_.model_grid.size())
-    first(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, fastest_wave(scene.model.medium),
-                                                    background_.get()));
+  const double vp_max = fastest_wave(scene.model.medium);
+  if (domain_.grid.size() > domain_.model_grid.size()) {
+    if (background_) {
+      first(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, vp_max, background_.get()));
+    } else {
+      layer_ = std::make_unique<MatchedLayer<D, Real>>(state_.layout, domain_, dt_s_, vp_max,
+                                                       source.wavelet.nominal_hz());
+      sweeps_.use(layer_.get());
+    }
+  }
   if (point_injection(source)) {
     first(make_source_pass(state_, domain_, scene, source));
     after_recording_.push_back(before_recording_.back());
@@ -128,6 +136,8 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
     passes.push_back({std::string("sweep along ") + axis_names<D>()[std::size_t(axis)] +
                           (domain_.shear() ? ", P and S" : ", P only"),
                       1});
+  if (layer_)
+    passes.push_back({"matched layer", double(domain_.grid.size() - domain_.model_grid.size()) / all});
   for (const Pass* pass : before_recording_) passes.push_back({pass->name(), double(pass->cells()) / all});
   passes.push_back({"receivers", double(recorder_->cells()) / all});
   return passes;
@@ -135,7 +145,8 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
 
 template <int D, class Real>
 std::int64_t Step<D, Real>::memory_bytes() const {
-  return (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real));
+  return (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
+         (layer_ ? layer_->memory_bytes() : 0);
 }
 
 template class Step<2, float>;

@@ -37,6 +37,7 @@ class Step {
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;
   std::unique_ptr<Background<D, Real>> background_;
+  std::unique_ptr<MatchedLayer<D, Real>> layer_;
   std::vector<std::unique_ptr<Pass>> owned_;
   std::vector<Pass*> before_recording_, after_recording_;  // passes at the end of a step, in order
   std::vector<char> whole_;                                // lines whose sweep along x ends with the step

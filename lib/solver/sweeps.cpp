@@ -33,7 +33,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (const Wave wave : {wave_p, wave_s})
       ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_);
   const auto row = std::max(state.layout.padded_nx() + 2 * Layout<D>::lead, widest_stripe);
-  for (int worker = 0; worker < parallel_workers(); ++worker) scratch_.emplace_back(row * buffers_a_pair * D);
+  for (int worker = 0; worker < parallel_workers(); ++worker)
+    scratch_.emplace_back(row * (buffers_a_pair * D + 4));
 }
 
 template <int D, class Real>
@@ -64,7 +65,7 @@ void Sweeps<D, Real>::along_x(const std::function<Real(std::int64_t)>& part) {
     Real* scratch = scratch_[std::size_t(worker)].data();
     for (std::int64_t line = begin; line < end; ++line)
       if (const Real scale = part(line); scale > 0)
-        sweep_line(line, state_.field_row(state_.layout.line_index(line), 0), scale, scratch);
+        sweep_line(line, state_.field_row(state_.layout.line_index(line), 0), scale, scratch, true);
   });
 }
 
@@ -78,7 +79,7 @@ void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines,
       const Real* from = state_.field_row(state_.layout.line_index(lines[n]), 0);
       Real* const copy = to(lines[n]);
       std::copy(from - Layout<D>::lead, from - Layout<D>::lead + values, copy - Layout<D>::lead);
-      sweep_line(lines[n], copy, Real(0.5), scratch);
+      sweep_line(lines[n], copy, Real(0.5), scratch, false);
     }
   });
 }
@@ -103,25 +104,33 @@ void Sweeps<D, Real>::fill_ghost_cells(Real* v, Real* s, Wave wave) const {
 template <int D, class Real>
 void Sweeps<D, Real>::update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width,
                              Real scale, const Real* v_lo, const Real* v_hi, const Real* s_lo,
-                             const Real* s_hi) {
+                             const Real* s_hi, Real* spare, bool remember) {
+  const bool stretched = layer_ && layer_->covers(axis, at);
+  std::array<int, 2 + D> rows{pair.v, pair.s};
+  std::size_t row_count = 2;
+  if (pair.wave == wave_p)
+    for (int other = 0; other < D; ++other)
+      if (other != axis) rows[row_count++] = FieldRows<D>::normal_stress(other);
+  const auto kept = [&](std::size_t n) { return spare + std::int64_t(n) * width; };
   const auto material = [&](int row) { return state_.material_row(at, row) + at[0]; };
   const auto field = [&](int row) { return fields + row * state_.layout.row_pitch() + at[0]; };
+  for (std::size_t n = 0; n < row_count && stretched; ++n)
+    layer_->keep(axis, at, width, field(rows[n]), kept(n));
   if (pair.wave == wave_s) {
     kernels_.update_shear(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zs),
                           material(row_cs), field(pair.v), field(pair.s));
-    return;
+  } else {
+    kernels_.update_normal(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zp),
+                           material(row_cp), material(row_zs), material(row_cs), field(pair.v), field(pair.s),
+                           row_count > 2 ? field(rows[2]) : nullptr,
+                           row_count > 3 ? field(rows[3]) : nullptr);
   }
-  Real* passive[2] = {nullptr, nullptr};
-  int n = 0;
-  for (int other = 0; other < D; ++other)
-    if (other != axis) passive[n++] = field(FieldRows<D>::normal_stress(other));
-  kernels_.update_normal(width, scale, v_lo, v_hi, s_lo, s_hi, material(row_b), material(row_zp),
-                         material(row_cp), material(row_zs), material(row_cs), field(pair.v), field(pair.s),
-                         passive[0], passive[1]);
+  for (std::size_t n = 0; n < row_count && stretched; ++n)
+    layer_->stretch(axis, at, rows[n], width, scale, kept(n), field(rows[n]), remember);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch) {
+void Sweeps<D, Real>::sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch, bool remember) {
   const Index<D> at = state_.layout.line_index(line);
   const std::int64_t n = state_.layout.shape()[0], width = state_.layout.padded_nx();
   const std::int64_t row = width + 2 * Layout<D>::lead;
@@ -146,7 +155,7 @@ void Sweeps<D, Real>::sweep_line(std::int64_t line, Real* fields, Real scale, Re
     // Where the row fills whole vectors the last face lies one beyond what the kernel did.
     kernels_.meet(1, up + n - 1, impedance + n - 1, down + n, impedance + n, v_face + n, s_face + n);
     for (std::int64_t i = n + 1; i <= width; ++i) v_face[i] = s_face[i] = 0;
-    update(at, fields, 0, pair, width, scale, v_face, v_face + 1, s_face, s_face + 1);
+    update(at, fields, 0, pair, width, scale, v_face, v_face + 1, s_face, s_face + 1, s_face + row, remember);
   }
 }
 
@@ -254,7 +263,7 @@ void Sweeps<D, Real>::sweep_columns(int axis, const Index<D>& first, std::int64_
         done[axis] = k - lag;
         const auto lo = (k - lag) % ring_rows, hi = (k - lag + 1) % ring_rows;
         update(done, state_.field_row(done, 0), axis, pair, width, scale, r.v_face[lo], r.v_face[hi],
-               r.s_face[lo], r.s_face[hi]);
+               r.s_face[lo], r.s_face[hi], scratch, true);
       }
     }
   }

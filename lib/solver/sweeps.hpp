@@ -7,6 +7,7 @@
 
 #include "scene/edges.hpp"
 #include "solver/domain.hpp"
+#include "solver/matched_layer.hpp"
 #include "solver/span_ends.hpp"
 #include "solver/state.hpp"
 
@@ -22,6 +23,8 @@ class Sweeps {
   /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
+  /// From now on sweeps are stretched in this layer (null: nowhere), which must outlive them.
+  void use(MatchedLayer<D, Real>* layer) { layer_ = layer; }
 
   /// Along x, on every line for which part(line) gives a scale above 0.
   void along_x(const std::function<Real(std::int64_t line)>& part);
@@ -40,18 +43,20 @@ class Sweeps {
     int v, s;  // rows of the line
     const SpanEnds* ends;
   };
-  void sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch);
+  void sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch, bool remember);
   void sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale, Real* scratch);
   void fill_ghost_cells(Real* v, Real* s, Wave wave) const;
   void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, const Pair& pair);
   void update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width, Real scale,
-              const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi);
+              const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi, Real* spare,
+              bool remember);
   std::array<Pair, D> pairs(int axis) const;
   int pair_count() const { return shear_ ? D : 1; }
   std::int64_t stripe_width() const;
 
   State<D, Real>& state_;
   const Kernels<Real>& kernels_;
+  MatchedLayer<D, Real>* layer_ = nullptr;
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;

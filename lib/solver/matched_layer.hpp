@@ -1,0 +1,53 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "solver/domain.hpp"
+
+namespace slipwave::solver {
+
+/// A convolutional perfectly matched layer on the increments of the sweeps (theory.md (E14)). In a zone
+/// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): what a
+/// sweep along that axis adds to a field, over the part `scale` of a step, loses the memory phi of earlier
+/// additions,
+///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = what the sweep adds a second,
+/// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
+/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting.
+template <int D, class Real>
+class MatchedLayer {
+ public:
+  /// `slow_hz`: the frequency below which fields are stretched less and less, that of the source.
+  MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz);
+
+  /// Whether a sweep along `axis` over the line at these indices passes through the layer.
+  bool covers(int axis, const Index<D>& line) const;
+  /// Copies the part of a row that lies in the layer, `count` cells from line[0] on. `to` takes `count`
+  /// values.
+  void keep(int axis, const Index<D>& line, std::int64_t count, const Real* row, Real* to) const;
+  /// Takes from the row what the layer's memory takes of its change since keep(). `scale` is 1 or 1/2. Only
+  /// with `remember` the memory moves on.
+  void stretch(int axis, const Index<D>& line, int field_row, std::int64_t count, Real scale,
+               const Real* before, Real* row, bool remember);
+  std::int64_t memory_bytes() const;
+
+ private:
+  /// Of one cell, for a whole and for half a step: what the memory takes, what the change itself takes, what
+  /// is left of the memory, what the change adds to it.
+  struct Factors {
+    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{};
+  };
+  struct Axis {
+    std::int64_t cells = 0, low = 0, high = 0;
+    std::vector<Factors> factors;  // low zone, then high zone, in the order of the cells
+    Buffer<Real> memory;
+    std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
+    bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
+  };
+  Real* memory_of(int axis, const Index<D>& line, int field_row);
+
+  Layout<D> layout_;
+  std::array<Axis, std::size_t(D)> axes_;
+};
+
+}  // namespace slipwave::solver
