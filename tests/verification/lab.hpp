@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "solver/sweeps.hpp"
+
+namespace slipwave::solver {
+
+/// A rock or fluid: m/s, m/s, kg/m3.
+struct Rock {
+  double vp, vs, rho;
+  double mu() const { return rho * vs * vs; }
+  double lambda() const { return rho * vp * vp - 2 * mu(); }
+};
+
+inline Medium<2> uniform_medium(std::int64_t nx, std::int64_t nz, double spacing_m, const Rock& rock) {
+  const Grid<2> grid{{nx, nz}, spacing_m, {0, 0}};
+  return {Field<2>(grid, float(rock.vp)), Field<2>(grid, float(rock.vs)), Field<2>(grid, float(rock.rho))};
+}
+
+inline void put(Medium<2>& medium, const Index<2>& cell, const Rock& rock) {
+  medium.vp(cell) = float(rock.vp);
+  medium.vs(cell) = float(rock.vs);
+  medium.rho(cell) = float(rock.rho);
+}
+
+inline EdgeLaws<2> edges_all(EdgeLaw law) {
+  EdgeLaws<2> edges;
+  for (int axis = 0; axis < 2; ++axis) edges[axis] = {law, law};
+  return edges;
+}
+
+/// A wave field and its sweeps, without sources, receivers or zones: fields are set and read cell by cell.
+template <class Real>
+class Lab {
+ public:
+  enum Row { vx, vz, sxx, szz, sxz };
+
+  Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s)
+      : medium_(medium),
+        domain_(make_domain(medium_, edges, 1)),
+        state_(std::make_unique<State<2, Real>>(make_state<2, Real>(domain_.grid.shape))),
+        sweeps_(*state_, domain_, order) {
+    fill_material(*state_, domain_, medium_, dt_s);
+  }
+  Real& operator()(Row row, std::int64_t i, std::int64_t k) { return state_->field_row({0, k}, row)[i]; }
+  const Grid<2>& grid() const { return domain_.grid; }
+  State<2, Real>& state() { return *state_; }
+  const Domain<2>& domain() const { return domain_; }
+  double energy() const { return solver::energy(*state_, domain_, medium_); }
+
+  void sweep(int axis, double part) {
+    if (axis == 1) return sweeps_.across(1, Real(part));
+    sweeps_.along_x([part](std::int64_t) { return Real(part); });
+  }
+  /// The step of (E3).
+  void step() {
+    sweep(0, 0.5);
+    sweep(1, 1);
+    sweep(0, 0.5);
+  }
+  /// Many of them, neighbouring half sweeps along x made one.
+  void steps(std::int64_t count) {
+    if (count == 0) return;
+    sweep(0, 0.5);
+    for (std::int64_t n = 0; n < count; ++n) {
+      sweep(1, 1);
+      sweep(0, n + 1 < count ? 1 : 0.5);
+    }
+  }
+
+ private:
+  Medium<2> medium_;
+  Domain<2> domain_;
+  std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
+  Sweeps<2, Real> sweeps_;
+};
+
+/// Of an error that falls from `coarse` to `fine` as the spacing falls to half.
+inline double observed_order(double coarse, double fine) { return std::log2(coarse / fine); }
+
+/// sqrt(sum of squared differences / sum of squares of `exact`).
+inline double relative_error(const std::vector<double>& found, const std::vector<double>& exact) {
+  double difference = 0, size = 0;
+  for (std::size_t n = 0; n < exact.size(); ++n) {
+    difference += (found[n] - exact[n]) * (found[n] - exact[n]);
+    size += exact[n] * exact[n];
+  }
+  return std::sqrt(difference / size);
+}
+
+}  // namespace slipwave::solver

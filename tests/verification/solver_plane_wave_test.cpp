@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <complex>
+#include <numbers>
+
+#include "full_space.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr Rock rock{4500, 2250, 2500};
+const std::vector<Component> all_components = {Component::vx,  Component::vz,  Component::sxx,
+                                               Component::szz, Component::sxz, Component::p};
+
+Scene<2> plane_scene(const Medium<2>& medium, double angle_deg, const Point<2>& reference,
+                     double duration_s) {
+  Scene<2> scene;
+  scene.model.medium = medium;
+  scene.model.fracture = Field<2, std::uint8_t>(medium.grid());
+  scene.survey.sources = {{reference, parse_mechanism<2>("plane:" + std::to_string(angle_deg)),
+                           parse_wavelet("ricker:30"), 0.002}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {all_components, duration_s, 0.001};
+  return scene;
+}
+
+TEST(PlaneWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
+  const double h = 5, side = 800;
+  const auto n = std::int64_t(side / h);
+  for (const double angle : {0., 20., 45., 160., -70.}) {
+    const double sine = std::sin(angle * pi / 180), cosine = std::cos(angle * pi / 180);
+    const Point<2> reference = {side / 2 - 700 * sine, side / 2 - 700 * cosine};
+    auto scene = plane_scene(uniform_medium(n, n, h, rock), angle, reference, 0.35);
+    scene.survey.receivers_m = {{400.3, 401.9}, {151.2, 640.4}, {660.7, 133.3}};
+    check(scene);
+    const Gather gather = shoot(scene, 1);
+    const double mu = rock.mu(), lambda = rock.lambda(), strain = -0.002 / rock.vp;
+    const double sxx = strain * (lambda + 2 * mu * sine * sine),
+                 szz = strain * (lambda + 2 * mu * cosine * cosine);
+    const double factors[] = {0.002 * sine,    0.002 * cosine, sxx, szz, strain * 2 * mu * sine * cosine,
+                              -(sxx + szz) / 2};
+    const auto wavelet = parse_wavelet("ricker:30");
+    for (std::size_t receiver = 0; receiver < 3; ++receiver) {
+      const auto& at = scene.survey.receivers_m[receiver];
+      const double travel = ((at[0] - reference[0]) * sine + (at[1] - reference[1]) * cosine) / rock.vp;
+      for (std::size_t row = 0; row < all_components.size(); ++row) {
+        const auto& found = gather.traces[row * 3 + receiver].samples;
+        const double unit = row < 2 ? 0.002 : rock.rho * rock.vp * 0.002;
+        double worst = 0;
+        for (std::size_t t = 0; t < found.size(); ++t)
+          worst = std::max(worst, std::abs(found[t] - factors[row] * wavelet(double(t) * 0.001 - travel)));
+        // 12 cells to the shortest wave that counts (76 Hz); the way through the grid is 700 m.
+        EXPECT_LT(worst / unit, 0.02)
+            << angle << " degrees, " << name_of(all_components[row]) << ", receiver " << receiver;
+      }
+    }
+  }
+}
+
+/// A stack of layers: the plane wave comes down from a half-space above and leaves into one below.
+struct Layer {
+  Rock rock;
+  double top_m;
+};
+
+/// vz at depth z per unit of the incident wave at depth 0: upgoing over downgoing waves by recursion from the
+/// bottom, amplitudes from the top.
+std::complex<double> layered_velocity(const std::vector<Layer>& layers, double omega, double z) {
+  const auto delay = [&](std::size_t n, double metres) {
+    return std::polar(1., -omega * metres / layers[n].rock.vp);
+  };
+  std::vector<std::complex<double>> up(layers.size(), 0);  // up/down of vz at the top of each layer
+  const auto impedance = [&](std::size_t n) { return layers[n].rock.rho * layers[n].rock.vp; };
+  const auto thickness = [&](std::size_t n) { return layers[n + 1].top_m - layers[n].top_m; };
+  const auto at_bottom = [&](std::size_t n) {
+    const double r = (impedance(n) - impedance(n + 1)) / (impedance(n) + impedance(n + 1));
+    return (r + up[n + 1]) / (1. + r * up[n + 1]);
+  };
+  for (std::size_t n = layers.size() - 1; n-- > 0;)
+    up[n] = at_bottom(n) * delay(n, thickness(n)) * delay(n, thickness(n));
+  std::complex<double> down = 1;
+  std::size_t n = 0;
+  for (; n + 1 < layers.size() && z > layers[n + 1].top_m; ++n) {
+    const auto arriving = down * delay(n, thickness(n));
+    down = arriving * (1. + at_bottom(n)) / (1. + up[n + 1]);  // vz is continuous
+  }
+  const double depth = z - layers[n].top_m;
+  return down * (delay(n, depth) + up[n] / delay(n, depth));
+}
+
+TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
+  const std::vector<Layer> layers = {
+      {{2000, 900, 2000}, 0}, {{3300, 1800, 2300}, 300}, {{1800, 800, 1900}, 400}, {{4500, 2250, 2500}, 470}};
+  const double h = 2.5, duration = 0.6;
+  auto medium = uniform_medium(24, 280, h, layers[0].rock);
+  for (std::int64_t k = 0; k < 280; ++k)
+    for (std::int64_t i = 0; i < 24; ++i)
+      for (const auto& layer : layers)
+        if ((double(k) + 0.5) * h > layer.top_m) put(medium, {i, k}, layer.rock);
+  for (const auto sides : {EdgeLaw::mirror, EdgeLaw::absorbing}) {
+    auto scene = plane_scene(medium, 0, {0, 0}, duration);
+    scene.edges[0] = {sides, sides};
+    scene.survey.receivers_m = {{31, 21.3}, {31, 352.2}, {31, 433.1}, {31, 600.9}};
+    check(scene);
+    const Gather gather = shoot(scene, 1);
+    for (std::size_t receiver = 0; receiver < 4; ++receiver) {
+      const double z = scene.survey.receivers_m[receiver][1];
+      const auto exact = ricker_response(30, 0.001, gather.axis.count, [&](double omega) {
+        return Motion{layered_velocity(layers, omega, z) * 0.002};
+      });
+      // 9.5 cells to the shortest wave that counts (76 Hz at 1800 m/s), four contacts and their multiples.
+      const double error = relative_error(gather.traces[4 + receiver].samples, exact[0]);
+      EXPECT_LT(error, 0.02) << "at " << z << " m";
+      for (const double sideways : gather.traces[receiver].samples)
+        EXPECT_LT(std::abs(sideways), 1e-5 * 0.002);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace slipwave::solver
