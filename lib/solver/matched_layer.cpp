@@ -14,6 +14,11 @@ namespace {
 constexpr double leak = 1e-4;
 /// Growth of d into the layer.
 constexpr int power = 3;
+/// Plain damping of all fields beside the stretch, as a share of d. Without it plates (rock between two
+/// reflecting edges or voids, which reach into the layer) grew: they carry waves whose energy runs against
+/// their phase. From 0.01 on none of the media tried grew; 0.02 costs a factor of two in what comes back
+/// under 60 degrees.
+constexpr double plain_share = 0.02;
 
 }  // namespace
 
@@ -37,6 +42,7 @@ MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& do
       for (const int half : {0, 1}) {
         const double time = half ? dt_s / 2 : dt_s, sum = d + alpha;
         const double lost = -std::expm1(-sum * time);
+        factors.kept[std::size_t(half)] = Real(std::exp(-plain_share * d * time));
         factors.of_memory[std::size_t(half)] = Real(lost / (sum * dt_s));
         factors.of_change[std::size_t(half)] = Real(d / sum * (1 - lost / (sum * time)));
         factors.left[std::size_t(half)] = Real(1 - lost);
@@ -94,6 +100,7 @@ void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_ro
   const auto one = [&](const Factors& factors, Real was, Real& now, Real& phi) {
     const Real change = now - was;
     now -= factors.of_memory[half] * phi + factors.of_change[half] * change;
+    now *= factors.kept[half];
     if (remember) phi = factors.left[half] * phi + factors.added[half] * change;
   };
   if (axis > 0) {

@@ -13,7 +13,8 @@ namespace slipwave::solver {
 /// additions,
 ///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = what the sweep adds a second,
 /// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
-/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting.
+/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. A little plain
+/// damping of all fields beside it keeps waves in plates from growing.
 template <int D, class Real>
 class MatchedLayer {
  public:
@@ -33,9 +34,9 @@ class MatchedLayer {
 
  private:
   /// Of one cell, for a whole and for half a step: what the memory takes, what the change itself takes, what
-  /// is left of the memory, what the change adds to it.
+  /// is left of the memory, what the change adds to it, what is left of the field.
   struct Factors {
-    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{};
+    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{}, kept{};
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
