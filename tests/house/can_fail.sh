@@ -63,6 +63,7 @@ noticed layers lib/gather/trace.cpp '#include "model/model.hpp"' 'gather must no
 noticed layers lib/output/snapshot.cpp '#include "solver/sweeps.hpp"' 'output must not include'
 noticed layers lib/gather/trace.cpp '#include "trace.hpp"' 'write "room/file.hpp"'
 noticed layers lib/gather/trace.cpp '#include <fftw3.h>' '<fftw3.h> belongs in'
+noticed layers lib/gather/trace.cpp '#include <tbb/task_arena.h>' '<tbb/task_arena.h> belongs in'
 noticed layers lib/gather/trace.cpp '# include <netcdf.h>' '<netcdf.h> belongs in'
 noticed layers lib/gather/trace.cpp '#include <boost/any.hpp>' '<boost/any.hpp> belongs in'
 noticed layers lib/gather/trace.cpp '#include <cairo/cairo.h>' '<cairo/cairo.h> belongs in'

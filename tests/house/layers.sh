@@ -40,6 +40,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     sub(/^[^<]*</, "", header)
     sub(/>.*$/, "", header)
     only_in("^fftw", header, "^lib/base/fft[.]cpp$")
+    only_in("^(tbb|oneapi)/", header, "^lib/base/parallel[.]cpp$")
     only_in("^netcdf", header, "^lib/.*netcdf[a-z_]*[.][ch]pp$")
     only_in("^boost/", header, "^(lib/cli|tools)/")
     only_in("^cairo", header, "^lib/plot/")
