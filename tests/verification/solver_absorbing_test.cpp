@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "full_space.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr Rock rock{4500, 2250, 2500};
+constexpr double h = 5, depth_m = 300;
+const std::vector<double> angles_deg = {0, 20, 40, 60};
+
+/// A line source 300 m below an absorbing edge at z = top_m = 0, receivers at its depth where rays come back
+/// from z = 0 under each angle, and at the mirror images of those beyond z = 0 if the model holds them.
+Gather shoot_at_an_edge(const char* mechanism, double top_m, int cells, double duration_s) {
+  const Grid<2> grid{{460, std::int64_t((900 - top_m) / h)}, h, {-600, top_m}};
+  Scene<2> scene;
+  scene.model.medium = {Field<2>(grid, float(rock.vp)), Field<2>(grid, float(rock.vs)),
+                        Field<2>(grid, float(rock.rho))};
+  scene.model.fracture = Field<2, std::uint8_t>(grid);
+  scene.survey.sources = {{{0, depth_m}, parse_mechanism<2>(mechanism), parse_wavelet("ricker:30"), 1e6}};
+  for (const double z : {depth_m, -depth_m})
+    for (const double angle : angles_deg)
+      if (z > top_m)
+        scene.survey.receivers_m.push_back({2 * depth_m * std::tan(angle * std::numbers::pi / 180), z});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.numerics.zone_cells = cells;
+  scene.recording = {{Component::vx, Component::vz}, duration_s, 0.001};
+  check(scene);
+  return shoot(scene, 1);
+}
+
+/// Peaks of what an edge sends back, relative to what a perfect mirror would: the difference to a model in
+/// which that edge is 1200 m further away, over the wave at the receiver's image.
+std::vector<double> reflections(const char* mechanism, int cells, double duration_s) {
+  const Gather near = shoot_at_an_edge(mechanism, 0, cells, duration_s);
+  const Gather far = shoot_at_an_edge(mechanism, -1200, cells, duration_s);
+  const std::size_t count = angles_deg.size();
+  std::vector<double> shares;
+  for (std::size_t n = 0; n < count; ++n) {
+    double back = 0, mirrored = 0;
+    for (std::size_t t = 0; t < near.traces[0].samples.size(); ++t) {
+      const auto difference = [&](std::size_t component) {
+        return near.traces[component * count + n].samples[t] -
+               far.traces[component * 2 * count + n].samples[t];
+      };
+      back = std::max(back, std::hypot(difference(0), difference(1)));
+      mirrored = std::max(mirrored,
+                          std::hypot(far.traces[count + n].samples[t], far.traces[3 * count + n].samples[t]));
+    }
+    shares.push_back(back / mirrored);
+  }
+  return shares;
+}
+
+void expect_below(const std::vector<double>& found, const std::vector<double>& bounds, const char* wave) {
+  for (std::size_t n = 0; n < found.size(); ++n)
+    EXPECT_LT(found[n], bounds[n]) << wave << " under " << angles_deg[n] << " degrees";
+}
+
+// A matched layer reflects nothing but what its end sends back through it again and what the grid makes of
+// its growth. Its end at normal incidence is left 1e-4 of the P wave; at an angle the wave crosses it with
+// cos(angle) times the damping, 1e-2 at 60 degrees, where its characteristic edge sends back a third
+// ((1 - cos)/(1 + cos)) of that. Twice that bounds both.
+TEST(AbsorbingEdge, SendsBackLessThanAHundredthUpToSixtyDegrees) {
+  const std::vector<double> bounds = {0.001, 0.001, 0.002, 0.01};
+  expect_below(reflections("explosion", 20, 0.42), bounds, "P");
+  expect_below(reflections("force:1,0", 20, 0.72), bounds, "S");
+}
+
+TEST(AbsorbingEdge, SendsBackAThousandthFromTwiceTheWidth) {
+  const std::vector<double> bounds(4, 0.001);
+  expect_below(reflections("explosion", 40, 0.42), bounds, "P");
+  expect_below(reflections("force:1,0", 40, 0.72), bounds, "S");
+}
+
+}  // namespace
+}  // namespace slipwave::solver
