@@ -1,0 +1,142 @@
+#include <cstdlib>
+#include <filesystem>
+
+#include "shell.hpp"
+
+namespace {
+
+const std::string shoot = "sw-shoot m.nc --wavelet ricker:20 --time 0.15 --receivers 0:400:50,20 ";
+const std::string at = "--source 100,50 ";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+class ShootOptions : public Shell {
+ protected:
+  void SetUp() override {
+    done(
+        "sw-layers --size 400x300 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1500:2200 | sw-fracture - "
+        "--box 150:250,150:200 --dip 45 --friction 0.1 --viscosity 1e11 -o m.nc");
+    done(shoot + at + "-o base.sgy");
+  }
+  std::string info(const std::string& name) { return done("sw-info " + name); }
+};
+
+}  // namespace
+
+TEST_F(ShootOptions, EachChangesTheTraces) {
+  for (const std::string option :
+       {"--kind force:1,0", "--kind moment:2,2,0", "--amplitude 2", "--top absorbing", "--top rigid",
+        "--top mirror", "--sides rigid", "--sides mirror", "--bottom free", "--edge-width 3", "--order 1",
+        "--order 3", "--order 7", "--without slip", "--correction first", "--precision double", "--cfl 0.5",
+        "--time-step 1e-3"}) {
+    done(shoot + at + option + " -o other.sgy");
+    EXPECT_EQ(done("tail -c +3601 other.sgy | wc -c"), done("tail -c +3601 base.sgy | wc -c")) << option;
+    // Past the headers, which hold the command line.
+    EXPECT_NE(run("cmp -s <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)").code, 0) << option;
+  }
+}
+
+TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
+  done(shoot + at +
+       "--kind explosion --amplitude 1 --record vz,vx,p --dt 0.001 --top free --sides absorbing --bottom "
+       "absorbing --order 5 --correction second --precision float --cfl 0.9 -o other.sgy");
+  done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
+}
+
+TEST_F(ShootOptions, SamplingAndComponentsAreAsAsked) {
+  done(shoot + at + "--dt 0.002 --record szz,sxx,sxz,vx -o other.sgy");
+  const auto text = info("other.sgy");
+  EXPECT_TRUE(has(text, "samples a trace  76\n")) << text;
+  EXPECT_TRUE(has(text, "traces           36\n")) << text;
+}
+
+TEST_F(ShootOptions, APlaneWaveComesInFromTheTop) {
+  done("sw-layers --size 200x200 --step 5 --layer 0:3000:1500:2200 -o m.nc");
+  for (const std::string angle : {"0", "25"})
+    done("sw-shoot m.nc --source 0,0 --kind plane:" + angle +
+         " --top absorbing --wavelet ricker:20 --time 0.2 --receivers 100,100 --record vx,vz,p -o " + angle +
+         ".sgy");
+  EXPECT_TRUE(has(info("0.sgy"), "traces           3\n"));
+}
+
+TEST_F(ShootOptions, SplitByComponentAndShot) {
+  const std::string shots = shoot + "--source 100,50 --source 300,50 --record vx,p ";
+  done(shots + "-o all.sgy");
+  EXPECT_TRUE(has(info("all.sgy"), "shots            2\n")) << info("all.sgy");
+  EXPECT_TRUE(has(info("all.sgy"), "traces           36\n"));
+  done(shots + "-o 's{shot}-{component}.sgy'");
+  EXPECT_EQ(files(), "all.sgy base.sgy m.nc s1-p.sgy s1-vx.sgy s2-p.sgy s2-vx.sgy");
+  EXPECT_TRUE(has(info("s2-vx.sgy"), "traces           9\n"));
+  EXPECT_TRUE(has(info("s2-vx.sgy"), "source x         300 m\n")) << info("s2-vx.sgy");
+  // A shot does not know of the others.
+  const std::string one = "sw-shoot m.nc --wavelet ricker:20 --time 0.15 --receivers 200,20 --record vx ";
+  done(one + "--source 100,50 --source 300,50 -o '{shot}.sgy'; " + one + "--source 300,50 -o alone.sgy");
+  done("cmp <(tail -c +3841 2.sgy) <(tail -c +3841 alone.sgy)");
+  done(shots + "-o 'only-{component}.sgy'");
+  EXPECT_TRUE(has(info("only-p.sgy"), "traces           18\n"));
+}
+
+TEST_F(ShootOptions, SnapshotsAreReadableAndLeaveTheTracesAsTheyAre) {
+  done(shoot + at + "--snapshots s.nc --every 0.05 --fields vx,p,div,curl -o other.sgy");
+  done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
+  const auto text = info("s.nc");
+  for (const std::string word : {"snapshots", "80 x 60 cells of 5 m", "div", "curl"})
+    EXPECT_TRUE(has(text, word)) << word << " in " << text;
+  done(
+      "sw-shoot m.nc --wavelet ricker:20 --time 0.15 --source 9,9 --source 99,9 --snapshots 't{shot}.nc' "
+      "--every 0.05");
+  EXPECT_TRUE(exists("t1.nc") && exists("t2.nc"));
+}
+
+TEST_F(ShootOptions, DoNotDependOnThreadsOrOnTheMoment) {
+  // A grid of many lines, so that threads share them.
+  done(
+      "sw-layers --size 800x1500 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1500:2200:5 | sw-fracture - "
+      "--box 150:650,250:400 --dip 45 --friction 0.1 --viscosity 0 -o m.nc");
+  const std::string line = shoot + at + "--snapshots s.nc --every 0.1 ";
+  for (const std::string n : {"1", "2", "3"})
+    done(line + "--threads " + n + " > " + n + ".sgy; mv s.nc " + n + ".nc");
+  done(
+      "cmp <(tail -c +3601 1.sgy) <(tail -c +3601 2.sgy); cmp <(tail -c +3601 1.sgy) <(tail -c +3601 3.sgy)");
+  const std::string fields = "ncdump -v vx,vz ";
+  if (run("ncdump 2> /dev/null; test $? -ne 127").code == 0) {
+    for (const std::string n : {"2", "3"})
+      done("cmp <(" + fields + "1.nc | sed -n '/^data/,$p') <(" + fields + n + ".nc | sed -n '/^data/,$p')");
+  }
+  done(line + "> a.sgy; sleep 1.1; " + line + "> b.sgy; cmp a.sgy b.sgy");
+}
+
+TEST_F(ShootOptions, ComeFromAFileAndTheCommandLineWins) {
+  write("run.cfg", "source = 100,50\nwavelet = ricker:20\ntime = 0.15\nreceivers = 0:400:50,20\norder = 1\n");
+  done("sw-shoot m.nc --config run.cfg --order 5 -o other.sgy");
+  done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
+  done("sw-shoot m.nc --config run.cfg -o other.sgy");
+  EXPECT_NE(run("cmp -s <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)").code, 0);
+}
+
+TEST_F(ShootOptions, PlanTellsWhatWouldBeComputedAndStops) {
+  const auto text = done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1000 --plan");
+  for (const std::string word : {"grid", "steps", "time step", "Courant number  ", "memory",
+                                 "slip, second order", "cells a shortest wavelength"})
+    EXPECT_TRUE(has(text, word)) << word << " in " << text;
+  EXPECT_FALSE(
+      has(done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1 --without slip --plan"), "slip,"));
+  done(shoot + at + "--plan -o plan.txt; grep -q steps plan.txt");
+}
+
+TEST_F(ShootOptions, WriteGathersThatAnIndependentReaderAccepts) {
+  const char* given = std::getenv("SLIPWAVE_SHARED");
+  const std::string checker = (given ? given : std::string(SLIPWAVE_SHARED_DEFAULT)) + "/tools/check_segy.py";
+  if (!std::filesystem::exists(checker))
+    GTEST_SKIP() << "no " << checker << "; SLIPWAVE_SHARED names the folder of shared tools";
+  if (run("/usr/bin/python3 -c 'import numpy, segyio'").code != 0)
+    GTEST_SKIP() << "no /usr/bin/python3 with segyio (Debian: python3-segyio)";
+  done("sw-shoot m.nc --wavelet ricker:20 --time 0.15 --receivers 25:375:50,120 " + at +
+       "--record vx,vz,p,sxx,szz,sxz -o six.sgy");
+  done(shoot + "--source 100,50 --source 300.25,50.5 --receivers 12.5,33.3 -o shots.sgy");
+  done(shoot + "--source 100,50 --source 300,50 --dt 0.0005 -o '{shot}-{component}.sgy'");
+  done(shoot + at + "--kind force:0,1 --without slip -o force.sgy");
+  done("sw-diff base.sgy force.sgy -o difference.sgy");
+  const Ran ran = run("/usr/bin/python3 '" + checker + "' --profile shot --strict -q *.sgy");
+  EXPECT_EQ(ran.code, 0) << ran.out << ran.err;
+}
