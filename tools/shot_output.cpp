@@ -8,6 +8,7 @@
 #include "output/derivatives.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "segy/writer.hpp"
+#include "segy/writer_headers.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
@@ -60,6 +61,15 @@ Field<2> snapshot_of(const std::string& name, const FieldReader<2>& field) {
   return field(component_named(name));
 }
 
+/// What the trace files can not hold is refused before anything is computed.
+void check_sampling(const Recording& recording, const cli::Context& context) {
+  segy::FileInfo info;
+  info.axis.count = recording.samples();
+  info.axis.interval_s = recording.interval_s;
+  segy::checked_format(info);
+  for (const auto& sentence : segy::warnings_of(info)) context.warn(sentence);
+}
+
 /// A trace file that is being collected.
 struct Collected {
   std::unique_ptr<OutputFile> out;
@@ -83,6 +93,7 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
                            const cli::Context& context) const {
   const auto entries = entries_of(scene, history, context.version);
   const bool any_trace = !scene.survey.receivers_m.empty();
+  if (any_trace) check_sampling(scene.recording, context);
   std::map<std::string, Collected> files;
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
     const auto file_of = [&](Component component) { return name_for(traces, shot, name_of(component)); };
