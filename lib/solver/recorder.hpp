@@ -14,7 +14,7 @@ template <class Real>
 using WholeLine = std::function<const Real*(std::int64_t line)>;
 
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
-/// sampling interval by eight steps round each sample, whatever the time step (theory.md (A8)).
+/// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)).
 template <int D, class Real>
 class Recorder {
  public:
