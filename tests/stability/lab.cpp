@@ -42,9 +42,16 @@ Lab<Real>::Lab(const Setup& setup) {
   state_ = solver::make_state<2, Real>(domain_.grid.shape);
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
-  if (domain_.grid.size() > domain_.model_grid.size())
-    passes_.push_back(std::make_unique<solver::AbsorbingZones<2, Real>>(
-        state_, domain_, dt_s_, solver::fastest_wave(model.medium), nullptr));
+  const bool zones = domain_.grid.size() > domain_.model_grid.size();
+  const double vp_max = solver::fastest_wave(model.medium);
+  if (zones && setup.layer_hz > 0) {
+    layer_ = std::make_unique<solver::MatchedLayer<2, Real>>(state_.layout, domain_, dt_s_, vp_max,
+                                                             setup.layer_hz);
+    sweeps_->use(layer_.get());
+  } else if (zones) {
+    passes_.push_back(
+        std::make_unique<solver::AbsorbingZones<2, Real>>(state_, domain_, dt_s_, vp_max, nullptr));
+  }
   if (scene_.slips()) passes_.push_back(solver::make_slip_pass(state_, domain_, scene_, dt_s_));
 
   std::mt19937 engine(setup.seed);
@@ -53,6 +60,8 @@ Lab<Real>::Lab(const Setup& setup) {
     const auto at = domain_.grid.index(n);
     const auto cell = std::size_t(model.grid().flat(domain_.model_cell(at)));
     if (model.medium.is_void(cell)) continue;
+    const bool in_model = domain_.computed_cell(domain_.model_cell(at)) == at;
+    if (layer_ && !in_model) continue;
     const auto set = [&](int row, double value) {
       state_.field_row({0, at[1]}, row)[at[0]] = Real(setup.amplitude * value);
     };
@@ -86,10 +95,9 @@ double Lab<Real>::energy() const {
     for (int field = 0; field < 5; ++field) row[field] = state_.field_row({0, k}, field);
     for (std::int64_t i = 0; i < domain_.grid.shape[0]; ++i) {
       const auto cell = std::size_t(medium.grid().flat(domain_.model_cell({i, k})));
-      total +=
-          h * h *
-          energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
-                         double(row[1][i]), double(row[2][i]), double(row[3][i]), double(row[4][i]));
+      total += h * h *
+               energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
+                              double(row[1][i]), double(row[2][i]), double(row[3][i]), double(row[4][i]));
     }
   }
   return total;

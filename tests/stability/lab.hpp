@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "media.hpp"
 #include "scene/scene.hpp"
+#include "solver/matched_layer.hpp"
 #include "solver/pass.hpp"
 #include "solver/sweeps.hpp"
 
@@ -25,8 +26,8 @@ EdgeLaws<2> all_edges(EdgeLaw law);
 double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,
                       double sxz);
 
-/// A wave field of random values in every cell, let loose: sweeps, absorbing zones and slip as a shot has
-/// them, without a source. Fields in the zones start random too.
+/// A wave field of random values in every cell, let loose: sweeps, absorbing zones or layers and slip as a
+/// shot has them, without a source. Fields in damped zones start random too, in matched layers at rest.
 template <class Real>
 class Lab {
  public:
@@ -36,6 +37,7 @@ class Lab {
     int order = 5;
     double cfl = 1;
     int zone_cells = 8;
+    double layer_hz = 0;   // absorbing edges: 0 for damped zones, else a matched layer for such a source
     double amplitude = 1;  // velocities up to half of it, m/s; stresses such as belong to them
     std::vector<FractureSet<2>> fracture_sets;
     Field<2, std::uint8_t> fracture;
@@ -47,6 +49,7 @@ class Lab {
   void step();
   /// Of the whole computed grid, zones included, J per metre; NaN where a field is.
   double energy() const;
+  double time_step_s() const { return dt_s_; }
   /// Runs and expects that the energy never rises above the lowest value so far by more than `rounding` of
   /// it, and ends finite. Energies below `floor` are rounding itself.
   void expect_no_growth(int steps, double rounding, double floor = 0);
@@ -57,6 +60,7 @@ class Lab {
   double dt_s_;
   solver::State<2, Real> state_;
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
+  std::unique_ptr<solver::MatchedLayer<2, Real>> layer_;
   std::vector<std::unique_ptr<solver::Pass>> passes_;
   std::int64_t steps_ = 0;
 };

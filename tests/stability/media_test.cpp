@@ -50,7 +50,8 @@ TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
   for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror})
     for (const int order : {1, 3, 5, 7})
       for (const std::string medium : {"WaterOverCurvedRock", "RandomAirAndSteel", "RandomMixture"}) {
-        SCOPED_TRACE(medium + " order " + std::to_string(order) + (edges == EdgeLaw::rigid ? " rigid" : " mirror"));
+        SCOPED_TRACE(medium + " order " + std::to_string(order) +
+                     (edges == EdgeLaw::rigid ? " rigid" : " mirror"));
         expect_no_growth_in<double>(medium, order, edges, {32, 800});
       }
 }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <functional>
@@ -55,14 +56,17 @@ Material any_material(Draws& draws) {
 /// Cells of a random shape.
 std::function<bool(int i, int k)> any_shape(Draws& draws, int nx, int nz) {
   const double x = draws.between(0, nx), z = draws.between(0, nz), size = draws.between(0.6, nx / 2.);
-  const double stretch = draws.between(0.3, 3), wave = draws.between(0.05, 0.6), share = draws.between(0.1, 0.9);
+  const double stretch = draws.between(0.3, 3), wave = draws.between(0.05, 0.6),
+               share = draws.between(0.1, 0.9);
   switch (draws.whole(0, 3)) {
     case 0:
       return [=](int i, int k) {
         return std::pow(i + 0.5 - x, 2) + std::pow((k + 0.5 - z) * stretch, 2) < size * size;
       };
     case 1:
-      return [=](int i, int k) { return std::abs(i + 0.5 - x) < size && std::abs(k + 0.5 - z) * stretch < size; };
+      return [=](int i, int k) {
+        return std::abs(i + 0.5 - x) < size && std::abs(k + 0.5 - z) * stretch < size;
+      };
     case 2:
       return [=](int i, int k) { return k > z + size / 3 * std::sin(wave * i); };
     default: {
@@ -100,7 +104,8 @@ void draw_model(Draws& draws, Model<2>& model, bool uniform_margin) {
   const int nx = draws.whole(20, 50), nz = draws.whole(20, 50);
   const Grid<2> grid{{nx, nz}, draws.between(1, 20), {draws.between(-100, 100), 0}};
   const Material background = draws.chance(0.2) ? Material{1500, 0, 1000} : solid(draws);
-  model.medium = {Field<2>(grid, background.vp), Field<2>(grid, background.vs), Field<2>(grid, background.rho)};
+  model.medium = {Field<2>(grid, background.vp), Field<2>(grid, background.vs),
+                  Field<2>(grid, background.rho)};
   const int margin = uniform_margin ? 3 : 0;
   const auto fill = [&](const std::function<bool(int, int)>& shape, const auto& put) {
     for (int k = margin; k < nz - margin; ++k)
@@ -115,6 +120,8 @@ void draw_model(Draws& draws, Model<2>& model, bool uniform_margin) {
       model.medium.rho[cell] = material.rho;
     });
   }
+  if (std::count(model.medium.rho.begin(), model.medium.rho.end(), 0.f) == grid.size())
+    return draw_model(draws, model, uniform_margin);
   model.fracture = Field<2, std::uint8_t>(grid);
   for (int sets = draws.whole(0, 2); sets > 0; --sets) {
     FractureSet<2> set{"set", {}};
@@ -136,7 +143,7 @@ void draw_model(Draws& draws, Model<2>& model, bool uniform_margin) {
 Point<2> place(Draws& draws, const Model<2>& model) {
   for (;;) {
     const auto cell = draws.whole(0, int(model.grid().size()) - 1);
-    if (model.medium.is_void(std::size_t(cell)) && draws.chance(0.999)) continue;
+    if (model.medium.is_void(std::size_t(cell))) continue;
     const auto at = model.grid().index(cell);
     return {model.grid().centre(0, at[0]), model.grid().centre(1, at[1])};
   }
@@ -165,9 +172,9 @@ Drawn draw(unsigned seed) {
   scene.numerics.double_precision = draws.chance(0.3);
   for (int axis = 0; axis < 2; ++axis)
     for (const int side : {0, 1}) {
-      const auto law = wave ? EdgeLaw::absorbing
-                            : draws.one_of<EdgeLaw>(
-                                  {EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::rigid, EdgeLaw::mirror});
+      const auto law =
+          wave ? EdgeLaw::absorbing
+               : draws.one_of<EdgeLaw>({EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::rigid, EdgeLaw::mirror});
       scene.edges[axis][std::size_t(side)] = law;
       drawn.absorbs |= law == EdgeLaw::absorbing;
     }
@@ -204,39 +211,40 @@ double energy_of(const Medium<2>& medium, const FieldReader<2>& field) {
   return total;
 }
 
-/// With closed edges the energy falls from the moment the source is silent. Absorbing zones may hand back
-/// a few percent of what went into them.
+/// The energy stays below what it is just after the source has fallen silent. It may waver: what is recorded
+/// is half a sweep ahead of the state, and a half sweep takes more from the shortest waves than half of what
+/// a whole one takes. Absorbing edges may hand back a few percent of what went into them.
 void expect_no_growth(const Drawn& drawn) {
   const auto& scene = drawn.scene;
-  double highest = 0, lowest = -1;
+  double highest = 0, after = 0;
+  int looks = 0;
   const auto look = [&](double time_s, const FieldReader<2>& field) {
     const double now = energy_of(scene.model.medium, field);
     ASSERT_TRUE(std::isfinite(now)) << "t=" << time_s;
     if (time_s <= drawn.silent_s + time_step_s(scene)) {
       highest = std::max(highest, now);
-      return;
+    } else if (++looks <= 10) {
+      after = std::max(after, now);
+    } else {
+      ASSERT_LE(now, drawn.absorbs ? 1.05 * after + 0.02 * highest : 1.001 * after)
+          << "t=" << time_s << ": growing; with the source the energy was as high as " << highest;
     }
-    const double bound = drawn.absorbs ? 1.05 * lowest + 0.02 * highest : lowest * (1 + 1e-5);
-    ASSERT_TRUE(lowest < 0 || now <= bound)
-        << "t=" << time_s << ": the energy is " << now << ", it was down to " << lowest
-        << " and with the source as high as " << highest;
-    lowest = lowest < 0 ? now : std::min(lowest, now);
   };
   const Gather gather = shoot<2>(scene, 1, {}, look);
   for (const auto& trace : gather.traces)
     for (const double sample : trace.samples) ASSERT_TRUE(std::isfinite(sample));
   EXPECT_GT(highest, 0) << "the source moved nothing";
-  EXPECT_GE(lowest, 0) << "no snapshot after the source";
+  EXPECT_GT(looks, 10) << "no snapshots after the source";
 }
 
 std::string shown(const Drawn& drawn, unsigned seed) {
   const auto& scene = drawn.scene;
   std::ostringstream text;
-  text << "seed " << seed << " (SLIPWAVE_SEED=" << seed << " runs it alone): "
-       << name_of<2>(scene.survey.sources[0].mechanism) << ' ' << scene.survey.sources[0].wavelet.text()
-       << ", order " << scene.numerics.order << ", cfl " << scene.numerics.cfl
-       << (scene.numerics.double_precision ? ", double" : ", float") << (scene.slips() ? ", slip" : "") << ", "
-       << slipwave::shown(scene.model.grid());
+  text << "seed " << seed << " (SLIPWAVE_SEED=" << seed
+       << " runs it alone): " << name_of<2>(scene.survey.sources[0].mechanism) << ' '
+       << scene.survey.sources[0].wavelet.text() << ", order " << scene.numerics.order << ", cfl "
+       << scene.numerics.cfl << (scene.numerics.double_precision ? ", double" : ", float")
+       << (scene.slips() ? ", slip" : "") << ", " << slipwave::shown(scene.model.grid());
   return text.str();
 }
 

@@ -56,8 +56,8 @@ void expect_no_growth_with_slip(double friction, double viscosity_s, double ampl
       for (const std::string name : {"WaterOverRock", "SolidBlocksOf3Cells"}) {
         SCOPED_TRACE(std::string(cluster.name) + " in " + name +
                      (correction == SlipCorrection::first ? ", first order" : ", second order"));
-        auto setup = fractured<Real>(medium_named(name, cells), cluster.holds,
-                                     planes(35, friction, viscosity_s));
+        auto setup =
+            fractured<Real>(medium_named(name, cells), cluster.holds, planes(35, friction, viscosity_s));
         setup.correction = correction;
         setup.amplitude = amplitude;
         Lab<Real> lab(setup);
@@ -131,8 +131,8 @@ TEST(SlipBesideAbsorbingEdges, NeverAddsEnergy) {
 TEST(SlipForTenThousandSteps, NeverAddsEnergy) {
   const ThreadLimit one_thread(1);
   for (const auto correction : {SlipCorrection::first, SlipCorrection::second}) {
-    auto setup = fractured<float>(medium_named("WaterOverCurvedRock", 32), clusters()[3].holds,
-                                  planes(45, 0.1, 1e3));
+    auto setup =
+        fractured<float>(medium_named("WaterOverCurvedRock", 32), clusters()[3].holds, planes(45, 0.1, 1e3));
     setup.correction = correction;
     Lab<float>(setup).expect_no_growth(10000, rounding<float>());
   }
