@@ -1,6 +1,5 @@
 #include "cli/tool.hpp"
 
-#include <omp.h>
 #include <unistd.h>
 
 #include <algorithm>
