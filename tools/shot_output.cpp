@@ -94,6 +94,9 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
   const auto entries = entries_of(scene, history, context.version);
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
+  if (any_trace && snapshots == traces)
+    throw Error("found " + traces + " for both --output and --snapshots, expected two places",
+                ErrorKind::usage);
   std::map<std::string, Collected> files;
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
     const auto file_of = [&](Component component) { return name_for(traces, shot, name_of(component)); };

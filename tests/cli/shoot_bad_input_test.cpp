@@ -121,6 +121,8 @@ TEST_F(ShootBadInput, OfSettingsIsNamedInOneLine) {
        "found --cfl 1.5, expected above 0 and at most 1: h/vp_max is 0.0016666666666666668 s"},
       {shoot + rest + "--snapshots s.nc", 2,
        "found --snapshots without --every, expected the time between them"},
+      {shoot + rest + "--every 0.1 --snapshots out.sgy", 2,
+       "found out.sgy for both --output and --snapshots, expected two places"},
       {shoot + rest + "--snapshots 's{component}.nc' --every 0.1", 2,
        "found {component} in --snapshots s{component}.nc, expected --fields to choose them"},
       {shoot + rest + "--source 50,50 --snapshots s.nc --every 0.1", 2,

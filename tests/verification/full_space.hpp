@@ -28,14 +28,15 @@ inline std::array<std::complex<double>, 4> green(double k, double r) {
 /// the velocity; stresses follow by Hooke's law (a factor 1/(i w) leads from rates to stresses).
 inline Motion explosion_motion(const Rock& rock, double omega, double x, double z) {
   const double r = std::hypot(x, z), n[2] = {x / r, z / r};
-  const auto [g, g1, g2, g3] = green(omega / rock.vp, r);
+  const auto g = green(omega / rock.vp, r);  // and its derivatives in r
   const std::complex<double> scale = -1 / (rock.rho * rock.vp * rock.vp);
   const auto strain = [&](int a, int b) {
-    return scale * (g2 * n[a] * n[b] + g1 / r * ((a == b ? 1. : 0.) - n[a] * n[b]));
+    return scale * (g[2] * n[a] * n[b] + g[1] / r * ((a == b ? 1. : 0.) - n[a] * n[b]));
   };
   const auto trace = strain(0, 0) + strain(1, 1);
   const std::complex<double> rate(0, omega);
-  return {scale * g1 * n[0], scale * g1 * n[1], (rock.lambda() * trace + 2 * rock.mu() * strain(0, 0)) / rate,
+  return {scale * g[1] * n[0], scale * g[1] * n[1],
+          (rock.lambda() * trace + 2 * rock.mu() * strain(0, 0)) / rate,
           (rock.lambda() * trace + 2 * rock.mu() * strain(1, 1)) / rate, 2 * rock.mu() * strain(0, 1) / rate};
 }
 
