@@ -226,7 +226,7 @@ void expect_no_growth(const Drawn& drawn) {
     } else if (++looks <= 10) {
       after = std::max(after, now);
     } else {
-      ASSERT_LE(now, drawn.absorbs ? 1.05 * after + 0.02 * highest : 1.001 * after)
+      ASSERT_LE(now, drawn.absorbs ? 1.05 * after + 0.02 * highest : 1.01 * after)
           << "t=" << time_s << ": growing; with the source the energy was as high as " << highest;
     }
   };
