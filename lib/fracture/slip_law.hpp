@@ -77,17 +77,15 @@ Real length(const std::array<Real, N>& a) {
 
 /// The share of `magnitude` that is left when slip of the step's end, weighted by theta, has been taken off:
 /// |tau| + theta G = magnitude with G = (|tau|/S - 1)/d, that is |tau| = S (theta + d magnitude)/(theta + d
-/// S), in a form that takes S = 0, d = 0 and an overflowing d S. `rate` becomes G/magnitude.
+/// S), in a form that takes S = 0, d = 0 and an overflowing d S. `excess` becomes |tau| - S, or 0 below S.
 template <class Real>
-Real share_left(Real magnitude, Real strength, Real ds, Real theta, Real& rate) {
-  rate = 0;
+Real share_left(Real magnitude, Real strength, Real ds, Real theta, Real& excess) {
+  excess = 0;
   if (!(magnitude >= strength)) return Real(1);
   // Both are zero where the plane has no strength and no load; then nothing is left of nothing.
   const Real reciprocal = Real(1) / std::max(magnitude, std::numeric_limits<Real>::min());
-  const Real excess = magnitude - strength;
-  const Real softening = Real(1) / (ds + theta);
-  rate = excess * softening * reciprocal;
-  return std::min(Real(1), (strength + excess * (ds * softening)) * reciprocal);
+  excess = (magnitude - strength) * (ds / (ds + theta));
+  return std::min(Real(1), (strength + excess) * reciprocal);
 }
 
 /// d S, finite.
@@ -100,8 +98,9 @@ Real bounded_ds(Real d, Real strength) {
 
 /// A correction is a policy: the memory it keeps for a slip system in a cell (value-initialised before the
 /// first step), and the shear traction at the end of the step from that after the elastic step, the strength
-/// S at the end of the step and d. A correction that starts from the traction and strength before the step
-/// keeps them in its memory.
+/// S at the end of the step and d. What slip at the rate of that instant takes off the shear traction before
+/// the next elastic step it leaves in `ahead` of its memory (begin() applies it); a correction without such a
+/// part has none.
 
 /// Implicit Euler, first order in time (theory.md (S5); Nikitin & Golubev 2021 eq. 15-17).
 struct FirstOrder {
@@ -113,43 +112,42 @@ struct FirstOrder {
   template <int D, class Real>
   static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>&) {
     const Real magnitude = slip::length(tau_e);
-    Real rate;
-    const Real left = slip::share_left(magnitude, strength, slip::bounded_ds(d, strength), Real(1), rate);
+    Real excess;
+    const Real left = slip::share_left(magnitude, strength, slip::bounded_ds(d, strength), Real(1), excess);
     for (auto& component : tau_e) component *= left;
     return tau_e;
   }
 };
 
 /// Trapezoidal rule, second order in time (theory.md (S6), (S7); Nikitin & Golubev 2021 eq. 40-49): half of
-/// the slip at the step's beginning, half of that at its end. Where a step is longer than four times the
-/// relaxation time d S dt the weight of the end grows to 1 - 2 d S: the plain rule rings there, this one
-/// damps at least threefold a step, and at d = 0 it is dry friction exactly. Where the slip remembered from
-/// the step's beginning would raise the shear traction (reversed loading) it is left out: a correction never
-/// adds energy.
+/// the slip of a step goes at the rate of its beginning and is taken before the waves move, half at the rate
+/// of its end, after. Where a step is longer than four times the relaxation time d S dt the weight of the end
+/// grows to 1 - 2 d S: the plain rule rings there, this one does not, and at d = 0 it is dry friction
+/// exactly. Neither half ever raises |tau|.
 struct SecondOrder {
   static constexpr const char* name = "second";
 
   template <int D, class Real>
   struct Memory {
-    Traction<D, Real> g{};  // G along tau at the end of the last step, Pa
+    Traction<D, Real> ahead{};  // what the beginning of the next step takes off tau: (1 - theta) G, Pa
+    Real theta = Real(0.5);     // weight of the end of that step
   };
 
   template <int D, class Real>
-  static Traction<D, Real> shear(const Traction<D, Real>& tau_e, Real strength, Real d,
-                                 Memory<D, Real>& memory) {
+  static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>& memory) {
     const Real ds = slip::bounded_ds(d, strength);
-    const Real theta = std::max(Real(0.5), Real(1) - Real(2) * ds);
-    Traction<D, Real> sigma;
-    for (std::size_t i = 0; i < D; ++i) sigma[i] = tau_e[i] - (Real(1) - theta) * memory.g[i];
-    if (slip::length(sigma) > slip::length(tau_e)) sigma = tau_e;
-    const Real magnitude = slip::length(sigma);
-    Real rate;
-    const Real left = slip::share_left(magnitude, strength, ds, theta, rate);
+    const Real magnitude = slip::length(tau_e);
+    Real excess;
+    const Real left = slip::share_left(magnitude, strength, ds, memory.theta, excess);
+    memory.theta = std::max(Real(0.5), Real(1) - Real(2) * ds);
+    // G = (|tau|/S - 1)/d; where theta > 1/2 this is 2 (|tau| - S), so that no small d S divides.
+    const Real begin = memory.theta > Real(0.5) ? Real(2) * excess : Real(0.5) * excess / ds;
+    const Real share = begin / std::max(magnitude, std::numeric_limits<Real>::min());
     for (std::size_t i = 0; i < D; ++i) {
-      memory.g[i] = rate * sigma[i];
-      sigma[i] *= left;
+      memory.ahead[i] = share * tau_e[i];
+      tau_e[i] *= left;
     }
-    return sigma;
+    return tau_e;
   }
 };
 
@@ -163,6 +161,16 @@ Real normal_stress(const std::type_identity_t<Traction<D, Real>>& normal, const 
     sum += normal[std::size_t(i)] * traction;
   }
   return sum;
+}
+
+/// s += change n + n change.
+template <int D, class Real>
+void add_shear(Stress<D, Real>& s, const std::type_identity_t<Traction<D, Real>>& change,
+               const std::type_identity_t<Traction<D, Real>>& normal) {
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j)
+      s(i, j) +=
+          change[std::size_t(i)] * normal[std::size_t(j)] + change[std::size_t(j)] * normal[std::size_t(i)];
 }
 
 /// One slip system of one cell at the end of an elastic step: s (total stress, Pa) loses what slip on the
@@ -187,12 +195,20 @@ void correct(const std::type_identity_t<SlipStrength<Real>>& law,
   const Real strength = law.friction * std::max(-s_n, Real(0)) + law.cohesion_pa;
   const Traction<D, Real> tau = Correction::template shear<D, Real>(tau_e, strength, d, memory);
 
-  for (int i = 0; i < D; ++i) {
-    const Real change_i = tau[std::size_t(i)] - tau_e[std::size_t(i)];
-    for (int j = i; j < D; ++j) {
-      const Real change_j = tau[std::size_t(j)] - tau_e[std::size_t(j)];
-      s(i, j) += change_i * normal[std::size_t(j)] + change_j * normal[std::size_t(i)];
-    }
+  Traction<D, Real> change;
+  for (std::size_t i = 0; i < D; ++i) change[i] = tau[i] - tau_e[i];
+  add_shear(s, change, normal);
+}
+
+/// The slip that a step begins with, before the elastic step and after whoever wants the fields of this
+/// instant has seen them. Nothing in the first step, nothing for corrections that have no such part.
+template <class Correction, int D, class Real>
+void begin(const std::type_identity_t<Traction<D, Real>>& normal, Stress<D, Real>& s,
+           const typename Correction::template Memory<D, Real>& memory) {
+  if constexpr (requires { memory.ahead; }) {
+    Traction<D, Real> change;
+    for (std::size_t i = 0; i < D; ++i) change[i] = -memory.ahead[i];
+    add_shear(s, change, normal);
   }
 }
 

@@ -17,7 +17,10 @@ struct StepTime {
 class Pass {
  public:
   virtual ~Pass() = default;
+  /// Brings the fields to time.end_s(); then they are recorded.
   virtual void run(const StepTime& time) = 0;
+  /// What the next step begins with, after recording.
+  virtual void run_after(const StepTime&) {}
   /// What it does, for --plan.
   virtual std::string name() const = 0;
   /// Cells it works on.

@@ -34,28 +34,15 @@ class SlipPass : public Pass {
   }
 
   void run(const StepTime&) override {
-    using Rows = FieldRows<D>;
-    const std::int64_t pitch = state_.layout.row_pitch();
-    Real* const fields = state_.fields.data();
-    for (auto& group : groups_) {
-      const auto count = std::int64_t(group.cells.size());
-      parallel_for(count, 1024, [&](std::int64_t begin, std::int64_t end, int) {
-        for (std::int64_t n = begin; n < end; ++n) {
-          Real* const cell = fields + group.cells[std::size_t(n)];
-          Stress<D, Real> s;
-          for (int i = 0; i < D; ++i) {
-            s(i, i) = cell[Rows::normal_stress(i) * pitch];
-            for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
-          }
-          correct<Correction, D, Real>(group.law, group.normal, group.d[std::size_t(n)], s,
-                                       group.memory[std::size_t(n)]);
-          for (int i = 0; i < D; ++i) {
-            cell[Rows::normal_stress(i) * pitch] = s(i, i);
-            for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
-          }
-        }
+    each_cell([](Group& group, std::size_t n, Stress<D, Real>& s) {
+      correct<Correction, D, Real>(group.law, group.normal, group.d[n], s, group.memory[n]);
+    });
+  }
+  void run_after(const StepTime&) override {
+    if constexpr (requires(typename Correction::template Memory<D, Real> memory) { memory.ahead; })
+      each_cell([](Group& group, std::size_t n, Stress<D, Real>& s) {
+        begin<Correction, D, Real>(group.normal, s, group.memory[n]);
       });
-    }
   }
   std::string name() const override { return "slip, " + std::string(Correction::name) + " order"; }
   std::int64_t cells() const override { return cells_; }
@@ -69,6 +56,30 @@ class SlipPass : public Pass {
     std::vector<Real> d;
     std::vector<typename Correction::template Memory<D, Real>> memory;
   };
+  /// Runs change(group, number in the group, stress) on the stress of every cell, system after system.
+  template <class Change>
+  void each_cell(const Change& change) {
+    using Rows = FieldRows<D>;
+    const std::int64_t pitch = state_.layout.row_pitch();
+    Real* const fields = state_.fields.data();
+    for (auto& group : groups_)
+      parallel_for(std::int64_t(group.cells.size()), 1024, [&](std::int64_t first, std::int64_t end, int) {
+        for (auto n = std::size_t(first); n < std::size_t(end); ++n) {
+          Real* const cell = fields + group.cells[n];
+          Stress<D, Real> s;
+          for (int i = 0; i < D; ++i) {
+            s(i, i) = cell[Rows::normal_stress(i) * pitch];
+            for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
+          }
+          change(group, n, s);
+          for (int i = 0; i < D; ++i) {
+            cell[Rows::normal_stress(i) * pitch] = s(i, i);
+            for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
+          }
+        }
+      });
+  }
+
   State<D, Real>& state_;
   std::vector<Group> groups_;  // one a slip system
   std::vector<std::int64_t> lines_;

@@ -39,6 +39,7 @@ class SourcePass : public Pass {
     for (const auto& value : values_)
       state_.field_row(state_.layout.line_index(value.line), 0)[value.place] += Real(amount * value.weight);
   }
+  void run_after(const StepTime& time) override { run(time); }
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> lines() const override { return lines_; }

@@ -8,7 +8,7 @@
 
 namespace slipwave::solver {
 
-/// Half of what a point source puts in over one step: it runs before and after the recorder, so that the
+/// What a point source puts in, half before and half after the recorder, so that the
 /// fields it sees lie in the middle (trapezoidal rule in time). Keeps a reference to the state.
 template <int D, class Real>
 std::unique_ptr<Pass> make_source_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,

@@ -29,22 +29,19 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
   if (background_) background_->begin(state_);
 }
 
-/// What happens at the end of a step, after the sweeps. The source works half before and half after what is
-/// recorded, so that the step is symmetric about it.
+/// What happens at the end of a step, after the sweeps. Source and slip work partly before and partly after
+/// what is recorded, so that the step is symmetric about it.
 template <int D, class Real>
 void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
   const auto& source = scene.survey.sources[shot - 1];
   if constexpr (D == 2)
     if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
       background_ = make_plane_wave<Real>(scene, source, domain_, dt_s_);
-  const auto first = [this](std::unique_ptr<Pass> pass) {
-    before_recording_.push_back(pass.get());
-    owned_.push_back(std::move(pass));
-  };
+  const auto add = [this](std::unique_ptr<Pass> pass) { passes_.push_back(std::move(pass)); };
   const double vp_max = fastest_wave(scene.model.medium);
   if (domain_.grid.size() > domain_.model_grid.size()) {
     if (background_) {
-      first(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, vp_max, background_.get()));
+      add(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, vp_max, background_.get()));
     } else {
       layer_ = std::make_unique<MatchedLayer<D, Real>>(state_.layout, domain_, dt_s_, vp_max,
                                                        source.wavelet.nominal_hz());
@@ -52,11 +49,10 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     }
   }
   if (point_injection(source)) {
-    first(make_source_pass(state_, domain_, scene, source));
-    after_recording_.push_back(before_recording_.back());
+    add(make_source_pass(state_, domain_, scene, source));
   }
-  if (scene.slips()) first(make_slip_pass(state_, domain_, scene, dt_s_));
-  first(std::make_unique<Monitor<D, Real>>(state_, domain_));
+  if (scene.slips()) add(make_slip_pass(state_, domain_, scene, dt_s_));
+  add(std::make_unique<Monitor<D, Real>>(state_, domain_));
   recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot);
   // The same sweeps with and without slip: their difference must be the work of slip alone.
   fracture_lines_ = fracture_lines(state_.layout, domain_, scene.model);
@@ -65,14 +61,14 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
 template <int D, class Real>
 void Step<D, Real>::find_whole_lines(const StepTime& time) {
   std::vector<char> acting;
-  for (const Pass* pass : before_recording_) acting.push_back(pass->acts(time));
+  for (const auto& pass : passes_) acting.push_back(pass->acts(time));
   if (acting == acting_) return;
   acting_ = acting;
   whole_.assign(std::size_t(state_.layout.lines()), 0);
   for (const auto line : fracture_lines_) whole_[std::size_t(line)] = 1;
-  for (std::size_t n = 0; n < before_recording_.size(); ++n)
+  for (std::size_t n = 0; n < passes_.size(); ++n)
     if (acting[n])
-      for (const auto line : before_recording_[n]->lines()) whole_[std::size_t(line)] = 1;
+      for (const auto line : passes_[n]->lines()) whole_[std::size_t(line)] = 1;
 }
 
 template <int D, class Real>
@@ -111,7 +107,7 @@ void Step<D, Real>::run(std::int64_t step) {
   read_ahead(snapshot ? std::span<const std::int64_t>(all_lines_) : recorder_->lines());
   // Where nothing acts on the line now, this half sweep and the first of the next step are one.
   sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? half : Real(1); });
-  for (Pass* pass : before_recording_) pass->run(time);
+  for (const auto& pass : passes_) pass->run(time);
 
   const WholeLine<Real> whole_line = [this](std::int64_t line) -> const Real* {
     if (!whole_[std::size_t(line)]) return ahead_[std::size_t(line)].data() + Layout<D>::lead;
@@ -124,7 +120,7 @@ void Step<D, Real>::run(std::int64_t step) {
     // Only the recorder's copies are needed again soon.
     for (auto& copy : ahead_) copy = {};
   }
-  for (Pass* pass : after_recording_) pass->run(time);
+  for (const auto& pass : passes_) pass->run_after(time);
   sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? half : Real(0); });
 }
 
@@ -138,7 +134,7 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
                       1});
   if (layer_)
     passes.push_back({"matched layer", double(domain_.grid.size() - domain_.model_grid.size()) / all});
-  for (const Pass* pass : before_recording_) passes.push_back({pass->name(), double(pass->cells()) / all});
+  for (const auto& pass : passes_) passes.push_back({pass->name(), double(pass->cells()) / all});
   passes.push_back({"receivers", double(recorder_->cells()) / all});
   return passes;
 }

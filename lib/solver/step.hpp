@@ -38,10 +38,9 @@ class Step {
   Sweeps<D, Real> sweeps_;
   std::unique_ptr<Background<D, Real>> background_;
   std::unique_ptr<MatchedLayer<D, Real>> layer_;
-  std::vector<std::unique_ptr<Pass>> owned_;
-  std::vector<Pass*> before_recording_, after_recording_;  // passes at the end of a step, in order
-  std::vector<char> whole_;                                // lines whose sweep along x ends with the step
-  std::vector<char> acting_;                               // which passes `whole_` was made for
+  std::vector<std::unique_ptr<Pass>> passes_;  // at the end of a step, in order
+  std::vector<char> whole_;                    // lines whose sweep along x ends with the step
+  std::vector<char> acting_;                   // which passes `whole_` was made for
   std::vector<std::int64_t> fracture_lines_;
   // Lines that are not whole are read from a copy half a sweep ahead: looking on changes nothing.
   std::vector<Buffer<Real>> ahead_;

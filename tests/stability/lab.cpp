@@ -82,6 +82,7 @@ void Lab<Real>::step() {
   sweeps_->across(1, 1);
   sweeps_->along_x(half);
   for (const auto& pass : passes_) pass->run({steps_, dt_s_});
+  for (const auto& pass : passes_) pass->run_after({steps_, dt_s_});
   ++steps_;
 }
 

@@ -45,7 +45,9 @@ class InLayer {
       sweeps_.along_x(half);
       sweeps_.across(1, 1);
       sweeps_.along_x(half);
-      if (slip_) slip_->run({n, dt_s_});
+      if (!slip_) continue;
+      slip_->run({n, dt_s_});
+      slip_->run_after({n, dt_s_});
     }
   }
   double energy() const { return solver::energy(state_, domain_, scene_.model.medium); }

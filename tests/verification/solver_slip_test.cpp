@@ -57,8 +57,7 @@ TEST(SlippingCluster, AnswersAPlaneWaveAsInTheFirstCaseOfThePaper) {
   for (std::size_t n = 0; n < first.size(); ++n) difference.push_back(first[n] - second[n]);
   EXPECT_GT(peak(second), 0.06 * 0.01);
   EXPECT_LT(peak(second), 0.10 * 0.01);
-  // The steps are shorter here than theirs and the first-order error goes with the step.
-  EXPECT_GT(peak(difference), 0.001 * 0.01);
+  EXPECT_GT(peak(difference), 0.003 * 0.01);
   EXPECT_LT(peak(difference), 0.01 * 0.01);
 }
 
@@ -77,17 +76,20 @@ std::vector<double> block_response(SlipCorrection correction, double cfl) {
   return response(scene, correction);
 }
 
-TEST(SlippingBlock, ConvergesInTimeToTheSameForBothCorrections) {
-  // The waves see the slip of a step at its end only, half a step late: of first order in time with either
-  // correction, whatever the order of the traction's own equation. 0.1 for the error of the reference.
+TEST(SlippingBlock, ConvergesInTimeTenTimesNearerWithTheSecondOrder) {
   const auto exact = block_response(SlipCorrection::second, 0.05);
   ASSERT_GT(peak(exact), 1e-5);
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second}) {
-    const double coarse = relative_error(block_response(correction, 0.8), exact),
-                 fine = relative_error(block_response(correction, 0.4), exact);
-    EXPECT_GE(observed_order(coarse, fine), 0.9) << coarse << ' ' << fine;
-    EXPECT_LT(coarse, 0.05);
-  }
+  const auto error = [&](SlipCorrection correction, double cfl) {
+    return relative_error(block_response(correction, cfl), exact);
+  };
+  const double first = error(SlipCorrection::first, 0.8), second = error(SlipCorrection::second, 0.8);
+  EXPECT_GE(observed_order(first, error(SlipCorrection::first, 0.4)), 0.9);
+  EXPECT_LT(first, 0.05);
+  // What is left at second order is not the time step's alone: the block has sharp edges, and what the sweeps
+  // make of those depends on the Courant number. With h halved too it falls 0.94, 0.35, 0.12 %, that of the
+  // first order by half.
+  EXPECT_LT(second, first / 8);
+  EXPECT_GE(observed_order(second, error(SlipCorrection::second, 0.4)), 0.9);
 }
 
 TEST(DryFriction, BoundsTheShearTractionAfterEveryStep) {
