@@ -99,7 +99,7 @@ int main(int argc, char** argv) {
       argc, argv,
       {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
        "[M] (--box BOX | --polygon FILE) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o M]",
-       "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 1e-3 -o broken.nc"},
+       "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 4e3 -o broken.nc"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });
 }
