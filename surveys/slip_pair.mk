@@ -28,4 +28,4 @@ $(OUT)/comparison.txt: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-compare
 summary: $(OUT)/model.nc $(OUT)/response.sgy $(OUT)/comparison.txt $(BIN)/sw-info## what came out
 	@$(BIN)/sw-info $(OUT)/model.nc $(OUT)/response.sgy
 	@echo 'fractured against elastic shot:'
-	@sed -n '1p;$$p' $(OUT)/comparison.txt
+	@sed -n '1p;/^ *all/p' $(OUT)/comparison.txt

@@ -30,7 +30,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.require("B");
   options.add("output,o", settings.output, "FILE", "where the table goes, - is standard output");
   options.add("tolerance", settings.tolerance, "L2", "exit 1 when |A - B|/|B| of all traces is above this");
-  options.add("summary", settings.summary, "only the line of all traces");
+  options.add("summary", settings.summary, "only the lines of all traces, of each component and together");
   settings.input_options.declare(options);
 }
 
@@ -57,7 +57,12 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Reader a(settings.a, options);
   segy::Reader b(settings.b, options);
   segy::PairReader pair(a, b);
-  Comparison comparison(a.axis_with_interval());
+  std::vector<std::pair<Component, Comparison>> components;  // in the order in which they come
+  const auto comparison_of = [&](Component component) -> Comparison& {
+    for (auto& [known, comparison] : components)
+      if (known == component) return comparison;
+    return components.emplace_back(component, Comparison(a.axis_with_interval())).second;
+  };
   OutputFile out(settings.output, OutputFile::Content::text);
   const auto print = [&](const std::string& line) {
     if (!context.quiet) out.write(line.data(), line.size());
@@ -66,10 +71,18 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Trace trace_a;
   segy::Trace trace_b;
   while (pair.next(trace_a, trace_b)) {
-    const Misfit misfit = comparison.add(trace_a.samples, trace_b.samples);
-    if (!settings.summary) print(row(place_of(a.delivered(), a.si_header(trace_a)), misfit));
+    const TraceHeader header = a.si_header(trace_a);
+    const Misfit misfit = comparison_of(header.component).add(trace_a.samples, trace_b.samples);
+    if (!settings.summary) print(row(place_of(a.delivered(), header), misfit));
   }
-  const Misfit all = comparison.overall();
+  // Together they mix units: whichever component has the largest numbers decides.
+  Comparison together(a.axis_with_interval());
+  for (auto& [component, comparison] : components) {
+    together.include(comparison);
+    if (components.size() > 1)
+      print(row("     all " + std::string(name_of(component)), comparison.overall()));
+  }
+  const Misfit all = together.overall();
   print(row("     all", all));
   out.commit();
   if (settings.tolerance && !(all.relative_l2 <= *settings.tolerance))

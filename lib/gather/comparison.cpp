@@ -96,6 +96,11 @@ Misfit Comparison::add(std::span<const double> a, std::span<const double> b) {
   return misfit_of(sums, cross_);
 }
 
+void Comparison::include(const Comparison& other) {
+  all_.add(other.all_);
+  for (std::size_t n = 0; n < cross_all_.size(); ++n) cross_all_[n] += other.cross_all_[n];
+}
+
 Misfit Comparison::overall() { return misfit_of(all_, cross_all_); }
 
 Misfit Comparison::misfit_of(const Sums& sums, std::span<const Complex> cross) {

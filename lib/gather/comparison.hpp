@@ -27,6 +27,8 @@ class Comparison {
 
   /// The misfit of one pair; throws Error when the lengths are not the axis'.
   Misfit add(std::span<const double> a, std::span<const double> b);
+  /// Takes in all pairs that another comparison of the same sampling has seen.
+  void include(const Comparison& other);
   /// The misfit of all pairs so far as if they were one long trace.
   Misfit overall();
 

@@ -64,6 +64,19 @@ TEST(Comparison, SumsOverAllTraces) {
   EXPECT_NEAR(all.lag_s, 0, 1e-12);
 }
 
+TEST(Comparison, IncludesWhatAnotherHasSeen) {
+  Comparison first(axis), second(axis), both(axis);
+  first.add(pulse(0.5), pulse(0.51));
+  second.add(pulse(0.7, 3), pulse(0.7, 2));
+  both.add(pulse(0.5), pulse(0.51));
+  both.add(pulse(0.7, 3), pulse(0.7, 2));
+  first.include(second);
+  EXPECT_DOUBLE_EQ(first.overall().relative_l2, both.overall().relative_l2);
+  EXPECT_DOUBLE_EQ(first.overall().nrms_percent, both.overall().nrms_percent);
+  EXPECT_DOUBLE_EQ(first.overall().peak_ratio, both.overall().peak_ratio);
+  EXPECT_NEAR(first.overall().lag_s, both.overall().lag_s, 1e-12);
+}
+
 TEST(Comparison, SaysWhatAZeroTraceMeans) {
   const std::vector<double> zero(400);
   Comparison comparison(axis);
