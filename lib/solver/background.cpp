@@ -9,9 +9,11 @@ namespace slipwave::solver {
 namespace {
 
 /// Two-way amplitude of what crosses a zone at the speed vp_max at normal incidence.
-constexpr double zone_leak = 1e-6;
+constexpr double zone_leak = 0.2;
 /// Growth of the damping rate into the zone.
-constexpr int zone_power = 3;
+constexpr double zone_power = 2.5;
+/// The outermost cells take the background outright: that is how an incoming wave enters.
+constexpr std::int64_t zone_given = max_reach;
 
 /// The closed form: every field is a constant times the wavelet at the time the front has passed the cell.
 class PlaneForm {
@@ -185,7 +187,8 @@ std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s,
     for (std::int64_t j = 0; j < width; ++j) {
       const double depth = (double(j) + 0.5) / double(width);
       const auto cell = side ? domain.grid.shape[axis] - width + j : width - 1 - j;
-      factors[std::size_t(cell)] = std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
+      const bool given = width - j <= zone_given;
+      factors[std::size_t(cell)] = given ? 0 : std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
     }
   }
   return factors;
