@@ -5,19 +5,10 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "grid/locate.hpp"
 
 namespace slipwave {
 namespace {
-
-template <int D>
-Index<D> cell_of(const Grid<D>& grid, const std::type_identity_t<Point<D>>& point) {
-  Index<D> at;
-  for (std::size_t axis = 0; axis < D; ++axis)
-    at[axis] = std::clamp<std::int64_t>(
-        std::int64_t(std::floor((point[axis] - grid.origin_m[axis]) / grid.spacing_m)), 0,
-        grid.shape[axis] - 1);
-  return at;
-}
 
 template <int D>
 void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {

@@ -1,9 +1,9 @@
 #include "solver/point_access.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "acquisition/interpolation.hpp"
+#include "grid/locate.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -72,13 +72,7 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
 
 template <int D>
 Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m) {
-  Index<D> at;
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    const auto cell = std::int64_t(
-        std::floor((point_m[axis] - domain.model_grid.origin_m[axis]) / domain.model_grid.spacing_m));
-    at[axis] = std::clamp<std::int64_t>(cell, 0, domain.model_grid.shape[axis] - 1);
-  }
-  return domain.computed_cell(at);
+  return domain.computed_cell(cell_of(domain.model_grid, point_m));
 }
 
 template <int D>

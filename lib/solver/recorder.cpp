@@ -5,6 +5,7 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/parallel.hpp"
+#include "grid/locate.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -20,11 +21,7 @@ std::array<double, 3> in_space(const Point<D>& point) {
 template <int D>
 double water_depth_m(const Medium<D>& medium, const Point<D>& point_m) {
   const auto& grid = medium.grid();
-  Index<D> at;
-  for (std::size_t axis = 0; axis < D; ++axis)
-    at[axis] = std::clamp<std::int64_t>(
-        std::int64_t(std::floor((point_m[axis] - grid.origin_m[axis]) / grid.spacing_m)), 0,
-        grid.shape[axis] - 1);
+  Index<D> at = cell_of(grid, point_m);
   std::int64_t fluid = 0;
   for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1]; ++at[D - 1]) {
     const auto cell = std::size_t(grid.flat(at));

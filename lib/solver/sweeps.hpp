@@ -65,7 +65,7 @@ class Sweeps {
 };
 
 /// What enters the grid through its low (up) or high (down) edge, given what leaves it there (E11).
-/// The impedance of the ghost beyond the edge is part of the law: see ghost_impedance.
+/// The impedance of the ghost beyond the edge is part of the law (fill_material).
 template <class Real>
 void edge_state(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering);
 

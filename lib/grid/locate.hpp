@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "grid/grid.hpp"
+
+namespace slipwave {
+
+/// The cell a point is in. A point on a face is in the cell behind it, the high faces of the grid belong to
+/// the cells before them, and what lies outside counts to the nearest cell.
+template <int D>
+Index<D> cell_of(const Grid<D>& grid, const Point<D>& point_m) {
+  Index<D> at;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const auto cell = std::int64_t(std::floor((point_m[axis] - grid.origin_m[axis]) / grid.spacing_m));
+    at[axis] = std::clamp<std::int64_t>(cell, 0, grid.shape[axis] - 1);
+  }
+  return at;
+}
+
+}  // namespace slipwave
