@@ -1,0 +1,52 @@
+#include "accuracy/table.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace slipwave {
+namespace {
+
+std::string figure(double value) {
+  if (std::isnan(value)) return "-";
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", value);
+  return text;
+}
+
+std::string percent(double share) { return figure(100 * share); }
+
+}  // namespace
+
+std::optional<std::size_t> cheapest(const std::vector<AccuracyRow>& rows, double wanted) {
+  std::optional<std::size_t> best;
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    if (rows[n].error <= wanted && (!best || rows[n].seconds < rows[*best].seconds)) best = n;
+  return best;
+}
+
+std::string text_of(const AccuracyTable& table) {
+  std::string text = "# " + table.title + "\n# errors: relative L2 in percent against " + table.reference +
+                     "; late: in the last quarter of the traces\n";
+  text +=
+      "# order time courant   step_m slip      cells  steps    error     late  predicted    cpu_s  "
+      "predicted      MiB\n";
+  for (std::size_t n = 0; n < table.rows.size(); ++n) {
+    const auto& row = table.rows[n];
+    char line[240];
+    std::snprintf(line, sizeof line, "%7d %4d %7.3g %8.4g %4d %10lld %6lld %8s %8s %10s %8s %10s %8s%s\n",
+                  row.order, row.time_order, row.courant, row.spacing_m, row.slip_order,
+                  static_cast<long long>(row.cells), static_cast<long long>(row.steps),
+                  percent(row.error).c_str(), percent(row.late_error).c_str(),
+                  percent(row.predicted_error).c_str(), figure(row.seconds).c_str(),
+                  figure(row.predicted_seconds).c_str(), figure(row.memory_bytes / (1 << 20)).c_str(),
+                  table.chosen == n ? "  <" : "");
+    text += line;
+  }
+  if (table.wanted_error)
+    text += table.chosen
+                ? "# < the cheapest with an error of at most " + percent(*table.wanted_error) + " %\n"
+                : "# none has an error of at most " + percent(*table.wanted_error) + " %\n";
+  return text;
+}
+
+}  // namespace slipwave
