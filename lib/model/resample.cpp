@@ -4,18 +4,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/averaging.hpp"
 #include "model/layers.hpp"
 
 namespace slipwave {
 namespace {
-
-enum class Kind { nothing, fluid, solid };
-
-template <int D>
-Kind kind_of(const Medium<D>& medium, std::size_t cell) {
-  if (medium.is_void(cell)) return Kind::nothing;
-  return medium.is_fluid(cell) ? Kind::fluid : Kind::solid;
-}
 
 /// Along one axis, where the centre of a new cell lies among the old ones.
 struct Foot {
@@ -49,7 +42,7 @@ struct Corner {
 template <int D>
 std::vector<Corner> corners_of(const Medium<D>& medium, const std::array<const Foot*, D>& feet,
                                std::size_t nearest) {
-  const Kind kind = kind_of(medium, nearest);
+  const Material kind = material_of(medium, nearest);
   std::vector<Corner> corners;
   double sum = 0;
   for (int corner = 0; corner < 1 << D; ++corner) {
@@ -64,7 +57,7 @@ std::vector<Corner> corners_of(const Medium<D>& medium, const std::array<const F
     }
     if (!inside || weight == 0) continue;
     const auto cell = std::size_t(medium.grid().flat(at));
-    if (kind_of(medium, cell) != kind) continue;
+    if (!same_kind(material_of(medium, cell), kind)) continue;
     corners.push_back({cell, weight});
     sum += weight;
   }
@@ -83,39 +76,106 @@ float blend(const Field<D>& field, const std::vector<Corner>& corners) {
   return float(value);
 }
 
+/// `model` on cells of another size: no values yet, and per axis where their centres lie.
+template <int D>
+struct Regridding {
+  Model<D> model;
+  std::array<std::vector<Foot>, D> feet;
+
+  Regridding(const Model<D>& from, double spacing_m) {
+    const auto& old = from.grid();
+    Point<D> size{};
+    for (std::size_t axis = 0; axis < D; ++axis) size[axis] = double(old.shape[axis]) * old.spacing_m;
+    Grid<D> grid = grid_of_size<D>(size, spacing_m);
+    grid.origin_m = old.origin_m;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      feet[axis] = feet_of(old.shape[axis], old.spacing_m, grid.shape[axis], spacing_m);
+    model.title = from.title;
+    model.source = from.source;
+    model.history = from.history;
+    model.fracture_sets = from.fracture_sets;
+    model.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+    if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
+  }
+
+  /// Calls fill(new cell, its index, the old cell its centre lies in) and takes over the fractures.
+  template <class Fill>
+  Model<D> filled(const Model<D>& from, Fill&& fill) {
+    for (std::int64_t n = 0; n < model.grid().size(); ++n) {
+      const auto at = model.grid().index(n);
+      Index<D> nearest{};
+      for (std::size_t axis = 0; axis < D; ++axis) nearest[axis] = feet[axis][std::size_t(at[axis])].nearest;
+      const auto source = std::size_t(from.grid().flat(nearest)), cell = std::size_t(n);
+      fill(cell, at, source);
+      if (!from.fracture.empty()) model.fracture[cell] = from.fracture[source];
+    }
+    return std::move(model);
+  }
+};
+
+/// Along one axis, the old cells that a new one overlaps, and the length of each overlap in old cells.
+struct Overlap {
+  std::int64_t first = 0;
+  std::vector<double> lengths;
+};
+
+std::vector<Overlap> overlaps_of(std::int64_t old_count, double old_step, std::int64_t new_count,
+                                 double new_step) {
+  constexpr double rounding = 1e-6;  // what grid_of_size lets pass as a whole number
+  std::vector<Overlap> overlaps(std::size_t(new_count), Overlap{});
+  for (std::int64_t i = 0; i < new_count; ++i) {
+    const double low = double(i) * new_step / old_step, high = double(i + 1) * new_step / old_step;
+    const auto first = std::int64_t(std::floor(low + rounding));
+    const auto last = std::min(std::int64_t(std::ceil(high - rounding)), old_count);
+    Overlap& overlap = overlaps[std::size_t(i)];
+    overlap.first = first;
+    for (std::int64_t old = first; old < last; ++old)
+      overlap.lengths.push_back(std::min(high, double(old + 1)) - std::max(low, double(old)));
+  }
+  return overlaps;
+}
+
 }  // namespace
 
 template <int D>
-Model<D> resampled(const Model<D>& model, double spacing_m) {
+Model<D> regridded(const Model<D>& model, double spacing_m) {
+  Regridding<D> to(model, spacing_m);
   const auto& from = model.grid();
-  Point<D> size{};
-  for (std::size_t axis = 0; axis < D; ++axis) size[axis] = double(from.shape[axis]) * from.spacing_m;
-  Grid<D> grid = grid_of_size<D>(size, spacing_m);
-  grid.origin_m = from.origin_m;
-  std::array<std::vector<Foot>, D> feet;
+  std::array<std::vector<Overlap>, D> overlaps;
   for (std::size_t axis = 0; axis < D; ++axis) {
-    feet[axis] = feet_of(from.shape[axis], from.spacing_m, grid.shape[axis], spacing_m);
+    overlaps[axis] = overlaps_of(from.shape[axis], from.spacing_m, to.model.grid().shape[axis], spacing_m);
   }
-  Model<D> result = model;
-  result.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
-  if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
-  for (std::int64_t n = 0; n < grid.size(); ++n) {
-    const auto at = grid.index(n);
-    std::array<const Foot*, D> round{};
-    Index<D> nearest{};
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      round[axis] = &feet[axis][std::size_t(at[axis])];
-      nearest[axis] = round[axis]->nearest;
+  return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
+    Grid<D> block;  // the old cells that the new one overlaps
+    for (std::size_t axis = 0; axis < D; ++axis)
+      block.shape[axis] = std::int64_t(overlaps[axis][std::size_t(at[axis])].lengths.size());
+    MaterialMean mean(material_of(model.medium, source));
+    for (std::int64_t n = 0; n < block.size(); ++n) {
+      Index<D> old = block.index(n);
+      double volume = 1;
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        const Overlap& overlap = overlaps[axis][std::size_t(at[axis])];
+        volume *= overlap.lengths[std::size_t(old[axis])];
+        old[axis] += overlap.first;
+      }
+      mean.add(material_of(model.medium, std::size_t(from.flat(old))), volume);
     }
-    const auto source = std::size_t(from.flat(nearest));
+    put(to.model.medium, cell, mean.mean());
+  });
+}
+
+template <int D>
+Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
+  if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
+  Regridding<D> to(model, spacing_m);
+  return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
+    std::array<const Foot*, D> round{};
+    for (std::size_t axis = 0; axis < D; ++axis) round[axis] = &to.feet[axis][std::size_t(at[axis])];
     const auto corners = corners_of<D>(model.medium, round, source);
-    const auto cell = std::size_t(n);
-    result.medium.vp[cell] = blend(model.medium.vp, corners);
-    result.medium.vs[cell] = blend(model.medium.vs, corners);
-    result.medium.rho[cell] = blend(model.medium.rho, corners);
-    if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
-  }
-  return result;
+    to.model.medium.vp[cell] = blend(model.medium.vp, corners);
+    to.model.medium.vs[cell] = blend(model.medium.vs, corners);
+    to.model.medium.rho[cell] = blend(model.medium.rho, corners);
+  });
 }
 
 template <int D>
@@ -156,8 +216,10 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   return result;
 }
 
-template Model<2> resampled(const Model<2>&, double);
-template Model<3> resampled(const Model<3>&, double);
+template Model<2> regridded(const Model<2>&, double);
+template Model<3> regridded(const Model<3>&, double);
+template Model<2> resampled(const Model<2>&, double, bool);
+template Model<3> resampled(const Model<3>&, double, bool);
 template Model<2> cropped(const Model<2>&, const Box<2>&);
 template Model<3> cropped(const Model<3>&, const Box<3>&);
 

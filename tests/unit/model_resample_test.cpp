@@ -1,6 +1,7 @@
 #include "model/resample.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "model_cases.hpp"
 
@@ -67,9 +68,20 @@ TEST(Resample, ToTheSameStepChangesNothing) {
   }
 }
 
-TEST(Resample, CoarsensToo) {
-  const auto coarse = resampled(sloping(grid_of(10, 8, 20)), 40.0);
+TEST(Resample, AveragesIntoLargerCells) {
+  const auto model = sloping(grid_of(10, 8, 20));
+  const auto coarse = resampled(model, 40.0);
   EXPECT_EQ(coarse.grid().shape, (Index<2>{5, 4}));
+  EXPECT_TRUE(coarse.medium.is_fluid(0));
+  EXPECT_TRUE(coarse.medium.is_solid(5));
+  // Round x = 20, z = 100: of one density, squares of slownesses are averaged.
+  double squares = 0;
+  for (const double vp : {2290., 2330., 2350., 2390.}) squares += 1 / (vp * vp) / 4;
+  EXPECT_NEAR(coarse.medium.vp[10], 1 / std::sqrt(squares), 1e-3);
+}
+
+TEST(Resample, InterpolatesForLargerCellsWhereAsked) {
+  const auto coarse = resampled(sloping(grid_of(10, 8, 20)), 40.0, false);
   EXPECT_TRUE(coarse.medium.is_fluid(0));
   EXPECT_TRUE(coarse.medium.is_solid(5));
   // At x = 20, z = 100, between four old centres.

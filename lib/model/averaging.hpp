@@ -1,0 +1,51 @@
+#pragma once
+
+#include "model/model.hpp"
+
+namespace slipwave {
+
+/// What a point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
+struct Material {
+  double vp = 0, vs = 0;  // m/s
+  double rho = 0;         // kg/m3
+
+  bool operator==(const Material&) const = default;
+};
+
+/// The material of a cell.
+template <int D>
+Material material_of(const Medium<D>& medium, std::size_t cell) {
+  return {double(medium.vp[cell]), double(medium.vs[cell]), double(medium.rho[cell])};
+}
+
+/// Writes the material of a cell, rounded to float.
+template <int D>
+void put(Medium<D>& medium, std::size_t cell, const Material& material) {
+  medium.vp[cell] = float(material.vp);
+  medium.vs[cell] = float(material.vs);
+  medium.rho[cell] = float(material.rho);
+}
+
+/// Both solid, both fluid or both void.
+bool same_kind(const Material& a, const Material& b);
+
+/// The material that stands for a cell made of several (theory.md M1, M2): density is the arithmetic mean
+/// over the parts, lambda + 2 mu and mu are the harmonic ones, weighted by volume. Only parts of the kind of
+/// the cell's centre count, so nothing is ever averaged across a contact of solid, fluid and void. Parts may
+/// come from anywhere: pieces cut off by planes, smaller cells, samples of a curved horizon.
+class MaterialMean {
+ public:
+  explicit MaterialMean(const Material& centre) : centre_(centre) {}
+  /// A part of the cell; volumes need not add up to anything.
+  void add(const Material& part, double volume);
+  /// The mean; where all that counts is one material, exactly that. The centre's if nothing was added.
+  Material mean() const;
+
+ private:
+  Material centre_, first_;
+  bool uniform_ = true;
+  double volume_ = 0;                                      // of what counts
+  double mass_ = 0, compliance_p_ = 0, compliance_s_ = 0;  // sums of volume times rho, 1/(lambda+2mu), 1/mu
+};
+
+}  // namespace slipwave
