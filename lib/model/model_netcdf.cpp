@@ -51,30 +51,6 @@ std::vector<double> read_column(const NetcdfFile& file, const std::string& name,
 }
 
 template <int D>
-std::vector<FractureSet<D>> read_sets(const NetcdfFile& file) {
-  std::vector<FractureSet<D>> sets;
-  for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}});
-  const auto owner = file.get<int>("slip_set");
-  const auto normal = read_column(file, "slip_normal", owner.size(), D);
-  const auto friction = read_column(file, "slip_friction", owner.size());
-  const auto viscosity = read_column(file, "slip_viscosity", owner.size());
-  const auto strength = read_column(file, "slip_strength", owner.size());
-  for (std::size_t i = 0; i < owner.size(); ++i) {
-    if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
-      throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +
-                  std::to_string(std::int64_t(sets.size()) - 1));
-    }
-    SlipSystem<D> system;
-    for (std::size_t axis = 0; axis < D; ++axis) system.normal[axis] = normal[i * D + axis];
-    system.friction = friction[i];
-    system.viscosity_s = viscosity[i];
-    system.strength_pa = strength[i];
-    sets[std::size_t(owner[i])].systems.push_back(system);
-  }
-  return sets;
-}
-
-template <int D>
 void define_property(NetcdfFile& file, const Field<D>& field, const std::string& name,
                      const std::string& long_name, const std::string& units) {
   file.define_variable(name, Type::f32, field_dimensions<D>());
@@ -139,6 +115,30 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
 }  // namespace
 
 template <int D>
+std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
+  std::vector<FractureSet<D>> sets;
+  for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}});
+  const auto owner = file.get<int>("slip_set");
+  const auto normal = read_column(file, "slip_normal", owner.size(), D);
+  const auto friction = read_column(file, "slip_friction", owner.size());
+  const auto viscosity = read_column(file, "slip_viscosity", owner.size());
+  const auto strength = read_column(file, "slip_strength", owner.size());
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
+      throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +
+                  std::to_string(std::int64_t(sets.size()) - 1));
+    }
+    SlipSystem<D> system;
+    for (std::size_t axis = 0; axis < D; ++axis) system.normal[axis] = normal[i * D + axis];
+    system.friction = friction[i];
+    system.viscosity_s = viscosity[i];
+    system.strength_pa = strength[i];
+    sets[std::size_t(owner[i])].systems.push_back(system);
+  }
+  return sets;
+}
+
+template <int D>
 Model<D> read_model(const NetcdfFile& file) {
   check_dimensions<D>(file, "vp");
   const auto grid = read_grid<D>(file);
@@ -151,7 +151,7 @@ Model<D> read_model(const NetcdfFile& file) {
     const auto codes = file.get<std::uint8_t>("fracture");
     model.fracture = Field<D, std::uint8_t>(grid);
     std::copy(codes.begin(), codes.end(), model.fracture.begin());
-    model.fracture_sets = read_sets<D>(file);
+    model.fracture_sets = read_fracture_sets<D>(file);
   }
   model.title = file.text_attribute("", "title").value_or("");
   model.source = file.text_attribute("", "source").value_or("");
@@ -197,6 +197,8 @@ void append_history(std::string& history, const std::string& command) {
   history += command;
 }
 
+template std::vector<FractureSet<2>> read_fracture_sets<2>(const NetcdfFile&);
+template std::vector<FractureSet<3>> read_fracture_sets<3>(const NetcdfFile&);
 template Model<2> read_model<2>(const NetcdfFile&);
 template Model<3> read_model<3>(const NetcdfFile&);
 template Model<2> read_model<2>(const std::string&);

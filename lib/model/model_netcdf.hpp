@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "model/model.hpp"
 
@@ -16,6 +17,10 @@ template <int D>
 Model<D> read_model(const std::string& path);
 template <int D>
 Model<D> read_model(const NetcdfFile& file);
+
+/// The fracture sets of a model file, and nothing else of it.
+template <int D>
+std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file);
 
 /// Writes a model file to a path or "-"; it appears whole or not at all.
 template <int D>

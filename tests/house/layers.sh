@@ -15,7 +15,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["accuracy"] = below["solver"] " accuracy"
     below["segy"] = "base gather segy"
     below["output"] = below["scene"] " output"
-    below["plot"] = below["output"] " plot"
+    below["plot"] = below["output"] " segy accuracy plot"
     below["cli"] = "base cli"
   }
   function broken(what) {
@@ -33,7 +33,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     if (room == "") next
     if (quoted[2] !~ "^[a-z0-9_]+/[a-z0-9_]+[.]hpp$") broken("include \"" quoted[2] "\": write \"room/file.hpp\"")
     split(quoted[2], part, "/")
-    state = (room == "output" || room == "plot") && quoted[2] ~ "^solver/state"
+    state = room == "output" && quoted[2] ~ "^solver/state"
     if (index(" " below[room] " ", " " part[1] " ") == 0 && !state) broken(room " must not include \"" quoted[2] "\"")
   }
   /^[ \t]*#[ \t]*include[ \t]*</ {

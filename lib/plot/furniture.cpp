@@ -1,0 +1,70 @@
+#include "plot/furniture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace slipwave::plot {
+namespace {
+
+double key_width(double text_pt) { return 2.2 * text_pt; }
+double row_height(double text_pt) { return 1.45 * text_pt; }
+
+}  // namespace
+
+double Legend::widest(const std::vector<LegendEntry>& entries, double text_pt) {
+  double widest = 0;
+  for (const auto& entry : entries) widest = std::max(widest, text_width(entry.text, text_pt));
+  return widest + key_width(text_pt) + 1.5 * text_pt;
+}
+
+Legend::Legend(std::vector<LegendEntry> entries, double room_width_pt, double text_pt)
+    : entries_(std::move(entries)), text_pt_(text_pt) {
+  if (entries_.empty()) return;
+  column_width_ = std::min(room_width_pt, widest(entries_, text_pt));
+  for (auto& entry : entries_)
+    entry.text = shortened(entry.text, column_width_ - key_width(text_pt) - 0.5 * text_pt, text_pt);
+  columns_ = std::clamp<std::size_t>(std::size_t(room_width_pt / column_width_ + 1e-6), 1, entries_.size());
+  rows_ = (entries_.size() + columns_ - 1) / columns_;
+  columns_ = (entries_.size() + rows_ - 1) / rows_;
+}
+
+double Legend::height() const { return double(rows_) * row_height(text_pt_); }
+
+void Legend::draw(Canvas& canvas, const Spot& top_left) const {
+  for (std::size_t n = 0; n < entries_.size(); ++n) {
+    const auto& entry = entries_[n];
+    const double x = top_left.x + double(n / rows_) * column_width_;
+    const double y = top_left.y + (double(n % rows_) + 0.5) * row_height(text_pt_);
+    const double key = key_width(text_pt_) - 0.5 * text_pt_;
+    if (entry.patch) {
+      const Rect patch{x, y - 0.4 * text_pt_, key, 0.8 * text_pt_};
+      canvas.fill(patch, entry.colour);
+      canvas.frame(patch, {black, 0.4});
+    }
+    if (entry.line) canvas.line({x, y}, {x + key, y}, *entry.line);
+    if (entry.marker)
+      canvas.marker({x + key / 2, y}, *entry.marker, 0.62 * text_pt_, entry.colour, entry.filled);
+    canvas.text({x + key_width(text_pt_), y}, entry.text, {.size_pt = text_pt_, .down = Down::middle});
+  }
+}
+
+void draw_colour_bar(Canvas& canvas, const ColourBar& bar, const AxisMarks& marks, const Rect& rect,
+                     double text_pt) {
+  const int rows = std::max(1, int(std::lround(rect.height * canvas.page().scale())));
+  Image image(1, rows);
+  for (int row = 0; row < rows; ++row) image.at(0, row) = bar.map.pixel(1 - (row + 0.5) / rows);
+  canvas.image(image, rect);
+  canvas.frame(rect, {black, frame_pt});
+  const Scale scale(bar.axis, rect.bottom(), rect.y);
+  const double right = rect.right();
+  for (const double value : marks.minor)
+    canvas.line({right, scale.place(value)}, {right + minor_tick_pt, scale.place(value)}, {black, 0.5});
+  for (std::size_t n = 0; n < marks.values.size(); ++n) {
+    const double y = scale.place(marks.values[n]);
+    canvas.line({right, y}, {right + tick_pt, y}, {black, frame_pt});
+    canvas.text({right + tick_pt + pad_pt + marks.widest_pt, y}, marks.labels[n],
+                {.size_pt = text_pt, .across = Across::end, .down = Down::middle});
+  }
+}
+
+}  // namespace slipwave::plot

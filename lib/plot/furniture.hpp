@@ -1,0 +1,52 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plot/axis.hpp"
+#include "plot/canvas.hpp"
+#include "plot/colour_map.hpp"
+
+namespace slipwave::plot {
+
+/// Which colours stand for which numbers: `axis.low` and `axis.high` are the ends of the map.
+struct ColourBar {
+  ColourMap map;
+  Axis axis;
+};
+
+/// What a line, marker or area means.
+struct LegendEntry {
+  std::string text;
+  Colour colour;
+  std::optional<Stroke> line = {};
+  std::optional<Marker> marker = {};
+  bool filled = true;  // the marker
+  bool patch = false;  // a small area of the colour
+};
+
+/// The legend of a panel in rows and columns, shortened where one entry is wider than the room.
+class Legend {
+ public:
+  Legend(std::vector<LegendEntry> entries, double room_width_pt, double text_pt);
+  double width() const { return double(columns_) * column_width_; }
+  double height() const;
+  void draw(Canvas& canvas, const Spot& top_left) const;
+  /// Width of the widest entry.
+  static double widest(const std::vector<LegendEntry>& entries, double text_pt);
+
+ private:
+  std::vector<LegendEntry> entries_;
+  double text_pt_, column_width_ = 0;
+  std::size_t columns_ = 1, rows_ = 0;
+};
+
+/// Draws the bar into `rect`, ticks and labels to the right of it.
+void draw_colour_bar(Canvas& canvas, const ColourBar& bar, const AxisMarks& marks, const Rect& rect,
+                     double text_pt);
+
+/// Sizes that panels share, in parts of the text or points.
+inline constexpr double tick_pt = 3, minor_tick_pt = 1.7, frame_pt = 0.7, pad_pt = 2.5;
+
+}  // namespace slipwave::plot

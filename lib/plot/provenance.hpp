@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plot/page.hpp"
+
+namespace slipwave::plot {
+
+/// Puts title and history of `page` into the bytes of a finished PNG (tEXt, and its resolution as pHYs) or
+/// SVG (title and desc elements); a PDF has them from the start and is returned as it is.
+std::vector<char> with_provenance(std::vector<char> bytes, const Page& page);
+
+}  // namespace slipwave::plot

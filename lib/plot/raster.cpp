@@ -1,0 +1,106 @@
+#include "plot/raster.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace slipwave::plot {
+namespace {
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+template <class Value, class Add>
+void over_cells(const Value* line, const std::vector<Cells>& columns, const Add& add) {
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    for (auto i = columns[column].first; i < columns[column].last; ++i) {
+      const auto value = float(line[i]);
+      if (!std::isnan(value)) add(column, value);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<double> even_edges(double low, double step, std::int64_t count) {
+  std::vector<double> edges(std::size_t(count) + 1);
+  for (std::size_t n = 0; n < edges.size(); ++n) edges[n] = low + double(n) * step;
+  return edges;
+}
+
+std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
+                                   const std::vector<double>& edges) {
+  std::vector<double> middles(edges.size() - 1);
+  for (std::size_t n = 0; n < middles.size(); ++n) middles[n] = (edges[n] + edges[n + 1]) / 2;
+  const auto first_from = [&](double value) {
+    return std::lower_bound(middles.begin(), middles.end(), value) - middles.begin();
+  };
+  std::vector<Cells> found(static_cast<std::size_t>(pixels));
+  const double pixel = (end_pt - begin_pt) / pixels;
+  for (int n = 0; n < pixels; ++n) {
+    double from = scale.value(begin_pt + n * pixel), to = scale.value(begin_pt + (n + 1) * pixel);
+    const double middle = scale.value(begin_pt + (n + 0.5) * pixel);
+    if (from > to) std::swap(from, to);
+    if (middle < edges.front() || middle > edges.back()) continue;
+    Cells& cells = found[std::size_t(n)];
+    cells = {first_from(from), first_from(to)};
+    if (cells.first < cells.last) continue;
+    const auto above = std::upper_bound(edges.begin(), edges.end() - 1, middle) - edges.begin();
+    cells = {above - 1, above};
+  }
+  return found;
+}
+
+template <class Value>
+Raster reduced(const std::function<const Value*(std::int64_t)>& row, const std::vector<Cells>& columns,
+               const std::vector<Cells>& rows, Take take) {
+  Raster raster{int(columns.size()), int(rows.size()), {}};
+  raster.values.reserve(columns.size() * rows.size());
+  std::vector<float> line(columns.size());
+  std::vector<double> sum(columns.size());
+  std::vector<std::int64_t> count(columns.size());
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    const Cells& cells = rows[n];
+    if (n > 0 && cells.first == rows[n - 1].first && cells.last == rows[n - 1].last) {
+      raster.values.insert(raster.values.end(), line.begin(), line.end());
+      continue;
+    }
+    std::fill(line.begin(), line.end(), none);
+    std::fill(sum.begin(), sum.end(), 0.0);
+    std::fill(count.begin(), count.end(), 0);
+    for (auto k = cells.first; k < cells.last; ++k) {
+      const Value* values = row(k);
+      if (take == Take::mean) {
+        over_cells(values, columns, [&](std::size_t at, float value) {
+          sum[at] += double(value);
+          ++count[at];
+        });
+      } else if (take == Take::greatest) {
+        over_cells(values, columns, [&](std::size_t at, float value) {
+          if (!(line[at] >= value)) line[at] = value;
+        });
+      } else {
+        over_cells(values, columns, [&](std::size_t at, float value) {
+          if (!(std::fabs(line[at]) >= std::fabs(value))) line[at] = value;
+        });
+      }
+    }
+    if (take == Take::mean) {
+      for (std::size_t at = 0; at < line.size(); ++at) {
+        if (count[at] > 0) line[at] = float(sum[at] / double(count[at]));
+      }
+    }
+    raster.values.insert(raster.values.end(), line.begin(), line.end());
+  }
+  return raster;
+}
+
+int pixels_along(double length_pt, const Page& page) {
+  return std::max(1, int(std::lround(length_pt * page.scale())));
+}
+
+template Raster reduced<float>(const std::function<const float*(std::int64_t)>&, const std::vector<Cells>&,
+                               const std::vector<Cells>&, Take);
+template Raster reduced<std::uint8_t>(const std::function<const std::uint8_t*(std::int64_t)>&,
+                                      const std::vector<Cells>&, const std::vector<Cells>&, Take);
+
+}  // namespace slipwave::plot

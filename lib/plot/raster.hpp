@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "plot/axis.hpp"
+#include "plot/canvas.hpp"
+
+namespace slipwave::plot {
+
+/// Cells [first, last) that a pixel shows; empty where it lies outside.
+struct Cells {
+  std::int64_t first = 0, last = 0;
+};
+
+/// Which cells each of `pixels` equal pixels from begin_pt to end_pt shows: those whose middles lie in it,
+/// else the one its own middle lies in. Cell n runs from edges[n] to edges[n + 1]; edges ascend.
+std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
+                                   const std::vector<double>& edges);
+
+/// count + 1 edges of equal cells.
+std::vector<double> even_edges(double low, double step, std::int64_t count);
+
+/// What a pixel takes of its cells: the value farthest from zero (nothing of a wave is lost), the mean, or
+/// the greatest (codes). NaN does not count.
+enum class Take { extreme, mean, greatest };
+
+/// Values of pixels, the first row first; NaN where there is none.
+struct Raster {
+  int width = 0, height = 0;
+  std::vector<float> values;
+  float at(int column, int row) const {
+    return values[std::size_t(row) * std::size_t(width) + std::size_t(column)];
+  }
+};
+
+/// Reduces rows of `Value`s, row(k) being the k-th, to pixels.
+template <class Value>
+Raster reduced(const std::function<const Value*(std::int64_t)>& row, const std::vector<Cells>& columns,
+               const std::vector<Cells>& rows, Take take);
+
+/// Pixels along a length on the page; 1 at least.
+int pixels_along(double length_pt, const Page& page);
+
+extern template Raster reduced<float>(const std::function<const float*(std::int64_t)>&,
+                                      const std::vector<Cells>&, const std::vector<Cells>&, Take);
+extern template Raster reduced<std::uint8_t>(const std::function<const std::uint8_t*(std::int64_t)>&,
+                                             const std::vector<Cells>&, const std::vector<Cells>&, Take);
+
+}  // namespace slipwave::plot

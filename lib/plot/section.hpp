@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "grid/field.hpp"
+#include "model/model.hpp"
+#include "plot/look.hpp"
+#include "plot/panel.hpp"
+#include "plot/raster.hpp"
+
+namespace slipwave {
+class NetcdfFile;
+}
+
+namespace slipwave::plot {
+
+/// One property of a model, and its fractures.
+struct ModelSection {
+  std::string property, unit;       // "vp", "m/s"
+  Field<2> values;                  // NaN in void
+  Field<2, std::uint8_t> fracture;  // empty when the model has none
+  std::vector<FractureSet<2>> sets;
+  std::string title;
+  const Grid<2>& grid() const { return values.grid(); }
+};
+
+/// Reads vp, vs or rho, and nothing else that is large, from a model file. Throws Error naming the file.
+ModelSection read_model_section(const NetcdfFile& file, const std::string& property);
+
+/// The pixels of a panel, and the cells of a grid that each shows.
+struct GridPixels {
+  std::vector<Cells> columns, rows;
+};
+GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid);
+
+/// A field reduced to these pixels.
+Raster reduced(const Field<2>& field, const GridPixels& pixels, Take take);
+
+/// The x and depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel over
+/// its width that gives them one scale.
+struct SectionAxes {
+  Axis x, depth;
+};
+SectionAxes axes_of(const Grid<2>& grid, const Look& look);
+double height_per_width(const Axis& x, const Axis& depth);
+
+/// Outlines fractured cells and hatches them along their planes, over what is drawn.
+void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
+                    const Image& below);
+
+}  // namespace slipwave::plot

@@ -1,0 +1,87 @@
+#include "plot/typeface.hpp"
+
+#include <cairo/cairo.h>
+
+#include <memory>
+#include <string>
+
+#include "base/error.hpp"
+#include "plot/canvas.hpp"
+
+namespace slipwave::plot {
+namespace {
+
+struct Destroy {
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+  void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
+};
+
+/// Length of the UTF-8 character that begins at `at`; 0 when none does.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t n) {
+    return n < text.size() ? static_cast<unsigned char>(text[n]) : static_cast<unsigned char>(0);
+  };
+  const unsigned first = byte(at);
+  const std::size_t length = first < 0x80                    ? 1
+                             : first >= 0xc2 && first < 0xe0 ? 2
+                             : first >= 0xe0 && first < 0xf0 ? 3
+                             : first >= 0xf0 && first < 0xf5 ? 4
+                                                             : 0;
+  for (std::size_t n = 1; n < length; ++n) {
+    if ((byte(at + n) & 0xc0) != 0x80) return 0;
+  }
+  if (first == 0xe0 && byte(at + 1) < 0xa0) return 0;   // overlong
+  if (first == 0xed && byte(at + 1) >= 0xa0) return 0;  // surrogate
+  if (first == 0xf0 && byte(at + 1) < 0x90) return 0;
+  if (first == 0xf4 && byte(at + 1) >= 0x90) return 0;
+  return length;
+}
+
+}  // namespace
+
+void use_typeface(_cairo* drawing, double size_pt, bool bold) {
+  cairo_select_font_face(drawing, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(drawing, size_pt);
+  const std::unique_ptr<cairo_font_options_t, Destroy> options(cairo_font_options_create());
+  cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(drawing, options.get());
+}
+
+double text_width(const std::string& text, double size_pt, bool bold) {
+  const std::unique_ptr<cairo_surface_t, Destroy> surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
+  const std::unique_ptr<cairo_t, Destroy> drawing(cairo_create(surface.get()));
+  use_typeface(drawing.get(), size_pt, bold);
+  cairo_text_extents_t extents{};
+  cairo_text_extents(drawing.get(), text.c_str(), &extents);
+  return extents.x_advance;
+}
+
+std::string shortened(const std::string& text, double width_pt, double size_pt, bool bold) {
+  if (text_width(text, size_pt, bold) <= width_pt) return text;
+  std::string best;
+  for (std::size_t at = 0; at < text.size();) {
+    at += std::max<std::size_t>(1, character_length(text, at));
+    const std::string candidate = text.substr(0, at) + "\u2026";
+    if (text_width(candidate, size_pt, bold) > width_pt) break;
+    best = candidate;
+  }
+  return best;
+}
+
+void check_text(const std::string& text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    const auto first = static_cast<unsigned char>(text[at]);
+    if (length == 0 || first < 0x20 || first == 0x7f)
+      throw Error("found byte " + std::to_string(int(first)) + " at place " + std::to_string(at + 1) +
+                      ", expected UTF-8 text of one line",
+                  ErrorKind::usage);
+    at += length;
+  }
+}
+
+}  // namespace slipwave::plot

@@ -1,0 +1,11 @@
+#pragma once
+
+struct _cairo;
+
+namespace slipwave::plot {
+
+/// Sets the typeface of all pictures, DejaVu Sans, with everything by which machines differ (hinting,
+/// subpixels) switched off.
+void use_typeface(_cairo* drawing, double size_pt, bool bold);
+
+}  // namespace slipwave::plot
