@@ -9,6 +9,8 @@
 
 namespace slipwave {
 
+class NetcdfFile;
+
 /// One way of computing a scene and what it gave. NaN: not known.
 struct AccuracyRow {
   int order = 5;           // of the reconstruction in space
@@ -47,5 +49,6 @@ std::string text_of(const AccuracyTable& table);
 void write_accuracy_table(OutputFile& out, const AccuracyTable& table, const std::string& version);
 /// Reads what write_accuracy_table wrote; "-" is standard input. Throws an Error naming what is missing.
 AccuracyTable read_accuracy_table(const std::string& path);
+AccuracyTable read_accuracy_table(const NetcdfFile& file);
 
 }  // namespace slipwave

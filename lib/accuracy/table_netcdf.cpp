@@ -81,7 +81,10 @@ void write_accuracy_table(OutputFile& out, const AccuracyTable& table, const std
 }
 
 AccuracyTable read_accuracy_table(const std::string& path) {
-  const auto file = NetcdfFile::open(path);
+  return read_accuracy_table(NetcdfFile::open(path));
+}
+
+AccuracyTable read_accuracy_table(const NetcdfFile& file) {
   const auto rows = file.dimension_length(dimension);
   if (!rows)
     throw Error(file.shown_name() + ": found no dimension " + dimension +
