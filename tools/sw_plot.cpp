@@ -1,113 +1,68 @@
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "base/netcdf_container.hpp"
-#include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
-#include "model/model_report.hpp"
-#include "plot/gather_picture.hpp"
-#include "plot/model_picture.hpp"
-#include "segy/reader.hpp"
-#include "segy/sniff.hpp"
-#include "trace_input.hpp"
+#include "plot_kinds.hpp"
 
 using namespace slipwave;
 
 namespace {
 
-struct Settings {
-  std::string file = "-";
-  std::string output = "-";
-  plot::PageSettings page;
-  std::string map = "auto", clip_text, range, x, y;
-  plot::Look look;
-  // gathers
-  std::string component, axis = "auto", style = "density";
-  std::optional<double> shot;
-  double gain_power = 0;
-  TraceInput traces;
-  // models
-  std::string property = "vp", survey;
+/// Options as they are written.
+struct Texts {
+  std::string map = "auto", range, x, y, component, axis = "auto", style = "density";
 };
 
-void declare(cli::Options& options, Settings& settings) {
-  options.positional(settings.file, "FILE");
+void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
+  options.positional(settings.files, "FILE");
   options.add("output,o", settings.output, "FILE",
               "the picture, by its ending .png, .pdf or .svg; - is a PNG");
   options.add("size", settings.page.size, "SIZE", "of the picture, 16x10cm or 1200x800px");
   options.add("dpi", settings.page.dpi, "N", "pixels per inch");
   options.add("title", settings.page.title, "TEXT", "above the picture");
-  options.add("map", settings.map, "NAME", "colours: uniform, grey, white-black, blue-red, red-blue");
-  options.add("clip", settings.look.clip_percent, "PERCENT", "full colour at this percentile of magnitudes");
-  options.add("range", settings.range, "LOW:HIGH", "full colour at these values instead");
-  options.add("x", settings.x, "LOW:HIGH", "part of the horizontal axis");
-  options.add("y", settings.y, "LOW:HIGH", "part of the vertical axis");
-  options.add("component", settings.component, "NAME", "gather: vx, vz, p, ...");
+  options.add("map", texts.map, "NAME", "colours: uniform, grey, white-black, blue-red, red-blue");
+  options.add("clip", settings.look.clip_percent, "PERCENT", "waves have full colour at this percentile");
+  options.add("range", texts.range, "LOW:HIGH", "full colour at these values instead");
+  options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
+  options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
+  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
   options.add("shot", settings.shot, "N", "gather: this shot only");
-  options.add_choice("axis", settings.axis, {"auto", "x", "offset", "depth", "trace"},
-                     "gather: what traces stand at");
-  options.add_choice("style", settings.style, {"density", "wiggle", "both"},
-                     "gather: colours, lines or both");
-  options.add("gain-power", settings.gain_power, "P", "gather: samples times time to this power");
+  options.add_choice("axis", texts.axis, {"auto", "x", "offset", "depth", "trace"},
+                     "gather: where traces stand");
+  options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
+  options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
   options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"}, "model: what is drawn");
-  options.add("survey", settings.survey, "GATHER", "model: marks its sources and receivers");
+  options.add("survey", settings.survey, "GATHER", "model, snapshot: marks sources and receivers");
+  options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
+  options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
+  options.add("over", settings.over, "MODEL", "snapshot: over this model");
+  options.add("movie", settings.movie, "snapshot: all of them, FILE-0001.png and so on");
+  options.add("log", settings.log, "spectrum: amplitudes on a log axis");
+  options.add("overlay", settings.overlay, "errors: several files in one panel");
   settings.traces.declare(options);
 }
 
-plot::Picture gather_picture(const Settings& settings, const std::vector<char>& taken,
-                             const plot::Page& page) {
-  plot::TraceChoice choice;
-  if (!settings.component.empty())
-    choice.component = in_place("--component", [&] { return component_named(settings.component); });
-  if (settings.shot) choice.shot = std::int64_t(*settings.shot);
-  const plot::GatherStyle style{settings.style != "wiggle", settings.style != "density",
-                                plot::trace_axis_named(settings.axis), settings.gain_power};
-  segy::Reader reader(settings.file, settings.traces.read_options(), {taken.begin(), taken.end()});
-  return plot::draw_gather(plot::read_section(reader, choice), style, settings.look, page);
-}
-
-plot::Picture netcdf_picture(const Settings& settings, const NetcdfFile& file, const plot::Page& page) {
-  if (kind_of(file) != "model") throw Error(file.shown_name() + ": is no model, expected one");
-  const bool as_sets = settings.property == "fractures";
-  const auto section = plot::read_model_section(file, as_sets ? "vp" : settings.property);
-  plot::SurveyMarks marks;
-  if (!settings.survey.empty()) {
-    segy::Reader reader(settings.survey, settings.traces.read_options());
-    marks = plot::read_survey(reader);
-  }
-  return plot::draw_model(section, as_sets, marks, settings.look, page);
-}
-
-plot::Picture picture_of(const Settings& settings, const plot::Page& page) {
-  const InputStart start(settings.file, 3600);
-  const auto& first = start.bytes();
-  if (begins_netcdf({first.data(), first.size()})) {
-    return netcdf_picture(settings,
-                          start.is_regular() ? NetcdfFile::open(settings.file)
-                                             : NetcdfFile::open(read_all(settings.file, start.taken()),
-                                                                shown_input(settings.file)),
-                          page);
-  }
-  const std::vector<std::uint8_t> bytes(first.begin(), first.end());
-  if (settings.traces.su || segy::looks_like_segy(bytes))
-    return gather_picture(settings, start.taken(), page);
-  throw Error(shown_input(settings.file) + ": is " +
-              (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
-              ", expected a model, snapshots, spectra or a gather");
-}
-
-void run(Settings& settings, const cli::Context& context) {
-  in_place("--title", [&] { plot::check_text(settings.page.title); });
-  settings.page.history = context.command_line;
-  const auto page = plot::page_of(plot::format_of(settings.output), settings.page);
-  if (settings.map != "auto") settings.look.map = settings.map;
+void run(PlotSettings& settings, const Texts& texts, const cli::Context& context) {
+  if (texts.map != "auto") settings.look.map = texts.map;
+  in_place("--map", [&] { plot::map_of(settings.look, "grey"); });
+  in_place("--clip", [&] { plot::check_clip(settings.look); });
   const auto limits = [](const std::string& option, const std::string& text,
                          std::optional<plot::Limits>& to) {
     if (!text.empty()) to = in_place(option, [&] { return plot::parse_limits(text); });
   };
-  limits("--range", settings.range, settings.look.colours);
-  limits("--x", settings.x, settings.look.x);
-  limits("--y", settings.y, settings.look.y);
+  limits("--range", texts.range, settings.look.colours);
+  limits("--x", texts.x, settings.look.x);
+  limits("--y", texts.y, settings.look.y);
+  if (!texts.component.empty())
+    settings.component = in_place("--component", [&] { return component_named(texts.component); });
+  if (settings.shot && *settings.shot != double(std::int64_t(*settings.shot)))
+    throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
+  settings.gather.axis = plot::trace_axis_named(texts.axis);
+  settings.gather.density = texts.style != "wiggle";
+  settings.gather.wiggle = texts.style != "density";
+  settings.page.history = context.command_line;
+  if (settings.movie) return draw_movie(settings, context.progress("frames"));
+
+  const auto page = page_of(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
   const auto picture = picture_of(settings, page);
   for (const auto& note : picture.notes) context.warn(note);
@@ -118,11 +73,12 @@ void run(Settings& settings, const cli::Context& context) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Settings settings;
+  PlotSettings settings;
+  Texts texts;
   return cli::run_tool(
       argc, argv,
-      {"sw-plot", "Draws models, gathers, snapshots and spectra.", "[options] [FILE] [-o PICTURE]",
-       "sw-plot response.sgy --component vz --clip 98 -o response.png"},
-      [&](cli::Options& options) { declare(options, settings); },
-      [&](const cli::Context& context) { run(settings, context); });
+      {"sw-plot", "Draws models, gathers, snapshots, spectra, and error against time.",
+       "[options] [FILE...] [-o PICTURE]", "sw-plot response.sgy --component vz --clip 98 -o response.png"},
+      [&](cli::Options& options) { declare(options, settings, texts); },
+      [&](const cli::Context& context) { run(settings, texts, context); });
 }

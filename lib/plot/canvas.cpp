@@ -70,7 +70,9 @@ void trace(cairo_t* to, const std::vector<Spot>& spots) {
   }
 }
 
-std::vector<Spot> outline(Marker shape, double radius) {
+/// Of equal area to the eye: a corner stands farther out than a round edge.
+std::vector<Spot> outline(Marker shape, double size) {
+  const double radius = size * (shape == Marker::circle ? 0.88 : 1.1);
   constexpr double pi = std::numbers::pi;
   const auto corners = [&](int count, double first_rad, double inner) {
     std::vector<Spot> spots;

@@ -36,7 +36,7 @@ Hatch hatch_of(const SlipSystem<2>& system, const Panel& panel) {
 }  // namespace
 
 void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
-                    const Image& below) {
+                    const Image& below, bool hatched) {
   if (section.fracture.empty()) return;
   const auto codes = reduced<std::uint8_t>([&](std::int64_t k) { return section.fracture.line(k).data(); },
                                            pixels.columns, pixels.rows, Take::greatest);
@@ -56,7 +56,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
     }
   }
   std::vector<std::vector<Hatch>> hatches(section.sets.size() + 1);
-  for (std::size_t set = 0; set < section.sets.size(); ++set) {
+  for (std::size_t set = 0; hatched && set < section.sets.size(); ++set) {
     for (const auto& system : section.sets[set].systems) hatches[set + 1].push_back(hatch_of(system, panel));
   }
   const double scale = canvas.page().scale();

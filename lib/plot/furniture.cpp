@@ -42,6 +42,7 @@ void Legend::draw(Canvas& canvas, const Spot& top_left) const {
       canvas.frame(patch, {black, 0.4});
     }
     if (entry.line) canvas.line({x, y}, {x + key, y}, *entry.line);
+    if (entry.ring) canvas.ring({x + key / 2, y}, 0.5 * text_pt_, {entry.colour, 1});
     if (entry.marker)
       canvas.marker({x + key / 2, y}, *entry.marker, 0.62 * text_pt_, entry.colour, entry.filled);
     canvas.text({x + key_width(text_pt_), y}, entry.text, {.size_pt = text_pt_, .down = Down::middle});

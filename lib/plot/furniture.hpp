@@ -24,6 +24,7 @@ struct LegendEntry {
   std::optional<Marker> marker = {};
   bool filled = true;  // the marker
   bool patch = false;  // a small area of the colour
+  bool ring = false;   // round what is chosen
 };
 
 /// The legend of a panel in rows and columns, shortened where one entry is wider than the room.

@@ -7,6 +7,7 @@
 #include "plot/magnitudes.hpp"
 #include "plot/panel.hpp"
 #include "plot/raster.hpp"
+#include "plot/ticks.hpp"
 #include "plot/wiggle.hpp"
 
 namespace slipwave::plot {
@@ -33,21 +34,12 @@ Axis axis_of(const TracePlaces& traces, const std::vector<double>& edges) {
   return axis;
 }
 
-/// Traces reach half way to their neighbours.
-std::vector<double> edges_of(const std::vector<double>& places) {
-  if (places.size() == 1) return {places[0] - 0.5, places[0] + 0.5};
-  std::vector<double> edges{places[0] - (places[1] - places[0]) / 2};
-  for (std::size_t n = 1; n < places.size(); ++n) edges.push_back((places[n - 1] + places[n]) / 2);
-  edges.push_back(places.back() + (places.back() - edges.back()));
-  return edges;
-}
-
 /// What colours stand for. A gain of t^2 turns m/s into m/s s^2.
 Axis value_axis(const GatherSection& section, double gain_power) {
   const std::string name = section.component == Component::other ? "amplitude" : name_of(section.component);
   const std::string unit = unit_of(section.component);
   if (gain_power == 0) return {name, unit};
-  const std::string power = gain_power == 1 ? "" : "^" + shown(gain_power);
+  const std::string power = gain_power == 1 ? "" : raised(shown(gain_power));
   return {name + " t" + power, unit.empty() ? "s" + power : unit + " s" + power};
 }
 
@@ -84,7 +76,7 @@ Picture draw_gather(GatherSection section, const GatherStyle& style, const Look&
   magnitudes.add(section.samples);
   double full = magnitudes.percentile(look.clip_percent);
   if (full == 0) full = 1;  // silence
-  const auto edges = edges_of(traces.places);
+  const auto edges = edges_between(traces.places);
 
   PanelSpec spec{page.title, axis_of(traces, edges), {"time", "s"}, {}, {}};
   spec.y.low = section.axis.start_s;

@@ -24,6 +24,11 @@ void narrow(Axis& axis, const std::optional<Limits>& limits, const std::string& 
   axis.high = limits->high;
 }
 
+void check_clip(const Look& look) {
+  if (!(look.clip_percent > 0 && look.clip_percent <= 100))
+    throw Error("found " + shown(look.clip_percent) + ", expected above 0, at most 100", ErrorKind::usage);
+}
+
 ColourMap map_of(const Look& look, const std::string& usual) {
   return ColourMap(look.map.empty() ? usual : look.map);
 }

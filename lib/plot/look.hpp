@@ -23,12 +23,14 @@ struct Look {
   double clip_percent = 99;       // colours and wiggles are full at this percentile of magnitudes
   std::optional<Limits> colours;  // instead, in the unit of the data
   std::optional<Limits> x, y;     // what part of the axes is shown
-  std::optional<double> target;   // a line across pictures of error
 };
 
 /// Narrows the axis to the limits, where there are any. Throws a usage Error naming `option` when nothing of
 /// the data lies within.
 void narrow(Axis& axis, const std::optional<Limits>& limits, const std::string& option);
+
+/// Throws a usage Error unless the clip is above 0 and at most 100 percent.
+void check_clip(const Look& look);
 
 /// The map asked for, else the one named here.
 ColourMap map_of(const Look& look, const std::string& usual);

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cmath>
 
-#include "base/error.hpp"
-
 namespace slipwave::plot {
 namespace {
 
@@ -27,9 +25,6 @@ void Magnitudes::add(std::span<const float> values) {
 }
 
 double Magnitudes::percentile(double percent) const {
-  if (!(percent > 0 && percent <= 100))
-    throw Error("found the percentile " + shown(percent) + ", expected above 0, at most 100",
-                ErrorKind::usage);
   if (percent == 100 || count_ == 0) return largest_;
   const double wanted = percent / 100 * double(count_);
   double below = 0;

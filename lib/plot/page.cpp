@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "plot/canvas.hpp"
 
 namespace slipwave::plot {
 namespace {
@@ -30,6 +31,7 @@ Format format_of(const std::string& path) {
 double Page::text_pt() const { return std::clamp(5.4 + width_pt / 126, 6.5, 9.0); }
 
 Page page_of(Format format, const PageSettings& settings) {
+  in_place("--title", [&] { check_text(settings.title); });
   Page page;
   page.format = format;
   page.title = settings.title;
@@ -48,9 +50,9 @@ Page page_of(Format format, const PageSettings& settings) {
     const double points = cm ? points_per_cm : 72 / page.dpi;
     page.width_pt = size[0] * points;
     page.height_pt = size[1] * points;
-    if (page.width_pt < 2.99 * points_per_cm || page.height_pt < 1.99 * points_per_cm)
+    if (page.width_pt < 3.99 * points_per_cm || page.height_pt < 2.99 * points_per_cm)
       throw Error(
-          "found " + text + (cm ? "" : " at " + shown(page.dpi) + " dpi") + ", expected at least 3x2cm",
+          "found " + text + (cm ? "" : " at " + shown(page.dpi) + " dpi") + ", expected at least 4x3cm",
           ErrorKind::usage);
   });
   check_size(page);

@@ -33,7 +33,7 @@ struct Page {
 };
 
 /// Reads the settings; without a size the page is 16 cm wide and `height_pt` 0, for the picture to set. dpi:
-/// 150 for PNG, else 300. Throws a usage Error for what is no size, below 3 x 2 cm or above 20000 pixels.
+/// 150 for PNG, else 300. Throws a usage Error for what is no size, below 4 x 3 cm or above 20000 pixels.
 Page page_of(Format format, const PageSettings& settings);
 
 /// Throws a usage Error when the page is too large to draw.

@@ -93,6 +93,8 @@ Panel::Margins Panel::margins() const {
     else
       free.bottom += legend_->height() + 0.5 * text_pt_;
   }
+  free.left = std::max(free.left, spec_.least_left_pt);
+  free.right = std::max(free.right, spec_.least_right_pt);
   // Labels of x stand out to the sides.
   for (std::size_t n = 0; n < x_marks_.values.size(); ++n) {
     const double half = text_width(x_marks_.labels[n], text_pt_) / 2;

@@ -14,6 +14,7 @@ struct PanelSpec {
   Axis x, y;
   std::optional<ColourBar> bar = {};
   std::vector<LegendEntry> legend = {};
+  double least_left_pt = 0, least_right_pt = 0;  // beside the data, to align panels above each other
 };
 
 /// A rectangle of data with axes, title, colour bar and legend round it, laid out so that everything stands

@@ -27,6 +27,14 @@ std::vector<double> even_edges(double low, double step, std::int64_t count) {
   return edges;
 }
 
+std::vector<double> edges_between(const std::vector<double>& places) {
+  if (places.size() == 1) return {places[0] - 0.5, places[0] + 0.5};
+  std::vector<double> edges{places[0] - (places[1] - places[0]) / 2};
+  for (std::size_t n = 1; n < places.size(); ++n) edges.push_back((places[n - 1] + places[n]) / 2);
+  edges.push_back(places.back() + (places.back() - edges.back()));
+  return edges;
+}
+
 std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
                                    const std::vector<double>& edges) {
   std::vector<double> middles(edges.size() - 1);

@@ -22,6 +22,9 @@ std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double e
 /// count + 1 edges of equal cells.
 std::vector<double> even_edges(double low, double step, std::int64_t count);
 
+/// Edges of cells round ascending places, half way to their neighbours.
+std::vector<double> edges_between(const std::vector<double>& places);
+
 /// What a pixel takes of its cells: the value farthest from zero (nothing of a wave is lost), the mean, or
 /// the greatest (codes). NaN does not count.
 enum class Take { extreme, mean, greatest };

@@ -46,8 +46,8 @@ struct SectionAxes {
 SectionAxes axes_of(const Grid<2>& grid, const Look& look);
 double height_per_width(const Axis& x, const Axis& depth);
 
-/// Outlines fractured cells and hatches them along their planes, over what is drawn.
+/// Outlines fractured cells and, if so wanted, hatches them along their planes, over what is drawn.
 void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
-                    const Image& below);
+                    const Image& below, bool hatched = true);
 
 }  // namespace slipwave::plot

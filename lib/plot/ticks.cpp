@@ -90,13 +90,20 @@ std::vector<std::string> linear_labels(const std::vector<double>& ticks, double 
   return labels;
 }
 
-std::string power_of_ten(int exponent) {
-  if (exponent == 0) return "";
-  static const std::array<const char*, 10> raised = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+std::string raised(const std::string& number) {
+  static const std::array<const char*, 10> digits = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
                                                      "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
-  std::string text = exponent < 0 ? "10\u207b" : "10";
-  for (const char digit : std::to_string(std::abs(exponent))) text += raised[std::size_t(digit - '0')];
+  std::string text;
+  for (const char c : number) {
+    if (c >= '0' && c <= '9') text += digits[std::size_t(c - '0')];
+    if (c == '-') text += "\u207b";
+    if (c == '.') text += "\u00b7";
+  }
   return text;
+}
+
+std::string power_of_ten(int exponent) {
+  return exponent == 0 ? "" : "10" + raised(std::to_string(exponent));
 }
 
 std::string log_label(double tick) {

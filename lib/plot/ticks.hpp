@@ -29,6 +29,8 @@ std::vector<std::string> linear_labels(const std::vector<double>& ticks, double 
 /// "0.1", "20", beyond 0.001 .. 10000 "10⁻⁵" and "2·10⁶".
 std::string log_label(double tick);
 
+/// A number as an exponent: "⁻¹·⁵" for "-1.5".
+std::string raised(const std::string& number);
 /// "10⁻⁹"; "" for exponent 0.
 std::string power_of_ten(int exponent);
 

@@ -1,0 +1,39 @@
+#include "plot/error_series.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace slipwave::plot {
+
+std::vector<ErrorSeries> series_of(const AccuracyTable& table) {
+  std::vector<ErrorSeries> all;
+  for (std::size_t n = 0; n < table.rows.size(); ++n) {
+    const auto& row = table.rows[n];
+    const Method method{row.order, row.time_order, row.slip_order, row.courant};
+    auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.method == method; });
+    if (series == all.end()) series = all.insert(all.end(), {method, {}});
+    series->points.push_back({row.spacing_m, row.seconds, 100 * row.error, row.predicted_seconds,
+                              100 * row.predicted_error, table.chosen == n});
+  }
+  for (auto& series : all) {
+    std::stable_sort(series.points.begin(), series.points.end(),
+                     [](const auto& a, const auto& b) { return a.spacing_m > b.spacing_m; });
+  }
+  return all;
+}
+
+std::string name_of(const Method& method, const std::vector<Method>& methods) {
+  const auto differ = [&](auto member) {
+    return std::any_of(methods.begin(), methods.end(),
+                       [&](const Method& other) { return other.*member != method.*member; });
+  };
+  std::string name = "order " + std::to_string(method.order);
+  if (differ(&Method::time_order)) name += ", " + std::to_string(method.time_order) + " in time";
+  if (differ(&Method::slip_order))
+    name += method.slip_order == 0 ? ", no slip" : ", slip order " + std::to_string(method.slip_order);
+  if (differ(&Method::courant)) name += ", Courant " + shown(method.courant);
+  return name;
+}
+
+}  // namespace slipwave::plot

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy/table.hpp"
+
+namespace slipwave::plot {
+
+/// A way of computing, whatever the cell size.
+struct Method {
+  int order = 0, time_order = 0, slip_order = 0;
+  double courant = 0;
+  bool operator==(const Method&) const = default;
+};
+
+/// A cell size of a method: what it cost and gave. Percent; NaN where not known.
+struct ErrorPoint {
+  double spacing_m = 0, seconds = 0, error = 0, predicted_seconds = 0, predicted_error = 0;
+  bool chosen = false;
+  bool measured() const { return seconds > 0 && error > 0; }
+  bool predicted() const { return predicted_seconds > 0 && predicted_error > 0; }
+};
+
+/// The points of one method in a table, coarsest cells first.
+struct ErrorSeries {
+  Method method;
+  std::vector<ErrorPoint> points;
+};
+
+/// In the order in which methods first appear in the table.
+std::vector<ErrorSeries> series_of(const AccuracyTable& table);
+
+/// "order 5", and of time order, slip order and Courant number those in which `methods` differ.
+std::string name_of(const Method& method, const std::vector<Method>& methods);
+
+}  // namespace slipwave::plot

@@ -1,0 +1,87 @@
+#include "plot/snapshot_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace slipwave::plot {
+namespace {
+
+/// The model as a faint ground: greys too light to be taken for a wave.
+Colour ground_colour(double number) {
+  const double light = 0.70 + 0.30 * std::clamp(number, 0.0, 1.0);
+  return {light, light, light};
+}
+
+Image ground_of(const ModelSection& model, const Panel& panel, const Page& page) {
+  const auto raster = reduced(model.values, pixels_of(panel, page, model.grid()), Take::mean);
+  double low = INFINITY, high = -INFINITY;
+  for (const float value : raster.values) {
+    if (std::isnan(value)) continue;
+    low = std::min(low, double(value));
+    high = std::max(high, double(value));
+  }
+  Image image(raster.width, raster.height);
+  for (std::size_t n = 0; n < image.pixels.size(); ++n) {
+    const float value = raster.values[n];
+    const double number = high > low ? (double(value) - low) / (high - low) : 0.8;
+    image.pixels[n] = pixel_of(std::isnan(value) ? no_data : ground_colour(number));
+  }
+  return image;
+}
+
+Colour colour_of_pixel(std::uint32_t pixel) {
+  const auto part = [&](int shift) { return double(pixel >> shift & 0xff) / 255; };
+  return {part(16), part(8), part(0)};
+}
+
+/// The wave over its ground: strong parts hide it, weak ones tint it.
+std::uint32_t over(std::uint32_t ground, double value, const ColourBar& bar) {
+  const double middle = (bar.axis.low + bar.axis.high) / 2, half = (bar.axis.high - bar.axis.low) / 2;
+  const double strength = std::clamp((value - middle) / half, -1.0, 1.0);
+  const double tone = std::copysign(std::max(std::fabs(strength), 0.4), strength);
+  return pixel_of(
+      blend(colour_of_pixel(ground), bar.map.at((1 + tone) / 2), std::pow(std::fabs(strength), 0.7)));
+}
+
+std::string title_of(const Snapshot& snapshot, const std::string& title) {
+  char time[40];
+  std::snprintf(time, sizeof time, "t = %.4g s", snapshot.time_s);
+  return title.empty() ? time : title + ", " + time;
+}
+
+}  // namespace
+
+std::string shown_unit(const std::string& file_unit) {
+  if (file_unit == "m s-1") return "m/s";
+  return file_unit == "s-1" ? "1/s" : file_unit;
+}
+
+Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional<ModelSection>& model,
+                      const SurveyMarks& marks, const Look& look, Page page) {
+  const auto& grid = snapshot.values.grid();
+  const auto axes = axes_of(grid, look);
+  const Limits limits = look.colours.value_or(Limits{-full, full});
+  PanelSpec spec{title_of(snapshot, page.title), axes.x, axes.depth,
+                 ColourBar{map_of(look, "blue-red"), {snapshot.name, snapshot.unit, limits.low, limits.high}},
+                 legend_of(marks)};
+  if (page.height_pt == 0) Panel::fit_page(page, spec, height_per_width(spec.x, spec.y));
+  const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
+
+  const auto raster = reduced(snapshot.values, pixels_of(panel, page, grid), Take::extreme);
+  Image image = model ? ground_of(*model, panel, page) : Image(raster.width, raster.height);
+  for (std::size_t n = 0; n < image.pixels.size(); ++n) {
+    const double value = double(raster.values[n]);
+    if (std::isnan(value)) continue;
+    image.pixels[n] = model ? over(image.pixels[n], value, *spec.bar)
+                            : spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
+  }
+  Canvas canvas(page);
+  canvas.image(image, panel.plot());
+  if (model) draw_fractures(canvas, panel, *model, pixels_of(panel, page, model->grid()), image, false);
+  panel.draw(canvas);
+  draw_survey(canvas, panel, marks);
+  return {canvas.finish()};
+}
+
+}  // namespace slipwave::plot

@@ -1,0 +1,177 @@
+#include "plot/spectrum_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "plot/magnitudes.hpp"
+#include "plot/panel.hpp"
+#include "plot/raster.hpp"
+
+namespace slipwave::plot {
+namespace {
+
+/// Lines of one unit, which share a panel.
+struct Group {
+  std::string unit, quantity;
+  struct Member {
+    const Spectra* file;
+    const Spectra::Line* line;
+  };
+  std::vector<Member> members;
+  double greatest = 0;
+};
+
+std::vector<Group> groups_of(const std::vector<Spectra>& files) {
+  std::vector<Group> groups;
+  for (const auto& file : files) {
+    for (const auto& line : file.lines) {
+      auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& one) {
+        return one.unit == line.unit && one.quantity == file.quantity;
+      });
+      if (group == groups.end()) group = groups.insert(groups.end(), {line.unit, file.quantity, {}, 0});
+      group->members.push_back({&file, &line});
+      for (const double value : line.values) {
+        if (std::isfinite(value)) group->greatest = std::max(group->greatest, value);
+      }
+    }
+  }
+  return groups;
+}
+
+/// Frequencies from 0 to the end, or to where nothing is left, or what was asked for.
+Axis frequency_axis(const std::vector<Spectra>& files, bool all, const std::optional<Limits>& wanted,
+                    const std::string& option) {
+  Axis axis{"frequency", "Hz", 0, 0};
+  double last = 0;
+  for (const auto& file : files) {
+    axis.high = std::max(axis.high, file.frequencies_hz.back());
+    for (const auto& line : file.lines) {
+      const double greatest = *std::max_element(line.values.begin(), line.values.end());
+      for (std::size_t n = 0; n < line.values.size(); ++n) {
+        if (line.values[n] > 0.01 * greatest) last = std::max(last, file.frequencies_hz[n]);
+      }
+    }
+  }
+  if (axis.high == 0) axis.high = 1;
+  if (wanted)
+    narrow(axis, wanted, option);
+  else if (last > 0 && !all)
+    axis.high = std::min(axis.high, 1.05 * last);
+  return axis;
+}
+
+Axis value_axis(const Group& group, bool log, const Look& look) {
+  const double greatest = group.greatest > 0 ? group.greatest : 1;
+  Axis axis{group.quantity, group.unit, 0, 1.05 * greatest};
+  if (log) {
+    axis.low = greatest * (group.quantity == "amplitude" ? 1e-5 : 1e-10);
+    axis.high = 2 * greatest;
+    axis.log = true;
+  }
+  if (look.y) narrow(axis, look.y, "--y");
+  return axis;
+}
+
+Stroke stroke_of(std::size_t index) {
+  return {line_colour(index), 1.1, index < 8 ? std::vector<double>() : std::vector<double>{4, 2}};
+}
+
+void draw_group(Canvas& canvas, const Panel& panel, const Group& group, bool log) {
+  const double floor = panel.y_scale().value(panel.plot().bottom());
+  for (std::size_t n = 0; n < group.members.size(); ++n) {
+    const auto& [file, line] = group.members[n];
+    std::vector<Spot> spots;
+    for (std::size_t k = 0; k < line->values.size(); ++k) {
+      const double value = log ? std::max(line->values[k], floor / 10) : line->values[k];
+      spots.push_back({panel.x(file->frequencies_hz[k]), panel.y(value)});
+    }
+    canvas.polyline(spots, stroke_of(n));
+  }
+}
+
+Picture draw_lines(const std::vector<Spectra>& files, bool log, const Look& look, Page page) {
+  const auto groups = groups_of(files);
+  if (page.height_pt == 0) page.height_pt = (2 + 8 * double(groups.size())) * points_per_cm;
+  const double height = page.height_pt / double(groups.size());
+  std::vector<PanelSpec> specs;
+  double left = 0, right = 0;  // so that the panels' frequencies stand above each other
+  for (const auto& group : groups) {
+    specs.push_back({specs.empty() ? page.title : "", frequency_axis(files, log, look.x, "--x"),
+                     value_axis(group, log, look)});
+    for (std::size_t n = 0; n < group.members.size(); ++n) {
+      const auto& member = group.members[n];
+      const std::string name =
+          files.size() > 1 ? member.file->name + ": " + member.line->name : member.line->name;
+      specs.back().legend.push_back({.text = name, .colour = line_colour(n), .line = stroke_of(n)});
+    }
+    const Panel panel(specs.back(), {0, 0, page.width_pt, height}, page);
+    left = std::max(left, panel.plot().x);
+    right = std::max(right, page.width_pt - panel.plot().right());
+  }
+  Canvas canvas(page);
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    specs[g].least_left_pt = left;
+    specs[g].least_right_pt = right;
+    const Panel panel(specs[g], {0, double(g) * height, page.width_pt, height}, page);
+    panel.draw_grid(canvas);
+    canvas.within(panel.plot(), [&] { draw_group(canvas, panel, groups[g], log); });
+    panel.draw(canvas);
+  }
+  return {canvas.finish()};
+}
+
+Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
+  std::vector<std::vector<float>> traces;
+  Magnitudes magnitudes;
+  for (const auto& line : spectra.lines) {
+    traces.emplace_back(line.values.begin(), line.values.end());
+    magnitudes.add(traces.back());
+  }
+  const double full = magnitudes.percentile(look.clip_percent);
+  const Limits limits = look.colours.value_or(Limits{0, full > 0 ? full : 1});
+  const auto edges = edges_between(spectra.places);
+  PanelSpec spec{page.title,
+                 spectra.at_x ? Axis{"receiver x", "m", edges.front(), edges.back()}
+                              : Axis{"trace", "", edges.front(), edges.back(), false, true},
+                 frequency_axis({spectra}, false, look.y, "--y"),
+                 ColourBar{map_of(look, "uniform"),
+                           {spectra.quantity + " of " + spectra.lines[0].name, spectra.lines[0].unit,
+                            limits.low, limits.high}},
+                 {}};
+  narrow(spec.x, look.x, "--x");
+  if (page.height_pt == 0) page.height_pt = 10 * points_per_cm;
+  const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
+  const Rect& plot = panel.plot();
+  const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
+  const double step = spectra.frequencies_hz.size() > 1 ? spectra.frequencies_hz[1] : 1;
+  const auto rows = cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height,
+                                    even_edges(-step / 2, step, std::int64_t(spectra.frequencies_hz.size())));
+  const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, edges);
+  const auto raster = reduced<float>([&](std::int64_t n) { return traces[std::size_t(n)].data(); }, rows,
+                                     columns, Take::extreme);
+  Image image(width, height);
+  for (int column = 0; column < width; ++column) {
+    for (int row = 0; row < height; ++row) {
+      const double value = double(raster.at(row, column));
+      if (!std::isnan(value))
+        image.at(column, row) = spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
+    }
+  }
+  Canvas canvas(page);
+  canvas.image(image, plot);
+  panel.draw(canvas);
+  return {canvas.finish()};
+}
+
+}  // namespace
+
+Picture draw_spectra(const std::vector<Spectra>& files, bool log, const Look& look, Page page) {
+  const bool each = std::any_of(files.begin(), files.end(), [](const Spectra& one) { return one.each(); });
+  if (each && files.size() > 1)
+    throw Error("spectra of each trace are drawn from one file, found " + std::to_string(files.size()),
+                ErrorKind::usage);
+  return each ? draw_each(files[0], look, page) : draw_lines(files, log, look, page);
+}
+
+}  // namespace slipwave::plot

@@ -1,0 +1,173 @@
+#include "plot_kinds.hpp"
+
+#include <cstdio>
+
+#include "accuracy/table.hpp"
+#include "base/error.hpp"
+#include "base/input_bytes.hpp"
+#include "base/netcdf_container.hpp"
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "model/model_report.hpp"
+#include "output/snapshot_reader.hpp"
+#include "plot/error_picture.hpp"
+#include "plot/model_picture.hpp"
+#include "plot/snapshot_picture.hpp"
+#include "plot/spectrum_picture.hpp"
+#include "segy/reader.hpp"
+#include "segy/sniff.hpp"
+
+namespace slipwave {
+namespace {
+
+enum class Kind { gather, model, snapshots, spectra, accuracy };
+
+/// An input, opened as far as its kind needs.
+struct Input {
+  std::string path;
+  Kind kind = Kind::gather;
+  std::optional<NetcdfFile> file;  // but for gathers
+  std::vector<char> taken;         // bytes already read of a gather's pipe
+};
+
+Kind kind_of_netcdf(const NetcdfFile& file) {
+  const std::string kind = kind_of(file);
+  if (kind == "model") return Kind::model;
+  if (kind == "snapshots") return Kind::snapshots;
+  if (file.dimension_length("setting")) return Kind::accuracy;
+  if (file.dimension_length("frequency")) return Kind::spectra;
+  throw Error(file.shown_name() + ": is netCDF, but no model, snapshots, spectra or table of sw-accuracy");
+}
+
+Input open_input(const std::string& path, const PlotSettings& settings) {
+  const InputStart start(path, 3600);
+  const auto& first = start.bytes();
+  Input input{path, Kind::gather, std::nullopt, start.taken()};
+  if (begins_netcdf({first.data(), first.size()})) {
+    input.file = start.is_regular() ? NetcdfFile::open(path)
+                                    : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
+    input.kind = kind_of_netcdf(*input.file);
+    return input;
+  }
+  const std::vector<std::uint8_t> bytes(first.begin(), first.end());
+  if (!settings.traces.su && !segy::looks_like_segy(bytes))
+    throw Error(shown_input(path) + ": is " +
+                (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+                ", expected a model, snapshots, spectra, errors or a gather");
+  return input;
+}
+
+plot::SurveyMarks survey_of(const PlotSettings& settings) {
+  if (settings.survey.empty()) return {};
+  segy::Reader reader(settings.survey, settings.traces.read_options());
+  return plot::read_survey(reader);
+}
+
+plot::Picture gather_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
+  segy::Reader reader(input.path, settings.traces.read_options(), {input.taken.begin(), input.taken.end()});
+  plot::TraceChoice choice{settings.component, std::nullopt};
+  if (settings.shot) choice.shot = std::int64_t(*settings.shot);
+  auto section = plot::read_section(reader, choice);
+  return plot::draw_gather(std::move(section), settings.gather, settings.look, page);
+}
+
+plot::Picture model_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
+  const bool as_sets = settings.property == "fractures";
+  const auto section = plot::read_model_section(*input.file, as_sets ? "vp" : settings.property);
+  return plot::draw_model(section, as_sets, survey_of(settings), settings.look, page);
+}
+
+std::optional<plot::ModelSection> model_below(const PlotSettings& settings) {
+  if (settings.over.empty()) return std::nullopt;
+  const bool as_sets = settings.property == "fractures";
+  return plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property);
+}
+
+plot::Snapshot snapshot_of(const SnapshotReader<2>& reader, const std::string& field, std::size_t time) {
+  return {field, plot::shown_unit(reader.unit(field)), reader.times_s()[time], reader.read(field, time)};
+}
+
+double full_of(const plot::Magnitudes& magnitudes, const PlotSettings& settings) {
+  const double full = magnitudes.percentile(settings.look.clip_percent);
+  return full > 0 ? full : 1;  // before the wave is there
+}
+
+plot::Picture snapshot_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
+  const SnapshotReader<2> reader(std::move(*input.file));
+  const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
+  const auto time = settings.time_s ? reader.nearest(*settings.time_s) : reader.times_s().size() - 1;
+  const auto snapshot = snapshot_of(reader, field, time);
+  plot::Magnitudes magnitudes;
+  magnitudes.add({snapshot.values.data(), snapshot.values.size()});
+  return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings),
+                             survey_of(settings), settings.look, page);
+}
+
+}  // namespace
+
+plot::Page page_of(const PlotSettings& settings) {
+  return plot::page_of(in_place("--output", [&] { return plot::format_of(settings.output); }), settings.page);
+}
+
+plot::Picture picture_of(const PlotSettings& settings, const plot::Page& page) {
+  std::vector<Input> inputs;
+  for (const auto& path : settings.files) inputs.push_back(open_input(path, settings));
+  if (inputs.empty()) inputs.push_back(open_input("-", settings));
+  const Kind kind = inputs.front().kind;
+  for (const auto& input : inputs) {
+    const bool together = input.kind == kind && (kind == Kind::spectra || kind == Kind::accuracy);
+    if (inputs.size() > 1 && !together)
+      throw Error(shown_input(input.path) +
+                      ": several files are drawn together where all hold spectra or all hold errors",
+                  ErrorKind::usage);
+  }
+  if (kind == Kind::gather) return gather_picture(inputs.front(), settings, page);
+  if (kind == Kind::model) return model_picture(inputs.front(), settings, page);
+  if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), settings, page);
+  if (kind == Kind::spectra) {
+    std::vector<plot::Spectra> files;
+    for (const auto& input : inputs) files.push_back(plot::read_spectra(*input.file, settings.component));
+    return plot::draw_spectra(files, settings.log, settings.look, page);
+  }
+  std::vector<AccuracyTable> tables;
+  for (const auto& input : inputs) tables.push_back(read_accuracy_table(*input.file));
+  return plot::draw_error(tables, settings.overlay, settings.look, page);
+}
+
+void draw_movie(const PlotSettings& settings, const Progress& progress) {
+  const auto page = page_of(settings);
+  if (settings.output == "-" || settings.files.size() > 1)
+    throw Error("--movie: draws one file of snapshots, and needs a name (-o NAME.png)", ErrorKind::usage);
+  auto input = open_input(settings.files.empty() ? "-" : settings.files.front(), settings);
+  if (input.kind != Kind::snapshots)
+    throw Error(shown_input(input.path) + ": holds no snapshots, expected them for --movie");
+  const SnapshotReader<2> reader(std::move(*input.file));
+  const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
+  const auto times = reader.times_s().size();
+  const auto done = [&](std::size_t steps) {
+    if (progress) progress(std::int64_t(steps), std::int64_t(2 * times));
+  };
+  plot::Magnitudes magnitudes;
+  for (std::size_t n = 0; n < times; ++n) {
+    const auto values = reader.read(field, n);
+    magnitudes.add({values.data(), values.size()});
+    done(n + 1);
+  }
+  const double full = full_of(magnitudes, settings);
+  const auto model = model_below(settings);
+  const auto marks = survey_of(settings);
+  const auto dot = settings.output.rfind('.');
+  for (std::size_t n = 0; n < times; ++n) {
+    char number[32];
+    std::snprintf(number, sizeof number, "-%04zu", n + 1);
+    OutputFile out(settings.output.substr(0, dot) + number + settings.output.substr(dot),
+                   OutputFile::Content::binary);
+    const auto picture =
+        plot::draw_snapshot(snapshot_of(reader, field, n), full, model, marks, settings.look, page);
+    out.write(picture.bytes.data(), picture.bytes.size());
+    out.commit();
+    done(times + n + 1);
+  }
+}
+
+}  // namespace slipwave
