@@ -1,11 +1,12 @@
 #pragma once
 
+#include "accuracy/expected_error.hpp"
 #include "base/report.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
 
-/// What shoot() would do.
+/// What shoot() would do, how well, and at what price.
 template <int D>
 struct Plan {
   Grid<D> computed;  // zones included
@@ -17,11 +18,17 @@ struct Plan {
   std::int64_t memory_bytes = 0;
   double highest_hz = 0;
   SlowestWave slowest;
-  double points_per_wavelength = 0;  // of the slowest wave at highest_hz
-  double loss_per_wavelength = 0;    // of its amplitude, by the scheme's own damping along an axis
+  double cells_of_shortest_p = 0;  // a wavelength of the slowest P wave at highest_hz
+  std::optional<double> cells_of_shortest_s;
+  double loss_per_wavelength = 0;  // of the slowest wave's amplitude, by the scheme's own damping
+  double duration_s = 0;           // of the traces
+  ExpectedError error;
+  int threads = 1;
+  double seconds = 0;  // of the processor, all shots: from the time that a few steps take now
   std::string instruction_set;
 };
 
+/// Builds the first shot and runs a few of its steps to see how long they take.
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
 

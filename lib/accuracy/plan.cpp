@@ -1,8 +1,13 @@
-#include "solver/plan.hpp"
+#include "accuracy/plan.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
+#include "base/processor_time.hpp"
 #include "solver/dispersion.hpp"
 #include "solver/step.hpp"
 
@@ -29,9 +34,43 @@ double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) 
   return cells > 2 ? solver::loss_per_wavelength(scene.numerics.order, courant, cells) : 1;
 }
 
+/// Slowest P wave anywhere, slowest S wave of solids (0: none).
+template <int D>
+std::array<double, 2> slowest_of_each(const Medium<D>& medium) {
+  std::array<double, 2> slowest = {std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t n = 0; n < std::size_t(medium.grid().size()); ++n) {
+    if (medium.is_void(n)) continue;
+    slowest[0] = std::min(slowest[0], double(medium.vp[n]));
+    if (medium.vs[n] > 0 && !(slowest[1] > 0 && slowest[1] < medium.vs[n])) slowest[1] = medium.vs[n];
+  }
+  return slowest;
+}
+
+/// Processor time of a step: the median of several.
+template <int D, class Real>
+double seconds_of_step(solver::Step<D, Real>& step) {
+  constexpr std::int64_t warm_up = 2, most = 15;
+  constexpr double enough_s = 0.6;
+  std::vector<double> seconds;
+  double sum = 0;
+  const auto count = std::min(step.steps(), warm_up + most);
+  for (std::int64_t n = 0; n < count && (sum < enough_s || seconds.empty()); ++n) {
+    const double start = processor_time_s();
+    step.run(n);
+    const double taken = processor_time_s() - start;
+    sum += taken;
+    if (n >= std::min(warm_up, count - 1)) seconds.push_back(taken);
+  }
+  const auto middle = seconds.begin() + std::ptrdiff_t(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
 template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
-  const solver::Step<D, Real> step(scene, 1, [](double, const FieldReader<D>&) {});
+  const double start = processor_time_s();
+  solver::Step<D, Real> step(scene, 1, [](double, const FieldReader<D>&) {});
+  const double build_s = processor_time_s() - start;
   Plan<D> plan;
   plan.computed = step.domain().grid;
   plan.time_step_s = time_step_s(scene);
@@ -42,8 +81,16 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
   plan.slowest = slowest_wave(scene.model.medium);
-  plan.points_per_wavelength = cells_a_wavelength(scene, plan.slowest, plan.highest_hz);
-  plan.loss_per_wavelength = loss_of(scene, plan.slowest, plan.points_per_wavelength);
+  const auto [slowest_p, slowest_s] = slowest_of_each(scene.model.medium);
+  const double wave_to_cells = 1 / plan.highest_hz / scene.model.grid().spacing_m;
+  plan.cells_of_shortest_p = slowest_p * wave_to_cells;
+  if (slowest_s > 0) plan.cells_of_shortest_s = slowest_s * wave_to_cells;
+  plan.loss_per_wavelength =
+      loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
+  plan.duration_s = scene.recording.duration_s;
+  plan.error = WavesOfScene(scene).expected();
+  plan.threads = parallel_workers();
+  plan.seconds = double(scene.survey.sources.size()) * (build_s + double(plan.steps) * seconds_of_step(step));
   plan.instruction_set = solver::instruction_set();
   return plan;
 }
@@ -64,11 +111,21 @@ Report report_of(const Plan<D>& plan) {
   report.number("Courant number", plan.courant, "");
   report.number("slowest wave", plan.slowest.speed, "m/s");
   report.number("highest frequency", plan.highest_hz, "Hz");
-  report.number("cells a shortest wavelength", plan.points_per_wavelength, "");
-  report.text("its loss by the scheme",
+  report.text("cells a shortest wavelength",
+              "P " + rounded(plan.cells_of_shortest_p, 3) +
+                  (plan.cells_of_shortest_s ? ", S " + rounded(*plan.cells_of_shortest_s, 3) : ""));
+  report.text("loss of the slowest",
               rounded(100 * plan.loss_per_wavelength, 2) + " % of the amplitude a wavelength");
+  if (plan.error.direct)
+    report.text("expected error", rounded(100 * *plan.error.direct, 2) + " % in the direct waves");
+  report.text("error after " + rounded(plan.duration_s, 3) + " s",
+              "P " + rounded(100 * plan.error.p, 2) + " %" +
+                  (plan.error.s ? ", S " + rounded(100 * *plan.error.s, 2) + " %" : ""));
   report.count("cells beside contacts", plan.span_ends);
   report.text("memory", rounded(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
+  report.text("expected time", rounded(plan.seconds, 2) + " s of the processor, " +
+                                   rounded(plan.seconds / plan.threads, 2) + " s on " +
+                                   std::to_string(plan.threads) + " threads");
   report.text("instruction set", plan.instruction_set);
   for (const auto& pass : plan.passes)
     report.text("pass", pass.name + ": " + rounded(100 * pass.share, 3) + " % of the cells");

@@ -1,0 +1,189 @@
+#include "accuracy/expected_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "grid/locate.hpp"
+
+namespace slipwave {
+namespace {
+
+using solver::WaveKind;
+
+/// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
+constexpr std::size_t receivers_followed = 12, shots_followed = 4;
+/// Directions of travel over which waves of unknown direction are averaged.
+constexpr int directions = 6;
+/// A Rayleigh wave against the S wave.
+constexpr double rayleigh_speed = 0.93;
+/// Its decay with depth, over the wave number: that of the slower of its two parts, roughly.
+constexpr double rayleigh_decay = 0.8;
+
+template <class Act>
+void every_few(std::size_t count, std::size_t most, Act&& act) {
+  const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
+  for (std::size_t n = stride / 2; n < count; n += stride) act(n);
+}
+
+/// Speeds of the cell at a point, clamped to the model.
+struct Speeds {
+  double vp, vs;
+};
+Speeds speeds_at(const Medium<2>& medium, const Point<2>& point) {
+  const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), point)));
+  return {medium.vp[cell], medium.vs[cell]};
+}
+
+/// The straight way between two points, for waves of one kind. Empty where it does not carry them.
+WayOfWave straight_way(const Medium<2>& medium, const Point<2>& from, const Point<2>& to, WaveKind kind) {
+  const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
+  const auto parts = std::int64_t(std::ceil(length / medium.grid().spacing_m)) + 1;
+  WayOfWave way;
+  for (std::int64_t n = 0; n < parts; ++n) {
+    const double at = (double(n) + 0.5) / double(parts);
+    const auto [vp, vs] =
+        speeds_at(medium, {from[0] + at * (to[0] - from[0]), from[1] + at * (to[1] - from[1])});
+    const double speed = kind == WaveKind::p ? vp : vs;
+    if (!(speed > 0)) return {};
+    way.add(vp, vs, length / double(parts) / speed);
+  }
+  return way;
+}
+
+/// What a source sends out as P and as S in the direction of the unit vector n, in energy per width of front
+/// and up to a common factor: far field of a force, |u| ~ F c^(-3/2), and of a moment, |u| ~ M c^(-5/2).
+struct Radiation {
+  double p = 0, s = 0;
+};
+Radiation radiation(const PointInjection<2>& injection, const Speeds& speeds, const Point<2>& n) {
+  const Point<2> across = {n[1], -n[0]};
+  double force_p = 0, force_s = 0, moment_p = 0, moment_s = 0;
+  for (int i = 0; i < 2; ++i) {
+    const auto a = std::size_t(i);
+    force_p += injection.force[a] * n[a];
+    force_s += injection.force[a] * across[a];
+    for (int j = 0; j < 2; ++j) {
+      const double m = injection.moment_rate(i, j) * n[std::size_t(j)];
+      moment_p += m * n[a];
+      moment_s += m * across[a];
+    }
+  }
+  // One of force and moment is there; their spectra differ by a factor that both waves share.
+  return {force_p * force_p * std::pow(speeds.vp, -3) + moment_p * moment_p * std::pow(speeds.vp, -5),
+          speeds.vs > 0
+              ? force_s * force_s * std::pow(speeds.vs, -3) + moment_s * moment_s * std::pow(speeds.vs, -5)
+              : 0};
+}
+
+/// The part of the energy between two points that goes as a Rayleigh wave along a free surface at the top.
+double rayleigh_share(const Scene<2>& scene, const Source<2>& source, const Point<2>& receiver) {
+  const auto& medium = scene.model.medium;
+  const double top = medium.grid().origin_m[1], h = medium.grid().spacing_m;
+  const double vs = speeds_at(medium, {source.position_m[0], top + h / 2}).vs;
+  if (scene.edges[1][0] != EdgeLaw::free || !(vs > 0)) return 0;
+  const double k = 2 * std::numbers::pi * source.wavelet.nominal_hz() / (rayleigh_speed * vs);
+  return std::exp(-2 * rayleigh_decay * k * (source.position_m[1] - top + receiver[1] - top));
+}
+
+using Trains = std::vector<WaveTrain>;
+
+void add_point_source(const Scene<2>& scene, const Source<2>& source, const Point<2>& receiver,
+                      Trains& trains) {
+  const auto& medium = scene.model.medium;
+  const auto& from = source.position_m;
+  const double r = std::max(std::hypot(receiver[0] - from[0], receiver[1] - from[1]), 1e-3);
+  const Point<2> n = {(receiver[0] - from[0]) / r, (receiver[1] - from[1]) / r};
+  const double angle = std::atan2(n[0], n[1]);
+  const auto sent = radiation(*point_injection(source), speeds_at(medium, from), n);
+  const double share = rayleigh_share(scene, source, receiver);
+  const auto band = band_of(source.wavelet, 1);
+  double energy = 0;
+  const auto add = [&](double sent_energy, WaveKind kind) {
+    const auto way = straight_way(medium, from, receiver, kind);
+    if (!(sent_energy > 0) || way.empty()) return;
+    trains.push_back({(1 - share) * sent_energy / r, kind, angle, way, band});
+    energy += sent_energy / r;
+  };
+  add(sent.p, WaveKind::p);
+  add(sent.s, WaveKind::s);
+  if (!(share > 0)) return;
+  const auto [vp, vs] = speeds_at(medium, {from[0], medium.grid().origin_m[1]});
+  WayOfWave way;
+  way.add(vp, rayleigh_speed * vs, std::abs(receiver[0] - from[0]) / (rayleigh_speed * vs));
+  trains.push_back({share * energy, WaveKind::s, std::numbers::pi / 2, way, band_of(source.wavelet, 2)});
+}
+
+/// A plane wave comes from where its way back leaves the model, through the absorbing zone.
+void add_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneWave<2>& wave,
+                    const Point<2>& receiver, Trains& trains) {
+  const auto& grid = scene.model.grid();
+  double length = std::numeric_limits<double>::infinity();
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const double low = grid.origin_m[axis], high = low + double(grid.shape[axis]) * grid.spacing_m;
+    if (std::abs(wave.direction[axis]) < 1e-9) continue;
+    const double edge = wave.direction[axis] > 0 ? receiver[axis] - low : high - receiver[axis];
+    length = std::min(length, edge / std::abs(wave.direction[axis]));
+  }
+  const Point<2> entry = {receiver[0] - length * wave.direction[0], receiver[1] - length * wave.direction[1]};
+  auto way = straight_way(scene.model.medium, entry, receiver, WaveKind::p);
+  const auto [vp, vs] = speeds_at(scene.model.medium, entry);
+  if (vp > 0) way.add(vp, vs, zone_cells(scene, source) * grid.spacing_m / vp);
+  const double angle = std::atan2(wave.direction[0], wave.direction[1]);
+  if (!way.empty()) trains.push_back({1, WaveKind::p, angle, way, band_of(source.wavelet, 0)});
+}
+
+Trains direct_waves(const Scene<2>& scene) {
+  Trains trains;
+  const auto& survey = scene.survey;
+  every_few(survey.sources.size(), shots_followed, [&](std::size_t shot) {
+    const auto& source = survey.sources[shot];
+    const auto* plane = std::get_if<PlaneWave<2>>(&source.mechanism);
+    every_few(survey.receivers_m.size(), receivers_followed, [&](std::size_t n) {
+      if (plane)
+        add_plane_wave(scene, source, *plane, survey.receivers_m[n], trains);
+      else
+        add_point_source(scene, source, survey.receivers_m[n], trains);
+    });
+  });
+  return trains;
+}
+
+/// Waves on their way as long as the traces last, in all directions.
+Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
+  const auto& medium = scene.model.medium;
+  WayOfWave way;
+  for (std::size_t n = 0; n < std::size_t(medium.grid().size()); ++n) {
+    const double speed = kind == WaveKind::p ? medium.vp[n] : medium.vs[n];
+    if (speed > 0) way.add(medium.vp[n], medium.vs[n], 1 / speed);
+  }
+  if (way.empty()) return {};
+  const auto& source = scene.survey.sources.front();
+  WayOfWave longest;
+  const double scale = scene.recording.duration_s / way.time_s();
+  for (const auto& part : way.media()) longest.add(part.vp, part.vs, part.time_s * scale);
+  const auto band = band_of(source.wavelet, point_injection(source) ? 1 : 0);
+  Trains trains;
+  for (int n = 0; n < directions; ++n)
+    trains.push_back({1, kind, (n + 0.5) / directions * std::numbers::pi / 2, longest, band});
+  return trains;
+}
+
+}  // namespace
+
+WavesOfScene::WavesOfScene(const Scene<2>& scene)
+    : own_{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m},
+      direct_(direct_waves(scene)),
+      longest_p_(longest_waves(scene, WaveKind::p)),
+      longest_s_(longest_waves(scene, WaveKind::s)) {}
+
+ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
+  const auto of = [&](const Trains& trains) -> std::optional<double> {
+    if (trains.empty()) return std::nullopt;
+    return std::sqrt(squared_error(cells, trains));
+  };
+  return {of(direct_), of(longest_p_).value_or(0), of(longest_s_)};
+}
+
+}  // namespace slipwave

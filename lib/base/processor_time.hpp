@@ -1,0 +1,8 @@
+#pragma once
+
+namespace slipwave {
+
+/// Processor time this process has used so far, all its threads together, s. Only differences mean something.
+double processor_time_s();
+
+}  // namespace slipwave

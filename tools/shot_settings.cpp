@@ -1,0 +1,86 @@
+#include "shot_settings.hpp"
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "model/model_netcdf.hpp"
+
+namespace slipwave {
+namespace {
+
+EdgeLaw edge_law(const std::string& name) {
+  return name == "free"     ? EdgeLaw::free
+         : name == "rigid"  ? EdgeLaw::rigid
+         : name == "mirror" ? EdgeLaw::mirror
+                            : EdgeLaw::absorbing;
+}
+
+Survey<2> make_survey(const ShotSettings& s) {
+  Survey<2> survey;
+  const auto wavelet = in_place("--wavelet", [&] { return parse_wavelet(s.wavelet); });
+  const auto mechanism = in_place("--kind", [&] { return parse_mechanism<2>(s.kind); });
+  for (const auto& text : s.sources)
+    survey.sources.push_back(
+        {in_place("--source", [&] { return parse_point<2>(text); }), mechanism, wavelet, s.amplitude});
+  for (const auto& text : s.receivers)
+    for (const auto& point : in_place("--receivers", [&] { return parse_line<2>(text); }))
+      survey.receivers_m.push_back(point);
+  return survey;
+}
+
+}  // namespace
+
+void ShotSettings::declare_scene(cli::Options& options) {
+  const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
+  options.positional(model, "MODEL");
+  options.add("source", sources, "X,Z", "where the source is, m; repeated: several shots");
+  options.add("kind", kind, "KIND",
+              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (0 = down, degrees)");
+  options.add("wavelet", wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+  options.add("amplitude", amplitude, "A", "explosion, moment: N m/s per m; force: N/m; plane: m/s");
+  options.add("receivers", receivers, "X0:X1:DX,Z", "line of receivers or one X,Z, m; may be repeated");
+  options.add("time", duration_s, "T", "length of the traces, s");
+  options.add("dt", interval_s, "DT", "sampling interval of the traces, s");
+  options.add("record", record, "LIST", "of vx, vz, p, sxx, szz, sxz");
+  options.add_choice("top", top, edges, "the surface z = 0");
+  options.add_choice("sides", sides, edges, "the left and right edges");
+  options.add_choice("bottom", bottom, edges, "the bottom edge");
+  options.add("edge-width", edge_width, "CELLS",
+              "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
+  options.add_choice("without", without, {"slip"}, "switch an effect of the model off");
+  options.add_choice("precision", precision, {"float", "double"}, "of the computation");
+  options.add("allow-auxetic", limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
+}
+
+void ShotSettings::declare_numerics(cli::Options& options) {
+  options.add_choice("order", order, {"1", "3", "5", "7"}, "order of the scheme in space");
+  options.add_choice("correction", correction, {"first", "second"}, "order of the slip correction in time");
+  options.add("cfl", cfl, "C", "time step over its stability limit");
+  options.add("time-step", time_step_s, "S", "time step in s, instead of --cfl");
+}
+
+Scene<2> ShotSettings::without_model() const {
+  Scene<2> scene;
+  scene.survey = make_survey(*this);
+  for (const auto& name : split(record, ','))
+    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name); }));
+  scene.recording.duration_s = duration_s;
+  scene.recording.interval_s = interval_s;
+  scene.edges[0] = {edge_law(sides), edge_law(sides)};
+  scene.edges[1] = {edge_law(top), edge_law(bottom)};
+  scene.numerics = {std::stoi(order),
+                    cfl,
+                    time_step_s,
+                    edge_width,
+                    correction == "first" ? SlipCorrection::first : SlipCorrection::second,
+                    precision == "double"};
+  scene.with_slip = without != "slip";
+  return scene;
+}
+
+void ShotSettings::read_model_into(Scene<2>& scene) const {
+  scene.model = read_model<2>(model);
+  in_place(model == "-" ? "standard input" : model, [&] { check(scene.model, limits); });
+  check(scene);
+}
+
+}  // namespace slipwave

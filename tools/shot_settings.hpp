@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/tool.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// The options that describe a shot, for the tools that shoot: model, source, receivers, edges, numerics.
+struct ShotSettings {
+  std::string model = "-";
+  std::vector<std::string> sources, receivers;
+  std::string kind = "explosion", wavelet, record = "vz,vx,p";
+  std::string top = "free", sides = "absorbing", bottom = "absorbing";
+  std::string order = "5", correction = "second", precision = "float", without;
+  double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
+  std::optional<double> time_step_s;
+  int edge_width = 0;
+  MediumLimits limits;
+
+  /// What is shot and recorded, and the edges.
+  void declare_scene(cli::Options& options);
+  /// Order, step, slip correction and precision.
+  void declare_numerics(cli::Options& options);
+  /// The scene, its model not yet read.
+  Scene<2> without_model() const;
+  /// Puts the model in and checks both.
+  void read_model_into(Scene<2>& scene) const;
+};
+
+}  // namespace slipwave

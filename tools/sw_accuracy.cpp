@@ -1,0 +1,153 @@
+#include <algorithm>
+
+#include "accuracy/cases.hpp"
+#include "accuracy/ladder.hpp"
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "cli/tool.hpp"
+#include "model/model_netcdf.hpp"
+#include "shot_settings.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  ShotSettings shot;
+  std::string built_in, orders = "5,7", cfls = "0.9,0.5", steps, corrections = "second", reference;
+  std::optional<double> wanted;
+  std::string output;
+};
+
+void declare(cli::Options& options, Settings& s) {
+  s.shot.declare_scene(options);
+  options.add_choice("case", s.built_in, {"full-space"},
+                     "a built-in scene with a closed form instead of a model");
+  options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");
+  options.add("orders", s.orders, "LIST", "orders of the scheme in space, of 1, 3, 5, 7");
+  options.add("cfls", s.cfls, "LIST", "time steps over their stability limit");
+  options.add("corrections", s.corrections, "LIST", "slip corrections: first, second");
+  options.add("reference", s.reference, "ORDER,CFL,STEP",
+              "what errors are measured against [7,0.4 and the finest of --steps]");
+  options.add("error", s.wanted, "SHARE",
+              "name the cheapest setting whose error is at most this: 0.01 is 1 %");
+  options.add("output,o", s.output, "FILE", "write the table here too, as netCDF");
+  options.add_threads();
+}
+
+double number_in(const char* option, const std::string& text) {
+  return in_place(option, [&] { return parse_number(text); });
+}
+
+std::vector<double> numbers_of(const char* option, const std::string& list) {
+  std::vector<double> numbers;
+  for (const auto& text : split(list, ',')) {
+    numbers.push_back(number_in(option, text));
+    if (!(numbers.back() > 0))
+      throw Error(std::string(option) + ": found " + text + ", expected numbers above 0", ErrorKind::usage);
+  }
+  return numbers;
+}
+
+int order_of(const char* option, double number) {
+  for (const int order : {1, 3, 5, 7})
+    if (number == order) return order;
+  throw Error(std::string(option) + ": found " + shown(number) + ", expected one of 1, 3, 5, 7",
+              ErrorKind::usage);
+}
+
+SlipCorrection correction_of(const std::string& name) {
+  if (name == "first") return SlipCorrection::first;
+  if (name == "second") return SlipCorrection::second;
+  throw Error("--corrections: found " + name + ", expected first or second", ErrorKind::usage);
+}
+
+/// All combinations, cheap ones first; without --steps the model's cells and cells of twice the size.
+std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene) {
+  const double own = scene.model.grid().spacing_m;
+  auto steps = s.steps.empty() ? std::vector<double>{2 * own, own} : numbers_of("--steps", s.steps);
+  std::sort(steps.begin(), steps.end(), std::greater<>());
+  auto corrections = split(s.corrections, ',');
+  if (!scene.slips()) corrections.resize(1);
+  std::vector<AccuracySetting> ladder;
+  for (const double step : steps)
+    for (const double order : numbers_of("--orders", s.orders))
+      for (const double cfl : numbers_of("--cfls", s.cfls))
+        for (const auto& correction : corrections)
+          ladder.push_back({order_of("--orders", order), cfl, step, correction_of(correction)});
+  return ladder;
+}
+
+AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySetting>& ladder) {
+  if (s.reference.empty()) return {7, 0.4, ladder.back().spacing_m, SlipCorrection::second};
+  const auto numbers = numbers_of("--reference", s.reference);
+  if (numbers.size() != 3)
+    throw Error("--reference: found " + s.reference + ", expected ORDER,CFL,STEP", ErrorKind::usage);
+  return {order_of("--reference", numbers[0]), numbers[1], numbers[2], SlipCorrection::second};
+}
+
+/// The user's scene; nothing of it is asked for where a built-in case is.
+Scene<2> make_scene(const Settings& s) {
+  for (const auto& [given, name] : {std::pair{!s.shot.sources.empty(), "--source"},
+                                    {!s.shot.wavelet.empty(), "--wavelet"},
+                                    {!s.shot.receivers.empty(), "--receivers"},
+                                    {s.shot.duration_s > 0, "--time"}})
+    if (!given)
+      throw Error("found no " + std::string(name) + ", expected it, or --case full-space", ErrorKind::usage);
+  auto scene = s.shot.without_model();
+  s.shot.read_model_into(scene);
+  return scene;
+}
+
+/// All of a ladder's rows, each said as soon as it is there.
+void run(const Settings& s, const cli::Context& context) {
+  const bool built_in = !s.built_in.empty();
+  const auto scene = built_in ? full_space_case() : make_scene(s);
+  const auto ladder = ladder_of(s, scene);
+  // A name that can not be written costs no computing.
+  std::optional<OutputFile> out;
+  if (!s.output.empty()) out.emplace(s.output, OutputFile::Content::binary);
+  for (const auto& setting : ladder) check(with_setting(scene, setting));
+
+  AccuracyTable table;
+  table.title = built_in
+                    ? "full space, force along z: accuracy and cost"
+                    : (scene.model.title.empty() ? s.shot.model : scene.model.title) + ": accuracy and cost";
+  table.history = scene.model.history;
+  append_history(table.history, context.command_line);
+  table.wanted_error = s.wanted;
+  std::vector<Gather> exact;
+  if (built_in) {
+    exact = {full_space_traces()};
+    table.reference = "the closed form";
+  } else {
+    const auto reference = reference_of(s, ladder);
+    table.reference = name_of(reference, scene);
+    context.note("reference: " + table.reference);
+    table.rows.push_back(measured(scene, reference, {}, context.progress("reference"), &exact));
+  }
+  for (const auto& setting : ladder) {
+    const auto name = name_of(setting, scene);
+    table.rows.push_back(measured(scene, setting, exact, context.progress(name)));
+    context.note(name + ": done");
+  }
+  if (s.wanted) table.chosen = cheapest(table.rows, *s.wanted);
+  OutputFile text("-", OutputFile::Content::text);
+  const auto lines = text_of(table);
+  text.write(lines.data(), lines.size());
+  text.commit();
+  if (out) write_accuracy_table(*out, table, context.version);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  return cli::run_tool(
+      argc, argv,
+      {"sw-accuracy", "What accuracy costs: runs a scene in many ways and measures error and time.",
+       "[options] MODEL [-o TABLE]",
+       "sw-accuracy model.nc --config shot.cfg --steps 10,5,2.5 --error 0.01 -o accuracy.nc"},
+      [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
