@@ -24,6 +24,7 @@ struct Settings {
   std::optional<double> step_m, resample_m;
   std::string crop, vs_from, rho_from;
   double fluid_vp = 1500;
+  bool no_average = false;
   MediumLimits limits;
   std::string title = "imported model";
   std::string output = "-";
@@ -39,7 +40,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 below the fluid");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"}, "rho = 310 vp^0.25, 1000 in fluid");
-  options.add("resample", settings.resample_m, "H", "cells of that size; kinds of cells are not mixed");
+  options.add("resample", settings.resample_m, "H",
+              "cells of that size: averages in larger, interpolation in smaller ones; kinds are not mixed");
+  options.add("no-average", settings.no_average, "interpolate for larger cells, too, instead of averaging");
   options.add("crop", settings.crop, "X0:X1,Z0:Z1",
               "keep a box, after resampling; its top becomes the surface");
   options.add("title", settings.title, "TEXT", "title of the model file");
@@ -125,7 +128,8 @@ void run(const Settings& settings, const cli::Context& context) {
   model.medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
   check(model, settings.limits);
   if (settings.resample_m)
-    model = in_place("--resample", [&] { return resampled(model, *settings.resample_m); });
+    model =
+        in_place("--resample", [&] { return resampled(model, *settings.resample_m, !settings.no_average); });
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
   }

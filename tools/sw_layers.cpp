@@ -13,6 +13,7 @@ struct Settings {
   std::string size;
   double step_m = 0;
   std::vector<std::string> layers;
+  bool no_average = false;
   MediumLimits limits;
   std::string title = "layered model";
   std::string output = "-";
@@ -25,6 +26,8 @@ void declare(cli::Options& options, Settings& settings) {
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
       "a layer from DEPTH down; DIP in degrees, deepening towards +x, DEPTH at x = 0; repeat it from the top "
       "down; VS 0 is fluid, above the first layer is void (air)");
+  options.add("no-average", settings.no_average,
+              "cells cut by a top take the material of their centre, not the mean over their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file, - is standard output");
@@ -40,7 +43,7 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<2> model;
-  model.medium = in_place("--layer", [&] { return layered_medium(grid, layers); });
+  model.medium = in_place("--layer", [&] { return layered_medium(grid, layers, !settings.no_average); });
   check(model, settings.limits);
   model.title = settings.title;
   model.source = context.version;

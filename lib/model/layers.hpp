@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "model/averaging.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
@@ -12,6 +13,8 @@ struct Layer {
   double depth_m = 0;  // of the top at x = 0
   double vp = 0, vs = 0, rho = 0;
   double dip_deg = 0;  // of the top: z = depth + x tan(dip), positive deepening towards +x
+
+  Material material() const { return {vp, vs, rho}; }
 };
 
 /// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". Throws a usage Error.
@@ -22,11 +25,13 @@ Layer parse_layer(std::string_view text);
 template <int D>
 Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 
-/// A layered medium. A cell takes the last layer whose top is above or at its centre, so a later layer lies
-/// under the earlier ones and cuts them off where its top rises above theirs; cells above the first layer are
-/// void. Depths must not descend from layer to layer, |dip| < 90 degrees, at least one layer. Values:
-/// check().
+/// A layered medium. Everything below a top is its layer's, so a later layer lies under the earlier ones and
+/// cuts them off where its top rises above theirs; what is above the first layer is void. A cell is solid,
+/// fluid or void as the layer at its centre, that is the last one whose top is there or above; its material
+/// is the mean over its parts of that kind, exact areas being cut off by the tops (theory.md M1, M2), or with
+/// `average` = false that of the centre. Depths must not descend from layer to layer, |dip| < 90 degrees, at
+/// least one layer. Values: check().
 template <int D>
-Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers);
+Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true);
 
 }  // namespace slipwave
