@@ -7,18 +7,25 @@
 namespace slipwave::solver {
 namespace {
 
-// Chosen by measuring what 20 cells send back of P and S waves of 30 Hz under all angles: of leaks 1e-4 to
-// 1e-7, powers 2 and 3 and alphas of 1/2 to 4 times pi f these were best but for the largest alpha, which
-// serves the one frequency at the cost of lower ones.
-/// Amplitude left of a P wave that goes straight through the layer and back.
-constexpr double leak = 1e-4;
+// Chosen by measuring what 20 cells send back of P and S waves under all angles, and what grows (theory.md).
+/// Amplitude left of a P wave that goes straight through the layer and back. What is left at the end meets an
+/// edge that absorbs it, so more damping than this would only reflect more on the way.
+constexpr double leak = 1e-3;
 /// Growth of d into the layer.
-constexpr int power = 3;
-/// Plain damping of all fields beside the stretch, as a share of d. Without it plates (rock between two
-/// reflecting edges or voids, which reach into the layer) grew: they carry waves whose energy runs against
-/// their phase. From 0.01 on none of the media tried grew; 0.02 costs a factor of two in what comes back
-/// under 60 degrees.
-constexpr double plain_share = 0.02;
+constexpr int power = 2;
+/// alpha at the model in terms of the source's 2 pi f.
+constexpr double alpha_share = 2;
+/// Plain damping of all fields beside the stretch, as a share of d: everywhere, and what plates take more.
+constexpr double plain_share = 0.002, plate_share = 0.05;
+/// Ratio of impedances from which a contact counts as a reflector that may bound a plate.
+constexpr double reflector_ratio = 3;
+
+/// Whether a contact of these impedances of P and S waves reflects nearly all. Void has neither.
+bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& other) {
+  for (const Wave wave : {wave_p, wave_s})
+    if (std::max(one[wave], other[wave]) > reflector_ratio * std::min(one[wave], other[wave])) return true;
+  return false;
+}
 
 }  // namespace
 
@@ -37,12 +44,14 @@ MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& do
       const double depth = (double(inside) + 0.5) / double(width);
       const double length = double(width) * domain.grid.spacing_m;
       const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
-      const double alpha = 2 * std::numbers::pi * slow_hz * (1 - depth);
+      const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
       Factors factors;
       for (const int half : {0, 1}) {
         const double time = half ? dt_s / 2 : dt_s, sum = d + alpha;
         const double lost = -std::expm1(-sum * time);
         factors.kept[std::size_t(half)] = Real(std::exp(-plain_share * d * time));
+        factors.lost_in_plates[std::size_t(half)] =
+            Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time));
         factors.of_memory[std::size_t(half)] = Real(lost / (sum * dt_s));
         factors.of_change[std::size_t(half)] = Real(d / sum * (1 - lost / (sum * time)));
         factors.left[std::size_t(half)] = Real(1 - lost);
@@ -57,6 +66,67 @@ MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& do
     const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
     axis.memory = Buffer<Real>(values);
     std::fill(axis.memory.data(), axis.memory.data() + values, Real(0));
+    find_plates(n, domain);
+  }
+}
+
+/// Number of a cell in the plane along the edge, x fastest.
+template <int D, class Real>
+std::int64_t MatchedLayer<D, Real>::along_edge(int axis, const Index<D>& at) const {
+  std::int64_t number = 0;
+  for (int other = D - 1; other >= 0; --other)
+    if (other != axis)
+      number = number * (other == 0 ? layout_.padded_nx() : layout_.shape()[std::size_t(other)]) +
+               at[std::size_t(other)];
+  return number;
+}
+
+/// Marks the solid cells along the edges of an axis that lie between two reflectors: edges that do not
+/// absorb, void, strong contacts.
+template <int D, class Real>
+void MatchedLayer<D, Real>::find_plates(int axis, const Domain<D>& domain) {
+  Index<D> last = layout_.shape();
+  for (auto& n : last) --n;
+  for (const int side : {0, 1}) {
+    auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+    plates.assign(std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
+    if ((side ? domain.high_zone : domain.low_zone)[std::size_t(axis)] == 0) continue;
+    for (int across = 0; across < D; ++across) {
+      if (across == axis) continue;
+      const auto run_of = [&](Index<D> at) {
+        const auto z = [&](std::int64_t cell) {
+          at[std::size_t(across)] = cell;
+          return std::array<double, 2>{domain.impedance[wave_p](at), domain.impedance[wave_s](at)};
+        };
+        const std::int64_t n = domain.grid.shape[std::size_t(across)];
+        const auto& laws = domain.edges[across];
+        bool begins_at_reflector = laws[0] != EdgeLaw::absorbing;
+        for (std::int64_t begin = 0, cell = 0; cell < n; ++cell) {
+          const bool ends = cell + 1 == n,
+                     reflector = ends ? laws[1] != EdgeLaw::absorbing : reflects(z(cell), z(cell + 1));
+          if (!ends && !reflector) continue;
+          if (begins_at_reflector && reflector)
+            for (std::int64_t inside = begin; inside <= cell; ++inside)
+              if (z(inside)[wave_s] > 0) plates[std::size_t(along_edge(axis, at))] = 1;
+          begins_at_reflector = reflector;
+          begin = cell + 1;
+        }
+      };
+      // Each line across the plane once: from its cell 0.
+      const auto lines = domain.grid.size() / domain.grid.shape[std::size_t(axis)];
+      for (std::int64_t number = 0; number < lines; ++number) {
+        Index<D> at{};
+        std::int64_t rest = number;
+        for (int other = 0; other < D; ++other) {
+          const auto cells = domain.grid.shape[std::size_t(other)];
+          if (other == axis)
+            at[std::size_t(other)] = side ? cells - 1 : 0;
+          else
+            at[std::size_t(other)] = rest % cells, rest /= cells;
+        }
+        if (at[std::size_t(across)] == 0) run_of(at);
+      }
+    }
   }
 }
 
@@ -97,22 +167,26 @@ void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_ro
   const auto& layer = axes_[std::size_t(axis)];
   const std::size_t half = scale < Real(0.75);
   Real* const memory = memory_of(axis, line, field_row);
-  const auto one = [&](const Factors& factors, Real was, Real& now, Real& phi) {
+  const auto one = [&](const Factors& factors, Real plate, Real was, Real& now, Real& phi) {
     const Real change = now - was;
     now -= factors.of_memory[half] * phi + factors.of_change[half] * change;
-    now *= factors.kept[half];
+    now *= factors.kept[half] - plate * factors.lost_in_plates[half];
     if (remember) phi = factors.left[half] * phi + factors.added[half] * change;
   };
   if (axis > 0) {
     const auto& factors = layer.factors[std::size_t(layer.slot(line[std::size_t(axis)]))];
-    for (std::int64_t i = 0; i < count; ++i) one(factors, before[i], row[i], memory[line[0] + i]);
+    const Real* const plates =
+        layer.plates[line[std::size_t(axis)] < layer.low ? 0 : 1].data() + along_edge(axis, line);
+    for (std::int64_t i = 0; i < count; ++i) one(factors, plates[i], before[i], row[i], memory[line[0] + i]);
     return;
   }
+  const auto here = std::size_t(along_edge(axis, line));
+  const Real low_plate = layer.plates[0][here], high_plate = layer.plates[1][here];
   for (std::int64_t i = 0; i < layer.low; ++i)
-    one(layer.factors[std::size_t(i)], before[i], row[i], memory[i]);
+    one(layer.factors[std::size_t(i)], low_plate, before[i], row[i], memory[i]);
   Real* const high = row + layer.cells - layer.high - layer.low;
   for (std::int64_t i = layer.low; i < layer.low + layer.high; ++i)
-    one(layer.factors[std::size_t(i)], before[i], high[i], memory[i]);
+    one(layer.factors[std::size_t(i)], high_plate, before[i], high[i], memory[i]);
 }
 
 template <int D, class Real>

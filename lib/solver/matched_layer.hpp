@@ -13,8 +13,9 @@ namespace slipwave::solver {
 /// additions,
 ///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = what the sweep adds a second,
 /// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
-/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. A little plain
-/// damping of all fields beside it keeps waves in plates from growing.
+/// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. Where the
+/// layer cuts through plates (solid between two reflectors) plain damping of all fields keeps their waves
+/// from growing; elsewhere there is hardly any, since it reflects at an angle.
 template <int D, class Real>
 class MatchedLayer {
  public:
@@ -34,17 +35,21 @@ class MatchedLayer {
 
  private:
   /// Of one cell, for a whole and for half a step: what the memory takes, what the change itself takes, what
-  /// is left of the memory, what the change adds to it, what is left of the field.
+  /// is left of the memory, what the change adds to it, what is left of the field and how much less in
+  /// plates.
   struct Factors {
-    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{}, kept{};
+    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{}, kept{}, lost_in_plates{};
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
     std::vector<Factors> factors;  // low zone, then high zone, in the order of the cells
     Buffer<Real> memory;
+    std::array<std::vector<Real>, 2> plates;  // low and high zone: 1 in plates, else 0, along the edge
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
     bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
   };
+  std::int64_t along_edge(int axis, const Index<D>& at) const;
+  void find_plates(int axis, const Domain<D>& domain);
   Real* memory_of(int axis, const Index<D>& line, int field_row);
 
   Layout<D> layout_;

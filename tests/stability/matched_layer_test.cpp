@@ -105,6 +105,15 @@ TEST_P(MatchedLayer, StaysBoundedBesideAFreeSurface) {
   expect_to_last(InLayer(scene_of(GetParam(), 12, EdgeLaw::free), 5, 8));
 }
 
+// Thin layers damp harder, wide ones give plate waves more room to grow: 8 cells alone would not show it.
+TEST_P(MatchedLayer, StaysBoundedAtItsUsualWidth) {
+  for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid}) {
+    auto scene = scene_of(GetParam(), 12, top);
+    scene.edges[1][1] = top;
+    expect_to_last(InLayer(scene, 5, 20));
+  }
+}
+
 TEST_P(MatchedLayer, StaysBoundedWherePlatesReachIntoIt) {
   for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid})
     for (const EdgeLaw bottom : {EdgeLaw::free, EdgeLaw::rigid}) {

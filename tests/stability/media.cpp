@@ -50,6 +50,11 @@ Filling over(Cell upper, Cell lower) {
   return [=](int, int k, int n, const auto&) { return k < n / 2 ? upper : lower; };
 }
 
+/// A plate of a third of the height.
+Filling between(Cell outside, Cell plate) {
+  return [=](int, int k, int n, const auto&) { return k >= n / 3 && k < n - n / 3 ? plate : outside; };
+}
+
 Filling pixels(Cell one, Cell other, double share = 0.5) {
   return [=](int, int, int, const auto& random) { return random() < share ? one : other; };
 }
@@ -89,6 +94,12 @@ const std::map<std::string, Filling>& fillings() {
       {"SolidLayersOf1Cell", layers(1)},
       {"SolidLayersOf3Cells", layers(3)},
       {"RandomVoids", pixels(hole, basement, 0.3)},
+      {"SoilOverRock", over({1000, 100, 1500}, basement)},
+      {"SoilInRock", between(basement, {1000, 100, 1500})},
+      {"SteelInAir", between(air, steel)},
+      {"SteelInWater", between(water, steel)},
+      {"SteelInSoil", between({1000, 100, 1500}, steel)},
+      {"SofterRockInRock", between(basement, {2250, 1125, 2300})},
       {"SoftCheckerboard", checkerboard(5, {1000, 100, 1500}, basement)},
       {"VpOverVs10",
        [](int, int, int, const auto&) {
