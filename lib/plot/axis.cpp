@@ -49,6 +49,21 @@ AxisMarks linear_marks(const Axis& axis, double step, int exponent) {
   for (auto* values : {&marks.values, &marks.minor}) {
     for (double& value : *values) value *= divisor;
   }
+  for (std::size_t n = 0; axis.log && n < marks.values.size(); ++n)
+    marks.labels[n] = log_label(marks.values[n]);
+  return marks;
+}
+
+/// One label, where there is no room for two; the other ticks stay without.
+AxisMarks only_the_middle(AxisMarks marks) {
+  if (marks.values.size() < 2) return marks;
+  const auto middle = std::ptrdiff_t(marks.values.size() / 2);
+  const double value = marks.values[std::size_t(middle)];
+  const std::string label = marks.labels[std::size_t(middle)];
+  marks.values.erase(marks.values.begin() + middle);
+  marks.minor = marks.values;
+  marks.values = {value};
+  marks.labels = {label};
   return marks;
 }
 
@@ -58,9 +73,13 @@ AxisMarks finest_linear(const Axis& axis, const Scale& scale, double text_pt, bo
   const double span = (axis.high - axis.low) / std::pow(10.0, exponent);
   double step = round_step(span / 40);
   if (axis.whole) step = std::max(step, 1.0);
+  AxisMarks last;
   for (;; step = next_step(step)) {
     auto marks = linear_marks(axis, step, exponent);
-    if (marks.values.size() < 2 || stand_clear(marks, scale, text_pt, horizontal, gap_pt)) return marks;
+    if (marks.values.size() == 1 || stand_clear(marks, scale, text_pt, horizontal, gap_pt)) {
+      return marks.values.empty() ? only_the_middle(last) : marks;
+    }
+    last = std::move(marks);
   }
 }
 

@@ -131,6 +131,9 @@ void Canvas::text(const Spot& at, const std::string& text, const TextStyle& styl
   if (style.down == Down::top) y = cap_height * style.size_pt;
   if (style.down == Down::middle) y = cap_height * style.size_pt / 2;
   if (style.down == Down::bottom) y = -(line_height - 0.95) * style.size_pt;
+  const double top = y - cap_height * style.size_pt, high = cap_height * style.size_pt;
+  words_.push_back(style.upwards ? Rect{at.x + top, at.y - x - width, high, width}
+                                 : Rect{at.x + x, at.y + top, width, high});
   cairo_translate(to, at.x, at.y);
   if (style.upwards) cairo_rotate(to, -std::numbers::pi / 2);
   cairo_move_to(to, x, y);

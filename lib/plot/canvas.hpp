@@ -8,18 +8,9 @@
 
 #include "plot/colour.hpp"
 #include "plot/page.hpp"
+#include "plot/place.hpp"
 
 namespace slipwave::plot {
-
-/// Lengths on the page are in points, y down.
-struct Spot {
-  double x = 0, y = 0;
-};
-struct Rect {
-  double x = 0, y = 0, width = 0, height = 0;
-  double right() const { return x + width; }
-  double bottom() const { return y + height; }
-};
 
 /// Where a text stands to its spot: begins, has its middle or ends there; the same for up and down, where
 /// `baseline` puts its line on the spot.
@@ -96,6 +87,9 @@ class Canvas {
     unclip();
   }
 
+  /// Where the texts drawn so far stand: boxes as wide as their lines and as high as their capitals.
+  const std::vector<Rect>& words() const { return words_; }
+
   /// The file. Once, at the end.
   std::vector<char> finish();
 
@@ -104,6 +98,7 @@ class Canvas {
   void clip(const Rect& rect);
   void unclip();
   Page page_;
+  std::vector<Rect> words_;
   std::unique_ptr<Impl> impl_;
 };
 

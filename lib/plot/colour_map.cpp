@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/error.hpp"
 
@@ -40,7 +41,7 @@ Colour colour_of(const Lab& lab) {
 /// A path through colours, 0 to 1, smooth through the points given; walked at equal speed by `even`.
 class Path {
  public:
-  explicit Path(std::vector<Shade> points) : points_(std::move(points)) {
+  explicit Path(std::span<const Shade> points) : points_(points.begin(), points.end()) {
     double length = 0;
     Lab last = lab_of(at(0));
     length_.push_back(0);
@@ -83,11 +84,11 @@ class Path {
   std::vector<double> length_;
 };
 
-const std::vector<Shade> uniform = {{0.24, 0.105, 285}, {0.42, 0.115, 262}, {0.56, 0.095, 215},
-                                    {0.69, 0.125, 160}, {0.81, 0.165, 122}, {0.94, 0.17, 105}};
-const std::vector<Shade> blue = {{1.0, 0.0, 255}, {0.80, 0.105, 250}, {0.56, 0.165, 258}, {0.36, 0.125, 262}};
-const std::vector<Shade> red = {{1.0, 0.0, 30}, {0.80, 0.115, 35}, {0.56, 0.19, 27}, {0.36, 0.135, 25}};
-const std::vector<Shade> grey = {{0.0, 0, 0}, {1.0, 0, 0}};
+constexpr Shade uniform[] = {{0.25, 0.12, 290}, {0.40, 0.115, 265}, {0.54, 0.095, 225},
+                             {0.67, 0.11, 170}, {0.80, 0.145, 130}, {0.94, 0.19, 106}};
+constexpr Shade blue[] = {{1.0, 0.0, 255}, {0.80, 0.105, 250}, {0.56, 0.165, 258}, {0.36, 0.125, 262}};
+constexpr Shade red[] = {{1.0, 0.0, 30}, {0.80, 0.115, 35}, {0.56, 0.19, 27}, {0.36, 0.135, 25}};
+constexpr Shade grey[] = {{0.0, 0, 0}, {1.0, 0, 0}};
 
 }  // namespace
 
@@ -103,8 +104,9 @@ ColourMap::ColourMap(const std::string& name) {
     throw Error("found the map '" + name + "', expected one of " + list, ErrorKind::usage);
   }
   diverging_ = name == "blue-red" || name == "red-blue";
-  const Path low(diverging_ ? (name == "blue-red" ? blue : red) : (name == "uniform" ? uniform : grey));
-  const Path high(name == "blue-red" ? red : blue);
+  const std::span<const Shade> cold(blue), warm(red), even(uniform), plain(grey);
+  const Path low(diverging_ ? (name == "blue-red" ? cold : warm) : (name == "uniform" ? even : plain));
+  const Path high(name == "blue-red" ? warm : cold);
   for (int n = 0; n < steps; ++n) {
     const double part = double(n) / (steps - 1);
     if (!diverging_) {

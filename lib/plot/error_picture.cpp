@@ -226,7 +226,7 @@ Picture draw_error(const std::vector<AccuracyTable>& tables, bool overlay, const
     panel.draw(canvas);
   }
   if (below) below->draw(canvas, {(page.width_pt - below->width()) / 2, page.height_pt - legend_pt});
-  return {canvas.finish()};
+  return {canvas.finish(), canvas.words()};
 }
 
 }  // namespace slipwave::plot

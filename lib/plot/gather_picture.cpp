@@ -107,6 +107,7 @@ Picture draw_gather(GatherSection section, const GatherStyle& style, const Look&
     picture.notes.push_back("the file holds other components, too; this is " +
                             std::string(name_of(section.component)));
   picture.bytes = canvas.finish();
+  picture.words = canvas.words();
   return picture;
 }
 

@@ -19,10 +19,10 @@ Limits parse_limits(std::string_view text);
 
 /// What a user may ask of every picture.
 struct Look {
-  std::string map;                // name of a colour map; empty: the picture's own
-  double clip_percent = 99;       // colours and wiggles are full at this percentile of magnitudes
-  std::optional<Limits> colours;  // instead, in the unit of the data
-  std::optional<Limits> x, y;     // what part of the axes is shown
+  std::string map = {};                  // name of a colour map; empty: the picture's own
+  double clip_percent = 99;              // colours and wiggles are full at this percentile of magnitudes
+  std::optional<Limits> colours = {};    // instead, in the unit of the data
+  std::optional<Limits> x = {}, y = {};  // what part of the axes is shown
 };
 
 /// Narrows the axis to the limits, where there are any. Throws a usage Error naming `option` when nothing of

@@ -73,7 +73,7 @@ Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks&
   if (!as_sets) draw_fractures(canvas, panel, section, pixels, image);
   panel.draw(canvas);
   draw_survey(canvas, panel, marks);
-  return {canvas.finish()};
+  return {canvas.finish(), canvas.words()};
 }
 
 }  // namespace slipwave::plot

@@ -8,10 +8,6 @@ namespace {
 
 constexpr int most_crossings = 1;  // more would make a text hard to read
 
-bool overlap(const Rect& a, const Rect& b) {
-  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
-}
-
 /// Does the line from a to b pass through the rectangle? (Liang and Barsky: the part of it inside is not
 /// empty.)
 bool crosses(const Spot& a, const Spot& b, const Rect& rect) {

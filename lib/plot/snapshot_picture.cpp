@@ -81,7 +81,7 @@ Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional
   if (model) draw_fractures(canvas, panel, *model, pixels_of(panel, page, model->grid()), image, false);
   panel.draw(canvas);
   draw_survey(canvas, panel, marks);
-  return {canvas.finish()};
+  return {canvas.finish(), canvas.words()};
 }
 
 }  // namespace slipwave::plot

@@ -118,7 +118,7 @@ Picture draw_lines(const std::vector<Spectra>& files, bool log, const Look& look
     canvas.within(panel.plot(), [&] { draw_group(canvas, panel, groups[g], log); });
     panel.draw(canvas);
   }
-  return {canvas.finish()};
+  return {canvas.finish(), canvas.words()};
 }
 
 Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
@@ -161,7 +161,7 @@ Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
   Canvas canvas(page);
   canvas.image(image, plot);
   panel.draw(canvas);
-  return {canvas.finish()};
+  return {canvas.finish(), canvas.words()};
 }
 
 }  // namespace

@@ -107,14 +107,15 @@ std::string power_of_ten(int exponent) {
 }
 
 std::string log_label(double tick) {
-  if (tick >= 0.9e-3 && tick <= 1.1e4) {
+  const auto shown = [](double value) {
     std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%.6g", tick);
-    return text.data();
-  }
+    std::snprintf(text.data(), text.size(), "%.6g", value);
+    return std::string(text.data());
+  };
+  if (tick >= 0.9e-3 && tick <= 1.1e4) return shown(tick);
   const int exponent = int(std::floor(std::log10(tick) + 1e-9));
-  const int digit = int(std::lround(tick / std::pow(10.0, exponent)));
-  return (digit == 1 ? "" : std::to_string(digit) + "\u00b7") + power_of_ten(exponent);
+  const auto digits = shown(tick / std::pow(10.0, exponent));
+  return (digits == "1" ? "" : digits + "\u00b7") + power_of_ten(exponent);
 }
 
 int axis_exponent(double largest) {

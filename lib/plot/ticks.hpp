@@ -26,7 +26,7 @@ Ticks log_ticks(double low, double high, int density);
 /// Numbers as labels, all with the same digits behind the point, as many as the step asks for; with a true
 /// minus sign.
 std::vector<std::string> linear_labels(const std::vector<double>& ticks, double step);
-/// "0.1", "20", beyond 0.001 .. 10000 "10⁻⁵" and "2·10⁶".
+/// A number above zero by itself: "0.1", "20", beyond 0.001 .. 10000 "10⁻⁵" and "2.5·10⁶".
 std::string log_label(double tick);
 
 /// A number as an exponent: "⁻¹·⁵" for "-1.5".

@@ -62,7 +62,7 @@ double text_width(const std::string& text, double size_pt, bool bold) {
 
 std::string shortened(const std::string& text, double width_pt, double size_pt, bool bold) {
   if (text_width(text, size_pt, bold) <= width_pt) return text;
-  std::string best;
+  std::string best = text_width("\u2026", size_pt, bold) <= width_pt ? "\u2026" : "";
   for (std::size_t at = 0; at < text.size();) {
     at += std::max<std::size_t>(1, character_length(text, at));
     const std::string candidate = text.substr(0, at) + "\u2026";

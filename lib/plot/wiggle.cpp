@@ -8,7 +8,7 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr double closest_pt = 2, overlap = 1.4;
+constexpr double closest_pt = 2, reach_part = 1.4;
 
 /// A trace in points: excursion to the right over the height. Where there are more than four samples a pixel,
 /// only the least and the greatest of each stay, in their order.
@@ -60,7 +60,7 @@ std::size_t draw_wiggles(Canvas& canvas, const Panel& panel, const GatherSection
   if (places.size() > 1)
     spacing = std::fabs(panel.x(places.back()) - panel.x(places.front())) / double(places.size() - 1);
   const auto every = std::max<std::size_t>(1, std::size_t(std::ceil(closest_pt / spacing - 1e-9)));
-  const double reach = overlap * spacing * double(every);
+  const double reach = reach_part * spacing * double(every);
   const double pixel_pt = 1 / canvas.page().scale();
   for (std::size_t n = 0; n < places.size(); n += every) {
     const double x = panel.x(places[n]);

@@ -1,0 +1,125 @@
+#include <string>
+
+#include "shell.hpp"
+
+namespace {
+
+using Plot = Shell;
+
+const std::string layers =
+    "sw-layers --size 600x400 --step 10 --layer 0:1500:0:1000 --layer 100:2500:1250:2200 ";
+const std::string fracture = "sw-fracture - --box 200:400,200:250 --dip 45 --friction 0.1 --viscosity 1e3 ";
+const std::string shoot =
+    "sw-shoot m.nc --source 300,50 --wavelet ricker:15 --receivers 0:600:20,10 --time 0.3 ";
+
+/// m.nc, g.sgy of two components, s.nc of four snapshots, a.nc of spectra.
+const std::string everything = layers + "| " + fracture + "-o m.nc; " + shoot +
+                               "--record p,vz --snapshots s.nc --every 0.1 --fields p,vz -o g.sgy; "
+                               "sw-spectrum g.sgy -o a.nc; ";
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// Width and height of a PNG stand in its bytes 17 to 24.
+std::string size_line(const std::string& file) {
+  return "head -c 24 " + file + " | tail -c 8 | od --endian=big -An -t u4 | tr -s ' '";
+}
+
+}  // namespace
+
+TEST_F(Plot, DrawsEveryKindInEveryFormatTheSameTwice) {
+  done(everything);
+  const std::string inputs[] = {"m.nc --survey g.sgy", "g.sgy -q --style both", "s.nc --over m.nc",
+                                "a.nc --log"};
+  std::string lines;
+  for (const auto& input : inputs) {
+    for (const std::string format : {"png", "pdf", "svg"})
+      lines += "sw-plot " + input + " --title 'A < B & C' -o $1/" + input.substr(0, 1) + "." + format + "\n";
+  }
+  write("draw.sh", lines);
+  // Files that know the time of their making differ after a second.
+  done("mkdir one two; bash draw.sh one; sleep 1.1; bash draw.sh two; diff -r one two");
+  for (const auto& input : inputs) {
+    const auto name = "one/" + input.substr(0, 1);
+    EXPECT_EQ(content(name + ".png").substr(1, 3), "PNG");
+    const auto pdf = content(name + ".pdf"), svg = content(name + ".svg");
+    EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+    EXPECT_TRUE(has(pdf.substr(pdf.size() - 8), "%%EOF"));
+    EXPECT_FALSE(has(pdf, "CreationDate"));
+    EXPECT_TRUE(has(svg, "<title>A &lt; B &amp; C</title>"));
+    EXPECT_TRUE(has(svg, "<desc>sw-plot " + input.substr(0, 4))) << svg.substr(0, 800);
+    done("if command -v xmllint > /dev/null; then xmllint --noout " + name + ".svg; fi");
+  }
+}
+
+TEST_F(Plot, TakesItsInputFromAPipeAndWritesAPngToOne) {
+  done(everything);
+  for (const std::string file : {"m.nc", "g.sgy", "s.nc", "a.nc"}) {
+    done("sw-plot -q " + file + " -o named.png; cat " + file +
+         " | sw-plot -q > piped.png; test -s piped.png");
+    // The command is kept in the file; the picture is the same.
+    EXPECT_EQ(done(size_line("named.png")), done(size_line("piped.png"))) << file;
+  }
+}
+
+TEST_F(Plot, HasTheSizeThatWasAskedFor) {
+  done(everything);
+  EXPECT_EQ(done("sw-plot m.nc --size 700x500px -o a.png; " + size_line("a.png")), " 700 500\n");
+  EXPECT_EQ(done("sw-plot a.nc --size 10x8cm --dpi 254 -o a.png; " + size_line("a.png")), " 1000 800\n");
+}
+
+TEST_F(Plot, AMovieHasAFrameForEachTimeOnOneScale) {
+  done(everything);
+  done("mkdir film; sw-plot s.nc --field vz --movie -o film/wave.png");
+  const auto times = done("sw-info s.nc | grep -o 'time [0-9]*' | head -n 1 | cut -d ' ' -f 2");
+  EXPECT_EQ(done("ls film | wc -l"), times);
+  EXPECT_TRUE(exists("film/wave-0001.png"));
+  // The strongest wave sets the scale: alone, an early picture has one of its own and other bytes.
+  done("sw-plot s.nc --field vz --time 0.1 -o alone.png");
+  EXPECT_NE(content("alone.png"), content("film/wave-0002.png"));
+  done("mkdir again; sw-plot s.nc --field vz --movie -o again/wave.png; diff -r film again");
+}
+
+TEST_F(Plot, WarnsOfWhatItLeavesOut) {
+  done(everything);
+  const auto ran = run("sw-plot g.sgy -o g.png");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err, "sw-plot: warning: the file holds other components, too; this is p\n");
+  done("sw-plot g.sgy --component vz -q -o g.png");
+}
+
+TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
+  done(everything);
+  write("notes.txt", "no picture\n");
+  const auto before = files();
+  const auto refused = [&](const std::string& arguments, int code, const std::string& message) {
+    expect_refused("sw-plot " + arguments, code, "sw-plot: " + message);
+    EXPECT_EQ(files(), before) << arguments;
+  };
+  refused("none.nc -o x.png", 1, "none.nc: No such file or directory");
+  refused("notes.txt -o x.png", 1,
+          "notes.txt: is no netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
+          "or a gather");
+  refused("m.nc -o x.gif", 2, "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg");
+  refused("m.nc --map jet -o x.png", 2,
+          "--map: found the map 'jet', expected one of uniform, grey, white-black, blue-red, red-blue");
+  refused("m.nc --clip 0 -o x.png", 2, "--clip: found 0, expected above 0, at most 100");
+  refused("m.nc --size 5x5 -o x.png", 2,
+          "--size: found '5x5', expected WIDTHxHEIGHT with cm or px behind it");
+  refused("m.nc --range 5:3 -o x.png", 2, "--range: found '5:3', expected LOW:HIGH with LOW below HIGH");
+  refused("m.nc --x 900:1000 -o x.png", 2, "--x: found 900:1000, the data run from 0 to 600");
+  refused("g.sgy --component vx -o x.png", 1, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
+  refused("g.sgy --shot 9 -o x.png", 1, "g.sgy: has no trace of shot 9, it holds vz, p of shots 1 to 1");
+  refused("s.nc --field div -o x.png", 1, "s.nc: found no field 'div', it holds p, vz");
+  refused("m.nc g.sgy -o x.png", 2,
+          "m.nc: several files are drawn together where all hold spectra or all hold errors");
+  refused("m.nc --movie -o x.png", 1, "m.nc: holds no snapshots, expected them for --movie");
+  refused("s.nc --movie", 2, "--movie: draws one file of snapshots, and needs a name (-o NAME.png)");
+}
+
+TEST_F(Plot, ADamagedFileLeavesAnOlderPictureAsItWas) {
+  done(everything + "sw-plot m.nc -o m.png; cp m.png old.png; head -c 3000 m.nc > cut.nc");
+  const auto ran = run("sw-plot cut.nc -o m.png");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_TRUE(has(ran.err, "sw-plot: cut.nc: ")) << ran.err;
+  done("cmp m.png old.png");
+}

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include "plot/model_picture.hpp"
+#include "plot_cases.hpp"
+#include "plot_pixels.hpp"
+
+namespace slipwave::plot {
+namespace {
+
+const Look in_grey{.map = "grey"};
+// Half way from black to white as the eye sees it, lightness 128/255 of Oklab: its cube is the linear light,
+// of which sRGB makes 1.055 (128/255)^(3/2.4) - 0.055 = 0.391.
+constexpr std::uint32_t half_grey = 0x646464;
+
+TEST(PlotModel, EveryCellHasTheColourOfItsValue) {
+  const auto picture = draw_model(three_blocks(), false, {}, in_grey, page_of_size("800x600px"));
+  const auto pixels = decoded(picture.bytes);
+  ASSERT_EQ(pixels.width, 800);
+  ASSERT_EQ(pixels.height, 600);
+  // 1000 to 3000 m/s is black to white: 2000 is the middle grey, half as wide as the model and, below the
+  // void, three quarters as high; the void is light grey and as wide as the model.
+  const auto middle = patch_of(pixels, half_grey), nothing = patch_of(pixels, 0xdbdbdb);
+  const int width = nothing.right - nothing.left + 1, void_rows = nothing.bottom - nothing.top + 1;
+  const int rows = middle.bottom - middle.top + 1;
+  EXPECT_GT(width, 500);
+  EXPECT_NEAR(rows / double(rows + void_rows), 0.75, 0.01);
+  EXPECT_EQ(middle.top, nothing.bottom + 1);
+  // Where the bar is left out, the middle grey is one rectangle.
+  int columns = 0;
+  while (pixels.at(middle.left + columns, middle.top + 3) == half_grey) ++columns;
+  EXPECT_NEAR(columns, width / 2, 2);
+  EXPECT_NEAR(middle.left - nothing.left, width / 4, 2);
+  EXPECT_EQ(pixels.at(middle.left - 4, middle.top + 3), 0x000000u);
+  EXPECT_EQ(pixels.at(middle.left + columns + 3, middle.top + 3), 0xffffffu);
+}
+
+TEST(PlotModel, BothAxesHaveOneScaleWhereTheSizeIsNotGiven) {
+  const auto pixels = decoded(draw_model(three_blocks(), false, {}, in_grey, page_of_size("")).bytes);
+  const auto middle = patch_of(pixels, half_grey), nothing = patch_of(pixels, 0xdbdbdb);
+  const double metre_across = (nothing.right - nothing.left + 1) / 400.0;
+  const double metre_down = (middle.bottom - middle.top + 1) / 150.0;
+  EXPECT_NEAR(metre_across / metre_down, 1, 0.02);
+}
+
+TEST(PlotModel, TheRangeSaysWhatTheColoursMean) {
+  Look look = in_grey;
+  look.colours = Limits{2000, 4000};
+  const auto pixels = decoded(draw_model(three_blocks(), false, {}, look, page_of_size("800x600px")).bytes);
+  const auto middle = patch_of(pixels, half_grey);  // 3000 m/s, the right quarter
+  const auto nothing = patch_of(pixels, 0xdbdbdb);
+  EXPECT_NEAR(middle.left, nothing.left + 3 * (nothing.right - nothing.left) / 4, 3);
+}
+
+TEST(PlotModel, FracturesAreMarkedWhereTheyAreAndNowhereElse) {
+  const auto page = page_of_size("800x600px");
+  const auto intact = decoded(draw_model(three_blocks(), false, {}, in_grey, page).bytes);
+  const auto marked = decoded(draw_model(fractured_blocks(), false, {}, in_grey, page).bytes);
+  const auto nothing = patch_of(intact, 0xdbdbdb), middle = patch_of(intact, half_grey);
+  const double metre_x = (nothing.right - nothing.left + 1) / 400.0;
+  const double metre_z = (middle.bottom - middle.top + 1) / 150.0;
+  Patch changed{0, 800, -1, 600, -1};
+  std::int64_t inside = 0;
+  for (int y = 0; y < 600; ++y) {
+    for (int x = 0; x < 800; ++x) {
+      if (intact.at(x, y) == marked.at(x, y)) continue;
+      ++changed.count;
+      changed = {changed.count, std::min(changed.left, x), std::max(changed.right, x),
+                 std::min(changed.top, y), std::max(changed.bottom, y)};
+    }
+  }
+  EXPECT_NEAR(changed.left, nothing.left + 120 * metre_x, 2);
+  EXPECT_NEAR(changed.right, nothing.left + 280 * metre_x, 2);
+  EXPECT_NEAR(changed.top, nothing.top + 100 * metre_z, 2);
+  EXPECT_NEAR(changed.bottom, nothing.top + 150 * metre_z, 2);
+  // Hatched along the planes, which are vertical: columns are marked all the way or not at all.
+  const int middle_row = (changed.top + changed.bottom) / 2;
+  for (int x = changed.left + 5; x < changed.right - 4; ++x) {
+    const bool on = intact.at(x, middle_row) != marked.at(x, middle_row);
+    inside += on;
+    for (const int y : {changed.top + 6, changed.bottom - 6})
+      EXPECT_EQ(intact.at(x, y) != marked.at(x, y), on) << x;
+  }
+  EXPECT_GT(inside, 10);
+  EXPECT_LT(inside, (changed.right - changed.left) / 2);
+}
+
+TEST(PlotModel, SetsHaveColoursOfTheirOwn) {
+  const auto picture = draw_model(fractured_blocks(), true, {}, {}, page_of_size("800x600px"));
+  const auto set = patch_of(decoded(picture.bytes), pixel_of(line_colour(0)) & 0xffffff);
+  EXPECT_GT(set.count, 3000);
+}
+
+TEST(PlotModel, SourcesAndReceiversStandAtTheirPlaces) {
+  const auto page = page_of_size("800x600px");
+  const SurveyMarks marks{{{100, 120}}, {}};
+  const auto pixels = decoded(draw_model(three_blocks(), false, marks, in_grey, page).bytes);
+  const auto nothing = patch_of(pixels, 0xdbdbdb), middle = patch_of(pixels, half_grey);
+  Patch star{0, 800, -1, 600, -1};
+  for (int y = nothing.top; y <= middle.bottom; ++y) {  // not the legend's
+    for (int x = 0; x < 800; ++x) {
+      if (!alike(pixels.at(x, y), 0xcc1a1a)) continue;
+      star = {star.count + 1, std::min(star.left, x), std::max(star.right, x), std::min(star.top, y),
+              std::max(star.bottom, y)};
+    }
+  }
+  ASSERT_GT(star.count, 20);
+  EXPECT_NEAR((star.left + star.right) / 2.0, nothing.left + (nothing.right - nothing.left + 1) / 4.0, 2);
+  const double metre_z = (middle.bottom - middle.top + 1) / 150.0;
+  EXPECT_NEAR((star.top + star.bottom) / 2.0, nothing.top + 120 * metre_z, 3);
+}
+
+TEST(PlotModel, APartOfTheAxesIsThatPart) {
+  Look look = in_grey;
+  look.x = Limits{100, 300};
+  look.y = Limits{50, 200};
+  const auto pixels = decoded(draw_model(three_blocks(), false, {}, look, page_of_size("800x600px")).bytes);
+  EXPECT_EQ(patch_of(pixels, 0xdbdbdb).count, 0);
+  const auto middle = patch_of(pixels, half_grey);
+  EXPECT_EQ(pixels.at(middle.left + 250, middle.top + 200), half_grey);
+}
+
+}  // namespace
+}  // namespace slipwave::plot

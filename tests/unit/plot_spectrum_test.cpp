@@ -1,0 +1,120 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "gather/spectrum_file.hpp"
+#include "plot/colour_map.hpp"
+#include "plot/spectra.hpp"
+#include "plot/spectrum_picture.hpp"
+#include "plot_cases.hpp"
+#include "plot_pixels.hpp"
+
+namespace slipwave::plot {
+namespace {
+
+class PlotSpectrum : public testing::Test {
+ protected:
+  PlotSpectrum()
+      : path_(std::filesystem::temp_directory_path() / ("plot_spectrum_" + std::to_string(::getpid()))) {}
+  ~PlotSpectrum() override { std::filesystem::remove(path_); }
+
+  NetcdfFile open() const { return NetcdfFile::open(path_.string()); }
+  void write_means() const {
+    OutputFile out(path_.string(), OutputFile::Content::binary);
+    const auto file = spectrum_netcdf(out, {{0, 10, 20}, false, "", "", {}});
+    std::map<Component, SpectrumMean> means;
+    means[Component::vz].add(std::vector<double>{1, 5, 2});
+    means[Component::p].add(std::vector<double>{100, 300, 200});
+    file->add_means(means);
+    file->finish();
+  }
+  void write_traces(const std::vector<double>& x_m) const {
+    OutputFile out(path_.string(), OutputFile::Content::binary);
+    const auto file = spectrum_netcdf(out, {{0, 10, 20}, false, "", "", {}});
+    for (std::size_t n = 0; n < x_m.size(); ++n) {
+      for (const auto component : {Component::vx, Component::vz}) {
+        TraceHeader header;
+        header.component = component;
+        header.receiver_m[0] = x_m[n];
+        const double base = component == Component::vz ? 100 : 1;
+        file->add(header, std::vector<double>{base, base + double(n), base});
+      }
+    }
+    file->finish();
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+TEST_F(PlotSpectrum, MeansAreReadComponentByComponent) {
+  write_means();
+  const auto spectra = read_spectra(open(), {});
+  EXPECT_FALSE(spectra.each());
+  EXPECT_EQ(spectra.quantity, "amplitude");
+  EXPECT_EQ(spectra.frequencies_hz, (std::vector<double>{0, 10, 20}));
+  ASSERT_EQ(spectra.lines.size(), 2u);
+  const auto only = read_spectra(open(), Component::vz);
+  ASSERT_EQ(only.lines.size(), 1u);
+  EXPECT_EQ(only.lines[0].values, (std::vector<double>{1, 5, 2}));
+  EXPECT_EQ(only.lines[0].unit, "m/s/Hz");
+  EXPECT_THROW(read_spectra(open(), Component::sxx), Error);
+}
+
+TEST_F(PlotSpectrum, TracesOfOneComponentStandAtTheirReceivers) {
+  write_traces({5, 10, 20});
+  const auto spectra = read_spectra(open(), Component::vz);
+  EXPECT_TRUE(spectra.each());
+  EXPECT_TRUE(spectra.at_x);
+  EXPECT_EQ(spectra.places, (std::vector<double>{5, 10, 20}));
+  ASSERT_EQ(spectra.lines.size(), 3u);
+  EXPECT_EQ(spectra.lines[2].values, (std::vector<double>{100, 102, 100}));
+  EXPECT_EQ(read_spectra(open(), {}).lines[1].values, (std::vector<double>{1, 2, 1}));
+}
+
+TEST_F(PlotSpectrum, TracesThatDoNotAscendStandByNumber) {
+  write_traces({5, 20, 10});
+  const auto spectra = read_spectra(open(), {});
+  EXPECT_FALSE(spectra.at_x);
+  EXPECT_EQ(spectra.places, (std::vector<double>{1, 2, 3}));
+}
+
+TEST_F(PlotSpectrum, ThePeakStandsAtItsFrequency) {
+  Spectra spectra{"a.nc", "amplitude", {}, {{"vz", "m/s/Hz", {}}}, {}, false};
+  for (int n = 0; n <= 400; ++n) {
+    spectra.frequencies_hz.push_back(0.25 * n);
+    spectra.lines[0].values.push_back(n == 160 ? 1 : 0);  // at 40 Hz
+  }
+  Look look;
+  look.x = Limits{0, 100};
+  const auto pixels = decoded(draw_spectra({spectra}, false, look, page_of_size("1000x600px")).bytes);
+  const std::uint32_t colour = pixel_of(line_colour(0)) & 0xffffff;
+  // Along the bottom the line runs over the whole axis; high up only the peak is left.
+  int left = 1000, right = 0;
+  Patch peak{0, 1000, -1, 600, -1};
+  for (int y = 0; y < pixels.height; ++y) {
+    for (int x = 0; x < 850; ++x) {
+      if (!alike(pixels.at(x, y), colour)) continue;
+      left = std::min(left, x);
+      right = std::max(right, x);
+      if (y < 300) peak = {peak.count + 1, std::min(peak.left, x), std::max(peak.right, x), 0, 0};
+    }
+  }
+  ASSERT_GT(peak.count, 10);
+  EXPECT_NEAR((peak.left + peak.right) / 2.0, left + 0.4 * (right - left), 3);
+}
+
+TEST_F(PlotSpectrum, SpectraOfEachTraceAreDrawnAlone) {
+  write_traces({5, 10, 20});
+  const auto spectra = read_spectra(open(), {});
+  EXPECT_GT(draw_spectra({spectra}, false, {}, page_of_size("")).bytes.size(), 1000u);
+  EXPECT_THROW(draw_spectra({spectra, spectra}, false, {}, page_of_size("")), Error);
+}
+
+}  // namespace
+}  // namespace slipwave::plot
