@@ -22,6 +22,11 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
     if (!traction && !fluid) return Beyond::unknown;
     normal = !traction;
   }
+  // Along an edge fluid moves as the slope of its pressure makes it, and so with the pressure's parity.
+  if (velocity && !normal && fluid) {
+    velocity = false;
+    normal = true;
+  }
   const bool motionless = continuation(law, normal ? wave_p : wave_s) == Continuation::motionless;
   return velocity == motionless ? Beyond::odd : Beyond::even;
 }
