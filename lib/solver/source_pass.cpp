@@ -1,7 +1,10 @@
 #include "solver/source_pass.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
+#include "acquisition/interpolation.hpp"
 #include "solver/point_access.hpp"
 
 namespace slipwave::solver {
@@ -31,7 +34,7 @@ class SourcePass : public Pass {
         add(domain, source, Rows::shear_stress(i, j), Rows::shear_stress(i, j),
             -injection.moment_rate(i, j) / volume);
     }
-    lines_ = lines_of(values_);
+    find_lines(centre);
   }
   void run(const StepTime& time) override {
     if (!acts(time)) return;
@@ -54,6 +57,20 @@ class SourcePass : public Pass {
       value.weight *= strength;
       values_.push_back(value);
     }
+  }
+  /// All lines that a source in this cell can reach, wherever in the cell it is: lines that are acted on take
+  /// two half sweeps a step, and which ones do must not depend on the place, or it would be heard.
+  void find_lines(const Index<D>& centre) {
+    constexpr std::int64_t reach = widest_stencil / 2;
+    lines_ = lines_of(values_);
+    for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
+      const auto at = state_.layout.line_index(line);
+      bool near = true;
+      for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre[axis]) <= reach;
+      if (near) lines_.push_back(line);
+    }
+    std::sort(lines_.begin(), lines_.end());
+    lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
   }
   State<D, Real>& state_;
   Wavelet wavelet_;
