@@ -138,5 +138,38 @@ TEST(Reciprocity, OfForcesHoldsThroughWaterAndRock) {
             0.02);
 }
 
+TEST(Reciprocity, OfExplosionsForcesPressureAndVelocityHoldsThroughWaterAndRock) {
+  // An explosion and the dilatation p/(lambda + mu) are conjugate, as a force and the velocity along it are:
+  //   p_b/(lambda + mu)_b of an explosion at a = p_a/(lambda + mu)_a of one at b,
+  //   v_b of an explosion at a = -p_a/(lambda + mu)_a of a force at b, the wavelet being that of the moment's
+  // rate there and of the force here. Second order leaves 2 % where the shortest waves hold 8 cells.
+  auto scene = reef();
+  scene.with_slip = false;
+  scene.survey.sources[0].wavelet = parse_wavelet("ricker:15");
+  scene.recording.duration_s = 0.4;
+  const auto trace = [&](const Point<2>& from, const Point<2>& to, const char* mechanism, Component component,
+                         double unit) {
+    scene.survey.sources[0].position_m = from;
+    scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
+    scene.survey.receivers_m = {to};
+    scene.recording.components = {component};
+    auto samples = shoot(scene, 1).traces[0].samples;
+    for (double& sample : samples) sample /= unit;
+    return samples;
+  };
+  const auto stiffness = [](const Rock& r) { return r.lambda() + r.mu(); };
+  const Point<2> in_water = {201, 53}, in_rock = {455, 361}, also_in_water = {520, 41};
+  for (const auto& [other, rock_there] : {std::pair(in_rock, rock), std::pair(also_in_water, water)})
+    EXPECT_LT(relative_error(trace(in_water, other, "explosion", Component::p, stiffness(rock_there)),
+                             trace(other, in_water, "explosion", Component::p, stiffness(water))),
+              0.02);
+  for (const auto& [force, component] :
+       {std::pair("force:1,0", Component::vx), std::pair("force:0,1", Component::vz)})
+    EXPECT_LT(relative_error(trace(in_water, in_rock, "explosion", component, 1),
+                             trace(in_rock, in_water, force, Component::p, -stiffness(water))),
+              0.02)
+        << force;
+}
+
 }  // namespace
 }  // namespace slipwave::solver
