@@ -1,12 +1,13 @@
 #include <optional>
 
+#include "accuracy/choice.hpp"
+#include "accuracy/plan.hpp"
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "model/model_netcdf.hpp"
 #include "shot_output.hpp"
 #include "shot_settings.hpp"
-#include "accuracy/plan.hpp"
 
 using namespace slipwave;
 
@@ -14,7 +15,7 @@ namespace {
 
 struct Settings {
   ShotSettings shot;
-  std::optional<double> every_s;
+  std::optional<double> every_s, wanted_error;
   bool plan = false;
   ShotOutput output;
 };
@@ -25,6 +26,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
   options.add("every", s.every_s, "S", "time between snapshots, s");
   options.add("fields", s.output.snapshot_fields, "LIST", "of vx, vz, p, sxx, szz, sxz, div, curl");
+  options.add("error", s.wanted_error, "SHARE",
+              "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
   options.add("plan", s.plan, "print what would be computed, and stop");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");
@@ -47,7 +50,16 @@ Scene<2> make_scene(const Settings& s) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  const Scene<2> scene = make_scene(settings);
+  Scene<2> scene = make_scene(settings);
+  if (settings.wanted_error) {
+    if (!(*settings.wanted_error > 0))
+      throw Error("--error: found " + shown(*settings.wanted_error) + ", expected it above 0",
+                  ErrorKind::usage);
+    const auto choice = cheapest_setting(scene, *settings.wanted_error);
+    context.say("chose " + sentence_of(choice, scene));
+    scene = with_setting(scene, choice.setting);
+    check(scene);
+  }
   for (const auto& sentence : warnings(scene)) context.warn(sentence);
   if (settings.plan) {
     const std::string text = report_of(plan(scene)).lines();

@@ -30,11 +30,15 @@ void print(const std::string& text) {
 }  // namespace
 
 void Context::warn(const std::string& sentence) const {
-  if (!quiet) say(tool, "warning: " + sentence);
+  if (!quiet) cli::say(tool, "warning: " + sentence);
+}
+
+void Context::say(const std::string& sentence) const {
+  if (!quiet) cli::say(tool, sentence);
 }
 
 void Context::note(const std::string& sentence) const {
-  if (verbose && !quiet) say(tool, sentence);
+  if (verbose && !quiet) cli::say(tool, sentence);
 }
 
 int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,

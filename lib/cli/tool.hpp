@@ -70,6 +70,8 @@ struct Context {
 
   /// One line on stderr "sw-x: warning: ..." unless --quiet.
   void warn(const std::string& sentence) const;
+  /// One line on stderr "sw-x: ..." unless --quiet.
+  void say(const std::string& sentence) const;
   /// One line on stderr under --verbose.
   void note(const std::string& sentence) const;
   /// A bar with rate and ETA on a terminal, a line every 10 % under --verbose without one, else nothing.
