@@ -137,7 +137,7 @@ void Canvas::text(const Spot& at, const std::string& text, const TextStyle& styl
   cairo_translate(to, at.x, at.y);
   if (style.upwards) cairo_rotate(to, -std::numbers::pi / 2);
   cairo_move_to(to, x, y);
-  cairo_show_text(to, text.c_str());
+  cairo_show_text(to, legible(text).c_str());
   cairo_restore(to);
 }
 

@@ -46,7 +46,10 @@ struct Image {
   }
 };
 
-/// Width of a text in points.
+/// Bytes that are no UTF-8, and control characters, as question marks: texts of files are drawn as far as
+/// they can be.
+std::string legible(const std::string& text);
+/// Width of a text, made legible, in points.
 double text_width(const std::string& text, double size_pt, bool bold = false);
 /// Height of a line of text without what hangs below it, and with it, as parts of its size.
 inline constexpr double cap_height = 0.73;

@@ -197,7 +197,7 @@ Picture draw_error(const std::vector<AccuracyTable>& tables, bool overlay, const
   const auto count = double(drawing.panels.size());
   if (page.height_pt == 0) {
     page.width_pt = std::min(16 + 7 * (count - 1), 40.0) * points_per_cm;
-    page.height_pt = 11 * points_per_cm;
+    page.height_pt = 11 * points_per_cm + extra_height_pt(drawing.legend.size());
   }
   Canvas canvas(page);
   const bool alone = drawing.panels.size() == 1;

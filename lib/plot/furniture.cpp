@@ -11,6 +11,11 @@ double row_height(double text_pt) { return 1.45 * text_pt; }
 
 }  // namespace
 
+double extra_height_pt(std::size_t legend_entries) {
+  constexpr std::size_t usual = 12;
+  return legend_entries > usual ? double(legend_entries - usual) * 7 : 0;  // half a row: mostly two columns
+}
+
 double Legend::widest(const std::vector<LegendEntry>& entries, double text_pt) {
   double widest = 0;
   for (const auto& entry : entries) widest = std::max(widest, text_width(entry.text, text_pt));

@@ -27,6 +27,9 @@ struct LegendEntry {
   bool ring = false;   // round what is chosen
 };
 
+/// Height to add to a page whose size is free, so that a long legend does not press the data together.
+double extra_height_pt(std::size_t legend_entries);
+
 /// The legend of a panel in rows and columns, shortened where one entry is wider than the room.
 class Legend {
  public:

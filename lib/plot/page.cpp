@@ -35,7 +35,7 @@ Page page_of(Format format, const PageSettings& settings) {
   Page page;
   page.format = format;
   page.title = settings.title;
-  page.history = settings.history;
+  page.history = legible(settings.history);
   page.dpi = settings.dpi.value_or(format == Format::png ? 150 : 300);
   if (!(page.dpi >= 20 && page.dpi <= 2400))
     throw Error("--dpi: found " + shown(page.dpi) + ", expected 20 to 2400", ErrorKind::usage);

@@ -46,7 +46,9 @@ std::uint32_t over(std::uint32_t ground, double value, const ColourBar& bar) {
 
 std::string title_of(const Snapshot& snapshot, const std::string& title) {
   char time[40];
-  std::snprintf(time, sizeof time, "t = %.4g s", snapshot.time_s);
+  // Milliseconds as a rule, so that the titles of a film do not move; more where they would be nothing.
+  std::snprintf(time, sizeof time, std::fabs(snapshot.time_s) < 0.02 ? "t = %.3g s" : "t = %.3f s",
+                snapshot.time_s);
   return title.empty() ? time : title + ", " + time;
 }
 

@@ -92,7 +92,11 @@ void draw_group(Canvas& canvas, const Panel& panel, const Group& group, bool log
 
 Picture draw_lines(const std::vector<Spectra>& files, bool log, const Look& look, Page page) {
   const auto groups = groups_of(files);
-  if (page.height_pt == 0) page.height_pt = (2 + 8 * double(groups.size())) * points_per_cm;
+  if (page.height_pt == 0) {
+    page.height_pt = 2 * points_per_cm;
+    for (const auto& group : groups)
+      page.height_pt += 8 * points_per_cm + 2 * extra_height_pt(group.members.size());
+  }
   const double height = page.height_pt / double(groups.size());
   std::vector<PanelSpec> specs;
   double left = 0, right = 0;  // so that the panels' frequencies stand above each other

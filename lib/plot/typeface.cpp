@@ -2,6 +2,7 @@
 
 #include <cairo/cairo.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -56,7 +57,7 @@ double text_width(const std::string& text, double size_pt, bool bold) {
   const std::unique_ptr<cairo_t, Destroy> drawing(cairo_create(surface.get()));
   use_typeface(drawing.get(), size_pt, bold);
   cairo_text_extents_t extents{};
-  cairo_text_extents(drawing.get(), text.c_str(), &extents);
+  cairo_text_extents(drawing.get(), legible(text).c_str(), &extents);
   return extents.x_advance;
 }
 
@@ -70,6 +71,20 @@ std::string shortened(const std::string& text, double width_pt, double size_pt, 
     best = candidate;
   }
   return best;
+}
+
+std::string legible(const std::string& text) {
+  std::string result;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = character_length(text, at);
+    const auto first = static_cast<unsigned char>(text[at]);
+    if (length == 0 || first < 0x20 || first == 0x7f)
+      result += '?';
+    else
+      result += text.substr(at, length);
+    at += std::max<std::size_t>(1, length);
+  }
+  return result;
 }
 
 void check_text(const std::string& text) {

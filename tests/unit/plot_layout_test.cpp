@@ -128,6 +128,13 @@ TEST(PlotLayout, SmallPicturesAreReadableOrRefused) {
   EXPECT_GT(drawn, 16);
 }
 
+TEST(PlotLayout, LongLegendsLeaveRoomForTheData) {
+  std::vector<Spectra> many(40, spectra_of("m/s/Hz"));
+  for (std::size_t n = 0; n < many.size(); ++n) many[n].name = "line-" + std::to_string(n) + ".nc";
+  const Page page = coarse_page("", "");
+  expect_in_order(draw_spectra(many, false, {}, page), page, "forty spectra");
+}
+
 TEST(PlotLayout, PanelsSideBySideKeepClear) {
   for (const char* title : {"", "All of them"}) {
     const Page page = coarse_page("", title);

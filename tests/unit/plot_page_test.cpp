@@ -101,6 +101,17 @@ TEST(PlotPage, APngKeepsTitleCommandAndResolution) {
   }
 }
 
+TEST(PlotPage, TextsOfFilesAreDrawnAsFarAsTheyCanBe) {
+  EXPECT_EQ(legible("a\xff\x01 \u00e4\xc3"), "a?? \u00e4?");
+  ModelSection section = fractured_blocks();
+  section.sets[0].name = "\xe9t\xe9\n";
+  EXPECT_GT(decoded(draw_model(section, true, {}, {}, page_of_size("")).bytes).width, 0);
+  for (const auto format : {Format::pdf, Format::svg}) {
+    const auto page = page_of(format, {"", {}, "", "sw-plot \xe9\x02.nc"});
+    EXPECT_GT(draw_model(section, false, {}, {}, page).bytes.size(), 1000u);
+  }
+}
+
 TEST(PlotPage, TextsAreShortenedToTheirRoom) {
   const std::string text = "\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc and so on";
   EXPECT_EQ(shortened(text, 1000, 9), text);
