@@ -68,7 +68,12 @@ plot::Picture gather_picture(Input& input, const PlotSettings& settings, const p
   plot::TraceChoice choice{settings.component, std::nullopt};
   if (settings.shot) choice.shot = std::int64_t(*settings.shot);
   auto section = plot::read_section(reader, choice);
-  return plot::draw_gather(std::move(section), settings.gather, settings.look, page);
+  std::string text;
+  if (!reader.header().su) {
+    for (const auto& line : segy::shown_lines(reader.header().text)) text += line + "\n";
+  }
+  return plot::draw_gather(std::move(section), settings.gather, settings.look,
+                           plot::with_history(page, text));
 }
 
 plot::Picture model_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
@@ -109,7 +114,7 @@ plot::Page page_of(const PlotSettings& settings) {
   return plot::page_of(in_place("--output", [&] { return plot::format_of(settings.output); }), settings.page);
 }
 
-plot::Picture picture_of(const PlotSettings& settings, const plot::Page& page) {
+plot::Picture picture_of(const PlotSettings& settings, const plot::Page& given) {
   std::vector<Input> inputs;
   for (const auto& path : settings.files) inputs.push_back(open_input(path, settings));
   if (inputs.empty()) inputs.push_back(open_input("-", settings));
@@ -121,6 +126,11 @@ plot::Picture picture_of(const PlotSettings& settings, const plot::Page& page) {
                       ": several files are drawn together where all hold spectra or all hold errors",
                   ErrorKind::usage);
   }
+  std::string history;
+  for (const auto& input : inputs) {
+    if (input.file) history += input.file->text_attribute("", "history").value_or("") + "\n";
+  }
+  const auto page = plot::with_history(given, history);
   if (kind == Kind::gather) return gather_picture(inputs.front(), settings, page);
   if (kind == Kind::model) return model_picture(inputs.front(), settings, page);
   if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), settings, page);
@@ -135,12 +145,13 @@ plot::Picture picture_of(const PlotSettings& settings, const plot::Page& page) {
 }
 
 void draw_movie(const PlotSettings& settings, const Progress& progress) {
-  const auto page = page_of(settings);
   if (settings.output == "-" || settings.files.size() > 1)
     throw Error("--movie: draws one file of snapshots, and needs a name (-o NAME.png)", ErrorKind::usage);
   auto input = open_input(settings.files.empty() ? "-" : settings.files.front(), settings);
   if (input.kind != Kind::snapshots)
     throw Error(shown_input(input.path) + ": holds no snapshots, expected them for --movie");
+  const auto page =
+      plot::with_history(page_of(settings), input.file->text_attribute("", "history").value_or(""));
   const SnapshotReader<2> reader(std::move(*input.file));
   const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
   const auto times = reader.times_s().size();

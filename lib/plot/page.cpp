@@ -59,6 +59,15 @@ Page page_of(Format format, const PageSettings& settings) {
   return page;
 }
 
+Page with_history(Page page, const std::string& of_input) {
+  std::string history;
+  for (const auto& line : split(of_input, '\n')) {
+    if (!line.empty()) history += legible(line) + "\n";
+  }
+  page.history = history + page.history;
+  return page;
+}
+
 void check_size(const Page& page) {
   if (std::max(page.width_pt, page.height_pt) * page.scale() > largest_px)
     throw Error("the picture would be " + std::to_string(std::lround(page.width_pt * page.scale())) + " x " +

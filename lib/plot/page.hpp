@@ -17,7 +17,7 @@ struct PageSettings {
   std::string size;           // "16x10cm", "1200x800px" or empty: as the picture needs
   std::optional<double> dpi;  // pixels per inch of a PNG and of images within PDF and SVG
   std::string title;          // empty: none
-  std::string history;        // the command, kept in the file
+  std::string history;        // the commands, kept in the file; a line each
 };
 
 /// The sheet; lengths are in points of 1/72 inch, x to the right and y down.
@@ -35,6 +35,9 @@ struct Page {
 /// Reads the settings; without a size the page is 16 cm wide and `height_pt` 0, for the picture to set. dpi:
 /// 150 for PNG, else 300. Throws a usage Error for what is no size, below 4 x 3 cm or above 20000 pixels.
 Page page_of(Format format, const PageSettings& settings);
+
+/// The same page, the history of its input before its own. Bytes that are no text become question marks.
+Page with_history(Page page, const std::string& of_input);
 
 /// Throws a usage Error when the page is too large to draw.
 void check_size(const Page& page);
