@@ -1,5 +1,12 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cmath>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/netcdf_file.hpp"
+#include "model/model_netcdf.hpp"
 #include "plot/model_picture.hpp"
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
@@ -11,6 +18,40 @@ const Look in_grey{.map = "grey"};
 // Half way from black to white as the eye sees it, lightness 128/255 of Oklab: its cube is the linear light,
 // of which sRGB makes 1.055 (128/255)^(3/2.4) - 0.055 = 0.391.
 constexpr std::uint32_t half_grey = 0x646464;
+
+TEST(PlotModel, ASectionIsReadWithItsVoidAndItsFractures) {
+  const auto path =
+      (std::filesystem::temp_directory_path() / ("plot_model_" + std::to_string(::getpid()))).string();
+  const auto blocks = fractured_blocks();
+  Model<2> model;
+  model.medium = {blocks.values, blocks.values, blocks.values};
+  for (std::size_t cell = 0; cell < blocks.values.size(); ++cell) {
+    const bool nothing = std::isnan(blocks.values[cell]);
+    model.medium.vp[cell] = nothing ? 0 : blocks.values[cell];
+    model.medium.vs[cell] =
+        nothing || blocks.values[cell] == 1000 ? 0 : blocks.values[cell] / 2;  // fluid, rock
+    model.medium.rho[cell] = nothing ? 0 : 2000;
+  }
+  model.fracture = blocks.fracture;
+  model.fracture_sets = blocks.sets;
+  write_model(model, path);
+  for (const char* property : {"vp", "vs", "rho"}) {
+    const auto section = read_model_section(NetcdfFile::open(path), property);
+    const auto& field = property[0] == 'r'   ? model.medium.rho
+                        : property[1] == 'p' ? model.medium.vp
+                                             : model.medium.vs;
+    EXPECT_EQ(section.grid(), model.grid());
+    for (std::size_t cell = 0; cell < field.size(); ++cell) {
+      EXPECT_EQ(std::isnan(section.values[cell]), model.medium.is_void(cell));
+      EXPECT_TRUE(model.medium.is_void(cell) || section.values[cell] == field[cell]);
+      EXPECT_EQ(section.fracture[cell], blocks.fracture[cell]);
+    }
+    ASSERT_EQ(section.sets.size(), 1u);
+    EXPECT_EQ(section.sets[0].name, "cluster");
+  }
+  EXPECT_THROW(read_model_section(NetcdfFile::open(path), "q"), Error);
+  std::filesystem::remove(path);
+}
 
 TEST(PlotModel, EveryCellHasTheColourOfItsValue) {
   const auto picture = draw_model(three_blocks(), false, {}, in_grey, page_of_size("800x600px"));

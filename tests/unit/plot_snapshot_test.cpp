@@ -83,6 +83,24 @@ TEST_F(PlotSnapshot, HalvesOfOppositeSignHaveOppositeColours) {
   EXPECT_NEAR(blue, red, 2);
 }
 
+TEST_F(PlotSnapshot, OneCellAmongMillionsIsSeen) {
+  plot::Snapshot snapshot{"vz", "m/s", 0.25, Field<2>(Grid<2>{{3000, 1000}, 1, {0, 0}})};
+  snapshot.values[1234567] = -1;
+  const auto page = plot::page_of_size("800x400px");
+  const auto with = decoded(plot::draw_snapshot(snapshot, 1, {}, {}, {}, page).bytes);
+  snapshot.values[1234567] = 0;
+  const auto without = decoded(plot::draw_snapshot(snapshot, 1, {}, {}, {}, page).bytes);
+  int different = 0;
+  for (int y = 0; y < with.height; ++y) {
+    for (int x = 0; x < with.width; ++x) {
+      if (with.at(x, y) == without.at(x, y)) continue;
+      ++different;
+      EXPECT_EQ(with.at(x, y), plot::ColourMap("blue-red").pixel(0) & 0xffffff);  // in full
+    }
+  }
+  EXPECT_EQ(different, 1);
+}
+
 TEST_F(PlotSnapshot, WhatIsStillShowsTheModelBelow) {
   const auto model = plot::three_blocks();
   plot::Snapshot still{"vz", "m/s", 0, Field<2>(model.grid())};
