@@ -33,6 +33,8 @@ void declare(cli::Options& options, Settings& s) {
               "name the cheapest setting whose error is at most this: 0.01 is 1 %");
   options.add("output,o", s.output, "FILE", "write the table here too, as netCDF");
   options.add_threads();
+  // A configuration of sw-shoot says what is shot; how is varied here.
+  options.pass_over({"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields"});
 }
 
 double number_in(const char* option, const std::string& text) {
@@ -101,6 +103,8 @@ Scene<2> make_scene(const Settings& s) {
 
 /// All of a ladder's rows, each said as soon as it is there.
 void run(const Settings& s, const cli::Context& context) {
+  if (s.wanted && !(*s.wanted > 0))
+    throw Error("--error: found " + shown(*s.wanted) + ", expected it above 0", ErrorKind::usage);
   const bool built_in = !s.built_in.empty();
   const auto scene = built_in ? full_space_case() : make_scene(s);
   const auto ladder = ladder_of(s, scene);

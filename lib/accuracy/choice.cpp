@@ -12,6 +12,8 @@ namespace {
 
 constexpr int orders[] = {3, 5, 7};
 constexpr double courant_numbers[] = {0.9, 0.7, 0.5, 0.35, 0.2};
+/// Errors were found up to 1.5 times what was expected of them (docs/accuracy.md): so much is kept in hand.
+constexpr double margin = 1.5;
 /// A cell is split into this many a side at most.
 constexpr int most_parts = 8;
 
@@ -72,11 +74,11 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
     const auto& [order, cfl, spacing_m, correction] = choice.setting;
     const double time_step_s = cfl * stable_time_step_s(scene) * spacing_m / own_m;
     choice.expected_error = waves.expected({order, time_step_s, spacing_m}).overall();
-    if (choice.expected_error <= wanted) return choice;
+    if (margin * choice.expected_error <= wanted) return choice;
     if (!best || choice.expected_error < best->expected_error) best = &choice;
   }
-  throw Error("found no setting with an expected error of at most " + shown(wanted) + "; the best is " +
-              sentence_of(*best, scene));
+  throw Error("found no setting whose expected error is below " + shown(wanted) + " by a factor of 1.5" +
+              "; the best is " + sentence_of(*best, scene));
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {

@@ -12,7 +12,8 @@ struct Choice {
 };
 
 /// The cheapest of all orders from 3 on, Courant numbers from 0.2 to 0.9 and cells of the model, whole or
-/// split (never joined: that would change the geology), whose expected error is at most `wanted`. Seconds
+/// split (never joined: that would change the geology), whose expected error is below `wanted` by a
+/// factor of 1.5 (what is expected is not exact). Seconds
 /// come from steps run now, one order after the other. Throws an Error with the least expected error and its
 /// cost when no setting is good enough.
 Choice cheapest_setting(const Scene<2>& scene, double wanted);

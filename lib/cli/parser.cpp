@@ -156,6 +156,8 @@ void Parser::read_config() {
   }
   Values from_file;
   for (const auto& option : parsed) {
+    const auto& passed_over = options_.passed_over_;
+    if (std::find(passed_over.begin(), passed_over.end(), option.string_key) != passed_over.end()) continue;
     if (option.unregistered) {
       const std::string meant = nearest(option.string_key, true);
       refuse(path + ": unknown option " + option.string_key +

@@ -42,6 +42,8 @@ class Options {
   /// Positional arguments, in order; the last may be a vector that takes all the rest.
   void positional(std::string& to, const std::string& placeholder);
   void positional(std::vector<std::string>& to, const std::string& placeholder);
+  /// Names that may stand in the file of --config for another tool and mean nothing to this one.
+  void pass_over(std::vector<std::string> names) { passed_over_ = std::move(names); }
   /// Declares --threads (only for tools that compute).
   void add_threads();
 
@@ -55,6 +57,7 @@ class Options {
 
   std::vector<Option> options_;
   std::vector<Positional> positionals_;
+  std::vector<std::string> passed_over_;
 };
 
 /// What run() gets beside its settings.
