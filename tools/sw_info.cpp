@@ -1,5 +1,7 @@
+#include <cmath>
 #include <cstdio>
 
+#include "accuracy/table.hpp"
 #include "base/error.hpp"
 #include "base/input_bytes.hpp"
 #include "base/netcdf_container.hpp"
@@ -75,8 +77,52 @@ Finding look_at_traces(const std::string& path, const std::vector<char>& taken) 
   return finding;
 }
 
+bool holds_accuracy(const NetcdfFile& file) {
+  return file.has_variable("error") && file.dimension_length("setting");
+}
+
+/// Percent of a relative error; a reference has none.
+void report_error(Report& report, const std::string& name, double error) {
+  if (!std::isnan(error)) report.number(name, 100 * error, "%");
+}
+
+Report report_of(const AccuracyRow& row) {
+  Report report;
+  report.count("order", row.order);
+  report.count("time order", row.time_order);
+  report.number("courant", row.courant, "");
+  report.number("step", row.spacing_m, "m");
+  if (row.slip_order > 0) report.count("slip order", row.slip_order);
+  report.count("cells", row.cells);
+  report.count("steps", row.steps);
+  report_error(report, "error", row.error);
+  report_error(report, "late error", row.late_error);
+  report_error(report, "predicted error", row.predicted_error);
+  report.number("time", row.seconds, "s");
+  report.number("predicted time", row.predicted_seconds, "s");
+  report.number("memory", row.memory_bytes / (1 << 20), "MiB");
+  return report;
+}
+
+Finding look_at_accuracy(const NetcdfFile& file) {
+  const auto table = read_accuracy_table(file);
+  Finding finding{"accuracy", {}, ""};
+  Report& report = finding.report;
+  report.text("title", table.title);
+  report.text("reference", table.reference);
+  std::vector<Report> settings;
+  for (const auto& row : table.rows) settings.push_back(report_of(row));
+  report.list("setting", settings);
+  if (table.wanted_error) report_error(report, "wanted error", *table.wanted_error);
+  if (table.chosen) report.list("chosen", {settings[*table.chosen]});
+  if (const auto source = file.text_attribute("", "source")) report.text("source", *source);
+  report.text("history", table.history);
+  return finding;
+}
+
 Finding look_at_netcdf(const NetcdfFile& file) {
   const auto kind = kind_of(file);
+  if (kind != "model" && holds_accuracy(file)) return look_at_accuracy(file);
   if (kind != "model") return {kind, report_of(file), ""};
   const auto model = read_model<2>(file);
   Finding finding{kind, report_of(model), ""};
@@ -137,7 +183,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-info", "Says what is in models, snapshots and gathers.", "[options] FILE...",
+      {"sw-info", "Says what is in models, snapshots, gathers and tables of accuracy.", "[options] FILE...",
        "sw-info model.nc gather.sgy"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });
