@@ -71,10 +71,13 @@ Side side_of(const Walk<D>& z, Continuation edge, int reach) {
 }
 
 /// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
-/// more: with more, random media of single cells grew at order 5 and 7 (docs/theory.md).
+/// more, and so does a single cell between a contact and another end: with more, random media of single cells
+/// and a crust of one cell grew at order 5 and 7 (docs/theory.md).
 int reach_within(const Side& low, const Side& high, int reach) {
-  const bool enclosed = low.law == Continuation::contact && high.law == Continuation::contact;
-  return enclosed ? std::min(reach, low.cells + high.cells) : reach;
+  const int contacts = (low.law == Continuation::contact) + (high.law == Continuation::contact);
+  const int others = low.cells + high.cells;
+  const bool ends = low.law != Continuation::none && high.law != Continuation::none;
+  return contacts == 2 || (contacts == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
 /// Value of the pair at a stencil offset, continued beyond the ends of the cell's span (E10), (E11).
