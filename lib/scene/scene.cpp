@@ -161,6 +161,8 @@ double time_step_s(const Scene<D>& scene) {
                                     : scene.numerics.cfl * stable_time_step_s(scene);
 }
 
+double largest_cfl(const Numerics& numerics) { return numerics.time_order == 4 ? 2 : 1; }
+
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source) {
   if (scene.numerics.zone_cells > 0) return scene.numerics.zone_cells;
@@ -197,16 +199,20 @@ void check(const Scene<D>& scene) {
   if (numerics.zone_cells < 0 || numerics.zone_cells > 10000)
     throw Error("found --edge-width " + std::to_string(numerics.zone_cells) + ", expected 0 to 10000 cells",
                 ErrorKind::usage);
-  const double limit = stable_time_step_s(scene);
+  if (numerics.time_order != 2 && numerics.time_order != 4)
+    throw Error("found time order " + std::to_string(numerics.time_order) + ", expected 2 or 4",
+                ErrorKind::usage);
+  const double limit = stable_time_step_s(scene), largest = largest_cfl(numerics);
   if (numerics.time_step_s) {
     check_positive(*numerics.time_step_s, "--time-step", "s");
-    if (*numerics.time_step_s > limit * (1 + 1e-12))
-      throw Error("found a time step of " + shown(*numerics.time_step_s) +
-                      " s, expected at most h/vp_max = " + shown(limit) + " s",
+    if (*numerics.time_step_s > largest * limit * (1 + 1e-12))
+      throw Error("found a time step of " + shown(*numerics.time_step_s) + " s, expected at most " +
+                      (largest == 1 ? "" : shown(largest) + " ") + "h/vp_max = " + shown(largest * limit) +
+                      " s",
                   ErrorKind::usage);
-  } else if (!(numerics.cfl > 0) || numerics.cfl > 1) {
-    throw Error("found --cfl " + shown(numerics.cfl) + ", expected above 0 and at most 1: h/vp_max is " +
-                    shown(limit) + " s",
+  } else if (!(numerics.cfl > 0) || numerics.cfl > largest) {
+    throw Error("found --cfl " + shown(numerics.cfl) + ", expected above 0 and at most " + shown(largest) +
+                    ": h/vp_max is " + shown(limit) + " s",
                 ErrorKind::usage);
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/splitting.hpp"
 #include "solver/sweeps.hpp"
 
 namespace slipwave::solver {
@@ -79,6 +80,7 @@ class Column {
         domain_(make_domain(medium_, edges_of(scene), zone_cells)),
         state_(make_state<2, Real>(domain_.grid.shape)),
         sweeps_(state_, domain_, scene.numerics.order),
+        splitting_(splitting(2, scene.numerics.time_order)),
         factors_(zone_factors(domain_, 1, dt_s, vp_max)),
         form_(form) {
     fill_material(state_, domain_, medium_, dt_s);
@@ -86,7 +88,8 @@ class Column {
   }
   /// `from_top`: the wave comes in through the top zone, else through the bottom one.
   void advance(double t, bool from_top) {
-    sweeps_.across(1, 1);
+    for (const auto& sweep : splitting_)
+      if (sweep.axis == 1) sweeps_.across(1, Real(sweep.part));
     const auto last = std::int64_t(factors_.size()) - 1;
     for (std::int64_t k = 0; k <= last; ++k) {
       const double factor = factors_[std::size_t(k)];
@@ -111,6 +114,7 @@ class Column {
   Domain<2> domain_;
   State<2, Real> state_;
   Sweeps<2, Real> sweeps_;
+  std::vector<SweepPart> splitting_;
   std::vector<double> factors_;
   PlaneForm form_;
 };

@@ -6,13 +6,20 @@
 namespace slipwave::solver {
 namespace {
 
-template <int Order, class Real>
-void leave(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
-           const Real* __restrict impedance, const Real* __restrict courant, Real scale, Real* __restrict up,
-           Real* __restrict down) {
+template <int Order, int Sign, class Real>
+void leave_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
+              const Real* __restrict impedance, const Real* __restrict courant, Real scale,
+              Real* __restrict up, Real* __restrict down) {
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    leave_cell<Order>(v + i, s + i, stride, impedance[i], courant[i], scale, up[i], down[i]);
+    leave_cell<Order>(v + i, s + i, stride, Sign * impedance[i], courant[i], Sign * scale, up[i], down[i]);
+}
+
+template <int Order, class Real>
+void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
+           const Real* courant, Real scale, Real* up, Real* down) {
+  const auto loop = scale < 0 ? leave_in<Order, -1, Real> : leave_in<Order, 1, Real>;
+  loop(n, stride, v, s, impedance, courant, scale, up, down);
 }
 
 template <class Real>
@@ -36,9 +43,10 @@ void update_passive(std::int64_t n, Real scale, const Real* __restrict v_lo, con
                     const Real* __restrict zp, const Real* __restrict cp, const Real* __restrict zs,
                     const Real* __restrict cs, Real* __restrict v, Real* __restrict s,
                     Real* __restrict passive_1, Real* __restrict passive_2) {
+  const Real size = scale < 0 ? -scale : scale;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real dv = scale * (v_hi[i] - v_lo[i]);
+    const Real dv = size * (v_hi[i] - v_lo[i]);
     const Real modulus = zp[i] * cp[i];
     v[i] += scale * b[i] * (s_hi[i] - s_lo[i]);
     s[i] += modulus * dv;
@@ -65,10 +73,11 @@ void update_shear(std::int64_t n, Real scale, const Real* __restrict v_lo, const
                   const Real* __restrict s_lo, const Real* __restrict s_hi, const Real* __restrict b,
                   const Real* __restrict zs, const Real* __restrict cs, Real* __restrict v,
                   Real* __restrict s) {
+  const Real size = scale < 0 ? -scale : scale;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     v[i] += scale * b[i] * (s_hi[i] - s_lo[i]);
-    s[i] += scale * zs[i] * cs[i] * (v_hi[i] - v_lo[i]);
+    s[i] += size * zs[i] * cs[i] * (v_hi[i] - v_lo[i]);
   }
 }
 

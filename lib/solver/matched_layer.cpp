@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/splitting.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -27,37 +29,50 @@ bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& oth
   return false;
 }
 
+/// Parts of a step that sweeps along an axis have, each once.
+std::vector<double> parts_along(int axis, int dimension, int time_order) {
+  const auto sweeps = splitting(dimension, time_order);
+  std::vector<double> parts;
+  if (axis == 0) parts.push_back(2 * sweeps.front().part);  // the last of a step and the first of the next
+  for (const auto& sweep : sweeps)
+    if (sweep.axis == axis && std::find(parts.begin(), parts.end(), sweep.part) == parts.end())
+      parts.push_back(sweep.part);
+  return parts;
+}
+
 }  // namespace
 
 template <int D, class Real>
 MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
-                                    double vp_max, double slow_hz)
+                                    double vp_max, double slow_hz, int time_order)
     : layout_(layout) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
     axis.low = domain.low_zone[std::size_t(n)];
     axis.high = domain.high_zone[std::size_t(n)];
-    for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
-      const auto width = slot < axis.low ? axis.low : axis.high;
-      const auto inside = slot < axis.low ? axis.low - 1 - slot : slot - axis.low;
-      const double depth = (double(inside) + 0.5) / double(width);
-      const double length = double(width) * domain.grid.spacing_m;
-      const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
-      const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
-      Factors factors;
-      for (const int half : {0, 1}) {
-        const double time = half ? dt_s / 2 : dt_s, sum = d + alpha;
-        const double lost = -std::expm1(-sum * time);
-        factors.kept[std::size_t(half)] = Real(std::exp(-plain_share * d * time));
-        factors.lost_in_plates[std::size_t(half)] =
+    for (const double part : parts_along(n, D, time_order)) {
+      axis.parts.push_back(Real(part));
+      auto& factors = axis.factors.emplace_back();
+      // A part back in time gives back what one forward would take: all parts together are one step.
+      const double time = part * dt_s;
+      for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
+        const auto width = slot < axis.low ? axis.low : axis.high;
+        const auto inside = slot < axis.low ? axis.low - 1 - slot : slot - axis.low;
+        const double depth = (double(inside) + 0.5) / double(width);
+        const double length = double(width) * domain.grid.spacing_m;
+        const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
+        const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
+        const double sum = d + alpha, lost = -std::expm1(-sum * time);
+        Factors& of_slot = factors.emplace_back();
+        of_slot.kept = Real(std::exp(-plain_share * d * time));
+        of_slot.lost_in_plates =
             Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time));
-        factors.of_memory[std::size_t(half)] = Real(lost / (sum * dt_s));
-        factors.of_change[std::size_t(half)] = Real(d / sum * (1 - lost / (sum * time)));
-        factors.left[std::size_t(half)] = Real(1 - lost);
-        factors.added[std::size_t(half)] = Real(lost * d / sum * dt_s / time);
+        of_slot.of_memory = Real(lost / (sum * dt_s));
+        of_slot.of_change = Real(d / sum * (1 - lost / (sum * time)));
+        of_slot.left = Real(1 - lost);
+        of_slot.added = Real(lost * d / sum * dt_s / time);
       }
-      axis.factors.push_back(factors);
     }
     std::int64_t rows = FieldRows<D>::count;
     if (n > 0) rows *= axis.low + axis.high;
@@ -165,16 +180,17 @@ template <int D, class Real>
 void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_row, std::int64_t count,
                                     Real scale, const Real* before, Real* row, bool remember) {
   const auto& layer = axes_[std::size_t(axis)];
-  const std::size_t half = scale < Real(0.75);
+  const auto part = std::find(layer.parts.begin(), layer.parts.end(), scale) - layer.parts.begin();
+  const auto& of_slots = layer.factors[std::size_t(part)];
   Real* const memory = memory_of(axis, line, field_row);
-  const auto one = [&](const Factors& factors, Real plate, Real was, Real& now, Real& phi) {
+  const auto one = [remember](const Factors& factors, Real plate, Real was, Real& now, Real& phi) {
     const Real change = now - was;
-    now -= factors.of_memory[half] * phi + factors.of_change[half] * change;
-    now *= factors.kept[half] - plate * factors.lost_in_plates[half];
-    if (remember) phi = factors.left[half] * phi + factors.added[half] * change;
+    now -= factors.of_memory * phi + factors.of_change * change;
+    now *= factors.kept - plate * factors.lost_in_plates;
+    if (remember) phi = factors.left * phi + factors.added * change;
   };
   if (axis > 0) {
-    const auto& factors = layer.factors[std::size_t(layer.slot(line[std::size_t(axis)]))];
+    const auto& factors = of_slots[std::size_t(layer.slot(line[std::size_t(axis)]))];
     const Real* const plates =
         layer.plates[line[std::size_t(axis)] < layer.low ? 0 : 1].data() + along_edge(axis, line);
     for (std::int64_t i = 0; i < count; ++i) one(factors, plates[i], before[i], row[i], memory[line[0] + i]);
@@ -183,10 +199,10 @@ void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_ro
   const auto here = std::size_t(along_edge(axis, line));
   const Real low_plate = layer.plates[0][here], high_plate = layer.plates[1][here];
   for (std::int64_t i = 0; i < layer.low; ++i)
-    one(layer.factors[std::size_t(i)], low_plate, before[i], row[i], memory[i]);
+    one(of_slots[std::size_t(i)], low_plate, before[i], row[i], memory[i]);
   Real* const high = row + layer.cells - layer.high - layer.low;
   for (std::int64_t i = layer.low; i < layer.low + layer.high; ++i)
-    one(layer.factors[std::size_t(i)], high_plate, before[i], high[i], memory[i]);
+    one(of_slots[std::size_t(i)], high_plate, before[i], high[i], memory[i]);
 }
 
 template <int D, class Real>

@@ -20,29 +20,31 @@ template <int D, class Real>
 class MatchedLayer {
  public:
   /// `slow_hz`: the frequency below which fields are stretched less and less, that of the source.
-  MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz);
+  /// `time_order`: of the splitting the sweeps follow.
+  MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
+               int time_order = 2);
 
   /// Whether a sweep along `axis` over the line at these indices passes through the layer.
   bool covers(int axis, const Index<D>& line) const;
   /// Copies the part of a row that lies in the layer, `count` cells from line[0] on. `to` takes `count`
   /// values.
   void keep(int axis, const Index<D>& line, std::int64_t count, const Real* row, Real* to) const;
-  /// Takes from the row what the layer's memory takes of its change since keep(). `scale` is 1 or 1/2. Only
-  /// with `remember` the memory moves on.
+  /// Takes from the row what the layer's memory takes of its change since keep(). `scale` is a
+  /// part of the splitting. Only with `remember` the memory moves on.
   void stretch(int axis, const Index<D>& line, int field_row, std::int64_t count, Real scale,
                const Real* before, Real* row, bool remember);
   std::int64_t memory_bytes() const;
 
  private:
-  /// Of one cell, for a whole and for half a step: what the memory takes, what the change itself takes, what
-  /// is left of the memory, what the change adds to it, what is left of the field and how much less in
-  /// plates.
+  /// Of one cell and one part of the step: what the memory takes, what the change itself takes, what is left
+  /// of the memory, what the change adds to it, what is left of the field and how much less in plates.
   struct Factors {
-    std::array<Real, 2> of_memory{}, of_change{}, left{}, added{}, kept{}, lost_in_plates{};
+    Real of_memory{}, of_change{}, left{}, added{}, kept{}, lost_in_plates{};
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
-    std::vector<Factors> factors;  // low zone, then high zone, in the order of the cells
+    std::vector<Real> parts;                    // of a step that sweeps along this axis are made of
+    std::vector<std::vector<Factors>> factors;  // [part][low zone, then high zone, in the order of the cells]
     Buffer<Real> memory;
     std::array<std::vector<Real>, 2> plates;  // low and high zone: 1 in plates, else 0, along the edge
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }

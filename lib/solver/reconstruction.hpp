@@ -50,7 +50,7 @@ template <int Order, class Real>
 }
 
 /// One cell's outgoing states of a pair (v, s): up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s].
-/// courant >= 2 marks a cell that does not carry the wave (fluid for S, void): order 1 there, nothing
+/// courant >= 1/scale marks a cell that does not carry the wave (fluid for S, void): order 1 there, nothing
 /// reached.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void leave_cell(const Real* v, const Real* s, long stride, Real impedance,

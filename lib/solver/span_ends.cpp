@@ -120,7 +120,9 @@ void correct_cell(const SpanEnd& end, std::int64_t stride, const Real* v, const 
   Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
   for (int k = -reach; k <= reach; ++k)
     continued(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
-  leave_cell<Order>(v_stencil + reach, s_stencil + reach, 1, impedance, courant, scale, up, down);
+  const Real sign = scale < 0 ? -1 : 1;
+  leave_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance, courant, sign * scale, up,
+                    down);
 }
 
 }  // namespace

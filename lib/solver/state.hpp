@@ -85,7 +85,7 @@ struct FieldRows {
 enum MaterialRow : int { row_b, row_zp, row_cp, row_zs, row_cs, material_rows };
 
 /// Courant number that marks cells without the wave (fluid for S, void for both); see leave_cell.
-constexpr double no_wave = 2;
+constexpr double no_wave = 1e6;
 
 /// Wave field and material of the computed grid: the model and the absorbing zones round it.
 template <int D, class Real>

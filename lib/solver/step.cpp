@@ -13,6 +13,7 @@ namespace slipwave::solver {
 template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
+      splitting_(splitting(D, scene.numerics.time_order)),
       domain_(
           make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
       state_(make_state<D, Real>(domain_.grid.shape)),
@@ -43,8 +44,8 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     if (background_) {
       add(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, vp_max, background_.get()));
     } else {
-      layer_ = std::make_unique<MatchedLayer<D, Real>>(state_.layout, domain_, dt_s_, vp_max,
-                                                       source.wavelet.nominal_hz());
+      layer_ = std::make_unique<MatchedLayer<D, Real>>(
+          state_.layout, domain_, dt_s_, vp_max, source.wavelet.nominal_hz(), scene.numerics.time_order);
       sweeps_.use(layer_.get());
     }
   }
@@ -89,24 +90,25 @@ void Step<D, Real>::read_ahead(std::span<const std::int64_t> lines) {
     if (copy.size() == 0)
       copy = Buffer<Real>(FieldRows<D>::count * state_.layout.row_pitch() + Layout<D>::lead);
   }
-  sweeps_.ahead_along_x(
-      reading_, [this](std::int64_t line) { return ahead_[std::size_t(line)].data() + Layout<D>::lead; });
+  sweeps_.ahead_along_x(reading_, Real(splitting_.front().part), [this](std::int64_t line) {
+    return ahead_[std::size_t(line)].data() + Layout<D>::lead;
+  });
 }
 
 template <int D, class Real>
 void Step<D, Real>::run(std::int64_t step) {
   const StepTime time{step, dt_s_};
-  const Real half = Real(0.5);
-  if (step == 0) sweeps_.along_x([half](std::int64_t) { return half; });
-  if constexpr (D == 3) sweeps_.across(1, half);
-  sweeps_.across(D - 1, 1);
-  if constexpr (D == 3) sweeps_.across(1, half);
+  // The last sweep of a step and the first of the next are alike.
+  const Real end = Real(splitting_.front().part);
+  if (step == 0) sweeps_.along_x([end](std::int64_t) { return end; });
+  for (std::size_t n = 1; n + 1 < splitting_.size(); ++n)
+    sweeps_.along(splitting_[n].axis, Real(splitting_[n].part));
 
   find_whole_lines(time);
   const bool snapshot = snapshot_due(time);
   read_ahead(snapshot ? std::span<const std::int64_t>(all_lines_) : recorder_->lines());
-  // Where nothing acts on the line now, this half sweep and the first of the next step are one.
-  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? half : Real(1); });
+  // Where nothing acts on the line now, this sweep and the first of the next step are one.
+  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? end : 2 * end; });
   for (const auto& pass : passes_) pass->run(time);
 
   const WholeLine<Real> whole_line = [this](std::int64_t line) -> const Real* {
@@ -121,7 +123,7 @@ void Step<D, Real>::run(std::int64_t step) {
     for (auto& copy : ahead_) copy = {};
   }
   for (const auto& pass : passes_) pass->run_after(time);
-  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? half : Real(0); });
+  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? end : Real(0); });
 }
 
 template <int D, class Real>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/splitting.hpp"
 #include "solver/background.hpp"
 #include "solver/recorder.hpp"
 #include "solver/simulation.hpp"
@@ -33,6 +34,7 @@ class Step {
   void read_ahead(std::span<const std::int64_t> lines);
 
   double dt_s_;
+  std::vector<SweepPart> splitting_;
   Domain<D> domain_;
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;

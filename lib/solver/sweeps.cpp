@@ -64,13 +64,13 @@ void Sweeps<D, Real>::along_x(const std::function<Real(std::int64_t)>& part) {
   parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
     Real* scratch = scratch_[std::size_t(worker)].data();
     for (std::int64_t line = begin; line < end; ++line)
-      if (const Real scale = part(line); scale > 0)
+      if (const Real scale = part(line); scale != 0)
         sweep_line(line, state_.field_row(state_.layout.line_index(line), 0), scale, scratch, true);
   });
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines,
+void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines, Real scale,
                                     const std::function<Real*(std::int64_t)>& to) {
   const std::int64_t values = FieldRows<D>::count * state_.layout.row_pitch();
   parallel_for(std::int64_t(lines.size()), 4, [&](std::int64_t begin, std::int64_t end, int worker) {
@@ -79,7 +79,7 @@ void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines,
       const Real* from = state_.field_row(state_.layout.line_index(lines[n]), 0);
       Real* const copy = to(lines[n]);
       std::copy(from - Layout<D>::lead, from - Layout<D>::lead + values, copy - Layout<D>::lead);
-      sweep_line(lines[n], copy, Real(0.5), scratch, false);
+      sweep_line(lines[n], copy, scale, scratch, false);
     }
   });
 }
@@ -183,6 +183,12 @@ void Sweeps<D, Real>::across(int axis, Real scale) {
       sweep_columns(axis, first, std::min(width, nx - first[0]), scale, scratch);
     }
   });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along(int axis, Real scale) {
+  if (axis > 0) return across(axis, scale);
+  along_x([scale](std::int64_t) { return scale; });
 }
 
 template <int D, class Real>

@@ -14,7 +14,8 @@
 namespace slipwave::solver {
 
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
-/// by `scale` of the time step under the part of the equations with derivatives along its axis. Lines of a
+/// by `scale` of the time step, back in time where it is negative, under the part of the equations with
+/// derivatives along its axis. Lines of a
 /// sweep along x, and columns of a sweep across, do not depend on each other: threads share them out and the
 /// result does not depend on their number.
 template <int D, class Real>
@@ -26,13 +27,17 @@ class Sweeps {
   /// From now on sweeps are stretched in this layer (null: nowhere), which must outlive them.
   void use(MatchedLayer<D, Real>* layer) { layer_ = layer; }
 
-  /// Along x, on every line for which part(line) gives a scale above 0.
+  /// Along x, on every line for which part(line) gives a scale that is not 0.
   void along_x(const std::function<Real(std::int64_t line)>& part);
-  /// The fields of a line (all rows, as in the state, from its cell 0 in row 0) half a step further along x
-  /// than the state has them, written to `to`; the state stays as it is. Lines are shared out to threads.
-  void ahead_along_x(std::span<const std::int64_t> lines, const std::function<Real*(std::int64_t line)>& to);
+  /// The fields of a line (all rows, as in the state, from its cell 0 in row 0) `scale` of a step further
+  /// along x than the state has them, written to `to`; the state stays as it is. Lines are shared out to
+  /// threads.
+  void ahead_along_x(std::span<const std::int64_t> lines, Real scale,
+                     const std::function<Real*(std::int64_t line)>& to);
   /// Along y or z.
   void across(int axis, Real scale);
+  /// Along any axis, on every line.
+  void along(int axis, Real scale);
   /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
   std::int64_t span_end_cells() const;
 

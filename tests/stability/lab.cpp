@@ -31,7 +31,7 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 }
 
 template <class Real>
-Lab<Real>::Lab(const Setup& setup) {
+Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) {
   auto& model = scene_.model;
   model.medium = setup.medium;
   model.fracture = setup.fracture;
@@ -46,7 +46,7 @@ Lab<Real>::Lab(const Setup& setup) {
   const double vp_max = solver::fastest_wave(model.medium);
   if (zones && setup.layer_hz > 0) {
     layer_ = std::make_unique<solver::MatchedLayer<2, Real>>(state_.layout, domain_, dt_s_, vp_max,
-                                                             setup.layer_hz);
+                                                             setup.layer_hz, setup.time_order);
     sweeps_->use(layer_.get());
   } else if (zones) {
     passes_.push_back(
@@ -77,10 +77,7 @@ Lab<Real>::Lab(const Setup& setup) {
 
 template <class Real>
 void Lab<Real>::step() {
-  const auto half = [](std::int64_t) { return Real(0.5); };
-  sweeps_->along_x(half);
-  sweeps_->across(1, 1);
-  sweeps_->along_x(half);
+  for (const auto& sweep : splitting_) sweeps_->along(sweep.axis, Real(sweep.part));
   for (const auto& pass : passes_) pass->run({steps_, dt_s_});
   for (const auto& pass : passes_) pass->run_after({steps_, dt_s_});
   ++steps_;

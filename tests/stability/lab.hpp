@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "media.hpp"
 #include "scene/scene.hpp"
+#include "scene/splitting.hpp"
 #include "solver/matched_layer.hpp"
 #include "solver/pass.hpp"
 #include "solver/sweeps.hpp"
@@ -36,6 +37,7 @@ class Lab {
     EdgeLaws<2> edges = all_edges(EdgeLaw::free);
     int order = 5;
     double cfl = 1;
+    int time_order = 2;
     int zone_cells = 8;
     double layer_hz = 0;   // absorbing edges: 0 for damped zones, else a matched layer for such a source
     double amplitude = 1;  // velocities up to half of it, m/s; stresses such as belong to them
@@ -62,6 +64,7 @@ class Lab {
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
   std::unique_ptr<solver::MatchedLayer<2, Real>> layer_;
   std::vector<std::unique_ptr<solver::Pass>> passes_;
+  std::vector<SweepPart> splitting_;
   std::int64_t steps_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/splitting.hpp"
 #include "solver/sweeps.hpp"
 
 namespace slipwave::solver {
@@ -38,11 +39,12 @@ class Lab {
  public:
   enum Row { vx, vz, sxx, szz, sxz };
 
-  Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s)
+  Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2)
       : medium_(medium),
         domain_(make_domain(medium_, edges, 1)),
         state_(std::make_unique<State<2, Real>>(make_state<2, Real>(domain_.grid.shape))),
-        sweeps_(*state_, domain_, order) {
+        sweeps_(*state_, domain_, order),
+        splitting_(splitting(2, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);
   }
   Real& operator()(Row row, std::int64_t i, std::int64_t k) { return state_->field_row({0, k}, row)[i]; }
@@ -51,23 +53,20 @@ class Lab {
   const Domain<2>& domain() const { return domain_; }
   double energy() const { return solver::energy(*state_, domain_, medium_); }
 
-  void sweep(int axis, double part) {
-    if (axis == 1) return sweeps_.across(1, Real(part));
-    sweeps_.along_x([part](std::int64_t) { return Real(part); });
-  }
-  /// The step of (E3).
+  void sweep(int axis, double part) { sweeps_.along(axis, Real(part)); }
+  /// The step of (E3) or (E16).
   void step() {
-    sweep(0, 0.5);
-    sweep(1, 1);
-    sweep(0, 0.5);
+    for (const auto& [axis, part] : splitting_) sweep(axis, part);
   }
-  /// Many of them, neighbouring half sweeps along x made one.
+  /// Many of them, neighbouring sweeps along x made one.
   void steps(std::int64_t count) {
     if (count == 0) return;
-    sweep(0, 0.5);
+    const double end = splitting_.front().part;
+    sweep(0, end);
     for (std::int64_t n = 0; n < count; ++n) {
-      sweep(1, 1);
-      sweep(0, n + 1 < count ? 1 : 0.5);
+      for (std::size_t inner = 1; inner + 1 < splitting_.size(); ++inner)
+        sweep(splitting_[inner].axis, splitting_[inner].part);
+      sweep(0, n + 1 < count ? 2 * end : end);
     }
   }
 
@@ -76,6 +75,7 @@ class Lab {
   Domain<2> domain_;
   std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
   Sweeps<2, Real> sweeps_;
+  std::vector<SweepPart> splitting_;
 };
 
 /// Of an error that falls from `coarse` to `fine` as the spacing falls to half.
