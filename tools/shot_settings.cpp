@@ -53,8 +53,10 @@ void ShotSettings::declare_scene(cli::Options& options) {
 
 void ShotSettings::declare_numerics(cli::Options& options) {
   options.add_choice("order", order, {"1", "3", "5", "7"}, "order of the scheme in space");
+  options.add_choice("time-order", time_order, {"2", "4"},
+                     "order of the splitting in time; 4: six times the work a step, --cfl up to 2");
   options.add_choice("correction", correction, {"first", "second"}, "order of the slip correction in time");
-  options.add("cfl", cfl, "C", "time step over its stability limit");
+  options.add("cfl", cfl, "C", "time step over h/vp_max");
   options.add("time-step", time_step_s, "S", "time step in s, instead of --cfl");
 }
 
@@ -72,7 +74,8 @@ Scene<2> ShotSettings::without_model() const {
                     time_step_s,
                     edge_width,
                     correction == "first" ? SlipCorrection::first : SlipCorrection::second,
-                    precision == "double"};
+                    precision == "double",
+                    std::stoi(time_order)};
   scene.with_slip = without != "slip";
   return scene;
 }

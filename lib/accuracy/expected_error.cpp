@@ -173,7 +173,7 @@ Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
 }  // namespace
 
 WavesOfScene::WavesOfScene(const Scene<2>& scene)
-    : own_{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m},
+    : own_{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order},
       direct_(direct_waves(scene)),
       longest_p_(longest_waves(scene, WaveKind::p)),
       longest_s_(longest_waves(scene, WaveKind::s)) {}

@@ -63,7 +63,8 @@ double squared_error(const Discretisation& cells, const WaveTrain& train) {
         exponent = -1e3;
         break;
       }
-      const solver::UniformScheme scheme{cells.order, medium.vp * dt / h, medium.vs * dt / h};
+      const solver::UniformScheme scheme{cells.order, medium.vp * dt / h, medium.vs * dt / h,
+                                         cells.time_order};
       exponent += medium.time_s / dt * solver::step_error(scheme, train.kind, wavelength, train.angle);
     }
     error += train.band.energy[n] * std::norm(std::exp(exponent) - 1.0);

@@ -47,6 +47,7 @@ struct Discretisation {
   int order = 5;
   double time_step_s = 0;
   double spacing_m = 0;
+  int time_order = 2;
 };
 
 /// error^2 of (E16) for one train.

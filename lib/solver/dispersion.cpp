@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/splitting.hpp"
 #include "solver/kernels.hpp"
 #include "solver/reconstruction.hpp"
 
@@ -41,9 +42,11 @@ using Amplitudes = std::array<Complex, 5>;
 
 /// A pair (v, s) of impedance z swept over `part` of a step.
 void sweep_pair(Complex& v, Complex& s, int order, double z, double part, double phase) {
-  const Complex up = (z * v - s) * factor(order, part * z, phase);
-  const Complex down = (z * v + s) * factor(order, part * z, -phase);
-  v = (up + down) / (2 * z);
+  // Back in time it is the sweep forward in time of -v.
+  const double sign = part < 0 ? -1 : 1, courant = sign * part * z;
+  const Complex up = (sign * z * v - s) * factor(order, courant, phase);
+  const Complex down = (sign * z * v + s) * factor(order, courant, -phase);
+  v = sign * (up + down) / (2 * z);
   s = (down - up) / 2.0;
 }
 
@@ -94,9 +97,8 @@ Complex step_error(const UniformScheme& scheme, WaveKind kind, double cells, dou
           : Amplitudes{z, -x, -2 * mu * x * z / speed, 2 * mu * x * z / speed, -mu * (z * z - x * x) / speed};
   const double phase = 2 * std::numbers::pi / cells;
   Amplitudes moved = wave;
-  sweep(moved, scheme, 0, 0.5, phase * x);
-  sweep(moved, scheme, 1, 1, phase * z);
-  sweep(moved, scheme, 0, 0.5, phase * x);
+  for (const auto& [axis, part] : splitting(2, scheme.time_order))
+    sweep(moved, scheme, axis, part, phase * (axis == 0 ? x : z));
   // Exact waves are orthogonal in energy, so the part of the wave that is still itself is its eigenvalue up
   // to the square of the error.
   const auto weighed = strained(scheme, wave);

@@ -17,6 +17,7 @@ struct UniformScheme {
   int order = 5;
   double courant_p = 0;
   double courant_s = 0;
+  int time_order = 2;  // of the splitting
 };
 
 enum class WaveKind { p, s };

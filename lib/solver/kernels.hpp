@@ -16,7 +16,7 @@ constexpr int reach_of(int order) { return (order - 1) / 2; }
 /// `_lo` and `_hi` are the faces before and behind each cell. n is a multiple of 16; cells beyond the
 /// medium carry b = Z = 0 and stay as they are. One wave family is a pair (v, s): P (v_n, s_nn) or S (v_t,
 /// s_nt).
-/// A sweep back in time, scale < 0, is one forward in time of -v (E15): `leave` and the updates turn the sign
+/// A sweep back in time, scale < 0, is one forward in time of -v (E19): `leave` and the updates turn the sign
 /// of v, and faces hold -v*.
 template <class Real>
 struct Kernels {

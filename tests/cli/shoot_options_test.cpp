@@ -25,10 +25,11 @@ class ShootOptions : public Shell {
 
 TEST_F(ShootOptions, EachChangesTheTraces) {
   for (const std::string option :
-       {"--kind force:1,0", "--kind moment:2,2,0", "--amplitude 2", "--top absorbing", "--top rigid",
-        "--top mirror", "--sides rigid", "--sides mirror", "--bottom free", "--edge-width 3", "--order 1",
-        "--order 3", "--order 7", "--without slip", "--correction first", "--precision double", "--cfl 0.5",
-        "--time-step 1e-3"}) {
+       {"--kind force:1,0", "--kind moment:2,2,0", "--amplitude 2",      "--top absorbing",
+        "--top rigid",      "--top mirror",        "--sides rigid",      "--sides mirror",
+        "--bottom free",    "--edge-width 3",      "--order 1",          "--order 3",
+        "--order 7",        "--without slip",      "--correction first", "--precision double",
+        "--cfl 0.5",        "--time-step 1e-3",    "--time-order 4",     "--time-order 4 --cfl 1.8"}) {
     done(shoot + at + option + " -o other.sgy");
     EXPECT_EQ(done("tail -c +3601 other.sgy | wc -c"), done("tail -c +3601 base.sgy | wc -c")) << option;
     // Past the headers, which hold the command line.
@@ -39,7 +40,7 @@ TEST_F(ShootOptions, EachChangesTheTraces) {
 TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
   done(shoot + at +
        "--kind explosion --amplitude 1 --record vz,vx,p --dt 0.001 --top free --sides absorbing --bottom "
-       "absorbing --order 5 --correction second --precision float --cfl 0.9 -o other.sgy");
+       "absorbing --order 5 --time-order 2 --correction second --precision float --cfl 0.9 -o other.sgy");
   done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
 }
 

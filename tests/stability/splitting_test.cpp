@@ -1,0 +1,80 @@
+// Fourth order in time goes back in time in some of its sweeps, and its steps may be twice as long as those
+// of second order: neither may make anything grow.
+#include <tuple>
+
+#include "lab.hpp"
+
+namespace slipwave {
+namespace {
+
+class FourthOrderInTime : public ::testing::TestWithParam<std::string> {
+ protected:
+  const ThreadLimit one_thread_{1};
+  Lab<double>::Setup setup(int cells, int order, double cfl) const {
+    Lab<double>::Setup setup;
+    setup.medium = medium_named(GetParam(), cells);
+    setup.order = order;
+    setup.cfl = cfl;
+    setup.time_order = 4;
+    return setup;
+  }
+};
+
+/// Bounded all the time, and no more at the end than early on: the layer holds energy in its memory, too.
+void expect_to_last(Lab<double>&& lab) {
+  const double begin = lab.energy();
+  for (int n = 0; n < 400; ++n) lab.step();
+  const double early = lab.energy();
+  EXPECT_LT(early, begin);
+  for (int n = 0; n < (long_form() ? 10000 : 800); ++n) lab.step();
+  // Written so that NaN fails.
+  ASSERT_TRUE(lab.energy() < 1.001 * early) << lab.energy() << ", it was " << early;
+}
+
+}  // namespace
+
+TEST_P(FourthOrderInTime, NeverAddsEnergy) {
+  for (const int order : {1, 3, 5, 7})
+    for (const double cfl : {0.3, 1., 2.}) {
+      SCOPED_TRACE("order " + std::to_string(order) + " cfl " + std::to_string(cfl));
+      Lab<double>(setup(28, order, cfl)).expect_no_growth(long_form() ? 6000 : 300, rounding<double>());
+    }
+}
+
+TEST_P(FourthOrderInTime, NeverAddsEnergyBetweenOtherEdges) {
+  for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing}) {
+    SCOPED_TRACE("edges " + std::to_string(int(edges)));
+    auto given = setup(28, 5, 2);
+    given.edges = all_edges(edges);
+    Lab<double>(given).expect_no_growth(long_form() ? 4000 : 200, rounding<double>());
+  }
+}
+
+TEST_P(FourthOrderInTime, StaysBoundedInMatchedLayersAndWherePlatesReachIntoThem) {
+  for (const auto edge : {EdgeLaw::absorbing, EdgeLaw::free}) {
+    SCOPED_TRACE(edge == EdgeLaw::free ? "plate" : "layers on all sides");
+    auto given = setup(12, 7, 2);
+    given.edges = all_edges(EdgeLaw::absorbing);
+    given.edges[1] = {edge, edge};
+    given.layer_hz = 0.03 * solver::fastest_wave(given.medium) / given.medium.grid().spacing_m;
+    expect_to_last(Lab<double>(given));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(HardMedia, FourthOrderInTime, ::testing::ValuesIn(medium_names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(Energy, NeverRisesUnderACrustOfOneCellAtSmallSteps) {
+  // 28 cells are nine layers of three and one of a single cell between a contact and the free surface below.
+  const ThreadLimit one_thread(1);
+  for (const int time_order : {2, 4}) {
+    Lab<double>::Setup setup;
+    setup.medium = medium_named("SolidLayersOf3Cells", 28);
+    setup.order = 7;
+    setup.cfl = time_order == 2 ? 0.2 : 1;
+    setup.time_order = time_order;
+    Lab<double>(setup).expect_no_growth(time_order == 2 ? 8000 : 2500, rounding<double>());
+  }
+}
+
+}  // namespace slipwave
