@@ -14,7 +14,8 @@ namespace {
 
 struct Settings {
   ShotSettings shot;
-  std::string built_in, orders = "5,7", cfls = "0.9,0.5", steps, corrections = "second", reference;
+  std::string built_in, orders = "5,7", time_orders = "2", cfls = "0.9,0.5", steps, corrections = "second",
+                        reference;
   std::optional<double> wanted;
   std::string output;
 };
@@ -25,7 +26,8 @@ void declare(cli::Options& options, Settings& s) {
                      "a built-in scene with a closed form instead of a model");
   options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");
   options.add("orders", s.orders, "LIST", "orders of the scheme in space, of 1, 3, 5, 7");
-  options.add("cfls", s.cfls, "LIST", "time steps over their stability limit");
+  options.add("cfls", s.cfls, "LIST", "time steps over h/vp_max, up to 1; to 2 at time order 4");
+  options.add("time-orders", s.time_orders, "LIST", "orders of the splitting in time, of 2, 4");
   options.add("corrections", s.corrections, "LIST", "slip corrections: first, second");
   options.add("reference", s.reference, "ORDER,CFL,STEP",
               "what errors are measured against [7,0.4 and the finest of --steps]");
@@ -34,7 +36,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("output,o", s.output, "FILE", "write the table here too, as netCDF");
   options.add_threads();
   // A configuration of sw-shoot says what is shot; how is varied here.
-  options.pass_over({"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields"});
+  options.pass_over(
+      {"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields"});
 }
 
 double number_in(const char* option, const std::string& text) {
@@ -51,10 +54,13 @@ std::vector<double> numbers_of(const char* option, const std::string& list) {
   return numbers;
 }
 
-int order_of(const char* option, double number) {
-  for (const int order : {1, 3, 5, 7})
-    if (number == order) return order;
-  throw Error(std::string(option) + ": found " + shown(number) + ", expected one of 1, 3, 5, 7",
+int one_of(const char* option, double number, const std::vector<int>& choices) {
+  std::string list;
+  for (const int choice : choices) {
+    if (number == choice) return choice;
+    list += (list.empty() ? "" : ", ") + std::to_string(choice);
+  }
+  throw Error(std::string(option) + ": found " + shown(number) + ", expected one of " + list,
               ErrorKind::usage);
 }
 
@@ -75,8 +81,10 @@ std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene)
   for (const double step : steps)
     for (const double order : numbers_of("--orders", s.orders))
       for (const double cfl : numbers_of("--cfls", s.cfls))
-        for (const auto& correction : corrections)
-          ladder.push_back({order_of("--orders", order), cfl, step, correction_of(correction)});
+        for (const double time_order : numbers_of("--time-orders", s.time_orders))
+          for (const auto& correction : corrections)
+            ladder.push_back({one_of("--orders", order, {1, 3, 5, 7}), cfl, step, correction_of(correction),
+                              one_of("--time-orders", time_order, {2, 4})});
   return ladder;
 }
 
@@ -85,7 +93,7 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
   const auto numbers = numbers_of("--reference", s.reference);
   if (numbers.size() != 3)
     throw Error("--reference: found " + s.reference + ", expected ORDER,CFL,STEP", ErrorKind::usage);
-  return {order_of("--reference", numbers[0]), numbers[1], numbers[2], SlipCorrection::second};
+  return {one_of("--reference", numbers[0], {1, 3, 5, 7}), numbers[1], numbers[2], SlipCorrection::second};
 }
 
 /// The user's scene; nothing of it is asked for where a built-in case is.

@@ -62,7 +62,10 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   for (const auto& sentence : warnings(scene)) context.warn(sentence);
   if (settings.plan) {
-    const std::string text = report_of(plan(scene)).lines();
+    auto report = report_of(plan(scene));
+    if (!settings.wanted_error)
+      report.text("for an error of 1 %", sentence_of(cheapest_setting(scene, 0.01), scene));
+    const std::string text = report.lines();
     OutputFile out(settings.output.traces, OutputFile::Content::text);
     out.write(text.data(), text.size());
     return out.commit();

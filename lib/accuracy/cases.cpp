@@ -8,7 +8,7 @@
 namespace slipwave {
 namespace {
 
-constexpr UniformSolid rock{4500, 2250, 2500};
+constexpr UniformMedium rock{4500, 2250, 2500};
 constexpr double side_m = 4980, spacing_m = 5, peak_hz = 30, duration_s = 0.76, interval_s = 0.001;
 /// Lines of receivers: 10 and 20 dominant S wavelengths, 0 to 67.5 degrees from the vertical.
 constexpr double distances_m[] = {750, 1500};

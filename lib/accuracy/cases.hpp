@@ -11,7 +11,7 @@ namespace slipwave {
 Scene<2> full_space_case();
 
 /// Its traces at the scene's sampling, by Hankel functions in the frequency domain,
-///   u_i = F [g_s delta_iz + (g_s - g_p),iz/ks^2]/mu,   g = H0(2)(k r)/(4 i),                        (E17)
+///   u_i = F [g_s delta_iz + (g_s - g_p),iz/ks^2]/mu,   g = H0(2)(k r)/(4 i),
 /// exact to 1e-6 of the peak.
 Gather full_space_traces();
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "accuracy/wave_train.hpp"
@@ -19,6 +20,8 @@ struct ExpectedError {
   std::optional<double> s;
   /// That of the direct waves, or of the P waves where there are no receivers.
   double overall() const { return direct.value_or(p); }
+  /// The larger of that and of P waves to the end: reflections matter, however small beside the direct waves.
+  double of_reflections_too() const { return std::max(overall(), p); }
 };
 
 /// With the step error e(f) (E15) of each medium on the way, n steps in it, and the spectrum W(f) of the

@@ -19,7 +19,7 @@ std::array<std::complex<double>, 4> green(double k, double r) {
 
 }  // namespace
 
-Motion explosion_motion(const UniformSolid& rock, double omega, double x, double z) {
+Motion explosion_motion(const UniformMedium& rock, double omega, double x, double z) {
   const double r = std::hypot(x, z), n[2] = {x / r, z / r};
   const auto g = green(omega / rock.vp, r);  // and its derivatives in r
   const std::complex<double> scale = -1 / (rock.rho * rock.vp * rock.vp);
@@ -33,7 +33,7 @@ Motion explosion_motion(const UniformSolid& rock, double omega, double x, double
           (rock.lambda() * trace + 2 * rock.mu() * strain(1, 1)) / rate, 2 * rock.mu() * strain(0, 1) / rate};
 }
 
-Motion force_motion(const UniformSolid& rock, double omega, double x, double z, int along) {
+Motion force_motion(const UniformMedium& rock, double omega, double x, double z, int along) {
   const double r = std::hypot(x, z), n[2] = {x / r, z / r}, ks = omega / rock.vs;
   const auto s = green(ks, r), p = green(omega / rock.vp, r);
   Motion motion{};

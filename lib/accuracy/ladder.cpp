@@ -33,12 +33,14 @@ Scene<2> with_setting(const Scene<2>& scene, const AccuracySetting& setting) {
   changed.numerics.cfl = setting.cfl;
   changed.numerics.time_step_s.reset();
   changed.numerics.correction = setting.correction;
+  changed.numerics.time_order = setting.time_order;
   return changed;
 }
 
 std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
-  std::string name = "order " + std::to_string(setting.order) + ", Courant " + shown(setting.cfl) + ", " +
-                     shown(setting.spacing_m) + " m";
+  std::string name = "order " + std::to_string(setting.order) +
+                     (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
+                     ", Courant " + shown(setting.cfl) + ", " + shown(setting.spacing_m, 4) + " m";
   if (scene.slips())
     name += setting.correction == SlipCorrection::first ? ", first-order slip" : ", second-order slip";
   return name;
@@ -80,6 +82,7 @@ AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, cons
   const auto expected = plan(changed);
   AccuracyRow row;
   row.order = setting.order;
+  row.time_order = setting.time_order;
   row.courant = expected.courant;
   row.spacing_m = setting.spacing_m;
   if (scene.slips()) row.slip_order = setting.correction == SlipCorrection::first ? 1 : 2;

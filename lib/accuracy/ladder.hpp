@@ -14,13 +14,15 @@ struct AccuracySetting {
   double cfl = 0.9;
   double spacing_m = 0;
   SlipCorrection correction = SlipCorrection::second;
+  int time_order = 2;
 };
 
 /// The same scene computed so: the same geology in other cells (regridded()), survey and recording untouched.
 /// Throws a usage Error when the model's extent is no whole number of cells.
 Scene<2> with_setting(const Scene<2>& scene, const AccuracySetting& setting);
 
-/// "order 7, Courant 0.5, 2.5 m", and the slip correction where the scene slips.
+/// "order 7, Courant 0.5, 2.5 m", and the order in time unless 2, and the slip correction where the scene
+/// slips.
 std::string name_of(const AccuracySetting& setting, const Scene<2>& scene);
 
 /// Relative L2 differences of gathers. Velocities are taken together and so are stresses and pressure; the

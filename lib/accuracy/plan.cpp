@@ -17,11 +17,6 @@ namespace {
 /// Fewer cells a wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
 
-std::string rounded(double value, int digits) {
-  const double unit = std::pow(10, digits - 1 - std::floor(std::log10(std::abs(value))));
-  return value == 0 ? "0" : shown(std::round(value * unit) / unit);
-}
-
 template <int D>
 double cells_a_wavelength(const Scene<D>& scene, const SlowestWave& slowest, double hz) {
   return slowest.speed / hz / scene.model.grid().spacing_m;
@@ -114,23 +109,23 @@ Report report_of(const Plan<D>& plan) {
   report.number("slowest wave", plan.slowest.speed, "m/s");
   report.number("highest frequency", plan.highest_hz, "Hz");
   report.text("cells a shortest wavelength",
-              "P " + rounded(plan.cells_of_shortest_p, 3) +
-                  (plan.cells_of_shortest_s ? ", S " + rounded(*plan.cells_of_shortest_s, 3) : ""));
+              "P " + shown(plan.cells_of_shortest_p, 3) +
+                  (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
   report.text("loss of the slowest",
-              rounded(100 * plan.loss_per_wavelength, 2) + " % of the amplitude a wavelength");
+              shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude a wavelength");
   if (plan.error.direct)
-    report.text("expected error", rounded(100 * *plan.error.direct, 2) + " % in the direct waves");
-  report.text("error after " + rounded(plan.duration_s, 3) + " s",
-              "P " + rounded(100 * plan.error.p, 2) + " %" +
-                  (plan.error.s ? ", S " + rounded(100 * *plan.error.s, 2) + " %" : ""));
+    report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in the direct waves");
+  report.text("error after " + shown(plan.duration_s, 3) + " s",
+              "P " + shown(100 * plan.error.p, 2) + " %" +
+                  (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
   report.count("cells beside contacts", plan.span_ends);
-  report.text("memory", rounded(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
-  report.text("expected time", rounded(plan.seconds, 2) + " s of the processor, " +
-                                   rounded(plan.seconds / plan.threads, 2) + " s on " +
+  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
+  report.text("expected time", shown(plan.seconds, 2) + " s of the processor, " +
+                                   shown(plan.seconds / plan.threads, 2) + " s on " +
                                    std::to_string(plan.threads) + " threads");
   report.text("instruction set", plan.instruction_set);
   for (const auto& pass : plan.passes)
-    report.text("pass", pass.name + ": " + rounded(100 * pass.share, 3) + " % of the cells");
+    report.text("pass", pass.name + ": " + shown(100 * pass.share, 3) + " % of the cells");
   return report;
 }
 
@@ -141,12 +136,12 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
   const double cells = cells_a_wavelength(scene, slowest, highest);
   if (cells >= fewest_cells) return {};
   const double h = scene.model.grid().spacing_m;
-  return {"found " + rounded(cells, 2) + " cells a shortest wavelength (" + rounded(slowest.speed, 4) +
-          " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " + rounded(highest, 3) +
+  return {"found " + shown(cells, 2) + " cells a shortest wavelength (" + shown(slowest.speed, 4) +
+          " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " + shown(highest, 3) +
           " Hz), expected at least " + shown(fewest_cells) + ": such waves lose " +
-          rounded(100 * loss_of(scene, slowest, cells), 2) + " % of their amplitude a wavelength; cells of " +
-          rounded(h * cells / fewest_cells, 2) + " m would do, at " +
-          rounded(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost"};
+          shown(100 * loss_of(scene, slowest, cells), 2) + " % of their amplitude a wavelength; cells of " +
+          shown(h * cells / fewest_cells, 2) + " m would do, at " +
+          shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost"};
 }
 
 template Plan<2> plan(const Scene<2>&);

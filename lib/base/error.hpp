@@ -35,5 +35,7 @@ decltype(auto) in_place(const std::string& place, Body&& body) {
 
 /// A number as a message shows it: shortest form that reads back as the same double ("12.5", "1e-300").
 std::string shown(double value);
+/// Rounded to so many digits, the rest left out: 160, 1.67, 0.0042.
+std::string shown(double value, int digits);
 
 }  // namespace slipwave

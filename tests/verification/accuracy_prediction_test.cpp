@@ -10,7 +10,7 @@
 namespace slipwave {
 namespace {
 
-constexpr UniformSolid rock{4500, 2250, 2500};
+constexpr UniformMedium rock{4500, 2250, 2500};
 constexpr double peak_hz = 15;  // S waves of 150 m
 
 /// A force or an explosion in a space of 3 km a side, cells of 15 m, receivers 5 dominant S wavelengths away,

@@ -4,17 +4,13 @@
 #include <memory>
 #include <vector>
 
+#include "accuracy/full_space.hpp"
 #include "scene/splitting.hpp"
 #include "solver/sweeps.hpp"
 
 namespace slipwave::solver {
 
-/// A rock or fluid: m/s, m/s, kg/m3.
-struct Rock {
-  double vp, vs, rho;
-  double mu() const { return rho * vs * vs; }
-  double lambda() const { return rho * vp * vp - 2 * mu(); }
-};
+using Rock = UniformMedium;
 
 inline Medium<2> uniform_medium(std::int64_t nx, std::int64_t nz, double spacing_m, const Rock& rock) {
   const Grid<2> grid{{nx, nz}, spacing_m, {0, 0}};

@@ -2,7 +2,8 @@
 
 #include <numbers>
 
-#include "full_space.hpp"
+#include "accuracy/full_space.hpp"
+#include "lab.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "full_space.hpp"
+#include "accuracy/full_space.hpp"
+#include "lab.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {

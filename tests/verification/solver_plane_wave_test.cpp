@@ -3,7 +3,8 @@
 #include <complex>
 #include <numbers>
 
-#include "full_space.hpp"
+#include "accuracy/full_space.hpp"
+#include "lab.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
