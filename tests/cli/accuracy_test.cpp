@@ -1,0 +1,239 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <sstream>
+#include <tuple>
+#include <vector>
+
+#include "shell.hpp"
+
+namespace {
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+const std::string shots =
+    "--source 200,200 --wavelet ricker:15 --receivers 150:450:50,450 --time 0.3 --top absorbing ";
+const std::string ladder = "--steps 20,10 --orders 3,7 --cfls 0.9,0.4 --reference 7,0.4,5 ";
+/// An explosion in uniform rock: P waves only, and nothing that comes back.
+const std::string rock_shot =
+    "--source 200,200 --wavelet ricker:25 --receivers 150:450:50,450 --time 0.3 --top absorbing "
+    "--record vx,vz ";
+/// Columns of the text.
+constexpr std::size_t order = 0, courant = 2, step = 3, slip = 4, error = 7, expected = 9, seconds = 10;
+
+/// Rows of the text without its comments, "-" as NaN; the mark of the chosen row is left out.
+std::vector<std::vector<double>> rows_of(const std::string& text) {
+  std::vector<std::vector<double>> rows;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    rows.emplace_back();
+    std::istringstream words(line);
+    for (std::string word; words >> word && word != "<";)
+      rows.back().push_back(word == "-" ? std::numeric_limits<double>::quiet_NaN() : std::stod(word));
+  }
+  return rows;
+}
+
+/// The one number of a line like "all 1.2 3.4" that `sed` found.
+double number(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
+
+class Accuracy : public Shell {
+ protected:
+  void SetUp() override {
+    done("sw-layers --size 600x600 --step 10 --layer 0:2000:0:1000 --layer 300:3000:1500:2200 -o m.nc");
+    done("sw-layers --size 600x600 --step 10 --layer 0:3000:1500:2200 -o rock.nc");
+  }
+};
+
+}  // namespace
+
+TEST_F(Accuracy, OfEverySettingIsALineAndTheCheapestGoodOneIsMarked) {
+  const auto text = done("sw-accuracy m.nc " + shots + ladder + "--error 0.3 -o t.nc");
+  const auto rows = rows_of(text);
+  ASSERT_EQ(rows.size(), 9u) << text;
+  for (const auto& row : rows) ASSERT_EQ(row.size(), 13u) << text;
+  // The reference first: it has no error.
+  EXPECT_TRUE(std::isnan(rows[0][error])) << text;
+  EXPECT_EQ(rows[0][step], 5);
+  EXPECT_TRUE(has(text, "against order 7, Courant 0.4, 5 m")) << text;
+  for (std::size_t n = 1; n < rows.size(); ++n) {
+    EXPECT_GT(rows[n][error], 0) << text;
+    EXPECT_GT(rows[n][seconds], 0) << text;
+  }
+  // The same order and Courant number in smaller cells.
+  for (std::size_t n = 1; n <= 4; ++n) {
+    EXPECT_EQ(rows[n][step], 20);
+    EXPECT_EQ(rows[n + 4][step], 10);
+    EXPECT_EQ(rows[n + 4][order], rows[n][order]);
+    EXPECT_NEAR(rows[n + 4][courant], rows[n][courant], 1e-3);
+    EXPECT_LT(rows[n + 4][error], rows[n][error]) << text;
+  }
+  EXPECT_LT(rows[8][error], 5) << text;
+
+  double best = std::numeric_limits<double>::infinity();
+  for (const auto& row : rows)
+    if (row[error] <= 30) best = std::min(best, row[seconds]);
+  ASSERT_TRUE(std::isfinite(best)) << text;
+  const auto marked = rows_of(done("sw-accuracy m.nc " + shots + ladder + "--error 0.3 | grep '<$'"));
+  ASSERT_EQ(marked.size(), 1u);
+  EXPECT_LE(marked[0][error], 30);
+  const auto line = text.substr(text.rfind('\n', text.find("  <\n") - 1) + 1);
+  EXPECT_EQ(rows_of(line)[0][seconds], best) << text;
+}
+
+TEST_F(Accuracy, IsTheSameInTheTextInTheFileAndInWhatInfoSays) {
+  const auto rows = rows_of(done("sw-accuracy m.nc " + shots + ladder + "--error 0.3 -o t.nc"));
+  const auto info = done("sw-info t.nc");
+  for (const std::string words :
+       {"t.nc: accuracy\n", "reference     order 7, Courant 0.4, 5 m\n", "wanted error  30 %\n",
+        "order 3, time order 2, courant 0.9, step 20 m", "history       sw-layers --size 600x600"})
+    EXPECT_TRUE(has(info, words)) << words << " in " << info;
+  EXPECT_EQ(done("sw-info t.nc | grep -c '^  setting '"), "9\n");
+  EXPECT_EQ(done("sw-info --json t.nc | grep -o '\"late_error\"' | wc -l"), "9\n");  // 8, and the chosen one
+  if (run("ncdump 2> /dev/null; test $? -ne 127").code != 0) GTEST_SKIP() << "no ncdump (netcdf-bin)";
+  const auto dumped = [&](const std::string& name) {
+    return done("ncdump -v " + name + " t.nc | sed -n '/^ " + name +
+                " =/,/;/p' | tr -d '=;,\\n' | sed 's/^ " + name + " *//'");
+  };
+  for (const auto& [name, column, scale] :
+       {std::tuple{"error", error, 100.}, {"seconds", seconds, 1.}, {"step", step, 1.}}) {
+    std::istringstream words(dumped(name));
+    for (const auto& row : rows) {
+      std::string word;
+      ASSERT_TRUE(words >> word) << name;
+      const double value = scale * number(word);
+      EXPECT_EQ(std::isnan(value), std::isnan(row[column])) << name << ": " << word;
+      // The text has three digits.
+      if (!std::isnan(value)) {
+        EXPECT_NEAR(value, row[column], 0.006 * value) << name;
+      }
+    }
+  }
+  const auto header = done("ncdump -h t.nc");
+  for (const std::string words : {"setting = 9", ":wanted_error = 0.3", ":chosen = ", "error:units = \"1\""})
+    EXPECT_TRUE(has(header, words)) << words << " in " << header;
+}
+
+TEST_F(Accuracy, VariesTheSlipCorrectionOnlyWhereSomethingSlips) {
+  done("sw-fracture rock.nc --box 200:400,250:350 --dip 30 --friction 0.1 --viscosity 1e4 -o f.nc");
+  const std::string few = "--amplitude 1e11 --steps 20 --orders 5 --cfls 0.9 --corrections first,second ";
+  const auto text = done("sw-accuracy f.nc " + shots + few + "--reference 7,0.4,10");
+  const auto rows = rows_of(text);
+  ASSERT_EQ(rows.size(), 3u) << text;
+  EXPECT_EQ(rows[1][slip], 1) << text;
+  EXPECT_EQ(rows[2][slip], 2) << text;
+  EXPECT_NE(rows[1][error], rows[2][error]) << text;
+  EXPECT_EQ(rows_of(done("sw-accuracy f.nc " + shots + few + "--without slip")).size(), 2u);
+}
+
+TEST_F(Accuracy, TakesTheConfigurationOfAShot) {
+  write("shot.cfg",
+        "source = 200,200\nwavelet = ricker:15\nreceivers = 150:450:50,450\ntime = 0.3\ntop = absorbing\n"
+        "order = 7\nevery = 0.1\nfields = vx\n");
+  const std::string few = " --steps 20 --orders 5 --cfls 0.9";
+  const auto columns = " | grep -v '^#' | cut -c 1-52";  // up to the errors: times differ
+  EXPECT_EQ(done("sw-accuracy m.nc --config shot.cfg" + few + columns),
+            done("sw-accuracy m.nc " + shots + few + columns));
+}
+
+TEST_F(Accuracy, IsWhatWasExpectedWithinAFactorOfTwo) {
+  const auto text = done("sw-accuracy rock.nc " + rock_shot +
+                         "--steps 10,5 --orders 3,5,7 --cfls 0.9,0.5 --reference 7,0.4,2.5");
+  for (const auto& row : rows_of(text)) {
+    if (std::isnan(row[error])) continue;
+    EXPECT_GT(row[error], row[expected] / 2) << text;
+    EXPECT_LT(row[error], row[expected] * 2) << text;
+  }
+}
+
+TEST_F(Accuracy, WantedOfAShotIsKept) {
+  done("sw-layers --size 600x600 --step 2.5 --layer 0:3000:1500:2200 -o fine.nc");
+  done("sw-shoot fine.nc " + rock_shot + "--order 7 --cfl 0.4 -o fine.sgy");
+  for (const double wanted : {0.04, 0.01, 0.004}) {
+    const Ran ran =
+        run("sw-shoot rock.nc " + rock_shot + "--error " + std::to_string(wanted) + " -o chosen.sgy");
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(ran.err.rfind("sw-shoot: chose order ", 0), 0u) << ran.err;
+    const std::string says = " m: expected error ";
+    const auto at = ran.err.find(says);
+    ASSERT_NE(at, std::string::npos) << ran.err;
+    const double share = number(ran.err.substr(at + says.size())) / 100;
+    EXPECT_GT(share, 0) << ran.err;
+    EXPECT_LT(share, wanted) << ran.err;
+    const auto exceeds = [&](double bound) {
+      return run("sw-compare chosen.sgy fine.sgy -q --tolerance " + std::to_string(bound)).code;
+    };
+    EXPECT_EQ(exceeds(wanted), 0) << ran.err;
+    EXPECT_EQ(exceeds(2 * share), 0) << ran.err;
+    // Not bought at any price: the direct waves travel a part of the time that the traces last.
+    EXPECT_EQ(exceeds(wanted / 20), 1) << ran.err;
+  }
+  const Ran never = run("sw-shoot rock.nc " + rock_shot + "--error 1e-9 -o never.sgy");
+  EXPECT_EQ(never.code, 1);
+  EXPECT_TRUE(has(never.err, "; the best is order ")) << never.err;
+  EXPECT_FALSE(exists("never.sgy"));
+  expect_refused("sw-shoot rock.nc " + rock_shot + "--error 0 -o never.sgy", 2,
+                 "sw-shoot: --error: found 0, expected it above 0");
+}
+
+TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {
+  const std::string tool = "timeout 60 sw-accuracy m.nc -o t.nc ";
+  const std::string endless = "--source 200,200 --wavelet ricker:15 --receivers 150,450 --time 3000 ";
+  write("t.nc", "older");
+  struct Case {
+    std::string line;
+    int code;
+    std::string message;
+  };
+  const std::vector<Case> cases = {
+      {tool + endless + "--orders 5,4", 2, "--orders: found 4, expected one of 1, 3, 5, 7"},
+      {tool + endless + "--orders 5,x", 2, "--orders: found 'x', expected a number"},
+      {tool + endless + "--order 5", 2, "unknown option --order; did you mean --orders?"},
+      {tool + endless + "--time-orders 3", 2, "--time-orders: found 3, expected one of 2, 4"},
+      {tool + endless + "--cfls 0", 2, "--cfls: found 0, expected numbers above 0"},
+      {tool + endless + "--corrections third", 2, "--corrections: found third, expected first or second"},
+      {tool + endless + "--reference 7,0.4", 2, "--reference: found 7,0.4, expected ORDER,CFL,STEP"},
+      {tool + endless + "--error 0", 2, "--error: found 0, expected it above 0"},
+      {tool + endless + "--error -1", 2, "--error: found -1, expected it above 0"},
+      {tool + "--wavelet ricker:15 --receivers 1,1 --time 1", 2,
+       "found no --source, expected it, or --case full-space"},
+      {tool + "--source 1,1 --wavelet ricker:15 --receivers 1,1", 2,
+       "found no --time, expected it, or --case full-space"},
+      {tool + endless + "--source 700,1", 1,
+       "source 2 at x=700 z=1 lies outside the model, expected x=0..600 z=0..600"},
+      {"timeout 60 sw-accuracy none.nc -o t.nc " + endless, 1, "none.nc: No such file or directory"},
+      {"timeout 60 sw-accuracy m.nc -o nowhere/t.nc " + endless, 1,
+       "nowhere/t.nc: No such file or directory"},
+  };
+  const auto before = files();
+  for (const auto& [line, code, message] : cases) {
+    expect_refused(line, code, "sw-accuracy: " + message);
+    EXPECT_EQ(files(), before) << line;
+  }
+  for (const std::string steps : {"7", "20,7", "1000"}) {
+    const Ran ran = run(tool + endless + "--steps " + steps);
+    EXPECT_EQ(ran.code, 2) << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+    EXPECT_TRUE(has(ran.err, steps == "1000" ? "1000" : "7")) << ran.err;
+  }
+  EXPECT_EQ(content("t.nc"), "older");
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(Accuracy, OfAModelWithoutSenseIsRefusedByPlace) {
+  if (run("/usr/bin/python3 -c 'import netCDF4'").code != 0)
+    GTEST_SKIP() << "no /usr/bin/python3 with netCDF4 (Debian: python3-netcdf4)";
+  write("set.py", R"(
+import netCDF4
+m = netCDF4.Dataset('rock.nc', 'a'); m.set_auto_mask(False)
+m['vs'][2, 3] = float('nan')
+)");
+  done("/usr/bin/python3 set.py");
+  for (const std::string tool : {"sw-accuracy", "sw-shoot --error 0.01"})
+    expect_refused(tool + " rock.nc -o t.nc " + shots, 1,
+                   tool.substr(0, tool.find(' ')) +
+                       ": rock.nc: vs at x=35 z=25 is NaN, expected a finite number not below zero");
+  EXPECT_FALSE(exists("t.nc"));
+}
