@@ -99,6 +99,7 @@ const std::map<std::string, Filling>& fillings() {
       {"SteelInAir", between(air, steel)},
       {"SteelInWater", between(water, steel)},
       {"SteelInSoil", between({1000, 100, 1500}, steel)},
+      {"RockInSofterRock", between({2250, 1125, 2300}, basement)},
       {"SofterRockInRock", between(basement, {2250, 1125, 2300})},
       {"SoftCheckerboard", checkerboard(5, {1000, 100, 1500}, basement)},
       {"VpOverVs10",
