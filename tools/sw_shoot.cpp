@@ -56,6 +56,9 @@ void run(const Settings& settings, const cli::Context& context) {
       throw Error("--error: found " + shown(*settings.wanted_error) + ", expected it above 0",
                   ErrorKind::usage);
     const auto choice = cheapest_setting(scene, *settings.wanted_error);
+    if (!choice.good_enough)
+      throw Error("--error: found no setting for " + shown(*settings.wanted_error) + "; the best is " +
+                  sentence_of(choice, scene) + " (margin: 1.5)");
     context.say("chose " + sentence_of(choice, scene));
     scene = with_setting(scene, choice.setting);
     check(scene);
@@ -63,8 +66,10 @@ void run(const Settings& settings, const cli::Context& context) {
   for (const auto& sentence : warnings(scene)) context.warn(sentence);
   if (settings.plan) {
     auto report = report_of(plan(scene));
-    if (!settings.wanted_error)
-      report.text("for an error of 1 %", sentence_of(cheapest_setting(scene, 0.01), scene));
+    if (!settings.wanted_error) {
+      const auto choice = cheapest_setting(scene, 0.01);
+      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene));
+    }
     const std::string text = report.lines();
     OutputFile out(settings.output.traces, OutputFile::Content::text);
     out.write(text.data(), text.size());

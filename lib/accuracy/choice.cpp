@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "accuracy/plan.hpp"
+#include "accuracy/expected_error.hpp"
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -12,30 +12,21 @@ namespace {
 /// with order 7 and long steps only).
 struct Scheme {
   int order, time_order;
+  double cost;  // of a step, over that of order 5 (tests/bench/orders.sh): what is chosen must not hang on
+                // the load of the moment
   std::vector<double> courant_numbers;
 };
-const std::vector<Scheme>& schemes() {
-  static const std::vector<Scheme> all = {{3, 2, {0.9, 0.7, 0.5}},
-                                          {5, 2, {0.9, 0.7, 0.5, 0.35, 0.2}},
-                                          {7, 2, {0.9, 0.7, 0.5, 0.35, 0.2}},
-                                          {7, 4, {1.9, 1.5}}};
-  return all;
+std::vector<Scheme> schemes() {
+  return {{3, 2, 0.85, {0.9, 0.7, 0.5}},
+          {5, 2, 1, {0.9, 0.7, 0.5, 0.35, 0.2}},
+          {7, 2, 1.2, {0.9, 0.7, 0.5, 0.35, 0.2}},
+          {7, 4, 7, {1.9, 1.5}}};
 }
+
 /// Errors were found up to 1.5 times what was expected of them (docs/accuracy.md): so much is kept in hand.
 constexpr double margin = 1.5;
 /// A cell is split into this many a side at most.
 constexpr int most_parts = 8;
-
-/// Processor time of a cell and a step, measured on the model's own cells.
-double rate_of(const Scene<2>& scene, const Scheme& scheme) {
-  Scene<2> own = scene;
-  own.numerics.order = scheme.order;
-  own.numerics.time_order = scheme.time_order;
-  own.numerics.cfl = scheme.courant_numbers.front();
-  own.numerics.time_step_s.reset();
-  const auto expected = plan(own);
-  return expected.seconds / (double(expected.computed.size()) * double(expected.steps));
-}
 
 double cells_of(const Scene<2>& scene, int parts) {
   const auto& grid = scene.model.grid();
@@ -54,37 +45,36 @@ double cells_of(const Scene<2>& scene, int parts) {
 
 Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const double own_m = scene.model.grid().spacing_m;
-  std::vector<Choice> choices;
-  for (const auto& scheme : schemes()) {
-    const double rate = rate_of(scene, scheme);
+  struct Candidate {
+    AccuracySetting setting;
+    double cost, error;
+  };
+  std::vector<Candidate> candidates;
+  for (const auto& scheme : schemes())
     for (const double cfl : scheme.courant_numbers)
-      for (int parts = 1; parts <= most_parts; ++parts) {
-        const double steps = scene.recording.duration_s * parts / (cfl * stable_time_step_s(scene));
-        choices.push_back({{scheme.order, cfl, own_m / parts, scene.numerics.correction, scheme.time_order},
-                           0,
-                           rate * cells_of(scene, parts) * steps});
-      }
-  }
-  std::sort(choices.begin(), choices.end(),
-            [](const Choice& a, const Choice& b) { return a.seconds < b.seconds; });
+      for (int parts = 1; parts <= most_parts; ++parts)
+        candidates.push_back(
+            {{scheme.order, cfl, own_m / parts, scene.numerics.correction, scheme.time_order},
+             scheme.cost * cells_of(scene, parts) * parts / cfl,
+             0});
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   const WavesOfScene waves(scene);
-  const Choice* best = nullptr;
-  for (auto& choice : choices) {
-    const auto& setting = choice.setting;
+  const Candidate* best = nullptr;
+  for (auto& candidate : candidates) {
+    const auto& setting = candidate.setting;
     const double time_step_s = setting.cfl * stable_time_step_s(scene) * setting.spacing_m / own_m;
-    choice.expected_error =
-        waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order})
-            .of_reflections_too();
-    if (margin * choice.expected_error <= wanted) return choice;
-    if (!best || choice.expected_error < best->expected_error) best = &choice;
+    candidate.error = waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order})
+                          .of_reflections_too();
+    if (!best || candidate.error < best->error) best = &candidate;
+    if (margin * candidate.error <= wanted) break;
   }
-  throw Error("found no setting whose expected error is below " + shown(wanted) + " by a factor of 1.5" +
-              "; the best is " + sentence_of(*best, scene));
+  return {best->setting, best->error, margin * best->error <= wanted};
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
-  return name_of(choice.setting, scene) + ": expected error " + shown(100 * choice.expected_error, 2) +
-         " %, " + shown(choice.seconds, 2) + " s of the processor";
+  return name_of(choice.setting, scene) + ": expected error up to " + shown(100 * choice.expected_error, 2) +
+         " %";
 }
 
 }  // namespace slipwave

@@ -8,17 +8,17 @@ namespace slipwave {
 struct Choice {
   AccuracySetting setting;
   double expected_error = 0;  // ExpectedError::of_reflections_too()
-  double seconds = 0;         // of the processor, all shots
+  bool good_enough = false;   // below what was wanted, by the margin
 };
 
 /// The cheapest of all orders from 3 on (and fourth order in time with order 7), Courant numbers that may pay
 /// with them, and cells of the model, whole or split (never joined: that would change the geology), whose
-/// expected error is below `wanted` by a factor of 1.5 (what is expected is not exact). Seconds come from
-/// steps run now, one order after the other. Throws an Error with the least expected error and its cost when
-/// no setting is good enough.
+/// expected error is below `wanted` by a margin of 1.5 (what is expected is not exact). Costs are in fixed
+/// proportions, so the same scene gets the same choice on every machine. The best there is when none is good
+/// enough.
 Choice cheapest_setting(const Scene<2>& scene, double wanted);
 
-/// "order 7, Courant 0.5, 2.5 m: expected error 0.8 %, 21 s of the processor".
+/// "order 7, Courant 0.5, 2.5 m: expected error up to 0.8 %".
 std::string sentence_of(const Choice& choice, const Scene<2>& scene);
 
 }  // namespace slipwave
