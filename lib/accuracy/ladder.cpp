@@ -83,7 +83,7 @@ AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, cons
   AccuracyRow row;
   row.order = setting.order;
   row.time_order = setting.time_order;
-  row.courant = expected.courant;
+  row.courant = setting.cfl;  // that of the plan differs by rounding
   row.spacing_m = setting.spacing_m;
   if (scene.slips()) row.slip_order = setting.correction == SlipCorrection::first ? 1 : 2;
   row.cells = expected.computed.size();
