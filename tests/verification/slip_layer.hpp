@@ -32,7 +32,7 @@ struct Waves {
   std::vector<double> through, back;  // Pa, of the stress that the waves carry
 };
 
-/// S waves that leave the faces of a layer whose slip all happens in its middle: there 2 tau_i = 2 tau + Z L
+/// S waves that leave the faces of a layer (S8) whose slip all happens in its middle: 2 tau_i = 2 tau + Z L
 /// g, so that |tau| = (|tau_i| + r S)/(1 + r) where |tau_i| > S. For layers much thinner than a wave. Times
 /// are counted as the incident wave at the upper face counts them.
 inline Waves of_interface(const std::vector<double>& times_s, double thickness_m, double r) {

@@ -96,7 +96,7 @@ TEST(SlipLayerReference, IsAnInterfaceWhereTheLayerIsThin) {
 TEST(SlipLayer, PassesAndReflectsSWavesAsInOneDimension) {
   // 15 to 60 cells a dominant wavelength, 4 to 16 in the layer. What slip sends back converges in the order
   // of the correction. At r = 100 the skin of the layer is a sixth of the smallest cell: there, cells feel
-  // (S8).
+  // (S9).
   constexpr auto first = SlipCorrection::first, second = SlipCorrection::second;
   const Bounds all[] = {{first, 0.1, {{2.2, 2.7}, {0.22, 0.67}, {0.11, 0.25}}, 0.9},
                         {first, 1, {{6.8, 8.4}, {2.3, 3.5}, {1.1, 1.8}}, 0.9},
@@ -121,7 +121,7 @@ TEST(SlipLayer, PassesAndReflectsSWavesAsInOneDimension) {
   }
 }
 
-/// (S8): what reconstruction and step add to eta S of a single row of cells, over Z h/2. Steady flow: the
+/// (S9): what reconstruction and step add to eta S of a single row of cells, over Z h/2. Steady flow: the
 /// invariant that travels along z crosses all faces before the row with one value and all behind it with
 /// another, 0 and 1 say; its mean in the row follows from the weights of (E5).
 double own_viscosity(int order, double a, double theta) {
