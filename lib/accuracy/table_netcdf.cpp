@@ -1,4 +1,8 @@
 #include "accuracy/table.hpp"
+
+#include <cmath>
+#include <type_traits>
+
 #include "base/error.hpp"
 #include "base/netcdf_file.hpp"
 
@@ -49,16 +53,26 @@ void put(NetcdfFile& file, const Column<Value>& column, Type type, const std::ve
   file.put(column.name, values.data());
 }
 
+/// The first column makes the rows: a damaged length is refused by the file before memory is taken for it.
 template <class Stored, class Value>
-void get(const NetcdfFile& file, const Column<Value>& column, std::vector<AccuracyRow>& rows) {
+void get(const NetcdfFile& file, const Column<Value>& column, std::size_t count,
+         std::vector<AccuracyRow>& rows) {
   if (!file.has_variable(column.name))
     throw Error(file.shown_name() + ": found no variable " + column.name +
                 ", expected a table of sw-accuracy");
   const auto values = file.get<Stored>(column.name);
-  if (values.size() != rows.size())
+  if (values.size() != count)
     throw Error(file.shown_name() + ": found " + std::to_string(values.size()) + " values of " + column.name +
-                ", expected " + std::to_string(rows.size()));
-  for (std::size_t n = 0; n < rows.size(); ++n) rows[n].*column.place = Value(values[n]);
+                ", expected " + std::to_string(count));
+  rows.resize(count);
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    // Where a count comes from a double: beyond 2^53 it could not have been written.
+    if constexpr (std::is_same_v<Value, std::int64_t>)
+      if (!(values[n] >= 0 && values[n] <= 9007199254740992.))
+        throw Error(file.shown_name() + ": found " + column.name + " = " + shown(values[n]) +
+                    ", expected a count");
+    rows[n].*column.place = Value(values[n]);
+  }
 }
 
 }  // namespace
@@ -90,10 +104,9 @@ AccuracyTable read_accuracy_table(const NetcdfFile& file) {
     throw Error(file.shown_name() + ": found no dimension " + dimension +
                 ", expected a table of sw-accuracy");
   AccuracyTable table;
-  table.rows.resize(*rows);
-  for (const auto& column : whole_numbers) get<int>(file, column, table.rows);
-  for (const auto& column : counts) get<double>(file, column, table.rows);
-  for (const auto& column : numbers) get<double>(file, column, table.rows);
+  for (const auto& column : whole_numbers) get<int>(file, column, *rows, table.rows);
+  for (const auto& column : counts) get<double>(file, column, *rows, table.rows);
+  for (const auto& column : numbers) get<double>(file, column, *rows, table.rows);
   table.title = file.text_attribute("", "title").value_or("");
   table.history = file.text_attribute("", "history").value_or("");
   table.reference = file.text_attribute("", "reference").value_or("");
@@ -104,7 +117,7 @@ AccuracyTable read_accuracy_table(const NetcdfFile& file) {
   };
   table.wanted_error = number("wanted_error");
   if (const auto chosen = number("chosen")) {
-    if (!(*chosen >= 0 && *chosen < double(table.rows.size())))
+    if (!(*chosen >= 0 && *chosen < double(table.rows.size()) && *chosen == std::floor(*chosen)))
       throw Error(file.shown_name() + ": found chosen = " + shown(*chosen) + ", expected a row below " +
                   std::to_string(table.rows.size()));
     table.chosen = std::size_t(*chosen);
