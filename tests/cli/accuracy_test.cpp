@@ -156,7 +156,7 @@ TEST_F(Accuracy, WantedOfAShotIsKept) {
         run("sw-shoot rock.nc " + rock_shot + "--error " + std::to_string(wanted) + " -o chosen.sgy");
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err.rfind("sw-shoot: chose order ", 0), 0u) << ran.err;
-    const std::string says = " m: expected error ";
+    const std::string says = " m: expected error up to ";
     const auto at = ran.err.find(says);
     ASSERT_NE(at, std::string::npos) << ran.err;
     const double share = number(ran.err.substr(at + says.size())) / 100;
