@@ -237,3 +237,16 @@ m['vs'][2, 3] = float('nan')
                        ": rock.nc: vs at x=35 z=25 is NaN, expected a finite number not below zero");
   EXPECT_FALSE(exists("t.nc"));
 }
+
+TEST_F(Accuracy, OfAFullSpaceIsBelowAPercentAfterTwentyWavelengths) {
+  if (!std::getenv("SLIPWAVE_LONG")) GTEST_SKIP() << "SLIPWAVE_LONG is not set: this takes a minute";
+  const auto text =
+      done("sw-accuracy --case full-space --steps 5,4 --orders 7 --cfls 0.4 --error 0.01 -o t.nc");
+  EXPECT_TRUE(has(text, "against the closed form")) << text;
+  const auto rows = rows_of(text);
+  ASSERT_EQ(rows.size(), 2u) << text;
+  EXPECT_GT(rows[0][error], 1) << text;
+  EXPECT_LT(rows[1][error], 1) << text;
+  EXPECT_TRUE(has(text, "  <\n")) << text;
+  for (const auto& row : rows) EXPECT_NEAR(row[error], row[expected], 0.2 * row[expected]) << text;
+}
