@@ -62,8 +62,9 @@ GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gat
         late[stress].all += b[sample] * b[sample];
       }
     }
-  return {std::max(whole[0].relative(), whole[1].relative()),
-          std::max(late[0].relative(), late[1].relative())};
+  // A NaN counts as the larger.
+  const auto larger = [](double a, double b) { return std::isnan(a) || a > b ? a : b; };
+  return {larger(whole[0].relative(), whole[1].relative()), larger(late[0].relative(), late[1].relative())};
 }
 
 std::vector<Gather> shoot_all(const Scene<2>& scene, double& seconds, const Progress& progress) {
