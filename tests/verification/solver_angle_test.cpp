@@ -75,6 +75,7 @@ struct AngleCase {
   double duration_s;
   std::vector<double> bounds;  // percent
 };
+void PrintTo(const AngleCase& angle, std::ostream* out) { *out << angle.name; }
 
 /// Reflected under these angles, critical and head waves included, then sent through to three places below.
 const std::vector<double> angles_deg = {0, 15, 30, 45, 60, 70}, through_m = {0, 150, 400};
