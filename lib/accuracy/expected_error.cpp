@@ -102,7 +102,7 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   double energy = 0;
   const auto add = [&](double sent_energy, WaveKind kind) {
     const auto way = straight_way(medium, from, receiver, kind);
-    if (!(sent_energy > 0) || way.empty()) return;
+    if (!(sent_energy > 0) || way.empty() || way.time_s() > scene.recording.duration_s) return;
     trains.push_back({(1 - share) * sent_energy / r, kind, angle, way, band});
     energy += sent_energy / r;
   };
@@ -112,6 +112,7 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   const auto [vp, vs] = speeds_at(medium, {from[0], medium.grid().origin_m[1]});
   WayOfWave way;
   way.add(vp, rayleigh_speed * vs, std::abs(receiver[0] - from[0]) / (rayleigh_speed * vs));
+  if (way.time_s() > scene.recording.duration_s) return;
   trains.push_back({share * energy, WaveKind::s, std::numbers::pi / 2, way, band_of(source.wavelet, 2)});
 }
 

@@ -12,13 +12,13 @@ namespace slipwave {
 struct ExpectedError {
   /// Of the direct waves, all shots and receivers together, each by its energy: P and S along straight rays
   /// as the source radiates them, the Rayleigh wave where source and receiver are near a free surface.
-  /// Nothing where there are no receivers.
+  /// Nothing where none arrives before the traces end.
   std::optional<double> direct;
   /// Of P and S waves that are on their way as long as the traces last, the mean over all directions, in each
   /// medium for the share of time that a ray through the whole model spends there. No s in fluids only.
   double p = 0;
   std::optional<double> s;
-  /// That of the direct waves, or of the P waves where there are no receivers.
+  /// That of the direct waves, or of the P waves where there are none.
   double overall() const { return direct.value_or(p); }
   /// The larger of that and of P waves to the end: reflections matter, however small beside the direct waves.
   double of_reflections_too() const { return std::max(overall(), p); }

@@ -148,6 +148,17 @@ TEST_F(Accuracy, IsWhatWasExpectedWithinAFactorOfTwo) {
   }
 }
 
+TEST_F(Accuracy, ExpectedIsThatOfWavesThatArrive) {
+  const auto plan = [&](const std::string& receivers) {
+    return done("sw-shoot rock.nc --source 200,200 --wavelet ricker:15 --time 0.08 --plan " + receivers +
+                " | grep 'direct waves' || true");
+  };
+  const std::string near = "--receivers 250,230 ", far = "--receivers 550,550 ";
+  EXPECT_TRUE(has(plan(near), "expected error"));
+  EXPECT_EQ(plan(near + far), plan(near));
+  EXPECT_EQ(plan(far), "");
+}
+
 TEST_F(Accuracy, WantedOfAShotIsKept) {
   done("sw-layers --size 600x600 --step 2.5 --layer 0:3000:1500:2200 -o fine.nc");
   done("sw-shoot fine.nc " + rock_shot + "--order 7 --cfl 0.4 -o fine.sgy");
