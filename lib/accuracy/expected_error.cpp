@@ -13,7 +13,7 @@ namespace {
 using solver::WaveKind;
 
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
-constexpr std::size_t receivers_followed = 12, shots_followed = 4;
+constexpr std::size_t receivers_followed = 48, shots_followed = 4;
 /// Directions of travel over which waves of unknown direction are averaged.
 constexpr int directions = 6;
 /// A Rayleigh wave against the S wave.
@@ -87,6 +87,34 @@ double rayleigh_share(const Scene<2>& scene, const Source<2>& source, const Poin
   return std::exp(-2 * rayleigh_decay * k * (source.position_m[1] - top + receiver[1] - top));
 }
 
+/// How much farther than the source its image in a free surface is from a receiver, m; in water only, whose
+/// surface sends all of the wave back.
+std::optional<double> detour_of_ghost(const Scene<2>& scene, const Point<2>& from, const Point<2>& receiver) {
+  const auto& medium = scene.model.medium;
+  const double top = medium.grid().origin_m[1], x = receiver[0] - from[0];
+  if (scene.edges[1][0] != EdgeLaw::free || speeds_at(medium, from).vs > 0 ||
+      speeds_at(medium, {from[0], top}).vs > 0)
+    return std::nullopt;
+  return std::hypot(x, receiver[1] + from[1] - 2 * top) - std::hypot(x, receiver[1] - from[1]);
+}
+
+/// A band with the share of energy that is left when the image of the source in a free surface is subtracted,
+/// which comes over a way longer by `detour_m`: 4 sin^2(pi f detour/c) at each frequency.
+struct GhostedBand {
+  WaveBand band;
+  double share = 1;
+};
+GhostedBand with_ghost(WaveBand band, double detour_m, double speed) {
+  double sum = 0;
+  for (std::size_t n = 0; n < band.hz.size(); ++n) {
+    band.energy[n] *= 4 * std::pow(std::sin(std::numbers::pi * band.hz[n] * detour_m / speed), 2);
+    sum += band.energy[n];
+  }
+  if (!(sum > 0)) return {std::move(band), 0};
+  for (auto& share : band.energy) share /= sum;
+  return {std::move(band), sum};
+}
+
 using Trains = std::vector<WaveTrain>;
 
 void add_point_source(const Scene<2>& scene, const Source<2>& source, const Point<2>& receiver,
@@ -99,11 +127,14 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   const auto sent = radiation(*point_injection(source), speeds_at(medium, from), n);
   const double share = rayleigh_share(scene, source, receiver);
   const auto band = band_of(source.wavelet, 1);
+  const auto ghost_detour = detour_of_ghost(scene, from, receiver);
   double energy = 0;
   const auto add = [&](double sent_energy, WaveKind kind) {
     const auto way = straight_way(medium, from, receiver, kind);
     if (!(sent_energy > 0) || way.empty() || way.time_s() > scene.recording.duration_s) return;
-    trains.push_back({(1 - share) * sent_energy / r, kind, angle, way, band});
+    const auto left =
+        ghost_detour ? with_ghost(band, *ghost_detour, speeds_at(medium, from).vp) : GhostedBand{band};
+    trains.push_back({(1 - share) * left.share * sent_energy / r, kind, angle, way, left.band});
     energy += sent_energy / r;
   };
   add(sent.p, WaveKind::p);

@@ -11,8 +11,8 @@ namespace slipwave {
 /// Relative L2 errors that the scheme's dispersion leaves in the waves of a scene, before anything is run.
 struct ExpectedError {
   /// Of the direct waves, all shots and receivers together, each by its energy: P and S along straight rays
-  /// as the source radiates them, the Rayleigh wave where source and receiver are near a free surface.
-  /// Nothing where none arrives before the traces end.
+  /// as the source radiates them, the Rayleigh wave where source and receiver are near a free surface; in
+  /// water together with their reflection from it. Nothing where none arrives before the traces end.
   std::optional<double> direct;
   /// Of P and S waves that are on their way as long as the traces last, the mean over all directions, in each
   /// medium for the share of time that a ray through the whole model spends there. No s in fluids only.
