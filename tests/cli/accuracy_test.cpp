@@ -148,6 +148,20 @@ TEST_F(Accuracy, IsWhatWasExpectedWithinAFactorOfTwo) {
   }
 }
 
+TEST_F(Accuracy, OfAShallowSourceAtSeaIsExpectedToBeThatOfNearReceivers) {
+  // With its reflection from the surface the wave falls off so fast that receivers nearby count most.
+  done("sw-layers --size 1200x300 --step 10 --layer 0:1500:0:1000 -o sea.nc");
+  const auto text = done(
+      "sw-accuracy sea.nc --source 100,15 --wavelet ricker:15 --receivers 120:1100:20,20 --time 0.9 "
+      "--steps 10 --orders 3,5 --cfls 0.9 --reference 7,0.4,2.5");
+  const auto rows = rows_of(text);
+  ASSERT_EQ(rows.size(), 3u) << text;
+  for (const std::size_t n : {1, 2}) {
+    EXPECT_GT(rows[n][error], rows[n][expected] / 2) << text;
+    EXPECT_LT(rows[n][error], rows[n][expected] * 2) << text;
+  }
+}
+
 TEST_F(Accuracy, ExpectedIsThatOfWavesThatArrive) {
   const auto plan = [&](const std::string& receivers) {
     return done("sw-shoot rock.nc --source 200,200 --wavelet ricker:15 --time 0.08 --plan " + receivers +
