@@ -1,9 +1,11 @@
 #include "solver/point_access.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
+#include "solver/free_edge.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -65,6 +67,59 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
   return box;
 }
 
+/// From here on stencils across an edge, in cells from the last centre, need nothing from beyond it.
+constexpr double centred_from = widest_stencil / 2 - 1;
+
+/// The cells round a point and how the field goes on beyond those at an edge of the grid.
+template <int D>
+std::array<AxisCells, std::size_t(D)> continued_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                      int field_row, bool fluid) {
+  auto usable = usable_cells(domain, centre);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    if (usable[axis].low == 0)
+      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
+    if (usable[axis].high == domain.grid.shape[axis] - 1)
+      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+  }
+  return usable;
+}
+
+template <int D>
+std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m,
+                                        const std::array<AxisCells, std::size_t(D)>& usable, int field_row) {
+  std::vector<ValueWeight> weights;
+  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
+    weights.push_back(
+        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+  return weights;
+}
+
+/// What the images beyond a free edge of a solid add to a velocity over their mirrored values.
+template <int D>
+void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
+              std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
+              std::vector<ValueWeight>& weights) {
+  auto& across = usable[std::size_t(axis)];
+  const std::int64_t last = side ? domain.grid.shape[axis] - 1 : 0;
+  if ((side ? across.high : across.low) != last) return;
+  const double position = (point_m[axis] - domain.grid.origin_m[axis]) / domain.grid.spacing_m - 0.5;
+  auto evenly = axis_weights(position, across);
+  (side ? across.above : across.below) = Beyond::odd;
+  const auto oddly = axis_weights(position, across);
+  double images = 0;
+  for (std::size_t n = 0; n < evenly.size(); ++n)
+    images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
+  if (images == 0) return;
+  // The edge's own cells, at the point's place along it.
+  Point<D> on_edge = point_m;
+  on_edge[axis] = domain.grid.origin_m[axis] + (double(last) + 0.5) * domain.grid.spacing_m;
+  for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
+    for (const auto& term : edge_slope(domain, at.cell, axis, side, row))
+      weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
+                         images * at.weight * term.weight});
+}
+
 }  // namespace
 
 std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
@@ -85,18 +140,34 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
                                      const Point<D>& point_m, int field_row) {
   const Index<D> centre = cell_at(domain, point_m);
   const bool fluid = domain.impedance[wave_s](centre) == 0;
-  auto usable = usable_cells(domain, centre);
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    if (usable[axis].low == 0)
-      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
-    if (usable[axis].high == domain.grid.shape[axis] - 1)
-      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
-  }
-  std::vector<ValueWeight> weights;
-  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
-    weights.push_back(
-        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+  const auto usable = continued_cells(domain, centre, field_row, fluid);
+  std::vector<ValueWeight> weights = weights_within(layout, domain, point_m, usable, field_row);
+  if (!fluid && field_row < D)
+    for (int axis = 0; axis < D; ++axis)
+      for (const int side : {0, 1})
+        if (domain.edges[axis][side] == EdgeLaw::free)
+          add_bend(layout, domain, point_m, usable, axis, side, field_row, weights);
   return weights;
+}
+
+template <int D>
+std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  if (field_row < D || domain.impedance[wave_s](centre) == 0)
+    return row_weights(layout, domain, point_m, field_row);
+  auto usable = continued_cells(domain, centre, field_row, false);
+  for (int axis = 0; axis < D; ++axis) {
+    auto& cells = usable[std::size_t(axis)];
+    const double position = (point_m[axis] - domain.grid.origin_m[axis]) / domain.grid.spacing_m - 0.5;
+    const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
+    const bool low = domain.edges[axis][0] == EdgeLaw::free && position < centred_from,
+               high = domain.edges[axis][1] == EdgeLaw::free && double(last) - position < centred_from;
+    if ((!low && !high) || cells.high == cells.low) continue;
+    const auto first = std::clamp(std::int64_t(std::floor(position)), cells.low, cells.high - 1);
+    cells = {first, first + 1};
+  }
+  return weights_within(layout, domain, point_m, usable, field_row);
 }
 
 template <int D>
@@ -143,6 +214,7 @@ std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain
 
 template Index<2> cell_at(const Domain<2>&, const Point<2>&);
 template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                     Component);
 template int row_of<2>(Component);

@@ -24,6 +24,12 @@ template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row);
 
+/// The same for a source, which adds with them. Stresses of solids that would reach beyond a free edge go to
+/// the two nearest cells across it instead, or are led on from them beyond the last centre.
+template <int D>
+std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m, int field_row);
+
 /// The same for a component of a gather: p is minus the mean of the normal stresses.
 template <int D>
 std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,

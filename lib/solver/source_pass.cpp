@@ -49,10 +49,10 @@ class SourcePass : public Pass {
   bool acts(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
 
  private:
-  /// Spreads `strength` over cells of `row` with the weights a receiver of row `like` would have.
+  /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
   void add(const Domain<D>& domain, const Source<D>& source, int row, int like, double strength) {
     if (strength == 0) return;
-    for (auto value : row_weights(state_.layout, domain, source.position_m, like)) {
+    for (auto value : source_weights(state_.layout, domain, source.position_m, like)) {
       value.place += (row - like) * state_.layout.row_pitch();
       value.weight *= strength;
       values_.push_back(value);

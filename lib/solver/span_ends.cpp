@@ -17,6 +17,7 @@ struct Side {
   int beyond = 0;
   double share = 0;
   bool inside = false;  // an end inside the grid
+  bool at_free_edge() const { return !inside && law == Continuation::traction_free; }
 };
 
 /// Impedances met from a cell outwards along one axis.
@@ -69,6 +70,10 @@ Side side_of(const Walk<D>& z, Continuation edge, int reach) {
   }
   return side;
 }
+
+/// Cells the reconstruction may reach beside a free edge of a solid: with three, solids between free edges
+/// grew at Courant numbers from 0.9 on.
+constexpr int most_at_free_edge = 2;
 
 /// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
 /// more, and so does a single cell between a contact and another end: with more, random media of single cells
@@ -128,7 +133,8 @@ void correct_cell(const SpanEnd& end, std::int64_t stride, const Real* v, const 
 }  // namespace
 
 template <int D>
-SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach) {
+SpanEnds::SpanEnds(const Field<D>& impedance, const Field<D>& solid, const EdgeLaws<D>& edges, int axis,
+                   Wave wave, int reach) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
   starts_.assign(1, 0);
@@ -139,10 +145,15 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
       const Side low = side_of(Walk<D>(impedance, at, axis, -1), continuation(edges[axis][0], wave), reach);
       const Side high = side_of(Walk<D>(impedance, at, axis, +1), continuation(edges[axis][1], wave), reach);
       // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
-      if (!low.inside && !high.inside) continue;
-      cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
-                        std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
-                        float(high.share), std::int8_t(reach_within(low, high, reach))});
+      if (low.inside || high.inside) {
+        cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
+                          std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
+                          float(high.share), std::int8_t(reach_within(low, high, reach))});
+      } else if (reach > most_at_free_edge && solid(at) > 0 && (low.at_free_edge() || high.at_free_edge())) {
+        constexpr auto on = Continuation::none;
+        cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
+                          std::int8_t(most_at_free_edge)});
+      }
     }
     starts_.push_back(std::int64_t(cells_.size()));
   }
@@ -169,8 +180,8 @@ void SpanEnds::correct(int order, std::int64_t line, std::int64_t x_first, std::
   }
 }
 
-template SpanEnds::SpanEnds(const Field<2>&, const EdgeLaws<2>&, int, Wave, int);
-template SpanEnds::SpanEnds(const Field<3>&, const EdgeLaws<3>&, int, Wave, int);
+template SpanEnds::SpanEnds(const Field<2>&, const Field<2>&, const EdgeLaws<2>&, int, Wave, int);
+template SpanEnds::SpanEnds(const Field<3>&, const Field<3>&, const EdgeLaws<3>&, int, Wave, int);
 template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const float*,
                                 const float*, const float*, const float*, float, float*, float*) const;
 template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const double*,

@@ -56,10 +56,11 @@ struct SpanEnd {
 class SpanEnds {
  public:
   SpanEnds() = default;
-  /// `impedance` of the wave on the computed grid, 0 where it is not carried; laws of the grid's edges; cells
-  /// the reconstruction reaches to each side.
+  /// `impedance` of the wave on the computed grid, 0 where it is not carried; `solid` is 0 in fluids; laws of
+  /// the grid's edges; cells the reconstruction reaches to each side.
   template <int D>
-  SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach);
+  SpanEnds(const Field<D>& impedance, const Field<D>& solid, const EdgeLaws<D>& edges, int axis, Wave wave,
+           int reach);
 
   std::size_t size() const { return cells_.size(); }
   /// Overwrites up and down (index 0 = cell x_first) for the listed cells x_first <= x < x_last of a row.

@@ -29,9 +29,13 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       order_(order),
       reach_(reach_of(order)),
       shear_(domain.shear()) {
-  for (int axis = 0; axis < D; ++axis)
+  for (int axis = 0; axis < D; ++axis) {
     for (const Wave wave : {wave_p, wave_s})
-      ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_);
+      ends_[axis][wave] =
+          SpanEnds(domain.impedance[wave], domain.impedance[wave_s], edges_, axis, wave, reach_);
+    for (const int side : {0, 1})
+      if (reach_ > 0) free_edges_[axis][side] = FreeEdge<D, Real>(state.layout, domain, axis, side);
+  }
   const auto row = std::max(state.layout.padded_nx() + 2 * Layout<D>::lead, widest_stripe);
   for (int worker = 0; worker < parallel_workers(); ++worker)
     scratch_.emplace_back(row * (buffers_a_pair * D + 4));
@@ -59,8 +63,14 @@ auto Sweeps<D, Real>::pairs(int axis) const -> std::array<Pair, D> {
 }
 
 template <int D, class Real>
+void Sweeps<D, Real>::measure_free_edges(int axis) {
+  for (auto& edge : free_edges_[axis]) edge.measure(state_);
+}
+
+template <int D, class Real>
 void Sweeps<D, Real>::along_x(const std::function<Real(std::int64_t)>& part) {
   const std::int64_t lines = state_.layout.lines();
+  measure_free_edges(0);
   parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
     Real* scratch = scratch_[std::size_t(worker)].data();
     for (std::int64_t line = begin; line < end; ++line)
@@ -73,6 +83,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines, Real scale,
                                     const std::function<Real*(std::int64_t)>& to) {
   const std::int64_t values = FieldRows<D>::count * state_.layout.row_pitch();
+  measure_free_edges(0);
   parallel_for(std::int64_t(lines.size()), 4, [&](std::int64_t begin, std::int64_t end, int worker) {
     Real* scratch = scratch_[std::size_t(worker)].data();
     for (auto n = std::size_t(begin); n < std::size_t(end); ++n) {
@@ -86,7 +97,8 @@ void Sweeps<D, Real>::ahead_along_x(std::span<const std::int64_t> lines, Real sc
 
 /// The values a stencil finds beyond both ends of a row.
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_cells(Real* v, Real* s, Wave wave) const {
+void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, Real* v, Real* s, int pair, Wave wave,
+                                       Real scale) const {
   const std::int64_t n = state_.layout.shape()[0];
   for (const int side : {0, 1}) {
     const Continuation law = continuation(edges_[0][side], wave);
@@ -97,6 +109,10 @@ void Sweeps<D, Real>::fill_ghost_cells(Real* v, Real* s, Wave wave) const {
       const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - from : from;
       v[ghost] = v_sign * v[cell];
       s[ghost] = s_sign * s[cell];
+      if (const auto& edge = free_edges_[0][side]; !edge.empty()) {
+        v[ghost] += Real(2 * j + 1) * edge.bend(pair)[line];
+        s[ghost] += scale * edge.jump(pair)[line];
+      }
     }
   }
 }
@@ -144,7 +160,7 @@ void Sweeps<D, Real>::sweep_line(std::int64_t line, Real* fields, Real scale, Re
     const Pair& pair = all[p];
     Real* const v = fields + pair.v * state_.layout.row_pitch();
     Real* const s = fields + pair.s * state_.layout.row_pitch();
-    fill_ghost_cells(v, s, pair.wave);
+    fill_ghost_cells(line, v, s, p, pair.wave, scale);
     const Real* impedance = state_.material_row(at, pair.wave == wave_p ? row_zp : row_zs);
     const Real* courant = state_.material_row(at, pair.wave == wave_p ? row_cp : row_cs);
     kernels_.leave(width, 1, v, s, impedance, courant, scale, up, down);
@@ -170,6 +186,7 @@ std::int64_t Sweeps<D, Real>::stripe_width() const {
 template <int D, class Real>
 void Sweeps<D, Real>::across(int axis, Real scale) {
   const std::int64_t nx = state_.layout.padded_nx(), width = stripe_width();
+  measure_free_edges(axis);
   const std::int64_t stripes = (nx + width - 1) / width;
   std::int64_t others = 1;
   for (int other = 1; other < D; ++other)
@@ -192,8 +209,8 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width,
-                                       const Pair& pair) {
+void Sweeps<D, Real>::fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, int number,
+                                       const Pair& pair, Real scale) {
   const std::int64_t n = state_.layout.shape()[axis];
   for (const int side : {0, 1}) {
     const Continuation law = continuation(edges_[axis][side], pair.wave);
@@ -208,6 +225,12 @@ void Sweeps<D, Real>::fill_ghost_lines(int axis, const Index<D>& first, std::int
         Real* to = state_.field_row(ghost, row) + first[0];
         const Real* source = state_.field_row(cell, row) + first[0];
         for (std::int64_t i = 0; i < width; ++i) to[i] = sign * source[i];
+        const auto& edge = free_edges_[axis][side];
+        if (edge.empty()) continue;
+        const bool is_v = row == pair.v;
+        const Real* gain = (is_v ? edge.bend(number) : edge.jump(number)) + edge.number(first);
+        const Real share = is_v ? Real(2 * j + 1) : scale;
+        for (std::int64_t i = 0; i < width; ++i) to[i] += share * gain[i];
       }
     }
   }
@@ -231,7 +254,7 @@ void Sweeps<D, Real>::sweep_columns(int axis, const Index<D>& first, std::int64_
     }
     scratch += buffers_a_pair * width;
   }
-  for (int p = 0; p < pair_count(); ++p) fill_ghost_lines(axis, first, width, all[p]);
+  for (int p = 0; p < pair_count(); ++p) fill_ghost_lines(axis, first, width, p, all[p], scale);
 
   // Row k sends out its states, they meet those of row k-1 at face k; row k - lag is needed unchanged no
   // more.

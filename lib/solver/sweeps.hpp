@@ -7,6 +7,7 @@
 
 #include "scene/edges.hpp"
 #include "solver/domain.hpp"
+#include "solver/free_edge.hpp"
 #include "solver/matched_layer.hpp"
 #include "solver/span_ends.hpp"
 #include "solver/state.hpp"
@@ -50,8 +51,10 @@ class Sweeps {
   };
   void sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch, bool remember);
   void sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale, Real* scratch);
-  void fill_ghost_cells(Real* v, Real* s, Wave wave) const;
-  void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, const Pair& pair);
+  void measure_free_edges(int axis);
+  void fill_ghost_cells(std::int64_t line, Real* v, Real* s, int pair, Wave wave, Real scale) const;
+  void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, int number, const Pair& pair,
+                        Real scale);
   void update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width, Real scale,
               const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi, Real* spare,
               bool remember);
@@ -65,8 +68,9 @@ class Sweeps {
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;
-  std::array<std::array<SpanEnds, 2>, D> ends_;  // [axis][wave]
-  std::vector<Buffer<Real>> scratch_;            // one a thread
+  std::array<std::array<SpanEnds, 2>, D> ends_;                 // [axis][wave]
+  std::array<std::array<FreeEdge<D, Real>, 2>, D> free_edges_;  // [axis][side]
+  std::vector<Buffer<Real>> scratch_;                           // one a thread
 };
 
 /// What enters the grid through its low (up) or high (down) edge, given what leaves it there (E11).

@@ -1,0 +1,139 @@
+#include "solver/free_edge.hpp"
+
+#include <algorithm>
+
+namespace slipwave::solver {
+namespace {
+
+/// Cells along the edge that a slope is taken from and their weights: the mean of the central differences
+/// over two and over four cells, which damps what turns from cell to cell.
+constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
+constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
+/// Cells without a contact or an edge that must follow each other across the edge: no stencil that reads
+/// beyond it may reach another end.
+constexpr std::int64_t fewest_across = 2 * max_reach;
+
+template <int D>
+bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const auto& z : domain.impedance)
+    if (z(other) == 0 || z(one) >= contact_ratio * z(other) || z(other) >= contact_ratio * z(one))
+      return false;
+  return true;
+}
+
+/// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
+template <int D>
+bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
+                    std::vector<EdgeTerm<D>>& terms) {
+  const std::int64_t n = domain.grid.shape[std::size_t(along)];
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    EdgeTerm<D> term{at, row, factor * weights[k]};
+    auto& place = term.cell[std::size_t(along)];
+    place += offsets[k];
+    if (const bool below = place < 0; below || place >= n) {
+      const EdgeLaw law = domain.edges[along][below ? 0 : 1];
+      if (law == EdgeLaw::free) return false;
+      const Wave wave = row == FieldRows<D>::velocity(along) ? wave_p : wave_s;
+      if (continuation(law, wave) == Continuation::motionless) term.weight = -term.weight;
+      place = below ? -1 - place : 2 * n - 1 - place;
+      if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
+      place = std::clamp<std::int64_t>(place, 0, n - 1);
+    }
+    if (!alike(domain, at, term.cell)) return false;
+    terms.push_back(term);
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<EdgeTerm<D>> edge_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
+                                    int row) {
+  using Rows = FieldRows<D>;
+  const double zp = domain.impedance[wave_p](at), zs = domain.impedance[wave_s](at);
+  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0) return {};
+  Index<D> before = at;
+  for (std::int64_t n = 1; n < fewest_across; ++n) {
+    Index<D> inside = before;
+    auto& place = inside[std::size_t(axis)];
+    place += side ? -1 : 1;
+    if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, inside))
+      return {};
+    before = inside;
+  }
+  const double outward = side ? -1 : 1;
+  std::vector<EdgeTerm<D>> terms;
+  for (int along = 0; along < D; ++along) {
+    if (along == axis) continue;
+    bool found = true;
+    if (row == Rows::velocity(axis))
+      found = add_difference(domain, at, along, Rows::velocity(along),
+                             outward * (1 - 2 * zs * zs / (zp * zp)), terms);
+    else if (row == Rows::velocity(along))
+      found = add_difference(domain, at, along, Rows::velocity(axis), outward, terms);
+    if (!found) return {};
+  }
+  return terms;
+}
+
+template <int D, class Real>
+FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, int axis, int side)
+    : axis_(axis), outward_(side ? -1 : 1), padded_nx_(layout.padded_nx()), shape_(layout.shape()) {
+  const Layout<D> material(shape_, material_rows);
+  material_pitch_ = material.row_pitch();
+  Index<D> first{};
+  first[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
+  for (std::int64_t n = 0; n < domain.grid.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
+    const Index<D> at = domain.grid.index(n);
+    if (at[std::size_t(axis)] != first[std::size_t(axis)]) continue;
+    int pair = 0;
+    const auto add = [&](int row, int impedance_row) {
+      const auto terms = edge_slope(domain, at, axis, side, row);
+      for (const auto& term : terms)
+        terms_.push_back({layout.cell(term.cell) + term.row * layout.row_pitch(), Real(term.weight)});
+      if (!terms.empty())
+        cells_.push_back(
+            {pair, number(at), material.cell(at) + impedance_row * material_pitch_, terms_.size()});
+      ++pair;
+    };
+    add(FieldRows<D>::velocity(axis), row_zp);
+    for (int along = 0; along < D; ++along)
+      if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
+  }
+  if (cells_.empty()) return;
+  Index<D> last = shape_;
+  for (auto& n : last) --n;
+  for (auto* lists : {&bends_, &jumps_})
+    for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
+}
+
+template <int D, class Real>
+std::int64_t FreeEdge<D, Real>::number(const Index<D>& at) const {
+  std::int64_t number = 0;
+  for (int other = D - 1; other >= 0; --other)
+    if (other != axis_)
+      number = number * (other == 0 ? padded_nx_ : shape_[std::size_t(other)]) + at[std::size_t(other)];
+  return number;
+}
+
+template <int D, class Real>
+void FreeEdge<D, Real>::measure(const State<D, Real>& state) {
+  const Real* const fields = state.fields.data();
+  const Real* const material = state.material.data();
+  std::size_t term = 0;
+  for (const Cell& cell : cells_) {
+    Real bend = 0;
+    for (; term < cell.terms_end; ++term) bend += terms_[term].weight * fields[terms_[term].place];
+    // Impedance times Courant number: the modulus times dt/h.
+    const Real stiffness = material[cell.impedance] * material[cell.impedance + material_pitch_];
+    bends_[std::size_t(cell.pair)][std::size_t(cell.number)] = bend;
+    jumps_[std::size_t(cell.pair)][std::size_t(cell.number)] = outward_ * stiffness * bend;
+  }
+}
+
+template std::vector<EdgeTerm<2>> edge_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
+template class FreeEdge<2, float>;
+template class FreeEdge<2, double>;
+
+}  // namespace slipwave::solver

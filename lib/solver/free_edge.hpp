@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/domain.hpp"
+#include "solver/state.hpp"
+
+namespace slipwave::solver {
+
+/// A velocity of a cell of the grid and its weight in a sum.
+template <int D>
+struct EdgeTerm {
+  Index<D> cell{};
+  int row = 0;
+  double weight = 0;
+};
+
+/// What the velocity `row` gains from cell j before a free edge (side 0 low, 1 high of an axis) of a solid to
+/// its mirror image beyond it, over 2 j + 1, as a sum of velocities of cells along the edge (theory.md
+/// (E12)). `at` is a cell of the edge. Empty where the mirror image stays as it is: in fluid and void, beside
+/// them, contacts that end a span and free edges of another axis, and on grids of less than four cells
+/// across.
+template <int D>
+std::vector<EdgeTerm<D>> edge_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side, int row);
+
+/// How the fields of solids run on beyond a free edge of the grid, besides evenly (v) and oddly (s): v bends
+/// by edge_slope(), and a sweep across the edge starts with what sweeps along it have left of its tractions,
+/// half of what they add in a whole step.
+template <int D, class Real>
+class FreeEdge {
+ public:
+  FreeEdge() = default;
+  /// One side (0 low, 1 high) of an axis. Empty where the edge has another law.
+  FreeEdge(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
+
+  bool empty() const { return cells_.empty(); }
+  /// Takes the fields as they are now, before a sweep across the edge.
+  void measure(const State<D, Real>& state);
+  /// Of a pair of the sweep across (0 P, then S by axes), at the cells of the edge (number()): what v gains,
+  /// over 2 j + 1, and what s gains in a sweep of a whole step.
+  const Real* bend(int pair) const { return bends_[std::size_t(pair)].data(); }
+  const Real* jump(int pair) const { return jumps_[std::size_t(pair)].data(); }
+  /// Place of a cell of the edge in these lists: cells along x follow each other.
+  std::int64_t number(const Index<D>& at) const;
+
+ private:
+  struct Term {
+    std::int64_t place;
+    Real weight;
+  };
+  /// One pair at one cell of the edge. stiffness: place of the pair's impedance in the material.
+  struct Cell {
+    int pair;
+    std::int64_t number, impedance;
+    std::size_t terms_end;
+  };
+  int axis_ = 0;
+  Real outward_ = 1;
+  std::int64_t padded_nx_ = 0, material_pitch_ = 0;
+  Index<D> shape_{};
+  std::vector<Cell> cells_;
+  std::vector<Term> terms_;
+  std::array<std::vector<Real>, D> bends_, jumps_;
+};
+
+}  // namespace slipwave::solver
