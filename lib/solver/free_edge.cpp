@@ -26,6 +26,7 @@ template <int D>
 bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
                     std::vector<EdgeTerm<D>>& terms) {
   const std::int64_t n = domain.grid.shape[std::size_t(along)];
+  if (n <= std::int64_t(offsets.size())) return false;
   for (std::size_t k = 0; k < offsets.size(); ++k) {
     EdgeTerm<D> term{at, row, factor * weights[k]};
     auto& place = term.cell[std::size_t(along)];

@@ -17,7 +17,7 @@ struct Side {
   int beyond = 0;
   double share = 0;
   bool inside = false;  // an end inside the grid
-  bool at_free_edge() const { return !inside && law == Continuation::traction_free; }
+  bool at_edge() const { return !inside && law == Continuation::traction_free; }
 };
 
 /// Impedances met from a cell outwards along one axis.
@@ -133,8 +133,8 @@ void correct_cell(const SpanEnd& end, std::int64_t stride, const Real* v, const 
 }  // namespace
 
 template <int D>
-SpanEnds::SpanEnds(const Field<D>& impedance, const Field<D>& solid, const EdgeLaws<D>& edges, int axis,
-                   Wave wave, int reach) {
+SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
+                   const BentAt<D>& bent) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
   starts_.assign(1, 0);
@@ -149,7 +149,8 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const Field<D>& solid, const EdgeL
         cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
                           std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
                           float(high.share), std::int8_t(reach_within(low, high, reach))});
-      } else if (reach > most_at_free_edge && solid(at) > 0 && (low.at_free_edge() || high.at_free_edge())) {
+      } else if (reach > most_at_free_edge &&
+                 ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)))) {
         constexpr auto on = Continuation::none;
         cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
                           std::int8_t(most_at_free_edge)});
@@ -180,8 +181,8 @@ void SpanEnds::correct(int order, std::int64_t line, std::int64_t x_first, std::
   }
 }
 
-template SpanEnds::SpanEnds(const Field<2>&, const Field<2>&, const EdgeLaws<2>&, int, Wave, int);
-template SpanEnds::SpanEnds(const Field<3>&, const Field<3>&, const EdgeLaws<3>&, int, Wave, int);
+template SpanEnds::SpanEnds(const Field<2>&, const EdgeLaws<2>&, int, Wave, int, const BentAt<2>&);
+template SpanEnds::SpanEnds(const Field<3>&, const EdgeLaws<3>&, int, Wave, int, const BentAt<3>&);
 template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const float*,
                                 const float*, const float*, const float*, float, float*, float*) const;
 template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const double*,

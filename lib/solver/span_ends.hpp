@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "grid/field.hpp"
@@ -51,16 +52,20 @@ struct SpanEnd {
   std::int8_t reach;                    // of the reconstruction used here
 };
 
+/// Whether fields bend at the edge of this side (0 low, 1 high) on the line through a cell (FreeEdge).
+template <int D>
+using BentAt = std::function<bool(const Index<D>& at, int side)>;
+
 /// Such cells of all lines of one axis and wave; the bulk kernel runs over everything without a branch, then
 /// these are put right.
 class SpanEnds {
  public:
   SpanEnds() = default;
-  /// `impedance` of the wave on the computed grid, 0 where it is not carried; `solid` is 0 in fluids; laws of
+  /// `impedance` of the wave on the computed grid, 0 where it is not carried; laws of
   /// the grid's edges; cells the reconstruction reaches to each side.
   template <int D>
-  SpanEnds(const Field<D>& impedance, const Field<D>& solid, const EdgeLaws<D>& edges, int axis, Wave wave,
-           int reach);
+  SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
+           const BentAt<D>& bent);
 
   std::size_t size() const { return cells_.size(); }
   /// Overwrites up and down (index 0 = cell x_first) for the listed cells x_first <= x < x_last of a row.

@@ -30,9 +30,12 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       reach_(reach_of(order)),
       shear_(domain.shear()) {
   for (int axis = 0; axis < D; ++axis) {
+    const BentAt<D> bent = [&domain, axis](Index<D> at, int side) {
+      at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
+      return !edge_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
+    };
     for (const Wave wave : {wave_p, wave_s})
-      ends_[axis][wave] =
-          SpanEnds(domain.impedance[wave], domain.impedance[wave_s], edges_, axis, wave, reach_);
+      ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_, bent);
     for (const int side : {0, 1})
       if (reach_ > 0) free_edges_[axis][side] = FreeEdge<D, Real>(state.layout, domain, axis, side);
   }

@@ -104,10 +104,7 @@ TEST(HalfSpaceForms, AreLinkedByReciprocity) {
 }
 
 /// Bounds in percent, a tenth above what was measured, by vp/vs: order 5, Courant number 0.9, offsets of 3 to
-/// 10 wavelengths. What they bound is the work of the free surface: fields go on beyond it as they would in
-/// one dimension, v evenly (E11), while in two the slope of v_z there is -lambda/(lambda + 2 mu) that of v_x
-/// along the surface. What is recorded at the surface then errs with the first order; 2 % at vp/vs = 2 takes
-/// 34 cells a dominant S wavelength, 13 a shortest one.
+/// 10 wavelengths.
 struct SurfaceCase {
   double vp_over_vs, at_12_cells, at_24_cells;
 };
@@ -119,17 +116,28 @@ TEST_P(GarvinAt, ConvergesToTheClosedForm) {
   const double coarse = garvin_error(ratio, 12, 0.9), fine = garvin_error(ratio, 24, 0.9);
   EXPECT_LT(100 * coarse, coarse_bound);
   EXPECT_LT(100 * fine, fine_bound);
-  EXPECT_GT(observed_order(coarse, fine), 0.95);
+  EXPECT_GT(observed_order(coarse, fine), 1.6);
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfSpace, GarvinAt,
-                         testing::Values(SurfaceCase{1.6, 4.4, 2.05}, SurfaceCase{2, 6.4, 3.0},
-                                         SurfaceCase{3, 5.8, 2.5}, SurfaceCase{5, 4.1, 1.8}),
+                         testing::Values(SurfaceCase{1.6, 0.97, 0.19}, SurfaceCase{2, 0.9, 0.15},
+                                         SurfaceCase{3, 0.85, 0.12}, SurfaceCase{5, 0.76, 0.24}),
                          [](const auto& info) {
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });
 
-TEST(Garvin, IsMetWithinTwoPercentFrom34CellsAWavelength) { EXPECT_LT(garvin_error(2, 34, 0.9), 0.02); }
+TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
+  // Nearer the surface more and shorter surface waves: what is left is their way of up to 10 wavelengths.
+  const Rock rock = rock_of(2);
+  for (const auto& [depth_cells, bound] :
+       {std::pair(0.25, 8.2), {0.5, 8.2}, {1., 7.1}, {2., 5.9}, {3., 4.7}, {6., 3.0}}) {
+    const double cells = 24, depth_m = depth_cells * wavelength_m / cells;
+    const double error = pooled_error(
+        shoot_half_space(rock, "explosion", depth_m, cells, 0.9),
+        [&](double x, std::int64_t count) { return garvin(rock, x, depth_m, {peak_hz}, interval_s, count); });
+    EXPECT_LT(100 * error, bound) << depth_cells;
+  }
+}
 
 /// Force and receivers stand on the surface, nothing but its wave counts, and its velocity has the spectrum
 /// of the wavelet's slope.
@@ -144,8 +152,8 @@ TEST_P(LambAt, ConvergesToTheClosedForm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfSpace, LambAt,
-                         testing::Values(SurfaceCase{1.6, 49, 15.2}, SurfaceCase{2, 49, 16.3},
-                                         SurfaceCase{3, 55, 20.5}, SurfaceCase{5, 60, 23.7}),
+                         testing::Values(SurfaceCase{1.6, 49, 15.2}, SurfaceCase{2, 39, 7.7},
+                                         SurfaceCase{3, 37, 3.5}, SurfaceCase{5, 38, 4.4}),
                          [](const auto& info) {
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });
