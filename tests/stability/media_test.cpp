@@ -58,11 +58,35 @@ TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
 
 TEST(Energy, NeverRisesInTenThousandSteps) {
   const ThreadLimit one_thread(1);
-  for (const std::string medium : {"WaterOverCurvedRock", "AirOverSteel", "RandomSolids"})
+  for (const std::string medium : {"WaterOverCurvedRock", "RandomSolids"})
     for (const int order : {5, 7}) {
       SCOPED_TRACE(medium + " order " + std::to_string(order));
       expect_no_growth_in<float>(medium, order, EdgeLaw::free, {32, 10000});
     }
+}
+
+TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
+  // Where fields bend at free edges (theory.md (E11)) the energy is not one that falls in every step: it may
+  // rise by a thousandth of what is left. What would grow shows over many steps, most of all at order 7.
+  const ThreadLimit one_thread(1);
+  for (const int order : {3, 5, 7})
+    for (const bool below_air : {false, true})
+      for (const double cfl : {0.9, 1.}) {
+        SCOPED_TRACE("order " + std::to_string(order) + " cfl " + std::to_string(cfl));
+        Lab<double>::Setup setup;
+        setup.medium = below_air ? medium_named("AirOverSteel", 32) : rock(24, 32);
+        setup.order = order;
+        setup.cfl = cfl;
+        setup.edges = all_edges(EdgeLaw::free);
+        Lab<double> lab(setup);
+        double before = lab.energy();
+        for (int n = 1; n <= 10; ++n) {
+          for (int k = 0; k < 1000; ++k) lab.step();
+          const double now = lab.energy();
+          ASSERT_LT(now, before) << "step " << 1000 * n;
+          before = now;
+        }
+      }
 }
 
 TEST(Energy, NeverRisesAtAnyCourantNumber) {
