@@ -71,9 +71,19 @@ Side side_of(const Walk<D>& z, Continuation edge, int reach) {
   return side;
 }
 
-/// Cells the reconstruction may reach beside a free edge of a solid: with three, solids between free edges
-/// grew at Courant numbers from 0.9 on.
-constexpr int most_at_free_edge = 2;
+/// Cells the reconstruction may reach beside a bent free edge, a contact or a contrast: with three, solids
+/// between free edges, plates and random densities grew at Courant numbers from 0.9 on.
+constexpr int most_at_kinks = 2;
+/// From this ratio of impedances on a face within the stencil of a cell there is a contrast.
+constexpr double contrast_ratio = 1.2;
+
+/// Whether there is one up to `reach` cells to one side.
+template <int D>
+bool contrast(const Walk<D>& z, int reach) {
+  for (int n = 1; n <= reach && !z.leaves_grid(n) && z(n) > 0; ++n)
+    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n)) return true;
+  return false;
+}
 
 /// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
 /// more, and so does a single cell between a contact and another end: with more, random media of single cells
@@ -82,6 +92,7 @@ int reach_within(const Side& low, const Side& high, int reach) {
   const int contacts = (low.law == Continuation::contact) + (high.law == Continuation::contact);
   const int others = low.cells + high.cells;
   const bool ends = low.law != Continuation::none && high.law != Continuation::none;
+  if (contacts > 0) reach = std::min(reach, most_at_kinks);
   return contacts == 2 || (contacts == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
@@ -142,18 +153,20 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
     for (std::int64_t x = 0; x < nx; ++x) {
       const auto at = grid.index(line * nx + x);
       if (impedance(at) == 0) continue;
-      const Side low = side_of(Walk<D>(impedance, at, axis, -1), continuation(edges[axis][0], wave), reach);
-      const Side high = side_of(Walk<D>(impedance, at, axis, +1), continuation(edges[axis][1], wave), reach);
+      const Walk<D> down(impedance, at, axis, -1), up(impedance, at, axis, +1);
+      const Side low = side_of(down, continuation(edges[axis][0], wave), reach);
+      const Side high = side_of(up, continuation(edges[axis][1], wave), reach);
       // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
       if (low.inside || high.inside) {
         cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
                           std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
                           float(high.share), std::int8_t(reach_within(low, high, reach))});
-      } else if (reach > most_at_free_edge &&
-                 ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)))) {
+      } else if (reach > most_at_kinks &&
+                 ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)) ||
+                  contrast(down, reach) || contrast(up, reach))) {
         constexpr auto on = Continuation::none;
         cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
-                          std::int8_t(most_at_free_edge)});
+                          std::int8_t(most_at_kinks)});
       }
     }
     starts_.push_back(std::int64_t(cells_.size()));
