@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "acquisition/interpolation.hpp"
 #include "solver/point_access.hpp"
