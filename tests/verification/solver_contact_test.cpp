@@ -105,7 +105,7 @@ void expect_exact(const Contact& contact, int order, bool resolved = true) {
                                               << ", axis " << axis << ": errors " << large << ' ' << small;
       // The errors of the way and of the contact may partly cancel on the coarser grid: hence 1.7 at order 5.
       if (resolved) {
-        EXPECT_GE(observed_order(large, small), order == 5 ? 1.7 : 1.85) << message;
+        EXPECT_GE(observed_order(large, small), order >= 5 ? 1.7 : 1.85) << message;
       }
       const double shortest = resolved ? std::min(1., shortening) : 1;
       if (order > 3) {
@@ -163,12 +163,12 @@ TEST(Ends, KeepTheOrderOfTheReconstruction) {
 
 TEST(Contact, OfEqualSpeedsKeepsTheOrderOfTheReconstruction) {
   // Both sides are continued exactly where the travel times through their cells are equal, whatever the
-  // impedances: the errors are those of a line without a contact.
+  // impedances: the errors are those of a line without a contact. Order 7 is order 5 beside contacts.
   for (const int order : {3, 5, 7}) {
     const Contact contact{"density 1 to 100", light, hard};
     const auto coarse = errors_of(contact, 0, order, 5), fine = errors_of(contact, 0, order, 2.5);
-    EXPECT_GE(observed_order(coarse.reflected, fine.reflected), order - 0.2);
-    EXPECT_GE(observed_order(coarse.transmitted, fine.transmitted), order - 0.2);
+    EXPECT_GE(observed_order(coarse.reflected, fine.reflected), std::min(order, 5) - 0.2);
+    EXPECT_GE(observed_order(coarse.transmitted, fine.transmitted), std::min(order, 5) - 0.2);
   }
 }
 
