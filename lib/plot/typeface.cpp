@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/utf8.hpp"
 #include "plot/canvas.hpp"
 
 namespace slipwave::plot {
@@ -17,27 +18,6 @@ struct Destroy {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
   void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
 };
-
-/// Length of the UTF-8 character that begins at `at`; 0 when none does.
-std::size_t character_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t n) {
-    return n < text.size() ? static_cast<unsigned char>(text[n]) : static_cast<unsigned char>(0);
-  };
-  const unsigned first = byte(at);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xc2 && first < 0xe0 ? 2
-                             : first >= 0xe0 && first < 0xf0 ? 3
-                             : first >= 0xf0 && first < 0xf5 ? 4
-                                                             : 0;
-  for (std::size_t n = 1; n < length; ++n) {
-    if ((byte(at + n) & 0xc0) != 0x80) return 0;
-  }
-  if (first == 0xe0 && byte(at + 1) < 0xa0) return 0;   // overlong
-  if (first == 0xed && byte(at + 1) >= 0xa0) return 0;  // surrogate
-  if (first == 0xf0 && byte(at + 1) < 0x90) return 0;
-  if (first == 0xf4 && byte(at + 1) >= 0x90) return 0;
-  return length;
-}
 
 }  // namespace
 
@@ -65,7 +45,7 @@ std::string shortened(const std::string& text, double width_pt, double size_pt, 
   if (text_width(text, size_pt, bold) <= width_pt) return text;
   std::string best = text_width("\u2026", size_pt, bold) <= width_pt ? "\u2026" : "";
   for (std::size_t at = 0; at < text.size();) {
-    at += std::max<std::size_t>(1, character_length(text, at));
+    at += std::max<std::size_t>(1, utf8_length(text, at));
     const std::string candidate = text.substr(0, at) + "\u2026";
     if (text_width(candidate, size_pt, bold) > width_pt) break;
     best = candidate;
@@ -76,7 +56,7 @@ std::string shortened(const std::string& text, double width_pt, double size_pt, 
 std::string legible(const std::string& text) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at);
+    const std::size_t length = utf8_length(text, at);
     const auto first = static_cast<unsigned char>(text[at]);
     if (length == 0 || first < 0x20 || first == 0x7f)
       result += '?';
@@ -89,7 +69,7 @@ std::string legible(const std::string& text) {
 
 void check_text(const std::string& text) {
   for (std::size_t at = 0; at < text.size();) {
-    const std::size_t length = character_length(text, at);
+    const std::size_t length = utf8_length(text, at);
     const auto first = static_cast<unsigned char>(text[at]);
     if (length == 0 || first < 0x20 || first == 0x7f)
       throw Error("found byte " + std::to_string(int(first)) + " at place " + std::to_string(at + 1) +
