@@ -27,8 +27,7 @@ double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) 
   const double courant = slowest.speed * time_step_s(scene) / scene.model.grid().spacing_m;
   // Waves shorter than two cells are not on the grid at all.
   if (cells <= 2) return 1;
-  const solver::UniformScheme scheme{scene.numerics.order, courant, 0, scene.numerics.time_order};
-  return 1 - std::exp(cells / courant * solver::step_error(scheme, solver::WaveKind::p, cells, 0).real());
+  return solver::loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
 }
 
 /// Slowest P wave anywhere, slowest S wave of solids (0: none).

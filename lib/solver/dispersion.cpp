@@ -82,10 +82,6 @@ Complex amplification(int order, double courant, double cells) {
   return factor(order, courant, 2 * std::numbers::pi / cells);
 }
 
-double loss_per_wavelength(int order, double courant, double cells) {
-  return 1 - std::pow(std::abs(amplification(order, courant, cells)), cells / courant);
-}
-
 Complex step_error(const UniformScheme& scheme, WaveKind kind, double cells, double angle) {
   const double speed = kind == WaveKind::p ? scheme.courant_p : scheme.courant_s;
   const double x = std::sin(angle), z = std::cos(angle), mu = scheme.courant_s * scheme.courant_s;
@@ -103,6 +99,10 @@ Complex step_error(const UniformScheme& scheme, WaveKind kind, double cells, dou
   // to the square of the error.
   const auto weighed = strained(scheme, wave);
   return std::log(product(weighed, moved) / product(weighed, wave)) + Complex(0, speed * phase);
+}
+
+double loss_per_wavelength(const UniformScheme& scheme, double cells) {
+  return -std::expm1(cells / scheme.courant_p * step_error(scheme, WaveKind::p, cells, 0).real());
 }
 
 }  // namespace slipwave::solver

@@ -9,9 +9,6 @@ namespace slipwave::solver {
 /// factor on its complex amplitude (theory.md (E12)); exp(-2 pi i courant/cells) would be exact.
 std::complex<double> amplification(int order, double courant, double cells);
 
-/// Share of the amplitude such a wave loses over one wavelength.
-double loss_per_wavelength(int order, double courant, double cells);
-
 /// The scheme in a uniform medium: Courant numbers vp dt/h and vs dt/h, the latter 0 in fluids.
 struct UniformScheme {
   int order = 5;
@@ -27,5 +24,8 @@ enum class WaveKind { p, s };
 /// Real part: below zero for loss; imaginary part: phase in radians, above zero when the wave is late. After
 /// n steps the wave is exp(n step_error) times what it should be (theory.md (E15)).
 std::complex<double> step_error(const UniformScheme& scheme, WaveKind kind, double cells, double angle);
+
+/// Share of its amplitude that a P wave along an axis loses over one wavelength.
+double loss_per_wavelength(const UniformScheme& scheme, double cells);
 
 }  // namespace slipwave::solver

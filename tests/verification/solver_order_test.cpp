@@ -132,7 +132,7 @@ TEST(Dispersion, NeverAmplifiesAndLosesLessTheHigherTheOrder) {
       double before = 1;
       for (const int order : {1, 3, 5, 7}) {
         EXPECT_LE(std::abs(amplification(order, courant, cells)), 1 + 1e-14);
-        const double loss = loss_per_wavelength(order, courant, cells);
+        const double loss = loss_per_wavelength({order, courant}, cells);
         EXPECT_LE(loss, before * (1 + 1e-9) + 1e-12) << order << ' ' << courant << ' ' << cells;
         before = loss;
       }
