@@ -30,6 +30,17 @@ using Plan = std::unique_ptr<fftw_plan_s, Destroyed>;
 
 }  // namespace
 
+std::size_t fast_transform_length(std::size_t length) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  for (std::size_t even = length + length % 2; even <= most; even += 2) {
+    std::size_t rest = std::max<std::size_t>(even, 2);
+    for (const std::size_t factor : {2, 3, 5, 7})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return std::max<std::size_t>(even, 2);
+  }
+  throw Error("a Fourier transform of " + std::to_string(length) + " samples, expected 1 to 2147483647");
+}
+
 struct RealTransform::Plans {
   std::size_t length;
   std::unique_ptr<double, Freed> real;

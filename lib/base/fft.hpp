@@ -7,6 +7,10 @@
 
 namespace slipwave {
 
+/// The smallest even length >= `length` whose prime factors are 2, 3, 5 and 7: transforms of such lengths are
+/// fast. Throws Error when it is not below 2^31.
+std::size_t fast_transform_length(std::size_t length);
+
 /// Discrete Fourier transform of `length` real numbers, and back:
 ///   forward   X_k = sum_n x_n exp(-2 pi i k n / N),  k = 0 .. N/2
 ///   backward  x_n = 1/N sum_k X_k exp(+2 pi i k n / N)   (X_{N-k} = conj X_k)

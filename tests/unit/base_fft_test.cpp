@@ -70,3 +70,18 @@ TEST(RealTransform, RefusesLengthsThatDoNotFit) {
   EXPECT_THROW(transform.forward(noise(9)), Error);
   EXPECT_THROW(transform.backward(std::vector<std::complex<double>>(8)), Error);
 }
+
+TEST(FastTransformLength, IsTheNextEvenProductOfSmallPrimes) {
+  const auto is_one = [](std::size_t length) {
+    if (length % 2 != 0) return false;
+    for (const std::size_t factor : {2, 3, 5, 7})
+      while (length % factor == 0) length /= factor;
+    return length == 1;
+  };
+  for (std::size_t length = 1; length < 5000; ++length) {
+    std::size_t expected = length;
+    while (!is_one(expected)) ++expected;
+    EXPECT_EQ(fast_transform_length(length), expected) << length;
+  }
+  EXPECT_THROW(fast_transform_length(std::size_t{1} << 31), Error);
+}
