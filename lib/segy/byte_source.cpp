@@ -53,15 +53,22 @@ ByteSource::~ByteSource() {
   if (owned_) ::close(descriptor_);
 }
 
+/// One read call: what a pipe holds now; 0 at the end.
+std::size_t ByteSource::read_some(std::span<std::uint8_t> into) {
+  ssize_t count = 0;
+  do count = ::read(descriptor_, into.data(), into.size());
+  while (count < 0 && errno == EINTR);
+  if (count < 0) throw failure(name_);
+  return static_cast<std::size_t>(count);
+}
+
 /// Straight from the descriptor, past the buffer.
 std::size_t ByteSource::fill(std::span<std::uint8_t> into) {
   std::size_t done = 0;
   while (done < into.size()) {
-    const ssize_t count = ::read(descriptor_, into.data() + done, into.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw failure(name_);
+    const std::size_t count = read_some(into.subspan(done));
     if (count == 0) break;
-    done += static_cast<std::size_t>(count);
+    done += count;
   }
   return done;
 }
@@ -69,33 +76,36 @@ std::size_t ByteSource::fill(std::span<std::uint8_t> into) {
 std::span<const std::uint8_t> ByteSource::peek(std::size_t count) {
   assert(count <= peek_limit);
   if (buffered() < count) {
-    std::copy(buffer_.begin() + static_cast<std::ptrdiff_t>(begin_),
-              buffer_.begin() + static_cast<std::ptrdiff_t>(end_), buffer_.begin());
+    std::memmove(buffer_.data(), buffer_.data() + begin_, buffered());
     end_ -= begin_;
     begin_ = 0;
-    end_ += fill({buffer_.data() + end_, count - end_});
+    while (end_ < count) {
+      const std::size_t got = read_some(std::span(buffer_).subspan(end_));
+      if (got == 0) break;
+      end_ += got;
+    }
   }
   return {buffer_.data() + begin_, std::min(count, buffered())};
+}
+
+std::span<const std::uint8_t> ByteSource::take(std::size_t count) {
+  const auto taken = peek(count);
+  begin_ += taken.size();
+  position_ += taken.size();
+  return taken;
 }
 
 std::size_t ByteSource::read(std::span<std::uint8_t> into) {
   std::size_t done = 0;
   while (done < into.size()) {
     if (buffered() == 0) {
-      const std::size_t wanted = into.size() - done;
-      if (wanted >= buffer_.size()) {
+      if (into.size() - done >= buffer_.size()) {
         done += fill(into.subspan(done));
         break;
       }
       begin_ = 0;
-      end_ = 0;
-      // one read call: what a pipe holds now, without waiting for a full buffer
-      ssize_t count = 0;
-      do count = ::read(descriptor_, buffer_.data(), buffer_.size());
-      while (count < 0 && errno == EINTR);
-      if (count < 0) throw failure(name_);
-      if (count == 0) break;
-      end_ = static_cast<std::size_t>(count);
+      end_ = read_some(buffer_);
+      if (end_ == 0) break;
     }
     const std::size_t count = std::min(into.size() - done, buffered());
     std::memcpy(into.data() + done, buffer_.data() + begin_, count);

@@ -27,8 +27,10 @@ class ByteSource {
 
   /// The next bytes without taking them, as many as asked for unless the input ends before;
   /// count is at most peek_limit. Valid until the next call.
-  static constexpr std::size_t peek_limit = 1 << 16;
+  static constexpr std::size_t peek_limit = 1 << 17;
   std::span<const std::uint8_t> peek(std::size_t count);
+  /// As peek(), and takes them: bytes that need no copy of their own.
+  std::span<const std::uint8_t> take(std::size_t count);
   /// Takes into.size() bytes, fewer only at the end; says how many.
   std::size_t read(std::span<std::uint8_t> into);
   /// Passes over bytes; says how many there were.
@@ -37,6 +39,7 @@ class ByteSource {
   bool read_at(std::uint64_t offset, std::span<std::uint8_t> into) const;
 
  private:
+  std::size_t read_some(std::span<std::uint8_t> into);
   std::size_t fill(std::span<std::uint8_t> into);
   std::size_t buffered() const noexcept { return end_ - begin_; }
 

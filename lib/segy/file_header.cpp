@@ -11,7 +11,7 @@ namespace slipwave::segy {
 namespace {
 
 constexpr std::size_t header_bytes = text_bytes + BinaryLayout::size;
-constexpr std::size_t extended_kept = 64;
+constexpr std::int64_t most_extended = 32767;
 
 /// Major and minor revision. Words 0x0001 and 0x0010 are written for 1.0 too (0x0002, 0x0020 for 2.0), and a
 /// little-endian revision 1 file has the two bytes swapped.
@@ -57,18 +57,22 @@ bool ends_stanzas(const std::string& text) {
   return dense.find("((SEG:EndText))") != std::string::npos;
 }
 
-/// A count of extended headers, or -1: up to the stanza that ends them. Only the first few are kept.
+/// A count of extended headers, or -1: up to the stanza that ends them.
 void read_extended(ByteSource& source, FileHeader& header) {
   const std::int64_t count = header.binary.get("extended");
+  if (count < -1)
+    throw Error(std::to_string(count) + " extended textual headers (byte 3505), expected a number or -1");
   std::array<std::uint8_t, text_bytes> block{};
   for (bool more = count != 0; more;) {
+    const std::string number = std::to_string(header.extended.size() + 1);
     if (source.read(block) < block.size())
-      throw Error("ends within extended textual header " + std::to_string(header.extended_count + 1) +
+      throw Error("ends within extended textual header " + number +
                   (count < 0 ? ", before a stanza ((SEG: EndText))" : " of " + std::to_string(count)));
-    ++header.extended_count;
-    const std::string text = decode_text(block, encoding_of(block));
-    if (header.extended.size() < extended_kept) header.extended.push_back(text);
-    more = count < 0 ? !ends_stanzas(text) : header.extended_count < count;
+    header.extended.push_back(decode_text(block, encoding_of(block)));
+    const auto read = static_cast<std::int64_t>(header.extended.size());
+    more = count < 0 ? !ends_stanzas(header.extended.back()) : read < count;
+    if (more && read == most_extended)
+      throw Error("no stanza ((SEG: EndText)) in " + number + " extended textual headers");
   }
 }
 

@@ -33,8 +33,7 @@ struct FileHeader {
   bool feet = false;
   std::string text;  // 3200 characters, ISO 8859-1
   BinaryWords binary;
-  std::vector<std::string> extended;  // 3200 characters each, the first 64 of them
-  std::int64_t extended_count = 0;
+  std::vector<std::string> extended;   // 3200 characters each, as text
   std::int64_t extra_headers = 0;      // of 240 bytes, in every trace after the first one
   std::uint64_t first_trace = 0;       // offset of the first trace
   std::optional<std::int64_t> traces;  // where revision 2 says how many

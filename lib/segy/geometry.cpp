@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "segy/extension.hpp"
 
 namespace slipwave::segy {
 namespace {
@@ -160,21 +161,28 @@ double scaled(std::int64_t value, std::int64_t scalar) {
   return scalar > 0 ? number * static_cast<double>(scalar) : number / -static_cast<double>(scalar);
 }
 
-TraceHeader si_from_words(const TraceWords& words, const FileHeader& file) {
+TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
+                          const std::optional<ExtensionWords>& extension) {
+  using Standard = FieldName<TraceLayout>;
+  using Wide = FieldName<ExtensionLayout>;
   const bool geographic = words.get("counit") > 1;
   const double length_m = file.feet ? foot_m : 1;
   const double coordinate_m = geographic ? 1 : length_m;
-  const auto coordinate = [&](std::int64_t word) { return coordinate_m * scaled(word, words.get("scalco")); };
-  const auto height = [&](std::int64_t word) { return length_m * scaled(word, words.get("scalel")); };
+  const auto coordinate = [&](Standard name, Wide wide) {
+    return coordinate_m * real_or(extension, wide, scaled(words.get(name), words.get("scalco")));
+  };
+  const auto height = [&](Standard name, Wide wide) {
+    return length_m * real_or(extension, wide, scaled(words.get(name), words.get("scalel")));
+  };
   TraceHeader header;
-  header.shot = words.get("fldr");
+  header.shot = extension && extension->get("xfldr") != 0 ? extension->get("xfldr") : words.get("fldr");
   header.channel = words.get("tracf");
   header.component = component_of_code(words.get("trid"));
-  header.source_m = {coordinate(words.get("sx")), coordinate(words.get("sy")),
-                     height(words.get("sdepth") - words.get("selev"))};
-  header.receiver_m = {coordinate(words.get("gx")), coordinate(words.get("gy")), height(-words.get("gelev"))};
-  header.water_depth_source_m = height(words.get("swdep"));
-  header.water_depth_receiver_m = height(words.get("gwdep"));
+  header.source_m = {coordinate("sx", "xsx"), coordinate("sy", "xsy"),
+                     height("sdepth", "xsdepth") - height("selev", "xselev")};
+  header.receiver_m = {coordinate("gx", "xgx"), coordinate("gy", "xgy"), -height("gelev", "xgelev")};
+  header.water_depth_source_m = height("swdep", "xswdep");
+  header.water_depth_receiver_m = height("gwdep", "xgwdep");
   return header;
 }
 

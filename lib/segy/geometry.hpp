@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "gather/trace.hpp"
@@ -39,8 +40,9 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout);
 
 /// The inverse, for any file: scalars applied, feet made metres. Source z is its depth below the surface
 /// minus the surface's elevation, receiver z minus the receiver's elevation. Coordinates in arc (counit 2 to
-/// 4) stay as they are.
-TraceHeader si_from_words(const TraceWords& words, const FileHeader& file);
+/// 4) stay as they are. Words of extension 1 that are not 0 go first; they have no scalars.
+TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
+                          const std::optional<ExtensionWords>& extension = {});
 
 /// Time of the first sample (delrt and, since revision 1, its scalar).
 double start_s(const TraceWords& words, const FileHeader& file);

@@ -5,13 +5,20 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "segy/extension.hpp"
 #include "segy/geometry.hpp"
 
 namespace slipwave::segy {
 namespace {
 
-/// Memory grows with what has been read, not with what a header promises.
-constexpr std::size_t step_bytes = 1 << 20;
+/// Of a pipe memory grows by so much at a time.
+constexpr std::uint64_t smallest_step = 1 << 20;
+constexpr std::uint64_t largest_step = 1 << 25;
+
+/// A stanza begins "((" in either encoding; as a trace number within the line it is one beyond reason.
+bool begins_stanza(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 2 && bytes[0] == bytes[1] && (bytes[0] == 0x28 || bytes[0] == 0x4d);
+}
 
 }  // namespace
 
@@ -24,24 +31,27 @@ Reader::Reader(const std::string& path, const ReadOptions& options, std::vector<
 }
 
 void Reader::look_at_first_trace() {
-  const auto first = source_.peek(TraceLayout::size);
+  const auto first = source_.peek(TraceLayout::size + ExtensionLayout::size);
   if (first.size() < TraceLayout::size) {  // none, or a piece that next() will complain of
     axis_ = {header_.samples, header_.interval_us * 1e-6, 0};
     return;
   }
   const TraceWords words(first.first<TraceLayout::size>(), header_.endian);
+  std::optional<ExtensionWords> extension;
+  if (header_.extra_headers > 0) extension = extension_of(first.subspan(TraceLayout::size), header_.endian);
   if (header_.samples == 0) {
     lengths_by_trace_ = true;
-    if (words.get("ns") == 0)
+    if (samples_of(words, extension) == 0)
       throw Error("the number of samples is 0 in the file header and in the first trace");
   } else if (source_.size()) {
     const auto body = *source_.size() - header_.first_trace;
-    const auto length = static_cast<std::uint64_t>(TraceLayout::size * (1 + header_.extra_headers) +
+    const auto length = static_cast<std::uint64_t>(TraceLayout::size * (1 + extra_headers_of(extension)) +
                                                    header_.samples * header_.format->bytes);
     lengths_by_trace_ = body % length != 0 && trace_headers_fill(*source_.size());
   }
   if (header_.interval_us == 0) header_.interval_us = static_cast<double>(words.get("dt"));
-  axis_ = {samples_of(words), header_.interval_us * 1e-6, start_s(words, header_)};
+  if (header_.interval_us == 0) header_.interval_us = std::max(0.0, real_or(extension, "xdt", 0));
+  axis_ = {samples_of(words, extension), header_.interval_us * 1e-6, start_s(words, header_)};
 }
 
 const SampleAxis& Reader::axis_with_interval() const {
@@ -52,58 +62,110 @@ const SampleAxis& Reader::axis_with_interval() const {
 
 /// Do traces as long as their own headers say end where the file does?
 bool Reader::trace_headers_fill(std::uint64_t size) const {
-  std::array<std::uint8_t, TraceLayout::size> bytes{};
+  std::array<std::uint8_t, TraceLayout::size + ExtensionLayout::size> bytes{};
+  const std::span<const std::uint8_t> all(bytes);
+  const std::size_t looked_at = header_.extra_headers > 0 ? bytes.size() : TraceLayout::size;
   std::uint64_t at = header_.first_trace;
   while (at < size) {
-    if (!source_.read_at(at, bytes)) return false;
-    const std::int64_t ns = TraceWords(bytes, header_.endian).get("ns");
-    at += static_cast<std::uint64_t>(TraceLayout::size * (1 + header_.extra_headers) +
+    if (!source_.read_at(at, {bytes.data(), looked_at})) return false;
+    const TraceWords words(all.first<TraceLayout::size>(), header_.endian);
+    std::optional<ExtensionWords> extension;
+    if (header_.extra_headers > 0) extension = extension_of(all.subspan(TraceLayout::size), header_.endian);
+    const std::int64_t wide = extension ? extension->get("xns") : 0;
+    const std::int64_t ns = wide > 0 ? wide : words.get("ns");
+    at += static_cast<std::uint64_t>(TraceLayout::size * (1 + extra_headers_of(extension)) +
                                      (ns > 0 ? ns : header_.samples) * header_.format->bytes);
   }
   return at == size;
 }
 
-std::int64_t Reader::samples_of(const TraceWords& words) const {
-  const std::int64_t ns = lengths_by_trace_ ? words.get("ns") : 0;
-  return ns > 0 ? ns : header_.samples;
+/// As the file header says, unless its traces may differ and this one says how many it has.
+std::int64_t Reader::extra_headers_of(const std::optional<ExtensionWords>& extension) const {
+  const std::int64_t most = header_.extra_headers;
+  if (!extension || header_.binary.get("fixed") == 1) return most;
+  const std::int64_t own = extension->get("headers");
+  return own >= 1 && own <= most ? own : most;
 }
 
-bool Reader::read_trace(Trace& trace) {
-  const auto ended = [&](std::uint64_t found, const std::string& expected) {
-    return Error("ends within trace " + std::to_string(delivered_ + 1) + ": " + std::to_string(found) +
-                 " of " + expected + " bytes");
+std::int64_t Reader::samples_of(const TraceWords& words,
+                                const std::optional<ExtensionWords>& extension) const {
+  if (!lengths_by_trace_) return header_.samples;
+  if (extension && extension->get("xns") > 0) return extension->get("xns");
+  return words.get("ns") > 0 ? words.get("ns") : header_.samples;
+}
+
+void Reader::refuse_end(std::uint64_t found, const std::string& expected) const {
+  throw Error("ends within trace " + std::to_string(delivered_ + 1) + ": " + std::to_string(found) + " of " +
+              expected + " bytes");
+}
+
+/// Data trailers of revision 2 follow the traces.
+bool Reader::at_trailer() {
+  return header_.major >= 2 && header_.binary.get("trailers") != 0 && begins_stanza(source_.peek(2));
+}
+
+void Reader::read_extensions(std::vector<std::uint8_t>& into) {
+  into.clear();
+  if (header_.extra_headers == 0) return;
+  const auto append_up_to = [&](std::int64_t count) {
+    const auto wanted = static_cast<std::size_t>(ExtensionLayout::size * count);
+    while (into.size() < wanted) {
+      const auto part = source_.take(std::min(wanted - into.size(), ByteSource::peek_limit));
+      into.insert(into.end(), part.begin(), part.end());
+      if (part.empty())
+        refuse_end(TraceLayout::size + into.size(),
+                   "the " + std::to_string(TraceLayout::size + wanted) + " header");
+    }
   };
-  std::array<std::uint8_t, TraceLayout::size> bytes{};
-  const std::size_t got = source_.read(bytes);
-  if (got == 0) return false;
-  if (got < bytes.size()) throw ended(got, "the 240 header");
-  trace.words = TraceWords(bytes, header_.endian);
-  if (header_.su) trace.words.clear(181, 240);  // Seismic Unix keeps floats of its own there
-  const std::int64_t samples = samples_of(trace.words);
-  if (samples == 0) throw Error("trace " + std::to_string(delivered_ + 1) + " has 0 samples");
-  const auto extra = static_cast<std::uint64_t>(TraceLayout::size * header_.extra_headers);
-  const auto wanted = static_cast<std::uint64_t>(samples * header_.format->bytes);
-  const std::string whole = std::to_string(TraceLayout::size + extra + wanted);
-  const std::uint64_t skipped = source_.skip(extra);
-  if (skipped < extra) throw ended(TraceLayout::size + skipped, whole);
-  std::uint64_t have = 0;
-  while (have < wanted) {
-    const auto step = static_cast<std::size_t>(
-        std::min<std::uint64_t>(wanted - have, std::max<std::uint64_t>(step_bytes, have)));
-    if (bytes_.size() < have + step) bytes_.resize(have + step);
-    const std::size_t count = source_.read({bytes_.data() + have, step});
-    have += count;
-    if (count < step) throw ended(TraceLayout::size + extra + have, whole);
+  append_up_to(1);
+  append_up_to(extra_headers_of(extension_of(into, header_.endian)));
+}
+
+/// `count` bytes of samples, `before` bytes of the trace having been read.
+std::span<const std::uint8_t> Reader::read_samples(std::uint64_t count, std::uint64_t before) {
+  const auto refuse = [&](std::uint64_t found) {
+    refuse_end(before + found, std::to_string(before + count));
+  };
+  if (count <= ByteSource::peek_limit) {
+    const auto samples = source_.take(static_cast<std::size_t>(count));
+    if (samples.size() < count) refuse(samples.size());
+    return samples;
   }
-  trace.samples.resize(static_cast<std::size_t>(samples));
-  decode_samples({bytes_.data(), static_cast<std::size_t>(wanted)}, *header_.format, header_.endian,
-                 trace.samples);
+  if (source_.size()) {
+    const std::uint64_t left = *source_.size() - std::min(source_.position(), *source_.size());
+    if (left < count) refuse(left);
+  }
+  std::uint64_t have = 0;
+  while (have < count) {
+    std::uint64_t step = count - have;
+    if (!source_.size()) step = std::min(step, std::clamp(have, smallest_step, largest_step));
+    const auto size = static_cast<std::size_t>(have + step);
+    bytes_.reserve(size);
+    if (bytes_.size() < size) bytes_.resize(size);
+    const std::size_t got = source_.read({bytes_.data() + have, static_cast<std::size_t>(step)});
+    have += got;
+    if (got < step) refuse(have);
+  }
+  return {bytes_.data(), static_cast<std::size_t>(count)};
+}
+
+bool Reader::read_trace(RawTrace& trace) {
+  if (at_trailer()) return false;
+  const auto head = source_.take(TraceLayout::size);
+  if (head.empty()) return false;
+  if (head.size() < TraceLayout::size) refuse_end(head.size(), "the 240 header");
+  trace.words = TraceWords(head.first<TraceLayout::size>(), header_.endian);
+  if (header_.su) trace.words.clear(181, 240);  // Seismic Unix keeps floats of its own there
+  read_extensions(trace.extensions);
+  const std::int64_t samples = samples_of(trace.words, extension_of(trace.extensions, header_.endian));
+  if (samples == 0) throw Error("trace " + std::to_string(delivered_ + 1) + " has 0 samples");
+  trace.samples = read_samples(static_cast<std::uint64_t>(samples * header_.format->bytes),
+                               TraceLayout::size + trace.extensions.size());
   return true;
 }
 
-bool Reader::next(Trace& trace) {
+bool Reader::next(RawTrace& trace) {
   return in_place(name(), [&] {
-    // trailers may follow the traces of a file that says how many it has
     if (header_.traces && delivered_ == *header_.traces) return false;
     if (!read_trace(trace)) {
       if (header_.traces)
@@ -116,7 +178,18 @@ bool Reader::next(Trace& trace) {
   });
 }
 
-TraceHeader Reader::si_header(const Trace& trace) const { return si_from_words(trace.words, header_); }
+bool Reader::next(Trace& trace) {
+  if (!next(raw_)) return false;
+  trace.words = raw_.words;
+  trace.extensions = raw_.extensions;
+  trace.samples.resize(raw_.samples.size() / static_cast<std::size_t>(header_.format->bytes));
+  decode_samples(raw_.samples, *header_.format, header_.endian, trace.samples);
+  return true;
+}
+
+TraceHeader Reader::si_header(const Trace& trace) const {
+  return si_from_words(trace.words, header_, extension_of(trace.extensions, header_.endian));
+}
 
 SampleAxis Reader::axis_of(const Trace& trace) const {
   return {static_cast<std::int64_t>(trace.samples.size()), axis_.interval_s, start_s(trace.words, header_)};

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,24 @@
 
 namespace slipwave::segy {
 
-/// A trace as it stands in a file: the header untouched, the samples as numbers.
+/// A trace as it stands in a file: the headers untouched, the samples as numbers.
 struct Trace {
   TraceWords words;
   std::vector<double> samples;
+  /// The additional headers of revision 2 as they stand in the file, 240 bytes each.
+  std::vector<std::uint8_t> extensions;
+};
+
+/// A trace whose samples are not looked at.
+struct RawTrace {
+  TraceWords words;
+  std::vector<std::uint8_t> extensions;   // as in Trace
+  std::span<const std::uint8_t> samples;  // in the file's format and order, valid until the next trace
 };
 
 /// Traces of a SEG-Y or Seismic Unix file, or of standard input ("-"), one after the other in the memory of
-/// one. Every error starts with the input's name.
+/// one, which grows with what has been read and not with what a header promises. Every error starts with the
+/// input's name.
 ///
 /// Samples a trace: the file header's number. Where it is 0, each trace header's; and so where the file's
 /// size is known, does not fit the file header's number and fits the trace headers' exactly (traces of
@@ -45,24 +56,34 @@ class Reader {
   /// Throws Error when the input ends within a trace (after every whole one was delivered) or with fewer
   /// traces than it says.
   bool next(Trace& trace);
+  /// The same without decoding the samples.
+  bool next(RawTrace& trace);
   /// Traces delivered so far.
   std::int64_t delivered() const noexcept { return delivered_; }
 
   /// Header and axis of a trace of this input in SI.
   TraceHeader si_header(const Trace& trace) const;
   SampleAxis axis_of(const Trace& trace) const;
+  /// Do the trace headers say how long each trace is?
+  bool lengths_by_trace() const noexcept { return lengths_by_trace_; }
 
  private:
   void look_at_first_trace();
   bool trace_headers_fill(std::uint64_t size) const;
-  std::int64_t samples_of(const TraceWords& words) const;
-  bool read_trace(Trace& trace);
+  std::int64_t extra_headers_of(const std::optional<ExtensionWords>& extension) const;
+  std::int64_t samples_of(const TraceWords& words, const std::optional<ExtensionWords>& extension) const;
+  bool at_trailer();
+  bool read_trace(RawTrace& trace);
+  std::span<const std::uint8_t> read_samples(std::uint64_t count, std::uint64_t before);
+  void read_extensions(std::vector<std::uint8_t>& into);
+  [[noreturn]] void refuse_end(std::uint64_t found, const std::string& expected) const;
 
   ByteSource source_;
   FileHeader header_;
   SampleAxis axis_;
   bool lengths_by_trace_ = false;
   std::int64_t delivered_ = 0;
+  RawTrace raw_;
   std::vector<std::uint8_t> bytes_;
 };
 

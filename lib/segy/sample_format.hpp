@@ -46,4 +46,7 @@ void decode_samples(std::span<const std::uint8_t> bytes, const SampleFormat& for
 void encode_samples(std::span<const double> samples, const SampleFormat& format, Endian endian,
                     std::span<std::uint8_t> into);
 
+/// Refuses what encode_samples() would refuse of samples that are in `format` already: NaN and infinity.
+void check_samples(std::span<const std::uint8_t> bytes, const SampleFormat& format, Endian endian);
+
 }  // namespace slipwave::segy

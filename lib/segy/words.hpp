@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "segy/bytes.hpp"
 #include "segy/layout_binary.hpp"
+#include "segy/layout_extension.hpp"
 #include "segy/layout_trace.hpp"
 
 namespace slipwave::segy {
@@ -96,5 +97,6 @@ class Words {
 
 using TraceWords = Words<TraceLayout>;
 using BinaryWords = Words<BinaryLayout>;
+using ExtensionWords = Words<ExtensionLayout>;
 
 }  // namespace slipwave::segy

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "segy/extension.hpp"
 #include "segy/writer_headers.hpp"
 
 namespace slipwave::segy {
@@ -42,32 +43,65 @@ void Writer::write(const TraceHeader& header, std::span<const double> samples) {
     words.set("cdpt", ++in_bin_[words.get("cdp")]);
     words.set("delrt", delay_word(info_.axis.start_s));
     words.set("tracl", written_ + 1);
-    write_words(words, samples);
+    put_headers(words, {}, static_cast<std::int64_t>(samples.size()));
+    put_samples(samples);
   });
 }
 
 void Writer::write(const Trace& trace, bool from_su) {
   in_place("trace " + std::to_string(written_ + 1), [&] {
-    TraceWords words = trace.words;
-    if (from_su) fill_revision_1(words);
-    if (words.get("tracl") == 0) words.set("tracl", written_ + 1);
-    write_words(words, trace.samples);
+    put_headers(carried(trace.words, from_su), trace.extensions,
+                static_cast<std::int64_t>(trace.samples.size()));
+    put_samples(trace.samples);
   });
 }
 
-void Writer::write_words(TraceWords words, std::span<const double> samples) {
-  if (static_cast<std::int64_t>(samples.size()) != info_.axis.count)
-    throw Error(std::to_string(samples.size()) + " samples, expected " + std::to_string(info_.axis.count) +
+void Writer::write(const RawTrace& trace, bool from_su) {
+  in_place("trace " + std::to_string(written_ + 1), [&] {
+    put_headers(carried(trace.words, from_su), trace.extensions,
+                static_cast<std::int64_t>(trace.samples.size()) / sample_format_.bytes);
+    check_samples(trace.samples, sample_format_, info_.format.endian);
+    out_.write(trace.samples.data(), trace.samples.size());
+    ++written_;
+  });
+}
+
+/// The words of another file as this one's revision reads them.
+TraceWords Writer::carried(TraceWords words, bool from_su) const {
+  const bool has_time_scalar = info_.format.su || info_.format.revision >= 1;
+  if (from_su)
+    fill_revision_1(words);
+  else if (info_.carried_revision == 0 && has_time_scalar)
+    words.set("tscal", 1);
+  else if (info_.carried_revision >= 1 && !has_time_scalar)
+    apply_time_scalar(words);
+  if (words.get("tracl") == 0) words.set("tracl", written_ + 1);
+  return words;
+}
+
+void Writer::put_headers(TraceWords words, std::vector<std::uint8_t> extensions, std::int64_t samples) {
+  if (samples != info_.axis.count && !info_.lengths_vary)
+    throw Error(std::to_string(samples) + " samples, expected " + std::to_string(info_.axis.count) +
                 " as in the file header");
+  const bool fits = samples <= highest_16;
+  if (samples < 1 || (!fits && info_.lengths_vary))
+    throw Error(std::to_string(samples) + " samples, traces of different length hold 1 to " +
+                std::to_string(highest_16));
   words.set("tracr", written_ + 1);
-  words.set("ns", info_.axis.count <= 65535 ? info_.axis.count : 0);
+  words.set("ns", fits ? samples : 0);
   words.set("dt", interval_word_);
   if (info_.format.su) clear_for_su(words);
-  const std::size_t body = samples.size() * static_cast<std::size_t>(sample_format_.bytes);
-  bytes_.resize(TraceLayout::size + body);
   const auto head = words.in_file_order(info_.format.endian);
-  std::copy(head.begin(), head.end(), bytes_.begin());
-  encode_samples(samples, sample_format_, info_.format.endian, {bytes_.data() + TraceLayout::size, body});
+  out_.write(head.data(), head.size());
+  if (info_.extra_headers == 0) return;
+  set_sampling(extensions, info_.format.endian, samples, info_.axis.interval_s * 1e6);
+  extensions.resize(static_cast<std::size_t>(TraceLayout::size * info_.extra_headers));
+  out_.write(extensions.data(), extensions.size());
+}
+
+void Writer::put_samples(std::span<const double> samples) {
+  bytes_.resize(samples.size() * static_cast<std::size_t>(sample_format_.bytes));
+  encode_samples(samples, sample_format_, info_.format.endian, bytes_);
   out_.write(bytes_.data(), bytes_.size());
   ++written_;
 }

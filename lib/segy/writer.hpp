@@ -33,14 +33,17 @@ struct FileInfo {
   std::string text;                    // 3200 characters (lay_out_text, with_entry); empty: stamps only
   std::vector<std::string> extended;   // extended textual headers of 3200 characters each
   std::optional<BinaryWords> carried;  // the binary header of the input, for what this does not say
+  int carried_revision = 1;            // of the file that carried traces come from: 0 has no time scalar
+  bool lengths_vary = false;           // every trace has its own length, axis has the first one's
+  std::int64_t extra_headers = 0;      // of 240 bytes a trace, carried along (revision 2)
 };
 
 /// Sentences about what some readers will not take (samples or interval above 32767).
 std::vector<std::string> warnings_of(const FileInfo& info);
 
-/// The same kind of file as was read, for a tool that changes samples only: revision, byte order and SU-ness
-/// kept, samples IEEE floats, or doubles where the input's were doubles or wider integers. The text is the
-/// input's with `entry` (a command line) added, the binary header its own.
+/// The same kind of file as was read, for a tool that changes samples: revision, byte order and SU-ness
+/// kept, samples IEEE floats, or doubles where the input's were doubles or wider integers. As info_as()
+/// otherwise (conversion.hpp).
 FileInfo info_like(const Reader& reader, const std::string& entry);
 
 /// Writes traces as they come, in the memory of one. Every number that goes into the file header is in
@@ -54,13 +57,17 @@ class Writer {
 
   /// A trace described in SI.
   void write(const TraceHeader& header, std::span<const double> samples);
-  /// A trace of another file, its header carried along; counters, ns and dt are made to fit.
+  /// A trace of another file, its headers carried along; counters, ns and dt are made to fit.
   void write(const Trace& trace, bool from_su);
+  /// The same of samples that are in the format and byte order of this file already.
+  void write(const RawTrace& trace, bool from_su);
 
   std::int64_t written() const noexcept { return written_; }
 
  private:
-  void write_words(TraceWords words, std::span<const double> samples);
+  TraceWords carried(TraceWords words, bool from_su) const;
+  void put_headers(TraceWords words, std::vector<std::uint8_t> extensions, std::int64_t samples);
+  void put_samples(std::span<const double> samples);
 
   OutputFile& out_;
   FileInfo info_;

@@ -8,7 +8,6 @@
 namespace slipwave::segy {
 namespace {
 
-constexpr std::int64_t highest_16 = 65535;
 constexpr std::int64_t highest_signed_16 = 32767;
 constexpr std::int64_t highest_signed_32 = 2147483647;
 
@@ -53,6 +52,7 @@ void set_revision_2(BinaryWords& words, const FileInfo& info) {
   words.set("xnso", info.axis.count);
   words.set("byte_order", 0x01020304);
   words.set("ntraces", info.layout.traces);
+  words.set("extra_headers", info.extra_headers);
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ BinaryWords binary_header(const FileInfo& info) {
   set_unless_carried(words, "vsum", 1);
   set_unless_carried(words, "mfeet", 1);
   set_revision_2(words, info);
-  words.set("fixed", info.format.revision >= 1 ? 1 : 0);
+  words.set("fixed", info.format.revision >= 1 && !info.lengths_vary ? 1 : 0);
   words.set("extended", static_cast<std::int64_t>(info.extended.size()));
   return words;
 }
@@ -119,7 +119,7 @@ std::int64_t delay_word(double start_s) {
   return std::llround(ms);
 }
 
-void clear_for_su(TraceWords& words) {
+void apply_time_scalar(TraceWords& words) {
   const std::int64_t scalar = words.get("tscal");
   if (scalar != 0 && scalar != 1)
     for (const Field& field : TraceLayout::fields) {
@@ -127,6 +127,11 @@ void clear_for_su(TraceWords& words) {
       const FieldName<TraceLayout> name(field);
       words.set(name, std::llround(scaled(words.get(name), scalar)));
     }
+  words.set("tscal", 1);
+}
+
+void clear_for_su(TraceWords& words) {
+  apply_time_scalar(words);
   words.clear(181, 240);
 }
 
@@ -140,29 +145,6 @@ std::vector<std::string> warnings_of(const FileInfo& info) {
     warnings.push_back("sample interval " + shown(info.axis.interval_s) +
                        " s: readers that take the word as signed see a negative number above 0.032767 s");
   return warnings;
-}
-
-FileInfo info_like(const Reader& reader, const std::string& entry) {
-  const FileHeader& header = reader.header();
-  FileInfo info;
-  info.axis = reader.axis();
-  info.format.su = header.su;
-  info.format.endian = header.endian;
-  info.format.encoding = header.encoding;
-  info.format.revision = std::min(header.major, 2);
-  info.format.code = header.format->code == 6 || header.format->bytes == 8 ? 6 : 5;
-  if (info.format.code == 6) info.format.revision = 2;
-  if (header.su) {
-    info.format.revision = 1;
-    return info;
-  }
-  info.layout.traces = header.traces.value_or(0);
-  info.layout.traces_per_shot = header.binary.get("ntrpr");
-  if (header.major >= 2 && header.binary.get("xntrpr") > 0)
-    info.layout.traces_per_shot = header.binary.get("xntrpr");
-  info.text = with_entry(header.text, entry, info.format.revision);
-  info.carried = header.binary;
-  return info;
 }
 
 std::vector<std::string> convention_entries(std::span<const Component> components, const SampleAxis& axis,

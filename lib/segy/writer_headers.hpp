@@ -4,6 +4,8 @@
 
 namespace slipwave::segy {
 
+inline constexpr std::int64_t highest_16 = 65535;
+
 /// The sample format of `info`, after refusing what its revision cannot hold: the format, the number of
 /// samples, the interval, the delay. Each refusal says what was found and what fits.
 const SampleFormat& checked_format(const FileInfo& info);
@@ -19,6 +21,9 @@ std::int64_t interval_word(double interval_s);
 
 /// Whole milliseconds of the first sample's time; throws Error when they are not whole or do not fit 16 bits.
 std::int64_t delay_word(double start_s);
+
+/// Applies the time scalar (byte 215) to the times of bytes 95 to 114 and makes it 1.
+void apply_time_scalar(TraceWords& words);
 
 /// Makes bytes 181 to 240 zero, the time scalar applied to the times before.
 void clear_for_su(TraceWords& words);

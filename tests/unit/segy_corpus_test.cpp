@@ -54,7 +54,7 @@ TEST(Corpus, IsReadWithTheFactsOfItsReadme) {
     expect_number(facts.axis.interval_s * 1e6, cells[6]);
     EXPECT_EQ(std::to_string(facts.header.format->code), cells[7]);
     EXPECT_EQ(std::to_string(facts.traces), cells[8]);
-    EXPECT_EQ(std::to_string(facts.header.extended_count), cells[9]);
+    EXPECT_EQ(std::to_string(facts.header.extended.size()), cells[9]);
     expect_number(facts.sample.lowest, cells[10]);
     expect_number(facts.sample.highest, cells[11]);
     expect_number(facts.rms, cells[12]);

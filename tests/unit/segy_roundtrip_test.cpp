@@ -173,7 +173,7 @@ TEST(SegyFile, SkipsExtendedTextAndExtraTraceHeaders) {
     }
     put_bytes(scratch.file("x.sgy"), bytes);
     expect_equal(read_file(scratch.file("x.sgy")), gather);
-    EXPECT_EQ(Reader(scratch.file("x.sgy")).header().extended_count, 2);
+    EXPECT_EQ(Reader(scratch.file("x.sgy")).header().extended.size(), 2U);
   }
 }
 

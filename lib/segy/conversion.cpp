@@ -1,0 +1,74 @@
+#include "segy/conversion.hpp"
+
+#include <algorithm>
+
+namespace slipwave::segy {
+namespace {
+
+bool holds_extended_text(const FileFormat& format) { return !format.su && format.revision >= 1; }
+
+bool holds_extra_headers(const Reader& reader, const FileFormat& format) {
+  return !format.su && format.revision >= 2 && format.endian == reader.header().endian;
+}
+
+}  // namespace
+
+FileFormat format_of(const Reader& reader) {
+  const FileHeader& header = reader.header();
+  FileFormat format;
+  format.su = header.su;
+  format.endian = header.endian;
+  format.encoding = header.encoding;
+  format.revision = header.su ? 1 : std::min(header.major, 2);
+  format.code = header.format->code;
+  if (header.format->since >= 2) format.revision = 2;  // where the file is wrong about one of them
+  return format;
+}
+
+FileInfo info_as(const Reader& reader, const std::string& entry, const FileFormat& format) {
+  const FileHeader& header = reader.header();
+  FileInfo info;
+  info.format = format;
+  info.axis = reader.axis();
+  info.lengths_vary = reader.lengths_by_trace() && (!header.su || format.su);
+  if (header.su) {
+    info.text = lay_out_text(std::vector<std::string>{entry}, format.revision);
+    return info;
+  }
+  info.layout.traces = header.traces.value_or(0);
+  info.layout.traces_per_shot = header.binary.get("ntrpr");
+  if (header.major >= 2 && header.binary.get("xntrpr") > 0)
+    info.layout.traces_per_shot = header.binary.get("xntrpr");
+  info.text = with_entry(header.text, entry, format.revision);
+  if (holds_extended_text(format)) info.extended = header.extended;
+  if (holds_extra_headers(reader, format)) info.extra_headers = header.extra_headers;
+  info.carried = header.binary;
+  info.carried_revision = std::min(header.major, 2);
+  return info;
+}
+
+FileInfo info_like(const Reader& reader, const std::string& entry) {
+  FileFormat format = format_of(reader);
+  const SampleFormat& samples = *reader.header().format;
+  format.code = samples.code == 6 || samples.bytes == 8 ? 6 : 5;
+  if (format.code == 6) format.revision = 2;
+  if (format.code == 5 && !format.su) format.revision = std::min(reader.header().major, 2);
+  return info_as(reader, entry, format);
+}
+
+std::vector<std::string> losses_of(const Reader& reader, const FileFormat& format) {
+  const FileHeader& header = reader.header();
+  std::vector<std::string> losses;
+  const auto lose = [&](std::int64_t count, const std::string& what) {
+    if (count != 0) losses.push_back(reader.name() + ": " + what + " left out");
+  };
+  if (!holds_extended_text(format))
+    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are");
+  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are");
+  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are");
+  if (header.feet && format.su)
+    losses.push_back(reader.name() + ": lengths are in feet, which SU does not say");
+  return losses;
+}
+
+}  // namespace slipwave::segy
