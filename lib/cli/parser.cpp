@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "base/nearest.hpp"
 #include "base/parse.hpp"
 #include "base/temporary.hpp"
 

@@ -69,9 +69,6 @@ class Parser {
   std::string command_line_;
 };
 
-/// The word of `words` that `word` most likely meant, or "".
-std::string nearest_of(const std::vector<std::string>& words, const std::string& word);
-
 /// `word` as a POSIX shell must be given it.
 std::string quoted(const std::string& word);
 

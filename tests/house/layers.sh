@@ -14,6 +14,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["solver"] = below["scene"] " solver"
     below["accuracy"] = below["solver"] " accuracy"
     below["segy"] = "base gather segy"
+    below["traces"] = below["segy"] " grid traces"
     below["output"] = below["scene"] " output"
     below["plot"] = below["output"] " segy accuracy plot"
     below["cli"] = "base cli"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/nearest.hpp"
 #include "cli/parser.hpp"
 #include "cli/tool.hpp"
 
@@ -91,9 +92,9 @@ TEST(Options, AreRefusedWithUsageStatusBeforeTheBodyRuns) {
 
 TEST(Options, TheNearestNameIsTheOneMeant) {
   const std::vector<std::string> names = {"receivers", "record", "source", "sides", "time"};
-  EXPECT_EQ(nearest_of(names, "receiver"), "receivers");
-  EXPECT_EQ(nearest_of(names, "soruce"), "source");
-  EXPECT_EQ(nearest_of(names, "si"), "sides");
-  EXPECT_EQ(nearest_of(names, "tiem"), "time");
-  EXPECT_EQ(nearest_of(names, "polarisation"), "");
+  EXPECT_EQ(slipwave::nearest_of(names, "receiver"), "receivers");
+  EXPECT_EQ(slipwave::nearest_of(names, "soruce"), "source");
+  EXPECT_EQ(slipwave::nearest_of(names, "si"), "sides");
+  EXPECT_EQ(slipwave::nearest_of(names, "tiem"), "time");
+  EXPECT_EQ(slipwave::nearest_of(names, "polarisation"), "");
 }

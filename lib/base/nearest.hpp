@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace slipwave {
+
+/// The word of `words` that `word` most likely meant, or "".
+std::string nearest_of(const std::vector<std::string>& words, const std::string& word);
+
+}  // namespace slipwave
