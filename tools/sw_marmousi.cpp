@@ -1,0 +1,66 @@
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/parallel.hpp"
+#include "base/parse.hpp"
+#include "cli/tool.hpp"
+#include "model/layers.hpp"
+#include "model/marmousi.hpp"
+#include "model/model_netcdf.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string size = "10000x3500";
+  double step_m = 0;
+  int seed = 1;
+  MarmousiSettings geology;
+  bool no_average = false;
+  std::string title = "Marmousi-like model";
+  std::string output = "-";
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.add("size", settings.size, "LXxLZ", "size of the model, m");
+  options.add("step", settings.step_m, "H", "edge of a cell, m");
+  options.add("water", settings.geology.water_m, "DEPTH", "depth of the sea, m; 0 is land");
+  options.add("seed", settings.seed, "S", "number of the geology; the same at every size and step");
+  options.add("scale", settings.geology.scale, "F", "all lengths but the water's times this");
+  options.add("vp-over-vs", settings.geology.vp_over_vs, "R", "vp/vs of all rock, not by lithology");
+  options.add("no-average", settings.no_average,
+              "cells that several beds share take the material of their centre, not the mean");
+  options.add("title", settings.title, "TEXT", "title of the model file");
+  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.add_threads();
+  options.require("step");
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const ThreadLimit threads(context.threads);
+  const auto size = in_place("--size", [&] { return parse_size<2>(settings.size); });
+  const auto grid = in_place("--size, --step", [&] { return grid_of_size<2>(size, settings.step_m); });
+  auto geology = settings.geology;
+  geology.seed = std::uint64_t(settings.seed);
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  Model<2> model;
+  model.medium = marmousi_medium(grid, geology, !settings.no_average);
+  check(model);
+  model.title = settings.title;
+  model.source = context.version;
+  model.history = context.command_line;
+  write_model(model, out);
+  context.note(shown(grid));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  return cli::run_tool(
+      argc, argv,
+      {"sw-marmousi", "Builds a model that looks like Marmousi-II, from a seed.", "--step H [options] [-o M]",
+       "sw-marmousi --step 10 --seed 3 -o model.nc"},
+      [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
