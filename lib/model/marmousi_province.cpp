@@ -77,7 +77,7 @@ void draw_fault_trap(Province& province, Draws& draw, std::uint64_t seed, int bl
   const double lift = province.rise_at(offset) + undulation_of(seed, province.x_of(offset));
   int found = 0;
   const double pile = province.pile_of_clastics(offset, depth, lift, found);
-  const double gas = draw(70, 150);
+  const double gas = draw(100, 190);
   province.traps.push_back({Unit::clastics, pile, draw(35, 60), offset - 500, 2500, block, depth + gas,
                             depth + gas + draw(40, 90)});
 }
@@ -88,7 +88,7 @@ void draw_traps(Province& province, Draws& draw, std::uint64_t seed) {
   draw_fault_trap(province, draw, seed, 0, 800);
   // A lens of sand far from the faults, full of gas.
   province.traps.push_back(
-      {Unit::clastics, draw(450, 1000), draw(25, 45), draw(-5500, -3600), draw(250, 500), -1, 3000, 3000});
+      {Unit::clastics, draw(450, 1000), draw(30, 50), draw(-5500, -3600), draw(250, 500), -1, 3000, 3000});
   // Oil in the crest of the dome.
   province.traps.push_back({Unit::dome, draw(60, 110), draw(45, 70), province.dome_crest_m, 1800, -1, 0,
                             2560 - province.dome_m + draw(150, 200)});

@@ -22,8 +22,8 @@ struct Alternation {
 Alternation alternation_of(Unit unit, double pile_m) {
   switch (unit) {
     case Unit::clastics:
-      if (pile_m < young_m) return {210, 52, 0.35, 0, 0.05, 0.025};
-      return {190, 50, 0.4, 0.06, 0.045, 0.03};
+      if (pile_m < young_m) return {210, 52, 0.35, 0, 0.05, 0.035};
+      return {190, 50, 0.4, 0.06, 0.045, 0.04};
     case Unit::fill:
       return {160, 52, 0.25, 0.25, 0.05, 0.04};
     case Unit::dome:
@@ -55,7 +55,7 @@ double burial_of(const Place& place) {
 double speed_of(Lithology rock, const Place& place) {
   const double burial = std::max(burial_of(place), 0.);
   // Compaction: fast at first, then slowing down.
-  const double young = place.unit == Unit::clastics && place.pile_m < young_m ? 0.7 : 1;
+  const double young = place.unit == Unit::clastics && place.pile_m < young_m ? 0.62 : 1;
   const double shale = 1800 + young * 2300 * (1 - std::exp(-burial / 1900));
   switch (rock) {
     case Lithology::shale:
@@ -99,7 +99,7 @@ Keys keys_of(std::uint64_t seed, const Section& section, const Place& place, con
 
 /// Formations lean towards sand, limestone or shale, beds follow more or less.
 Lithology lithology_of(const Keys& keys, const Alternation& alternation) {
-  constexpr double common = 0.65, own = 1 - common;
+  constexpr double common = 0.58, own = 1 - common;
   const double draw = common * uniform(keys.formation, 1) + own * uniform(keys.bed, 1);
   // The distribution of that sum is a trapezium: its share below the draw, from the nearer end.
   const auto low_end = [](double t) { return t < own ? t * t / (2 * common * own) : (t - own / 2) / common; };
@@ -118,7 +118,7 @@ std::optional<Bed> trapped_at(const Section& section, const Place& place, std::u
     if (trap.unit != place.unit || std::abs(away) >= 1) continue;
     const double in_bed = place.pile_m - trap.pile_m;
     if (in_bed < 0 || in_bed >= trap.thickness_m * (1 - away * away)) continue;
-    Bed bed{0, Lithology::sand, Filling::brine, 1.02};
+    Bed bed{0, Lithology::sand, Filling::brine, 0.9};
     if (trap.block < 0 || trap.block == place.block) {
       if (place.depth_m < trap.oil_above_m) bed.filling = Filling::oil;
       if (place.depth_m < trap.gas_above_m) bed.filling = Filling::gas;
