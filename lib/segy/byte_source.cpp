@@ -46,7 +46,9 @@ ByteSource::ByteSource(const std::string& path, std::vector<std::uint8_t> alread
       size_ = static_cast<std::uint64_t>(std::max<off_t>(about.st_size - from, 0));
     }
   }
-  buffer_.resize(std::max(buffer_bytes, end_));
+  std::size_t wanted = buffer_bytes;
+  if (size_) wanted = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, *size_));
+  buffer_.resize(std::max(wanted, end_));
 }
 
 ByteSource::~ByteSource() {
@@ -79,6 +81,7 @@ std::span<const std::uint8_t> ByteSource::peek(std::size_t count) {
     std::memmove(buffer_.data(), buffer_.data() + begin_, buffered());
     end_ -= begin_;
     begin_ = 0;
+    if (buffer_.size() < count) buffer_.resize(count);  // a file that has grown since
     while (end_ < count) {
       const std::size_t got = read_some(std::span(buffer_).subspan(end_));
       if (got == 0) break;

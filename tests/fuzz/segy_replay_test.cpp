@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include "segy_target.hpp"
+
+// What the fuzzer looks for, from fixed seeds: damage of every kind gives an answer or an error. Run under
+// the address and undefined-behaviour sanitizers; no single allocation may pass 64 MiB.
+
+using namespace slipwave::segy;
+
+extern "C" const char* __asan_default_options() { return "max_allocation_size_mb=64:quarantine_size_mb=16"; }
+
+TEST(Reader, AnswersForEverySeed) {
+  const auto all = seeds(5);
+  EXPECT_GT(all.size(), 40U);
+  for (const Seed& seed : all)
+    for (const As as : {As::file, As::pipe}) examine(seed.bytes, as);
+}
+
+TEST(Reader, AnswersForEveryCutWithin8000BytesAndSomeBeyond) {
+  std::mt19937 random(1);
+  const auto all = seeds(100);
+  for (const char* name : {"ieee-big-1.sgy", "int16-little-2.sgy", "little.su", "stanza.sgy"})
+    for (const Seed& seed : all) {
+      if (seed.name != name) continue;
+      ASSERT_GT(seed.bytes.size(), 7000U) << name;
+      for (std::size_t length = 0; length < seed.bytes.size(); ++length)
+        if (length <= 8000 || random() % 8 == 0)
+          examine({seed.bytes.data(), length}, random() % 4 == 0 ? As::pipe : As::file);
+    }
+}
+
+TEST(Reader, AnswersForAHundredThousandChangedHeaders) {
+  std::mt19937 random(20240611);
+  const auto all = seeds(5);
+  for (int round = 0; round < 100'000; ++round) {
+    Bytes bytes = all[random() % all.size()].bytes;
+    change_headers(bytes, random);
+    examine(bytes, round % 4 == 0 ? As::pipe : As::file);
+  }
+}
