@@ -3,10 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "segy/geometry.hpp"
 #include "segy/layout_trace.hpp"
+#include "segy/sample_format.hpp"
 #include "segy/words.hpp"
 
 namespace slipwave {
+
+namespace {
+
+std::vector<double> samples_of(const TraceView& view) {
+  const segy::SampleFormat& format = *view.file->format;
+  const auto bytes = view.trace->samples;
+  std::vector<double> samples(bytes.size() / static_cast<std::size_t>(format.bytes));
+  segy::decode_samples(bytes, format, view.file->endian, samples);
+  return samples;
+}
+
+}  // namespace
+
+TraceView view_of(const segy::Reader& reader, const segy::RawTrace& trace) {
+  return {reader.delivered(), segy::si_from_words(trace.words, reader.header()), &trace, &reader.header()};
+}
 
 enum class HeaderKey::Fact {
   trace,
@@ -75,7 +93,6 @@ bool HeaderKey::is_component() const { return fact_ == Fact::component; }
 
 double HeaderKey::value(const TraceView& view) const {
   const TraceHeader& header = view.header;
-  const auto& samples = view.trace->samples;
   switch (fact_) {
     case Fact::trace:
       return static_cast<double>(view.number);
@@ -105,10 +122,11 @@ double HeaderKey::value(const TraceView& view) const {
       return std::hypot(header.receiver_m[0] - header.source_m[0], header.receiver_m[1] - header.source_m[1]);
     case Fact::peak: {
       double peak = 0;
-      for (const double sample : samples) peak = std::max(peak, std::fabs(sample));
+      for (const double sample : samples_of(view)) peak = std::max(peak, std::fabs(sample));
       return peak;
     }
     case Fact::rms: {
+      const auto samples = samples_of(view);
       double sum = 0;
       for (const double sample : samples) sum += sample * sample;
       return samples.empty() ? 0 : std::sqrt(sum / static_cast<double>(samples.size()));

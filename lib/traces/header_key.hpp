@@ -15,8 +15,12 @@ namespace slipwave {
 struct TraceView {
   std::int64_t number = 0;  // in its file, from 1
   TraceHeader header;       // in SI
-  const segy::Trace* trace = nullptr;
+  const segy::RawTrace* trace = nullptr;
+  const segy::FileHeader* file = nullptr;  // of the file, for its sample format
 };
+
+/// The trace that `reader` delivered last; valid until the next one.
+TraceView view_of(const segy::Reader& reader, const segy::RawTrace& trace);
 
 /// Something about a trace that has a name and a value:
 ///   trace                              number in the file, from 1

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 
@@ -13,12 +14,15 @@ namespace {
 
 /// Trace 7 of its file: vz, shot 3, channel 12, from (100, 0, 5) to (400.1, 0, 2), offset 300, cdp -4.
 double value_of(const std::string& text) {
-  segy::Trace trace;
+  segy::RawTrace trace;
   trace.words.set("offset", 300);
   trace.words.set("cdp", -4);
   trace.words.set("ns", 40000);
-  trace.samples = {3, -4, 0, 0};
-  TraceView view{7, {}, &trace};
+  const std::vector<std::uint8_t> samples = {3, 252, 0, 0};  // 3, -4, 0, 0
+  trace.samples = samples;
+  segy::FileHeader file;
+  file.format = &segy::format_named("int8");
+  TraceView view{7, {}, &trace, &file};
   view.header.shot = 3;
   view.header.channel = 12;
   view.header.component = Component::vz;
@@ -177,7 +181,8 @@ TEST(Expression, OfAbsurdDepthIsRefused) {
 }
 
 TEST(HeaderKey, IsEveryWordOfATraceHeader) {
-  segy::Trace trace;
+  segy::RawTrace trace;
+  const segy::FileHeader file;
   int value = 0;
   for (const segy::Field& field : segy::TraceLayout::fields)
     if (segy::is_signed(field.type)) trace.words.set(segy::FieldName<segy::TraceLayout>(field), ++value);
@@ -186,7 +191,7 @@ TEST(HeaderKey, IsEveryWordOfATraceHeader) {
     const auto key = HeaderKey::named(std::string(field.name));
     ASSERT_TRUE(key) << field.name;
     if (segy::is_signed(field.type)) {
-      EXPECT_EQ(key->value({1, {}, &trace}), ++value) << field.name;
+      EXPECT_EQ(key->value({1, {}, &trace, &file}), ++value) << field.name;
     }
   }
   EXPECT_FALSE(HeaderKey::named("Offset"));

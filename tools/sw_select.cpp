@@ -1,0 +1,96 @@
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "cli/tool.hpp"
+#include "segy/conversion.hpp"
+#include "trace_input.hpp"
+#include "traces/expression.hpp"
+#include "traces/time_window.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string input = "-";
+  std::string output = "-";
+  std::string where, time;
+  TraceInput input_options;
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.positional(settings.input, "A");
+  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("where", settings.where, "CONDITION",
+              "which traces: component=vz and 100<=offset<500, shot=1:9:2 or not cdp>40, ...");
+  options.add("time", settings.time, "T0:T1", "only the samples from T0 to T1, s");
+  settings.input_options.declare(options);
+}
+
+std::optional<Expression> condition_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  return in_place("--where", [&] {
+    Expression condition(text);
+    if (condition.kind() != Expression::Kind::truth)
+      throw Error("'" + text + "' is no condition, expected one like offset>=100", ErrorKind::usage);
+    return condition;
+  });
+}
+
+/// The file header of what is selected: how many traces there will be is not known beforehand.
+segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context, bool all_traces,
+                       const std::optional<TimeWindow>& window) {
+  segy::FileInfo info = segy::info_as(reader, context.command_line, segy::format_of(reader));
+  if (window && reader.axis_with_interval().count > 0) info.axis = window->cut(info.axis);
+  info.axis.count =
+      std::max<std::int64_t>(info.axis.count, 1);  // none: the first trace will be refused by name
+  if (all_traces) return info;
+  info.layout.traces = 0;
+  info.layout.traces_per_shot = 0;
+  if (info.carried) info.carried->set("ntrpr", 0);
+  return info;
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto condition = condition_of(settings.where);
+  std::optional<TimeWindow> window;
+  if (!settings.time.empty()) window = in_place("--time", [&] { return parse_time_window(settings.time); });
+  if (!condition && !window)
+    throw Error("found neither --where nor --time, expected one of them", ErrorKind::usage);
+  segy::Reader reader(settings.input, settings.input_options.read_options());
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  const segy::FileInfo info = info_of(reader, context, !condition, window);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
+  segy::Writer writer(out, info);
+  const Progress progress = context.progress("selecting");
+  segy::RawTrace trace;
+  while (reader.next(trace)) {
+    const bool taken = in_place(reader.name() + ": trace " + std::to_string(reader.delivered()), [&] {
+      if (condition && condition->value(view_of(reader, trace)) == 0) return false;
+      if (window) window->cut(trace, reader);
+      return true;
+    });
+    if (taken) writer.write(trace, reader.header().su);
+    if (progress && reader.size())
+      progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
+  }
+  if (condition && writer.written() == 0)
+    throw Error(reader.name() + ": none of " + std::to_string(reader.delivered()) + " traces meets '" +
+                settings.where + "', expected at least one");
+  context.note(std::to_string(writer.written()) + " of " + std::to_string(reader.delivered()) + " traces");
+  out.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  const cli::ToolInfo info{"sw-select", "Traces that meet a condition, and samples between two times",
+                           "[options] [A] [-o OUTPUT]",
+                           "sw-select gather.sgy --where 'component=vz and offset>=100' -o vz.sgy"};
+  return cli::run_tool(
+      argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}

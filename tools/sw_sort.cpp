@@ -1,0 +1,81 @@
+#include <string>
+
+#include "base/error.hpp"
+#include "base/output_file.hpp"
+#include "base/temporary.hpp"
+#include "cli/tool.hpp"
+#include "segy/conversion.hpp"
+#include "trace_input.hpp"
+#include "traces/sorting.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string input = "-";
+  std::string output = "-";
+  std::string key;
+  int memory_mib = 256;
+  TraceInput input_options;
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.positional(settings.input, "A");
+  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("key", settings.key, "KEY[,...]",
+              "what to sort by: cdp,offset; a - in front for descending: --key=-offset");
+  options.require("key");
+  options.add("memory", settings.memory_mib, "MIB", "memory for traces; more go through a temporary file");
+  settings.input_options.declare(options);
+}
+
+/// The file header of the sorted traces.
+segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context, const SortKey& first,
+                       const TraceSorter& sorter) {
+  segy::FileInfo info = segy::info_as(reader, context.command_line, segy::format_of(reader));
+  info.layout.traces = sorter.records().count();
+  info.layout.traces_per_shot = sorter.largest_ensemble();
+  if (info.carried) {
+    info.carried->set("sort", sorting_code(first));
+    info.carried->set("ntrpr", 0);  // the layout's
+  }
+  return info;
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto keys = in_place("--key", [&] { return parse_sort_keys(settings.key); });
+  if (settings.memory_mib < 1)
+    throw Error("--memory: found " + std::to_string(settings.memory_mib) + ", expected at least 1 MiB",
+                ErrorKind::usage);
+  segy::Reader reader(settings.input, settings.input_options.read_options());
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  const std::string directory = temporary_directory();
+  TraceSorter sorter(keys, static_cast<std::uint64_t>(settings.memory_mib) << 20, directory);
+  const Progress progress = context.progress("reading");
+  segy::RawTrace trace;
+  while (reader.next(trace)) {
+    sorter.add(view_of(reader, trace));
+    if (progress && reader.size())
+      progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
+  }
+  if (sorter.records().on_disk() > 0)
+    context.note(std::to_string(sorter.records().on_disk() >> 20) + " MiB of traces went through " +
+                 directory);
+  const segy::FileInfo info = info_of(reader, context, keys.front(), sorter);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
+  segy::Writer writer(out, info);
+  sorter.deliver([&](const segy::RawTrace& sorted) { writer.write(sorted, reader.header().su); });
+  out.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  const cli::ToolInfo info{"sw-sort", "Traces in another order", "[options] [A] [-o OUTPUT]",
+                           "sw-sort line.sgy --key cdp,offset -o sorted.sgy"};
+  return cli::run_tool(
+      argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
