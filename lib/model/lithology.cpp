@@ -44,8 +44,10 @@ Material with_fluid(const Material& sand, const Fluid& fluid) {
   const double porosity = std::clamp((grain_rho - sand.rho) / (grain_rho - brine.rho), 0.02, 0.4);
   const double mu = sand.rho * sand.vs * sand.vs;
   const double before = sand.rho * sand.vp * sand.vp - 4. / 3 * mu;
-  // What the frame alone adds must not be negative.
-  const double frame = std::max(before / (grain_modulus_pa - before) - fluid_term(brine, porosity), 0.);
+  // K/(K0 - K) of the dry frame; that of loose sand, 0.9 mu, where the lines above would make it softer.
+  const double loose = 0.9 * mu;
+  const double frame = std::max(before / (grain_modulus_pa - before) - fluid_term(brine, porosity),
+                                loose / (grain_modulus_pa - loose));
   const double ratio = frame + fluid_term(fluid, porosity);
   const double after = grain_modulus_pa * ratio / (1 + ratio);
   const double rho = sand.rho + porosity * (fluid.rho - brine.rho);

@@ -34,8 +34,9 @@ Material brine_saturated(Lithology rock, double vp);
 /// Sand with its brine replaced by another fluid, by Gassmann's relation (1951; Smith, Sondergeld & Rai 2003,
 /// eq. 1): mu stays, the bulk modulus K of the saturated rock goes by
 ///     K/(K0 - K) - Kf/(phi (K0 - Kf)) = the same before and after,
-/// with grains of K0 = 36.6 GPa and 2650 kg/m3 and the porosity phi that the density implies. phi is kept
-/// within 0.02 to 0.4 and the dry frame not softer than nothing.
+/// with grains of K0 = 36.6 GPa and 2650 kg/m3 and the porosity phi that the density implies, kept within
+/// 0.02 to 0.4. The dry frame's bulk modulus is at least 0.9 mu, as in clean sand (Murphy, Reischer & Hsu
+/// 1993).
 Material with_fluid(const Material& sand, const Fluid& fluid);
 
 }  // namespace slipwave
