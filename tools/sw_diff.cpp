@@ -38,8 +38,8 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::PairReader pair(a, b);
   OutputFile out(settings.output, OutputFile::Content::binary);
   const segy::FileInfo info = segy::info_like(a, context.command_line);
-  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   segy::Writer writer(out, info);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("subtracting");
   segy::Trace trace_a;
   segy::Trace trace_b;

@@ -67,8 +67,8 @@ void run(const Settings& settings, const cli::Context& context) {
   OutputFile out(settings.output, OutputFile::Content::binary);
   segy::FileInfo info = segy::info_like(reader, context.command_line);
   info.axis = filter.axis();
-  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   segy::Writer writer(out, info);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("filtering");
   segy::Trace trace;
   while (reader.next(trace)) {

@@ -62,8 +62,8 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Reader reader(settings.input, settings.input_options.read_options());
   OutputFile out(settings.output, OutputFile::Content::binary);
   const segy::FileInfo info = info_of(reader, context, !condition, window);
-  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   segy::Writer writer(out, info);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("selecting");
   segy::RawTrace trace;
   while (reader.next(trace)) {

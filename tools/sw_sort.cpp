@@ -63,8 +63,8 @@ void run(const Settings& settings, const cli::Context& context) {
     context.note(std::to_string(sorter.records().on_disk() >> 20) + " MiB of traces went through " +
                  directory);
   const segy::FileInfo info = info_of(reader, context, keys.front(), sorter);
-  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   segy::Writer writer(out, info);
+  for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   sorter.deliver([&](const segy::RawTrace& sorted) { writer.write(sorted, reader.header().su); });
   out.commit();
 }

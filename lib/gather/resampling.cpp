@@ -35,10 +35,11 @@ std::int64_t phases_of(double ratio, std::int64_t count) {
 }
 
 SampleAxis resampled(const SampleAxis& from, double interval_s) {
-  if (!(interval_s > 0) || !(from.interval_s > 0) || from.count < 1)
-    throw Error("resampling " + std::to_string(from.count) + " samples of " + shown(from.interval_s) +
-                    " s to " + shown(interval_s) + " s, expected intervals above 0",
-                ErrorKind::usage);
+  if (!(interval_s > 0))
+    throw Error("found " + shown(interval_s) + " s, expected an interval above 0", ErrorKind::usage);
+  if (!(from.interval_s > 0) || from.count < 1)
+    throw Error("found " + std::to_string(from.count) + " samples of " + shown(from.interval_s) +
+                " s, expected at least one and an interval above 0");
   const double last = std::floor(static_cast<double>(from.count - 1) * from.interval_s / interval_s + 1e-6);
   if (!(last < most_samples))
     throw Error("resampling to " + shown(interval_s) + " s makes " + shown(last + 1) +

@@ -1,0 +1,107 @@
+#include <string>
+
+#include "shell.hpp"
+
+namespace {
+
+/// Tools that change traces, on the gathers of three shots.
+class Traces : public Shell {
+ protected:
+  Traces() {
+    done("sw-layers --size 600x300 --step 10 --layer 0:2000:1000:2000 --layer 150:3000:1600:2300 -o m.nc");
+    done(
+        "sw-shoot m.nc --source 100,10 --source 300,10 --source 500,10 --wavelet ricker:10 "
+        "--receivers 0:600:50,10 --time 0.4 --record vx,vz,p -o line.sgy");
+  }
+  /// Values of one column of sw-compare --summary or the like: the number behind `name` in sw-info.
+  std::string info(const std::string& file, const std::string& name) const {
+    return done("sw-info " + file + " | sed -n 's/^  " + name + "  *//p' | head -n 1 | tr -d '\\n'");
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_F(Traces, GoThroughAllToolsInOnePipe) {
+  done(
+      "sw-select line.sgy --where 'component=vz and abs(offset)<=200' | sw-sort --key 'abs(offset),shot' | "
+      "sw-filter --taper 0.02 --band 2,4,30,40 --resample 0.002 --gain power:1 --gain rms -o out.sgy");
+  EXPECT_EQ(info("out.sgy", "component"), "name vz, traces 23");
+  EXPECT_EQ(info("out.sgy", "interval"), "0.002 s");
+  EXPECT_EQ(info("out.sgy", "samples a trace"), "201");
+  EXPECT_EQ(info("out.sgy", "rms"), "1");
+  const auto text = done("head -c 3200 out.sgy | dd conv=ascii status=none");
+  for (const char* tool :
+       {"sw-shoot m.nc", "sw-select line.sgy --where", "sw-sort --key", "sw-filter --taper"})
+    EXPECT_TRUE(has(text, tool)) << tool << " in\n" << text;
+  EXPECT_EQ(files(), "line.sgy m.nc out.sgy");
+}
+
+TEST_F(Traces, SelectedOnesAndTheOthersAreAllThereAre) {
+  done("sw-select line.sgy --where 'component=vz,p and shot=2:' -o a.sgy");
+  done("sw-select line.sgy --where 'not (component=vz,p and shot=2:)' -o b.sgy");
+  EXPECT_EQ(info("a.sgy", "traces"), "52");
+  EXPECT_EQ(info("b.sgy", "traces"), "65");
+  // Put together and sorted back they are the line again, byte by byte but for the running number
+  // (tracr, byte 5) and the file header.
+  done("{ cat a.sgy; tail -c +3601 b.sgy; } | sw-sort --key tracl -o again.sgy");
+  done("sw-compare again.sgy line.sgy --tolerance 0 > /dev/null");
+  EXPECT_EQ(done("for f in line again; do tail -c +3601 $f.sgy | cksum; done | uniq | wc -l"), "1\n");
+}
+
+TEST_F(Traces, KeepTheirFormatWhenOnlyTheirOrderChanges) {
+  for (const std::string format : {"ibm", "int16", "double"}) {
+    const std::string revision = format == "double" ? " --revision 2" : "";
+    done("sw-filter line.sgy --gain peak --gain scale:30000 | sw-convert --format " + format + revision +
+         " -o f.sgy");
+    done("sw-sort f.sgy --key=-trace | sw-sort --key=-trace | sw-select --where 'trace>0' -o g.sgy");
+    EXPECT_EQ(info("g.sgy", "samples"), format);
+    done("sw-compare g.sgy f.sgy --tolerance 0 -q");
+  }
+}
+
+TEST_F(Traces, SortedFilesSayByWhat) {
+  const auto word = [&](const std::string& keys, int byte) {
+    done("sw-sort line.sgy --key=" + keys + " -o s.sgy");
+    return done("od --endian=big -An -d -j " + std::to_string(byte - 1) + " -N 2 s.sgy | tr -d ' \\n'");
+  };
+  EXPECT_EQ(word("cdp,offset", 3229), "2");
+  EXPECT_EQ(word("shot,channel", 3229), "5");
+  EXPECT_EQ(word("shot,channel", 3213), "39");  // 13 receivers, 3 components
+  EXPECT_EQ(word("component", 3213), "39");
+  EXPECT_EQ(word("channel,shot", 3213), "9");
+}
+
+TEST_F(Traces, AreSortedTheSameThroughATemporaryFile) {
+  done("body() { tail -c +3601 line.sgy; }; { cat line.sgy; for i in $(seq 20); do body; done; } > big.sgy");
+  done("sw-sort big.sgy --key=-offset,shot -o in-memory.sgy");
+  const Ran ran = run("sw-sort big.sgy --key=-offset,shot --memory 1 -v -o through-file.sgy");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_TRUE(has(ran.err, "MiB of traces went through ")) << ran.err;
+  // the command differs, so the text does
+  EXPECT_EQ(done("for f in in-memory through-file; do tail -c +3201 $f.sgy | cksum; done | uniq | wc -l"),
+            "1\n");
+  EXPECT_EQ(done("ls -A $TMPDIR"), "stderr\nstdout\nwork\n");
+}
+
+TEST_F(Traces, FilterGivesTheSameBytesAgain) {
+  const std::string filter = "sw-filter line.sgy --band 2,4,30,40 --resample 0.0007 --gain agc:0.1 ";
+  done(filter + "-o a.sgy; " + filter + "-o b.sgy; cmp a.sgy b.sgy");
+}
+
+TEST_F(Traces, ResamplingBackGivesTheShotAgain) {
+  done("sw-filter line.sgy --resample 0.00025 | sw-filter --resample 0.001 -o again.sgy");
+  // 10 Hz Ricker against 400 Hz: what is lost are the ends of traces that do not end at zero
+  done("sw-select again.sgy --time 0:0.36 -o a.sgy; sw-select line.sgy --time 0:0.36 -o b.sgy");
+  done("sw-compare a.sgy b.sgy --tolerance 1e-4 -q");
+}
+
+TEST_F(Traces, ConvolutionShiftsByTheWaveletsDelayUnlessTold) {
+  // a band-limited spike, given the look of 20 Hz Ricker wavelet with and without its delay of 75 ms
+  done("sw-select line.sgy --where 'shot=1 and component=vz and channel=1:3' -o few.sgy");
+  done("sw-filter few.sgy --taper 0,0.2 --convolve ricker:20 -o late.sgy");
+  done("sw-filter few.sgy --taper 0,0.2 --convolve ricker:20 --zero-delay -o now.sgy");
+  const auto lag = done("sw-compare late.sgy now.sgy --summary | awk '/all/ { print $5 }'");
+  EXPECT_NEAR(std::stod(lag), 0.075, 1e-4);
+}
