@@ -34,7 +34,7 @@ void check_sampling(const FileInfo& info) {
   if (!wide && (!is_whole(us) || us > static_cast<double>(highest_16)))
     throw Error("sample interval " + shown(axis.interval_s) + " s, " + kind +
                 " holds whole microseconds up to 65535 (resample, or write revision 2)");
-  delay_word(axis.start_s);
+  if (!info.carried) delay_word(axis.start_s);  // carried traces have a word of their own
 }
 
 void set_unless_carried(BinaryWords& words, FieldName<BinaryLayout> name, std::int64_t value) {
