@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/output_file.hpp"
+#include "grid/field.hpp"
+#include "segy/writer.hpp"
+
+namespace slipwave {
+
+/// Depth in traces: what software takes for 1 ms is 1 m.
+inline constexpr double seconds_a_metre = 1e-3;
+
+/// What a section in depth shows.
+struct SectionFacts {
+  std::string quantity;              // "vp", "vz at 0.4 s"
+  std::string unit;                  // "m/s", "Pa", ...
+  std::vector<std::string> entries;  // of the textual header: where it comes from, commands
+};
+
+/// Writes a section as traces, a column each, from the top down: sample n lies at depth (n - 1/2) h for
+/// n = 1, 2, ..., with h the step of the grid and h/1 m the sample interval in ms. Traces and midpoints (cdp,
+/// cross-line, shot point) count from 1; source, receiver and midpoint lie at the x of the column. Throws
+/// Error when the format cannot hold the step or a value. Committing `out` is the caller's business.
+void write_section(OutputFile& out, const Field<2>& section, const SectionFacts& facts,
+                   const segy::FileFormat& format);
+
+}  // namespace slipwave

@@ -1,0 +1,103 @@
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "base/error.hpp"
+#include "base/netcdf_file.hpp"
+#include "base/output_file.hpp"
+#include "cli/tool.hpp"
+#include "model/model_netcdf.hpp"
+#include "model/model_report.hpp"
+#include "output/snapshot_reader.hpp"
+#include "trace_output.hpp"
+#include "traces/section.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+struct Settings {
+  std::string input = "-";
+  std::string output = "-";
+  std::string property;
+  std::optional<double> time_s;
+  TraceOutput output_options;
+};
+
+void declare(cli::Options& options, Settings& settings) {
+  options.positional(settings.input, "M");
+  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("property", settings.property, "NAME",
+              "of a model: vp, vs, rho or fracture; of snapshots: vx, vz, p, ...");
+  options.require("property");
+  options.add("time", settings.time_s, "T", "snapshots: the one nearest to T s [the last]");
+  settings.output_options.declare(options);
+}
+
+struct Exported {
+  Field<2> values;
+  SectionFacts facts;
+};
+
+Field<2> property_of(const Model<2>& model, const std::string& property, const std::string& name) {
+  if (property == "vp") return model.medium.vp;
+  if (property == "vs") return model.medium.vs;
+  if (property == "rho") return model.medium.rho;
+  if (property != "fracture")
+    throw Error(
+        "--property: " + name + " is a model: found '" + property + "', expected vp, vs, rho or fracture",
+        ErrorKind::usage);
+  Field<2> codes(model.grid());
+  for (std::size_t n = 0; n < model.fracture.size(); ++n) codes[n] = static_cast<float>(model.fracture[n]);
+  return codes;
+}
+
+Exported of_model(const NetcdfFile& file, const Settings& settings) {
+  if (settings.time_s)
+    throw Error("--time: " + file.shown_name() + " is a model, expected snapshots", ErrorKind::usage);
+  const auto model = read_model<2>(file);
+  const auto& name = settings.property;
+  const std::string unit = name == "rho" ? "kg/m3" : name == "fracture" ? "" : "m/s";
+  return {property_of(model, name, file.shown_name()), {name, unit, {}}};
+}
+
+Exported of_snapshots(NetcdfFile file, const Settings& settings) {
+  const SnapshotReader<2> reader(std::move(file));
+  const auto time = settings.time_s ? reader.nearest(*settings.time_s) : reader.times_s().size() - 1;
+  auto values = reader.read(settings.property, time);
+  auto unit = reader.unit(settings.property);
+  if (unit == "m s-1") unit = "m/s";
+  return {std::move(values),
+          {settings.property + " at " + shown(reader.times_s()[time], 9) + " s", unit, {}}};
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto format = settings.output_options.file_format();
+  auto file = NetcdfFile::open(settings.input);
+  const std::string history = file.text_attribute("", "history").value_or("");
+  const bool is_model = kind_of(file) == "model";
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  auto exported = is_model ? of_model(file, settings) : of_snapshots(std::move(file), settings);
+  exported.facts.entries.push_back(context.version);
+  std::string commands = history;
+  append_history(commands, context.command_line);
+  for (std::size_t begin = 0; begin < commands.size();) {
+    const auto end = std::min(commands.find('\n', begin), commands.size());
+    if (end > begin) exported.facts.entries.push_back(commands.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  write_section(out, exported.values, exported.facts, format);
+  out.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Settings settings;
+  const cli::ToolInfo info{"sw-export", "A model property or a snapshot as traces, a column each",
+                           "[options] --property NAME [M] [-o OUTPUT]",
+                           "sw-export model.nc --property vp -o vp.sgy"};
+  return cli::run_tool(
+      argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
+      [&](const cli::Context& context) { run(settings, context); });
+}
