@@ -24,8 +24,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("step", settings.step_m, "H", "edge of a cell, m");
   options.add(
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
-      "a layer from DEPTH down; DIP in degrees, deepening towards +x, DEPTH at x = 0; repeat it from the top "
-      "down; VS 0 is fluid, above the first layer is void (air)");
+      "a layer from DEPTH down, from the top one on; DIP in degrees, deepening towards +x, DEPTH at x = 0; "
+      "VS 0 is fluid, above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or @FILE of "
+      "lines \"X Z\"; VP, VS, RHO may be A+K or A-K: A at the top, K more or less a metre");
   options.add("no-average", settings.no_average,
               "cells cut by a top take the material of their centre, not the mean over their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");
@@ -45,6 +46,7 @@ void run(const Settings& settings, const cli::Context& context) {
   Model<2> model;
   model.medium = in_place("--layer", [&] { return layered_medium(grid, layers, !settings.no_average); });
   check(model, settings.limits);
+  for (const auto& sentence : cut_off_layers(grid, layers)) context.warn(sentence);
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;
@@ -58,8 +60,10 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-layers", "Builds a model of horizontal and dipping layers.", "[options] [-o M]",
-       "sw-layers --size 2500x3000 --step 5 --layer 0:1500:0:1000 --layer 400:4500:2250:2500:5 -o model.nc"},
+      {"sw-layers", "Builds a model of flat, dipping and curved layers.", "[options] [-o M]",
+       "sw-layers --size 2500x3000 --step 5 --layer 0:1500:0:1000 --layer "
+       "sine,400,20,500:1800+0.6:600+0.4:2100 "
+       "-o model.nc"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });
 }

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
-#include <sstream>
 
 #include "base/error.hpp"
 #include "base/input_bytes.hpp"
+#include "model/points_file.hpp"
 
 namespace slipwave {
 
@@ -44,27 +43,8 @@ Polygon::Polygon(std::vector<Point<2>> vertices) : vertices_(std::move(vertices)
 }
 
 Polygon Polygon::read(const std::string& path) {
-  const auto bytes = read_all(path);
-  std::istringstream text(std::string(bytes.begin(), bytes.end()));
   std::vector<Point<2>> vertices;
-  std::string line;
-  for (int number = 1; std::getline(text, line); ++number) {
-    line.resize(std::min(line.find('#'), line.size()));
-    for (char& letter : line) {
-      if (letter == ',' || letter == '\r') letter = ' ';
-    }
-    std::istringstream words(line);
-    const std::vector<std::string> parts{std::istream_iterator<std::string>(words), {}};
-    if (parts.empty()) continue;
-    const std::string place = shown_input(path) + ": line " + std::to_string(number);
-    if (parts.size() != 2)
-      throw Error(place + ": found " + std::to_string(parts.size()) + " values, expected X Z");
-    try {
-      vertices.push_back({parse_number(parts[0]), parse_number(parts[1])});
-    } catch (const Error& error) {
-      throw Error(place + ": " + error.what());  // bad data, not a bad command line
-    }
-  }
+  for (const auto& point : read_points(path)) vertices.push_back(point.at);
   return in_place(shown_input(path), [&] { return Polygon(std::move(vertices)); });
 }
 

@@ -1,23 +1,35 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "model/averaging.hpp"
+#include "model/horizon.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
 
-/// Everything below a plane top surface, down to the next layer.
+/// Everything below a top, down to the next layer. Properties may change linearly with depth below the top.
 struct Layer {
-  double depth_m = 0;  // of the top at x = 0
-  double vp = 0, vs = 0, rho = 0;
-  double dip_deg = 0;  // of the top: z = depth + x tan(dip), positive deepening towards +x
+  Horizon top;
+  Material material;  // at the top
+  Material gradient;  // what vp and vs (1/s) and rho (kg/m4) gain a metre below it; 0 by default
 
-  Material material() const { return {vp, vs, rho}; }
+  Layer() = default;
+  Layer(const Horizon& top, const Material& material, const Material& gradient = {})
+      : top(top), material(material), gradient(gradient) {}
+  /// A plane top (Horizon) and one material.
+  Layer(double depth_m, double vp, double vs, double rho, double dip_deg = 0)
+      : top(depth_m, dip_deg), material{vp, vs, rho} {}
+
+  /// At a depth below the top; at the top where that is negative.
+  Material at_depth(double below_top_m) const;
 };
 
-/// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". Throws a usage Error.
+/// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". DEPTH and DIP as Horizon::parse(); VP, VS and RHO are numbers,
+/// or "A+K" and "A-K" for A at the top and K more or less with every metre below it. Throws a usage Error, or
+/// one that names a horizon's file.
 Layer parse_layer(std::string_view text);
 
 /// The grid of `size_m` in cells of `spacing_m`, its low corner at the origin. Throws a usage Error when a
@@ -28,10 +40,17 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 /// A layered medium. Everything below a top is its layer's, so a later layer lies under the earlier ones and
 /// cuts them off where its top rises above theirs; what is above the first layer is void. A cell is solid,
 /// fluid or void as the layer at its centre, that is the last one whose top is there or above; its material
-/// is the mean over its parts of that kind, exact areas being cut off by the tops (theory.md M1, M2), or with
-/// `average` = false that of the centre. Depths must not descend from layer to layer, |dip| < 90 degrees, at
-/// least one layer. Values: check().
+/// is the mean over its parts of that kind, areas being cut off by the tops (theory.md M1, M2; exact for
+/// planes, for curves with their chords across the cell), or with `average` = false that of the centre. Where
+/// properties change with depth, each part has those at the centre of the cell, or at its top if that lies
+/// below the centre. At least one layer, from the top down: planes by their depth at x = 0, and no top may
+/// lie above the one before it all along the model (usage Error). A curve must reach from the first to the
+/// last centre of a cell along x. Values: check().
 template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true);
+
+/// Where a sine or a curve cuts off a layer in a part of the model: a sentence for each layer that ends so.
+template <int D>
+std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers);
 
 }  // namespace slipwave

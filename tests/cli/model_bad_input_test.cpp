@@ -25,6 +25,9 @@ class ModelBadInput : public Shell {
     done("head -c 16 /dev/zero > zero.raw");
     write("two.txt", "0 0\n10 10 # no third\n");
     write("word.txt", "0 0\n10 ten\n10 0\n");
+    write("top.txt", "0 50\n100 60\n150 40\n");
+    write("back.txt", "0 50\n100 60 # then back\n90 55\n200 50\n");
+    write("nan.txt", "0 50\n100 nan\n200 50\n");
     write("garbage", std::string(5000, 'x'));
     write("empty", "");
     write("out.nc", "older");
@@ -65,7 +68,7 @@ TEST_F(ModelBadInput, OfLayersIsNamedInOneLine) {
       {layers + "--layer 50:1500:0:1000 --layer 0:3000:1500:2000", 2,
        "sw-layers: --layer: the layer at 0 m stands after the one at 50 m, expected them from the top down"},
       {layers + "--layer 0:1500:0:1000:90", 2,
-       "sw-layers: --layer: found a dip of 90 degrees, expected it between -90 and 90"},
+       "sw-layers: --layer: '0:1500:0:1000:90': found a dip of 90 degrees, expected it between -90 and 90"},
       {"sw-layers --size 200x100 --step 7 --layer 0:1500:0:1000", 2,
        "sw-layers: --size, --step: 200 m are 28.571 steps of 7 m, expected a whole number"},
       {"sw-layers --size 200x100 --step -5 --layer 0:1500:0:1000", 2,
@@ -85,6 +88,57 @@ TEST_F(ModelBadInput, OfLayersIsNamedInOneLine) {
        2,
        "sw-layers: --size, --step: found 1e+24 cells, expected at most N, what fits the memory of this "
        "machine"},
+  });
+}
+
+TEST_F(ModelBadInput, OfCurvedLayersIsNamedInOneLine) {
+  const std::string rock = ":3000:1500:2000";
+  expect_all({
+      {layers + "--layer @none.txt" + rock, 1,
+       "sw-layers: --layer: '@none.txt:3000:1500:2000': none.txt: No such file or directory"},
+      {layers + "--layer @nan.txt" + rock, 1,
+       "sw-layers: --layer: '@nan.txt:3000:1500:2000': nan.txt: line 2: found 'nan', expected a number"},
+      {layers + "--layer @back.txt" + rock, 1,
+       "sw-layers: --layer: '@back.txt:3000:1500:2000': back.txt: line 3: found x = 90 after 100, expected x "
+       "to "
+       "ascend"},
+      {layers + "--layer @empty" + rock, 1,
+       "sw-layers: --layer: '@empty:3000:1500:2000': empty: found 0 points, expected at least 2"},
+      {layers + "--layer @." + rock, 1,
+       "sw-layers: --layer: '@.:3000:1500:2000': .: is a directory, expected a file"},
+      {layers + "--layer @top.txt" + rock, 1,
+       "sw-layers: --layer: @top.txt reaches from x = 0 to 150 m, expected at least 2.5 to 197.5, the "
+       "centres "
+       "of the outer cells"},
+      {layers + "--layer 80" + rock + " --layer sine,40,10,50" + rock, 2,
+       "sw-layers: --layer: the layer at sine,40,10,50 lies above the one before it, at 80 m, all along the "
+       "model; expected them from the top down"},
+      {layers + "--layer sine,40,10" + rock, 2,
+       "sw-layers: --layer: 'sine,40,10:3000:1500:2000': found 'sine,40,10', expected "
+       "sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]"},
+      {layers + "--layer sine,40,10,-5" + rock, 2,
+       "sw-layers: --layer: 'sine,40,10,-5:3000:1500:2000': found a wavelength of -5 m, expected it above "
+       "zero"},
+      {layers + "--layer 0:3000+x:1500:2000", 2,
+       "sw-layers: --layer: '0:3000+x:1500:2000': found 'x', expected a number"},
+      {layers + "--layer 0:3000-40:0:1000", 1,
+       "sw-layers: vp at x=2.5 z=77.5 is -100, expected a finite number not below zero"},
+  });
+}
+
+TEST_F(ModelBadInput, OfMarmousiIsNamedInOneLine) {
+  const std::string marmousi = "sw-marmousi --size 200x100 -o out.nc ";
+  expect_all({
+      {marmousi, 2, "sw-marmousi: --step is missing; expected --step H"},
+      {marmousi + "--step 7", 2,
+       "sw-marmousi: --size, --step: 200 m are 28.571 steps of 7 m, expected a whole number"},
+      {marmousi + "--step 5 --water -1", 2,
+       "sw-marmousi: found a depth of water of -1, expected it not below zero"},
+      {marmousi + "--step 5 --scale 0", 2, "sw-marmousi: found a scale of 0, expected it above zero"},
+      {marmousi + "--step 5 --vp-over-vs 1.4", 2,
+       "sw-marmousi: found a vp/vs of 1.4, expected at least sqrt(2)"},
+      {marmousi + "--step 5 --seed 1.5", 2, "sw-marmousi: --seed: found '1.5', expected a whole number"},
+      {marmousi + "--step 5 --water nan", 2, "sw-marmousi: --water: found 'nan', expected a number"},
   });
 }
 

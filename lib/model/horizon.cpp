@@ -1,0 +1,88 @@
+#include "model/horizon.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "model/points_file.hpp"
+
+namespace slipwave {
+namespace {
+
+std::vector<Point<2>> read_curve(const std::string& path) {
+  std::vector<Point<2>> points;
+  for (const auto& point : read_points(path)) {
+    if (!points.empty() && !(point.at[0] > points.back()[0])) {
+      throw Error(path + ": line " + std::to_string(point.line) + ": found x = " + shown(point.at[0]) +
+                  " after " + shown(points.back()[0]) + ", expected x to ascend");
+    }
+    points.push_back(point.at);
+  }
+  if (points.size() < 2) {
+    throw Error(path + ": found " + std::to_string(points.size()) + " points, expected at least 2");
+  }
+  return points;
+}
+
+}  // namespace
+
+Horizon::Horizon(double depth_m, double dip_deg)
+    : depth_m_(depth_m), slope_(std::tan(dip_deg * std::numbers::pi / 180)), name_(shown(depth_m) + " m") {
+  if (!(std::abs(dip_deg) < 90)) {
+    throw Error("found a dip of " + shown(dip_deg) + " degrees, expected it between -90 and 90",
+                ErrorKind::usage);
+  }
+}
+
+Horizon Horizon::parse(std::string_view text, double dip_deg) {
+  Horizon horizon(0, dip_deg);
+  const auto parts = split(text, ',');
+  if (text.starts_with('@')) {
+    horizon.points_ = read_curve(std::string(text.substr(1)));
+  } else if (parts.front() == "sine") {
+    if (parts.size() != 4 && parts.size() != 5) {
+      throw Error("found '" + std::string(text) + "', expected sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]",
+                  ErrorKind::usage);
+    }
+    horizon.depth_m_ = parse_number(parts[1]);
+    horizon.amplitude_m_ = parse_number(parts[2]);
+    horizon.wavelength_m_ = parse_number(parts[3]);
+    horizon.phase_deg_ = parts.size() == 5 ? parse_number(parts[4]) : 0;
+    if (!(horizon.wavelength_m_ > 0)) {
+      throw Error("found a wavelength of " + parts[3] + " m, expected it above zero", ErrorKind::usage);
+    }
+  } else {
+    return Horizon(parse_number(text), dip_deg);
+  }
+  horizon.name_ = text;
+  return horizon;
+}
+
+double Horizon::at(double x_m) const {
+  double depth = depth_m_ + slope_ * x_m;
+  if (amplitude_m_ != 0) {
+    const double phase = 2 * std::numbers::pi * (x_m / wavelength_m_ + phase_deg_ / 360);
+    depth += amplitude_m_ * std::sin(phase);
+  }
+  if (points_.empty()) return depth;
+  const auto behind = std::upper_bound(points_.begin(), points_.end(), x_m,
+                                       [](double x, const Point<2>& point) { return x < point[0]; });
+  if (behind == points_.begin()) return depth + points_.front()[1];
+  if (behind == points_.end()) return depth + points_.back()[1];
+  const auto& a = *(behind - 1);
+  const auto& b = *behind;
+  return depth + a[1] + (b[1] - a[1]) * (x_m - a[0]) / (b[0] - a[0]);
+}
+
+double Horizon::from_m() const {
+  return points_.empty() ? -std::numeric_limits<double>::infinity() : points_.front()[0];
+}
+
+double Horizon::to_m() const {
+  return points_.empty() ? std::numeric_limits<double>::infinity() : points_.back()[0];
+}
+
+}  // namespace slipwave

@@ -1,0 +1,61 @@
+#include "shell.hpp"
+
+namespace {
+
+using ModelGeology = Shell;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_F(ModelGeology, OfMarmousiGivesTheSameBytesOnAnyNumberOfThreads) {
+  const std::string marmousi = "sw-marmousi --step 50 --seed 3 ";
+  done(marmousi + "-o a.nc; " + marmousi + "--threads 1 > b.nc; cmp a.nc b.nc");
+  done("sw-marmousi --step 50 --seed 4 -o c.nc; ! cmp -s a.nc c.nc");
+  const auto text = done("sw-info a.nc");
+  EXPECT_TRUE(has(text, "200 x 70 cells of 50 m")) << text;
+  // The sea is 450 m deep: nine rows.
+  EXPECT_TRUE(has(text, "fluid cells   1800\n")) << text;
+  EXPECT_TRUE(has(text, "sw-marmousi --step 50 --seed 3")) << text;
+}
+
+TEST_F(ModelGeology, OfMarmousiCanBeShot) {
+  done("sw-marmousi --size 1000x400 --step 5 --scale 0.1 --water 50 --vp-over-vs 1.8 -o m.nc");
+  done(
+      "sw-shoot m.nc --source 500,10 --wavelet ricker:25 --receivers 0:1000:50,10 --record p --time 0.3 -q "
+      "-o "
+      "g.sgy");
+  EXPECT_TRUE(has(done("sw-info g.sgy"), "21")) << done("sw-info g.sgy");
+}
+
+TEST_F(ModelGeology, OfLayersFollowsHorizonsFromFiles) {
+  // A topography with a hill in the middle, and a lake floor below it.
+  write("hill.txt", "# x z\n0 40\n100 10\n200 40\n");
+  const auto text = done(
+      "sw-layers --size 200x100 --step 10 --layer @hill.txt:3000:1500:2200 --layer 70:4000:2000:2500 | "
+      "sw-info -");
+  // Centres above the hill: 40 - 0.3 x at x = 5 15 ... are 38.5 35.5 ... 11.5, with 4 4 3 3 3 2 2 2 1 1
+  // centres 5 15 25 35 above, on either side.
+  EXPECT_TRUE(has(text, "void cells    50\n")) << text;
+}
+
+TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
+  const std::string line =
+      "sw-layers --size 1000x500 --step 10 --layer 0:1500:0:1000 --layer 200:2000:1000:2000 --layer "
+      "sine,250,100,1000:3000:1500:2200 -o m.nc";
+  const Ran ran = run(line);
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(
+      ran.err,
+      "sw-layers: warning: the layer at 200 m is cut off by the one at sine,250,100,1000 between x=585 and "
+      "x=915\n");
+  done(line + " -q");
+}
+
+TEST_F(ModelGeology, OfLayersIsTakenFromAFileOfOptions) {
+  write(
+      "m.ini",
+      "size = 200x100\nstep = 10\nlayer = 0:1500:0:1000\nlayer = sine,40,5,100:1800+0.5:700+0.2:2000+0.1\n");
+  const auto text = done("sw-layers --config m.ini | sw-info -");
+  EXPECT_TRUE(has(text, "vp            1500 to 18")) << text;
+}
