@@ -6,32 +6,25 @@
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/comparison.hpp"
-#include "segy/pair.hpp"
-#include "segy/reader.hpp"
-#include "trace_input.hpp"
+#include "trace_pair.hpp"
 
 using namespace slipwave;
 
 namespace {
 
 struct Settings {
-  std::string a;
-  std::string b;
+  TracePair inputs;
   std::string output = "-";
   std::optional<double> tolerance;
   bool summary = false;
-  TraceInput input_options;
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.positional(settings.a, "A");
-  options.positional(settings.b, "B");
-  options.require("A");
-  options.require("B");
+  settings.inputs.declare(options);
   options.add("output,o", settings.output, "FILE", "where the table goes, - is standard output");
   options.add("tolerance", settings.tolerance, "L2", "exit 1 when |A - B|/|B| of all traces is above this");
   options.add("summary", settings.summary, "only the lines of all traces, of each component and together");
-  settings.input_options.declare(options);
+  settings.inputs.input_options.declare(options);
 }
 
 std::string row(const std::string& place, const Misfit& misfit) {
@@ -51,12 +44,8 @@ std::string place_of(std::int64_t trace, const TraceHeader& header) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  if (settings.a == "-" && settings.b == "-")
-    throw Error("A and B are both standard input, expected two inputs", ErrorKind::usage);
-  const segy::ReadOptions options = settings.input_options.read_options();
-  segy::Reader a(settings.a, options);
-  segy::Reader b(settings.b, options);
-  segy::PairReader pair(a, b);
+  OpenPair pair(settings.inputs);
+  const segy::Reader& a = pair.a;
   std::vector<std::pair<Component, Comparison>> components;  // in the order in which they come
   const auto comparison_of = [&](Component component) -> Comparison& {
     for (auto& [known, comparison] : components)
@@ -70,7 +59,7 @@ void run(const Settings& settings, const cli::Context& context) {
   print("#  trace comp    shot  chan       NRMS_%    relative_L2   peak_ratio          lag_s\n");
   segy::Trace trace_a;
   segy::Trace trace_b;
-  while (pair.next(trace_a, trace_b)) {
+  while (pair.both.next(trace_a, trace_b)) {
     const TraceHeader header = a.si_header(trace_a);
     const Misfit misfit = comparison_of(header.component).add(trace_a.samples, trace_b.samples);
     if (!settings.summary) print(row(place_of(a.delivered(), header), misfit));
@@ -86,7 +75,7 @@ void run(const Settings& settings, const cli::Context& context) {
   print(row("     all", all));
   out.commit();
   if (settings.tolerance && !(all.relative_l2 <= *settings.tolerance))
-    throw Error(a.name() + ": relative L2 difference to " + b.name() + " is " + shown(all.relative_l2) +
+    throw Error(a.name() + ": relative L2 difference to " + pair.b.name() + " is " + shown(all.relative_l2) +
                 ", expected at most " + shown(*settings.tolerance));
 }
 

@@ -1,54 +1,68 @@
+#include <functional>
 #include <string>
+#include <vector>
 
-#include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/difference.hpp"
-#include "segy/pair.hpp"
-#include "segy/reader.hpp"
 #include "segy/writer.hpp"
-#include "trace_input.hpp"
+#include "trace_pair.hpp"
+#include "traces/float_difference.hpp"
 
 using namespace slipwave;
 
 namespace {
 
 struct Settings {
-  std::string a;
-  std::string b;
+  TracePair inputs;
   std::string output = "-";
-  TraceInput input_options;
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.positional(settings.a, "A");
-  options.positional(settings.b, "B");
-  options.require("A");
-  options.require("B");
+  settings.inputs.declare(options);
   options.add("output,o", settings.output, "FILE", "where A - B goes, - is standard output");
-  settings.input_options.declare(options);
+  settings.inputs.input_options.declare(options);
+}
+
+/// Floats are subtracted as they lie in the files.
+void subtract_floats(OpenPair& pair, segy::Writer& writer, const std::function<void()>& progress) {
+  const segy::Endian order_of_a = pair.a.header().endian, order_of_b = pair.b.header().endian;
+  segy::RawTrace a, b;
+  std::vector<std::uint8_t> difference;
+  while (pair.both.next(a, b)) {
+    difference.resize(a.samples.size());
+    slipwave::subtract_floats(a.samples, order_of_a, b.samples, order_of_b, difference);
+    a.samples = difference;
+    writer.write(a, pair.a.header().su);
+    progress();
+  }
+}
+
+void subtract_numbers(OpenPair& pair, segy::Writer& writer, const std::function<void()>& progress) {
+  segy::Trace a, b;
+  while (pair.both.next(a, b)) {
+    subtract(a.samples, b.samples);
+    writer.write(a, pair.a.header().su);
+    progress();
+  }
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  if (settings.a == "-" && settings.b == "-")
-    throw Error("A and B are both standard input, expected two inputs", ErrorKind::usage);
-  const segy::ReadOptions options = settings.input_options.read_options();
-  segy::Reader a(settings.a, options);
-  segy::Reader b(settings.b, options);
-  segy::PairReader pair(a, b);
+  OpenPair pair(settings.inputs);
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const segy::FileInfo info = segy::info_like(a, context.command_line);
+  const segy::FileInfo info = segy::info_like(pair.a, context.command_line);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("subtracting");
-  segy::Trace trace_a;
-  segy::Trace trace_b;
-  while (pair.next(trace_a, trace_b)) {
-    subtract(trace_a.samples, trace_b.samples);
-    writer.write(trace_a, a.header().su);
-    if (progress && a.size())
-      progress(static_cast<std::int64_t>(a.position()), static_cast<std::int64_t>(*a.size()));
-  }
+  const auto after_each = [&] {
+    if (progress && pair.a.size())
+      progress(static_cast<std::int64_t>(pair.a.position()), static_cast<std::int64_t>(*pair.a.size()));
+  };
+  const bool floats = pair.a.header().format->code == 5 && pair.b.header().format->code == 5;
+  if (floats && info.format.code == 5)
+    subtract_floats(pair, writer, after_each);
+  else
+    subtract_numbers(pair, writer, after_each);
   out.commit();
 }
 

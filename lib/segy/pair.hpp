@@ -10,9 +10,14 @@ class PairReader {
  public:
   PairReader(Reader& a, Reader& b);
   /// The next trace of each; false after the last ones.
-  bool next(Trace& a, Trace& b);
+  bool next(Trace& a, Trace& b) { return next_of_both(a, b); }
+  /// The same without decoding the samples.
+  bool next(RawTrace& a, RawTrace& b) { return next_of_both(a, b); }
 
  private:
+  template <class AnyTrace>
+  bool next_of_both(AnyTrace& a, AnyTrace& b);
+
   Reader& a_;
   Reader& b_;
 };
