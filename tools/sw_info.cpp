@@ -1,5 +1,6 @@
 #include <cmath>
-#include <cstdio>
+#include <filesystem>
+#include <optional>
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
@@ -11,7 +12,9 @@
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "segy/describe.hpp"
+#include "segy/gather_report.hpp"
 #include "segy/sniff.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -20,6 +23,7 @@ namespace {
 struct Settings {
   std::vector<std::string> files;
   bool json = false;
+  TraceInput traces;
 };
 
 /// What a file is, what is in it, and what is wrong with it (empty: nothing).
@@ -33,48 +37,13 @@ void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.files, "FILE");
   options.require("FILE");
   options.add("json", settings.json, "one JSON object a line for each file");
+  settings.traces.declare(options);
 }
 
-void report_range(Report& report, const std::string& name, const segy::Range& range,
-                  const std::string& unit) {
-  if (!range.empty()) report.range(name, range.lowest, range.highest, unit);
-}
-
-Finding look_at_traces(const std::string& path, const std::vector<char>& taken) {
-  const auto found = segy::describe(path, {}, {taken.begin(), taken.end()});
-  Finding finding{"gather", {}, found.damage.value_or("")};
-  Report& report = finding.report;
-  const auto& header = found.header;
-  report.text("format", header.su ? std::string("Seismic Unix")
-                                  : "SEG-Y revision " + std::to_string(header.major) + "." +
-                                        std::to_string(header.minor));
-  report.text("byte order", header.endian == segy::Endian::big ? "big" : "little");
-  if (header.format) report.text("samples", header.format->name);
-  report.count("traces", found.traces);
-  report.count("shots", found.shots);
-  report.count("samples a trace", found.axis.count);
-  report.number("interval", found.axis.interval_s, "s");
-  report.range(
-      "time", found.axis.start_s,
-      found.axis.start_s + double(std::max<std::int64_t>(found.axis.count - 1, 0)) * found.axis.interval_s,
-      "s");
-  if (found.lengths_vary) report.text("lengths", "vary from trace to trace");
-  std::vector<Report> components;
-  for (const auto& [component, traces] : found.components) {
-    components.emplace_back();
-    components.back().text("name", name_of(component));
-    components.back().count("traces", traces);
-  }
-  report.list("component", components);
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    report_range(report, std::string("source ") + "xyz"[axis], found.source_m[axis], "m");
-    report_range(report, std::string("receiver ") + "xyz"[axis], found.receiver_m[axis], "m");
-  }
-  report_range(report, "offset", found.offset_m, "m");
-  report_range(report, "amplitude", found.sample, "");
-  report.number("rms", found.rms, "");
-  if (found.not_finite) report.count("samples not finite", found.not_finite);
-  return finding;
+Finding look_at_traces(const std::string& path, const segy::ReadOptions& options,
+                       const std::vector<char>& taken) {
+  const auto found = segy::describe(path, options, {taken.begin(), taken.end()});
+  return {"gather", segy::report_of(found), found.damage.value_or("")};
 }
 
 bool holds_accuracy(const NetcdfFile& file) {
@@ -134,7 +103,8 @@ Finding look_at_netcdf(const NetcdfFile& file) {
   return finding;
 }
 
-Finding look_at(const std::string& path) {
+/// Of a gather: where the options say what it is, it need not look like one.
+Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   const InputStart start(path, 3600);
   const auto& first = start.bytes();
   if (begins_netcdf({first.data(), first.size()})) {
@@ -143,20 +113,24 @@ Finding look_at(const std::string& path) {
                               : NetcdfFile::open(read_all(path, start.taken()), shown_input(path)));
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
-  if (segy::looks_like_segy(bytes)) return look_at_traces(path, start.taken());
+  std::optional<std::uint64_t> size;
+  if (start.is_regular()) size = std::filesystem::file_size(path);
+  if (options.su || options.endian || options.format || segy::looks_like_segy(bytes, size))
+    return look_at_traces(path, options, start.taken());
   throw Error(shown_input(path) + ": is " +
               (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
               ", expected a model, snapshots or a gather");
 }
 
 void run(const Settings& settings, const cli::Context&) {
+  const segy::ReadOptions options = settings.traces.read_options();
   OutputFile out("-", OutputFile::Content::text);
   const auto print = [&](const std::string& text) { out.write(text.data(), text.size()); };
   std::string damage;
   for (const auto& path : settings.files) {
     Finding finding;
     try {
-      finding = look_at(path);
+      finding = look_at(path, options);
     } catch (const Error&) {
       out.commit();  // what the files before it hold
       throw;

@@ -54,6 +54,16 @@ void Report::text(const std::string& key, const std::string& value) {
   entries_.push_back({key, line, json_string(value)});
 }
 
+void Report::texts(const std::string& key, const std::vector<std::string>& values) {
+  std::string json = "[";
+  for (const auto& value : values) {
+    entries_.push_back({key, value, ""});
+    if (json.size() > 1) json += ", ";
+    json += json_string(value);
+  }
+  entries_.push_back({key, "", json + "]"});
+}
+
 void Report::count(const std::string& key, std::int64_t value) {
   entries_.push_back({key, std::to_string(value), std::to_string(value)});
 }

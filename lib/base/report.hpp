@@ -10,6 +10,8 @@ namespace slipwave {
 class Report {
  public:
   void text(const std::string& key, const std::string& value);
+  /// A line of each; JSON: an array of strings.
+  void texts(const std::string& key, const std::vector<std::string>& values);
   void count(const std::string& key, std::int64_t value);
   /// JSON: {"value": 5, "unit": "m"}; NaN and infinities are null there.
   void number(const std::string& key, double value, const std::string& unit);

@@ -180,7 +180,7 @@ TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
   header.component = component_of_code(words.get("trid"));
   header.source_m = {coordinate("sx", "xsx"), coordinate("sy", "xsy"),
                      height("sdepth", "xsdepth") - height("selev", "xselev")};
-  header.receiver_m = {coordinate("gx", "xgx"), coordinate("gy", "xgy"), -height("gelev", "xgelev")};
+  header.receiver_m = {coordinate("gx", "xgx"), coordinate("gy", "xgy"), 0.0 - height("gelev", "xgelev")};
   header.water_depth_source_m = height("swdep", "xswdep");
   header.water_depth_receiver_m = height("gwdep", "xgwdep");
   return header;

@@ -80,7 +80,11 @@ Endian su_byte_order_of(std::span<const std::uint8_t, TraceLayout::size> header,
 
 FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_t> size) {
   const bool whole = first.size() >= header_bytes;
-  if (whole && is_text(first.first(text_bytes))) return FileKind::segy;
+  if (whole && is_text(first.first(text_bytes))) {
+    // text that goes on where numbers should stand is somebody's notes
+    const bool goes_on = is_text(first.subspan(text_bytes, BinaryLayout::size));
+    return goes_on ? FileKind::unknown : FileKind::segy;
+  }
   if (first.size() >= TraceLayout::size) {
     const auto header = first.first<TraceLayout::size>();
     if (plausible_su(TraceWords(header, su_byte_order_of(header, size)), size)) return FileKind::su;

@@ -15,6 +15,14 @@ TEST(Report, AlignsItsLines) {
   EXPECT_EQ(report.lines(), "  a       one; two\n  longer  3\n  r       0 to 0.5 m\n  same    2\n");
 }
 
+TEST(Report, GivesTextsALineEach) {
+  Report report;
+  report.texts("text", {"one", "two \"2\""});
+  report.texts("none", {});
+  EXPECT_EQ(report.lines(), "  text  one\n  text  two \"2\"\n");
+  EXPECT_EQ(report.json(), "{\"text\": [\"one\", \"two \\\"2\\\"\"], \"none\": []}");
+}
+
 TEST(Report, IsJsonWithUnitsAndWithoutNaN) {
   Report item;
   item.text("name", "a \"b\" \\ \n");

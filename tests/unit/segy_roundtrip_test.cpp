@@ -189,20 +189,3 @@ TEST(SegyFile, ReadsTracesOfDifferentLengthByTheirOwnHeaders) {
   EXPECT_EQ(gather.traces[0].samples.size(), 25U);
   EXPECT_EQ(gather.traces[1].samples.size(), 20U);
 }
-
-TEST(Describe, ReportsComponentsGeometryAndSamples) {
-  const Scratch scratch;
-  write_file(scratch.file("g.sgy"), survey_gather(), {});
-  const Description facts = describe(scratch.file("g.sgy"));
-  EXPECT_EQ(facts.traces, 48);
-  EXPECT_EQ(facts.shots, 2);
-  EXPECT_EQ(facts.components.at(Component::sxz), 8);
-  EXPECT_EQ(facts.components.size(), 6U);
-  EXPECT_EQ(facts.receiver_m[0].lowest, 912.5);
-  EXPECT_EQ(facts.receiver_m[0].highest, 950);
-  EXPECT_EQ(facts.source_m[2].lowest, 7.5);
-  EXPECT_EQ(facts.sample.lowest, 0);
-  EXPECT_EQ(facts.sample.highest, 100);
-  EXPECT_FALSE(facts.damage);
-  EXPECT_FALSE(facts.lengths_vary);
-}

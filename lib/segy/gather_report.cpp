@@ -1,0 +1,67 @@
+#include "segy/gather_report.hpp"
+
+#include <algorithm>
+
+namespace slipwave::segy {
+namespace {
+
+void report_range(Report& report, const std::string& name, const Range& range, const std::string& unit) {
+  if (!range.empty()) report.range(name, range.lowest, range.highest, unit);
+}
+
+void report_file(Report& report, const FileHeader& header) {
+  report.text("format", header.su ? std::string("Seismic Unix")
+                                  : "SEG-Y revision " + std::to_string(header.major) + "." +
+                                        std::to_string(header.minor));
+  report.text("byte order", name_of(header.endian));
+  report.text("samples", header.format->name);
+  if (header.su) return;
+  report.count("format code", header.format->code);
+  report.text("text code", name_of(header.encoding));
+  if (!header.extended.empty())
+    report.count("extended texts", static_cast<std::int64_t>(header.extended.size()));
+  if (header.extra_headers != 0) report.count("extra headers", header.extra_headers);
+  if (header.feet) report.text("lengths", "in feet, shown in metres");
+}
+
+void report_sampling(Report& report, const Description& facts) {
+  const SampleAxis& axis = facts.axis;
+  const auto last = static_cast<double>(std::max<std::int64_t>(axis.count - 1, 0));
+  report.count("traces", facts.traces);
+  report.count("shots", facts.shots);
+  report.count("samples a trace", axis.count);
+  report.number("interval", axis.interval_s, "s");
+  report.range("time", axis.start_s, axis.start_s + last * axis.interval_s, "s");
+  if (facts.lengths_vary) report.text("times", "vary from trace to trace");
+}
+
+void report_positions(Report& report, const Description& facts) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    report_range(report, std::string("source ") + "xyz"[axis], facts.source_m[axis], "m");
+    report_range(report, std::string("receiver ") + "xyz"[axis], facts.receiver_m[axis], "m");
+  }
+  report_range(report, "offset", facts.offset_m, "m");
+}
+
+}  // namespace
+
+Report report_of(const Description& facts) {
+  Report report;
+  report_file(report, facts.header);
+  report_sampling(report, facts);
+  std::vector<Report> components;
+  for (const auto& [component, traces] : facts.components) {
+    components.emplace_back();
+    components.back().text("name", name_of(component));
+    components.back().count("traces", traces);
+  }
+  report.list("component", components);
+  report_positions(report, facts);
+  report_range(report, "amplitude", facts.sample, "");
+  report.number("rms", facts.rms, "");
+  if (facts.not_finite != 0) report.count("samples not finite", facts.not_finite);
+  if (!facts.header.su) report.texts("text", shown_lines(facts.header.text));
+  return report;
+}
+
+}  // namespace slipwave::segy

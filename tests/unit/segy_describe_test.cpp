@@ -1,0 +1,97 @@
+#include "segy/describe.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "segy/gather_report.hpp"
+#include "segy_shared.hpp"
+#include "segy_write_cases.hpp"
+
+using namespace slipwave;
+using namespace slipwave::segy;
+
+namespace {
+
+constexpr FileFormat doubles{6, 2, Endian::little, TextEncoding::ascii, false};
+
+Description description_of(const Gather& gather, const FileFormat& format = doubles) {
+  const Scratch scratch;
+  write_file(scratch.file("g"), gather, format);
+  return describe(scratch.file("g"));
+}
+
+/// All samples `small` but those that `change` sets.
+template <class Change>
+double rms_with(double small, Change change) {
+  Gather gather = survey_gather(37, 1);
+  for (auto& trace : gather.traces) std::fill(trace.samples.begin(), trace.samples.end(), small);
+  change(gather.traces);
+  return description_of(gather).rms;
+}
+
+}  // namespace
+
+TEST(Describe, ReportsComponentsGeometryAndSamples) {
+  const Description facts = description_of(survey_gather(), {});
+  EXPECT_EQ(facts.traces, 48);
+  EXPECT_EQ(facts.shots, 2);
+  EXPECT_EQ(facts.components.at(Component::sxz), 8);
+  EXPECT_EQ(facts.components.size(), 6U);
+  EXPECT_EQ(facts.receiver_m[0].lowest, 912.5);
+  EXPECT_EQ(facts.receiver_m[0].highest, 950);
+  EXPECT_EQ(facts.source_m[2].lowest, 7.5);
+  EXPECT_EQ(facts.sample.lowest, 0);
+  EXPECT_EQ(facts.sample.highest, 100);
+  EXPECT_FALSE(facts.damage);
+  EXPECT_FALSE(facts.lengths_vary);
+}
+
+TEST(Describe, FindsTheRmsOfEveryMagnitude) {
+  const auto none = [](auto&) {};
+  const double count = 12 * 37;
+  for (const double size : {1e-300, 1e-170, 1e-100, 1.0, 1e100, 1e170, 1e300})
+    EXPECT_NEAR(rms_with(size, none), size, 1e-14 * size);
+  EXPECT_EQ(rms_with(0, none), 0);
+  const auto one = [&](double value) { return [value](auto& traces) { traces[5].samples[20] = value; }; };
+  EXPECT_NEAR(rms_with(0, one(-3)), 3 / std::sqrt(count), 1e-14);
+  EXPECT_NEAR(rms_with(0, one(1e-170)), 1e-170 / std::sqrt(count), 1e-184);
+  EXPECT_NEAR(rms_with(1, one(1e200)), 1e200 / std::sqrt(count), 1e186);
+  EXPECT_NEAR(rms_with(1e-200, one(1)), 1 / std::sqrt(count), 1e-14);
+}
+
+TEST(Describe, CountsWhatIsNotFiniteAndLeavesItOut) {
+  const Scratch scratch;
+  write_file(scratch.file("g"), survey_gather(51, 1), {});
+  auto bytes = bytes_of(scratch.file("g"));
+  const std::size_t samples = 3600 + 240;
+  store_bytes(&bytes[samples + 4 * 3], 4, Endian::big, 0x7fc00000);
+  store_bytes(&bytes[samples + 4 * 40], 4, Endian::big, 0xff800000);
+  put_bytes(scratch.file("g"), bytes);
+  const Description facts = describe(scratch.file("g"));
+  EXPECT_EQ(facts.not_finite, 2);
+  EXPECT_EQ(facts.sample.lowest, 0);
+  EXPECT_EQ(facts.sample.highest, 100);
+  EXPECT_TRUE(std::isfinite(facts.rms));
+}
+
+TEST(GatherReport, SaysFormatSamplingPositionsAndText) {
+  const std::string lines = report_of(description_of(survey_gather(), {})).lines();
+  for (const char* line :
+       {"format           SEG-Y revision 1.0\n", "byte order       big\n", "samples          ieee\n",
+        "format code      5\n", "text code        ebcdic\n", "samples a trace  51\n",
+        "time             0 to 0.1 s\n", "component        name vx, traces 8\n", "receiver z       2.5 m\n",
+        "text             C 1 slipwave test\n", "text             C39 SEG Y REV1\n"})
+    EXPECT_NE(lines.find(line), std::string::npos) << line << lines;
+  const std::string json = report_of(description_of(survey_gather(), {})).json();
+  for (const char* part : {"\"format_code\": 5", "\"interval\": {\"value\": 0.002, \"unit\": \"s\"}",
+                           "\"text\": [\"C 1 slipwave test\", "})
+    EXPECT_NE(json.find(part), std::string::npos) << part << json;
+}
+
+TEST(GatherReport, OfSeismicUnixHasNoText) {
+  const std::string lines =
+      report_of(description_of(survey_gather(), {5, 1, Endian::big, TextEncoding::ebcdic, true})).lines();
+  EXPECT_NE(lines.find("format           Seismic Unix\n"), std::string::npos);
+  EXPECT_EQ(lines.find("text"), std::string::npos);
+}
