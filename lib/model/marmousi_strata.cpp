@@ -22,10 +22,10 @@ struct Alternation {
 Alternation alternation_of(Unit unit, double pile_m) {
   switch (unit) {
     case Unit::clastics:
-      if (pile_m < young_m) return {210, 52, 0.35, 0, 0.05, 0.035};
-      return {190, 50, 0.4, 0.06, 0.045, 0.04};
+      if (pile_m < young_m) return {230, 58, 0.5, 0, 0.065, 0.035};
+      return {210, 57, 0.4, 0.06, 0.065, 0.04};
     case Unit::fill:
-      return {160, 52, 0.25, 0.25, 0.05, 0.04};
+      return {190, 62, 0.25, 0.28, 0.065, 0.04};
     case Unit::dome:
       return {190, 75, 0.15, 0.5, 0.05, 0.04};
     case Unit::folded:
@@ -55,7 +55,7 @@ double burial_of(const Place& place) {
 double speed_of(Lithology rock, const Place& place) {
   const double burial = std::max(burial_of(place), 0.);
   // Compaction: fast at first, then slowing down.
-  const double young = place.unit == Unit::clastics && place.pile_m < young_m ? 0.62 : 1;
+  const double young = place.unit == Unit::clastics && place.pile_m < young_m ? 0.68 : 1;
   const double shale = 1800 + young * 2300 * (1 - std::exp(-burial / 1900));
   switch (rock) {
     case Lithology::shale:
@@ -154,7 +154,7 @@ Material material_of(const Bed& bed, const Section& section, const Place& place)
     speed += alternation.formation_spread * bell(bed.formation_key, 2) +
              alternation.bed_spread * bell(bed.bed_key, 2) +
              0.015 * noise(mixed(bed.bed_key, 3), section.x_m() / 2500);
-    density += 0.02 * bell(bed.bed_key, 4);
+    density += 0.025 * (bell(bed.formation_key, 4) + bell(bed.bed_key, 4));
   }
   auto material = brine_saturated(bed.lithology, speed * speed_of(bed.lithology, place));
   material.rho *= density;
