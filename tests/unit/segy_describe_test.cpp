@@ -62,7 +62,7 @@ TEST(Describe, FindsTheRmsOfEveryMagnitude) {
 
 TEST(Describe, CountsWhatIsNotFiniteAndLeavesItOut) {
   const Scratch scratch;
-  write_file(scratch.file("g"), survey_gather(51, 1), {});
+  write_file(scratch.file("g"), survey_gather(), {});
   auto bytes = bytes_of(scratch.file("g"));
   const std::size_t samples = 3600 + 240;
   store_bytes(&bytes[samples + 4 * 3], 4, Endian::big, 0x7fc00000);
