@@ -20,7 +20,7 @@ double vs_of(Lithology rock, double vp) {
   if (rock == Lithology::shale) vs = 0.8621 * vp - 1172.4;
   if (rock == Lithology::sand) vs = 0.80416 * vp - 855.9;
   if (rock == Lithology::limestone) vs = (1.0168 - 0.05508e-3 * vp) * vp - 1030.5;
-  return std::max(vs, 1.);
+  return std::max(vs, vp / 5);
 }
 
 double density_of(Lithology rock, double vp) {

@@ -17,10 +17,11 @@ inline constexpr Fluid brine{2.6e9, 1030};
 inline constexpr Fluid oil{1.0e9, 780};
 inline constexpr Fluid gas{0.04e9, 150};
 
-/// vs in m/s of rock full of brine with P speed `vp`, at least 1 m/s: the mud-rock line
-/// vs = 0.8621 vp - 1172.4 m/s (Castagna, Batzle & Eastwood 1985) for shale, 0.80416 vp - 855.9 m/s for sand
-/// and -0.05508e-3 vp^2 + 1.0168 vp - 1030.5 m/s for limestone (Greenberg & Castagna 1992), vp/sqrt(3) for
-/// evaporites.
+/// vs in m/s of rock full of brine with P speed `vp`: the mud-rock line vs = 0.8621 vp - 1172.4 m/s
+/// (Castagna, Batzle & Eastwood 1985) for shale, 0.80416 vp - 855.9 m/s for sand and
+/// -0.05508e-3 vp^2 + 1.0168 vp - 1030.5 m/s for limestone (Greenberg & Castagna 1992), vp/sqrt(3) for
+/// evaporites. At least vp/5, about what soft sediments have at the sea floor (Hamilton 1979, J. Acoust. Soc.
+/// Am. 66, 1093-1101), where those lines lead too low.
 double vs_of(Lithology rock, double vp);
 
 /// Density in kg/m3 by Gardner's relation d (vp/km/s)^f with the constants of the lithology (Castagna, Batzle

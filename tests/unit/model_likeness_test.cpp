@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "base/input_bytes.hpp"
@@ -122,30 +123,28 @@ Rocks rocks_of(const Medium<2>& medium) {
   return {rows_below(medium.vp, rows), rows_below(medium.vs, rows), rows_below(medium.rho, rows)};
 }
 
-void print(const char* name, const Rocks& rocks) {
+/// A line of measures, and one of the shares in classes of equal width, in percent.
+void print(const std::string& name, const Rows& rows, double low, double width, int classes) {
   constexpr double h = 20;
-  const auto line = [&](const char* property, const Rows& rows) {
-    const auto all = sorted(rows);
-    const auto quantile = [&](double q) { return all[std::size_t(q * double(all.size()))]; };
-    std::printf(
-        "%-10s %-4s mean %5.0f deviation %4.0f quantiles %5.0f %5.0f %5.0f %5.0f %5.0f down %4.0f m along "
-        "%4.0f m\n",
-        name, property, mean(all), deviation(all), quantile(0.05), quantile(0.25), quantile(0.5),
-        quantile(0.75), quantile(0.95), h * correlation_length(rows, false),
-        h * correlation_length(rows, true));
-  };
-  line("vp", rocks.vp);
-  line("vs", rocks.vs);
-  line("rho", rocks.rho);
-  std::printf("%-10s reflectivity %.4f, vp by classes of 500 m/s from 1500:", name,
-              reflectivity(rocks.vp, rocks.rho));
-  const auto all = sorted(rocks.vp);
-  for (double low = 1500; low < 5000; low += 500) {
-    const auto count =
-        std::lower_bound(all.begin(), all.end(), low + 500) - std::lower_bound(all.begin(), all.end(), low);
-    std::printf(" %.1f", 100 * double(count) / double(all.size()));
+  const auto all = sorted(rows);
+  const auto quantile = [&](double q) { return all[std::size_t(q * double(all.size()))]; };
+  std::printf("%-11s mean %5.0f deviation %4.0f quantiles", name.c_str(), mean(all), deviation(all));
+  for (const double q : {0.05, 0.25, 0.5, 0.75, 0.95}) std::printf(" %5.0f", quantile(q));
+  std::printf(" lengths %3.0f m down %3.0f m along\n%-11s in classes of %.0f from %.0f:",
+              h * correlation_length(rows, false), h * correlation_length(rows, true), "", width, low);
+  for (int n = 0; n < classes; ++n) {
+    const auto begin = std::lower_bound(all.begin(), all.end(), low + n * width);
+    const auto end = std::lower_bound(all.begin(), all.end(), low + (n + 1) * width);
+    std::printf(" %.1f", 100 * double(end - begin) / double(all.size()));
   }
   std::printf(" %%\n");
+}
+
+void print(const std::string& name, const Rocks& rocks) {
+  print(name + " vp", rocks.vp, 1500, 500, 7);
+  print(name + " vs", rocks.vs, 0, 500, 6);
+  print(name + " rho", rocks.rho, 1800, 100, 9);
+  std::printf("%-11s reflectivity %.4f\n", name.c_str(), reflectivity(rocks.vp, rocks.rho));
 }
 
 class MarmousiLikeness : public ::testing::Test {
@@ -166,7 +165,7 @@ class MarmousiLikeness : public ::testing::Test {
       MarmousiSettings settings;
       settings.seed = seed, settings.water_m = 440;
       drawn_.push_back(rocks_of(marmousi_medium(grid, settings)));
-      print(("seed " + std::to_string(seed)).c_str(), drawn_.back());
+      print("seed " + std::to_string(seed), drawn_.back());
     }
   }
 
