@@ -1,9 +1,13 @@
+#include <functional>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
+#include "gather/fk_file.hpp"
 #include "gather/spectrum.hpp"
 #include "gather/spectrum_file.hpp"
 #include "segy/reader.hpp"
@@ -18,7 +22,7 @@ struct Settings {
   std::string output = "-";
   std::string window = "none";
   SpectrumSettings spectrum;
-  bool each = false;
+  bool each = false, fk = false;
   bool text = false;
   TraceInput input_options;
 };
@@ -27,52 +31,89 @@ void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "A");
   options.add("output,o", settings.output, "FILE", "where the spectra go, - is standard output");
   options.add("each", settings.each, "a spectrum for each trace, not the mean of each component");
-  options.add("power", settings.spectrum.power, "energy spectral density, not amplitude");
-  options.add_choice("window", settings.window, window_names(), "weights on the samples");
+  options.add("fk", settings.fk, "over wavenumber and frequency: the mean over the shots of each component");
+  options.add("power", settings.spectrum.power, "energy density, not amplitude");
+  options.add_choice("window", settings.window, window_names(),
+                     "weights on the samples, with --fk on the receivers too");
   options.add("pad", settings.spectrum.pad, "FACTOR",
-              "transform length over trace length, filled with zeros");
+              "length of the transform over that of the trace (and line), filled with zeros");
   options.add("text", settings.text, "columns of numbers, not netCDF");
   settings.input_options.declare(options);
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  const segy::ReadOptions options = settings.input_options.read_options();
-  segy::Reader reader(settings.input, options);
-  SpectrumSettings wanted = settings.spectrum;
-  wanted.window = window_named(settings.window);
-  const SampleAxis axis = reader.axis_with_interval();
-  SpectrumTransform transform(axis, wanted);
-  SpectrumFacts facts{transform.frequencies_hz(),
-                      wanted.power,
-                      definition_of(axis, wanted, transform.length()),
-                      context.command_line,
-                      {}};
-  if (!reader.header().su) facts.source = segy::shown_lines(reader.header().text);
-  OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);
-  const auto file = settings.text ? spectrum_text(out, facts) : spectrum_netcdf(out, facts);
-  std::map<Component, SpectrumMean> means;
+std::vector<std::string> source_of(const segy::Reader& reader) {
+  if (reader.header().su) return {};
+  return segy::shown_lines(reader.header().text);
+}
+
+/// Hands every trace to `take`; there must be one.
+void for_each_trace(segy::Reader& reader, const Progress& progress,
+                    const std::function<void(const TraceHeader&, std::span<const double>)>& take) {
   segy::Trace trace;
   while (reader.next(trace)) {
-    const TraceHeader header = reader.si_header(trace);
-    const auto values = in_place(reader.name() + ": trace " + std::to_string(reader.delivered()),
-                                 [&] { return transform.of(trace.samples); });
-    if (settings.each)
-      file->add(header, values);
-    else
-      means[header.component].add(values);
+    in_place(reader.name() + ": trace " + std::to_string(reader.delivered()),
+             [&] { take(reader.si_header(trace), trace.samples); });
+    if (progress && reader.size())
+      progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
   }
   if (reader.delivered() == 0) throw Error(reader.name() + ": has no traces, expected at least one");
+}
+
+void write_spectra(segy::Reader& reader, const Settings& settings, OutputFile& out,
+                   const cli::Context& context) {
+  const SampleAxis axis = reader.axis_with_interval();
+  SpectrumTransform transform(axis, settings.spectrum);
+  const SpectrumFacts facts{transform.frequencies_hz(), settings.spectrum.power,
+                            definition_of(axis, settings.spectrum, transform.length()), context.command_line,
+                            source_of(reader)};
+  const auto file = settings.text ? spectrum_text(out, facts) : spectrum_netcdf(out, facts);
+  std::map<Component, SpectrumMean> means;
+  for_each_trace(reader, context.progress("transforming"),
+                 [&](const TraceHeader& header, std::span<const double> samples) {
+                   const auto values = transform.of(samples);
+                   if (settings.each)
+                     file->add(header, values);
+                   else
+                     means[header.component].add(values);
+                 });
   if (!settings.each) file->add_means(means);
   file->finish();
+}
+
+void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, const cli::Context& context) {
+  const SampleAxis axis = reader.axis_with_interval();
+  FkSpectra spectra(axis, settings.spectrum);
+  for_each_trace(
+      reader, context.progress("transforming"),
+      [&](const TraceHeader& header, std::span<const double> samples) { spectra.add(header, samples); });
+  in_place(reader.name(), [&] { spectra.finish(); });
+  const FkFacts facts{axis, settings.spectrum, context.command_line, source_of(reader)};
+  if (settings.text)
+    write_fk_text(out, facts, spectra);
+  else
+    write_fk_netcdf(out, facts, spectra);
+}
+
+void run(Settings& settings, const cli::Context& context) {
+  if (settings.fk && settings.each)
+    throw Error("found --fk and --each, expected one of them: a gather makes one f-k spectrum",
+                ErrorKind::usage);
+  settings.spectrum.window = window_named(settings.window);
+  segy::Reader reader(settings.input, settings.input_options.read_options());
+  OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);
+  if (settings.fk)
+    write_fk(reader, settings, out, context);
+  else
+    write_spectra(reader, settings, out, context);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-spectrum", "Amplitude or energy spectra of traces",
-                           "[options] [A] [-o OUTPUT]",
-                           "sw-spectrum response.sgy --window hann --pad 4 --text"};
+  const cli::ToolInfo info{
+      "sw-spectrum", "Amplitude or energy spectra of traces, over frequency or wavenumber and frequency",
+      "[options] [A] [-o OUTPUT]", "sw-spectrum response.sgy --window hann --pad 4 --text"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -3,8 +3,10 @@
 #include <fftw3.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <mutex>
+#include <string>
 
 #include "base/error.hpp"
 
@@ -92,6 +94,60 @@ std::span<const double> RealTransform::backward(std::span<const std::complex<dou
   const double scale = 1.0 / static_cast<double>(length());
   std::for_each(samples, samples + length(), [scale](double& sample) { sample *= scale; });
   return {samples, length()};
+}
+
+struct RealTransform2::Plan {
+  std::size_t rows, length;
+  std::unique_ptr<fftw_complex, Freed> complex;  // rows of bins; before the transform the samples lie in them
+  slipwave::Plan forward;
+
+  std::size_t bins() const { return length / 2 + 1; }
+};
+
+double RealTransform2::bytes_for(std::size_t rows, std::size_t length) {
+  return 16.0 * static_cast<double>(rows) * static_cast<double>(length / 2 + 1);
+}
+
+RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {
+  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max());
+  const std::string size = std::to_string(rows) + " x " + std::to_string(length);
+  if (rows < 1 || length < 1 || rows > most || length > most)
+    throw Error("a Fourier transform of " + size + " samples, expected 1 to 2147483647 along each axis");
+  plan_.reset(new Plan{rows, length, nullptr, nullptr});
+  if (bytes_for(rows, length) < 1e18) plan_->complex.reset(fftw_alloc_complex(rows * plan_->bins()));
+  if (!plan_->complex)
+    throw Error("no memory for a Fourier transform of " + size + " samples, " +
+                std::to_string(std::llround(bytes_for(rows, length) / (1 << 20))) + " MiB");
+  {
+    const auto lock = planner();
+    plan_->forward.reset(fftw_plan_dft_r2c_2d(static_cast<int>(rows), static_cast<int>(length),
+                                              reinterpret_cast<double*>(plan_->complex.get()),
+                                              plan_->complex.get(), FFTW_ESTIMATE));
+  }
+  clear();
+}
+
+RealTransform2::RealTransform2(RealTransform2&&) noexcept = default;
+RealTransform2& RealTransform2::operator=(RealTransform2&&) noexcept = default;
+RealTransform2::~RealTransform2() = default;
+
+std::size_t RealTransform2::rows() const noexcept { return plan_->rows; }
+std::size_t RealTransform2::length() const noexcept { return plan_->length; }
+std::size_t RealTransform2::bins() const noexcept { return plan_->bins(); }
+
+std::span<double> RealTransform2::samples(std::size_t row) {
+  return {reinterpret_cast<double*>(plan_->complex.get()) + 2 * row * bins(), length()};
+}
+
+void RealTransform2::clear() {
+  double* const first = reinterpret_cast<double*>(plan_->complex.get());
+  std::fill(first, first + 2 * rows() * bins(), 0.0);
+}
+
+void RealTransform2::forward() { fftw_execute(plan_->forward.get()); }
+
+std::span<const std::complex<double>> RealTransform2::spectrum(std::size_t row) const {
+  return {reinterpret_cast<const std::complex<double>*>(plan_->complex.get()) + row * bins(), bins()};
 }
 
 }  // namespace slipwave

@@ -40,4 +40,33 @@ class RealTransform {
   std::unique_ptr<Plans> plans_;
 };
 
+/// Discrete Fourier transform of `rows` rows of `length` real numbers along both axes, in place:
+///   X_jk = sum_m sum_n x_mn exp(-2 pi i (j m / rows + k n / length)),  j = 0 .. rows-1,  k = 0 .. length/2
+/// Plans as for RealTransform.
+class RealTransform2 {
+ public:
+  /// Both 1 to 2^31 - 1; takes 8 rows (length + 2) bytes, or throws Error.
+  RealTransform2(std::size_t rows, std::size_t length);
+  RealTransform2(RealTransform2&&) noexcept;
+  RealTransform2& operator=(RealTransform2&&) noexcept;
+  ~RealTransform2();
+
+  std::size_t rows() const noexcept;
+  std::size_t length() const noexcept;
+  /// length()/2 + 1
+  std::size_t bins() const noexcept;
+  static double bytes_for(std::size_t rows, std::size_t length);
+
+  /// Samples of row m, to be filled before forward(); all zero after clear().
+  std::span<double> samples(std::size_t row);
+  void clear();
+  void forward();
+  /// X_j0, X_j1, ... after forward().
+  std::span<const std::complex<double>> spectrum(std::size_t row) const;
+
+ private:
+  struct Plan;
+  std::unique_ptr<Plan> plan_;
+};
+
 }  // namespace slipwave

@@ -40,6 +40,12 @@ std::vector<std::string> window_names() {
   return names;
 }
 
+const char* name_of(Window window) {
+  for (const WindowRow& row : windows)
+    if (row.window == window) return row.name;
+  return windows[0].name;
+}
+
 Window window_named(const std::string& name) {
   std::string known;
   for (const WindowRow& row : windows) {

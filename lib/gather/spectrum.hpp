@@ -16,6 +16,7 @@ enum class Window { none, hann, hamming, blackman, bartlett };
 
 /// "none", "hann", ...: all names, for options.
 std::vector<std::string> window_names();
+const char* name_of(Window window);
 /// Throws usage Error listing the names otherwise.
 Window window_named(const std::string& name);
 /// `count` weights.
@@ -28,8 +29,9 @@ struct SpectrumSettings {
 };
 
 /// Spectra of traces of one sampling, at f_k = k / (length dt), k = 0 .. length/2:
-///   amplitude  |F(f_k)|, F(f_k) = dt sum_n w_n x_n exp(-2 pi i f_k n dt), the Fourier integral's value; unit
-///   u s = u/Hz power      E_k = c_k |F(f_k)|^2, one-sided energy density, c = 2 (1 at 0 and at the Nyquist
+///   amplitude  |F(f_k)|, F(f_k) = dt sum_n w_n x_n exp(-2 pi i f_k n dt), the Fourier integral's value;
+///              unit u s = u/Hz
+///   power      E_k = c_k |F(f_k)|^2, one-sided energy density, c = 2 (1 at 0 and at the Nyquist
 ///   frequency); unit u^2 s/Hz
 /// Parseval: sum_k E_k df = sum_n (w_n x_n)^2 dt exactly, df = 1/(length dt).
 class SpectrumTransform {

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include "base/netcdf_file.hpp"
 #include "gather/spectrum_file.hpp"
@@ -8,13 +10,17 @@ namespace {
 
 using Type = NetcdfFile::Type;
 
+/// A chunk for every trace would make a file of a million traces mostly index.
+constexpr std::size_t chunk_values = 1 << 15;
+
 class SpectrumNetcdf final : public SpectrumFile {
  public:
   SpectrumNetcdf(OutputFile& out, const SpectrumFacts& facts)
       : out_(out),
         facts_(facts),
         file_(NetcdfFile::create(out.path_for_libraries(), out.shown_name())),
-        quantity_(facts.power ? "power" : "amplitude") {
+        quantity_(facts.power ? "power" : "amplitude"),
+        rows_a_chunk_(std::max<std::size_t>(1, chunk_values / facts.frequencies_hz.size())) {
     file_.put_attribute("", "Conventions", "CF-1.10");
     file_.put_attribute("", "title", facts.power ? "energy spectra" : "amplitude spectra");
     file_.put_attribute("", "history", facts.history);
@@ -30,17 +36,17 @@ class SpectrumNetcdf final : public SpectrumFile {
 
   void add(const TraceHeader& header, std::span<const double> values) override {
     if (traces_ == 0) define_traces();
+    ++traces_;
     components_.insert(header.component);
-    const std::vector<std::size_t> row = {traces_++};
-    const auto put = [&](const char* name, auto value) { file_.put(name, row, {1}, &value); };
-    put("shot", static_cast<int>(header.shot));
-    put("channel", static_cast<int>(header.channel));
-    put("component", static_cast<int>(header.component));
-    put("source_x", header.source_m[0]);
-    put("source_z", header.source_m[2]);
-    put("receiver_x", header.receiver_m[0]);
-    put("receiver_z", header.receiver_m[2]);
-    file_.put(quantity_, {row[0], 0}, {1, values.size()}, values.data());
+    rows_.shot.push_back(static_cast<int>(header.shot));
+    rows_.channel.push_back(static_cast<int>(header.channel));
+    rows_.component.push_back(static_cast<int>(header.component));
+    rows_.source_x.push_back(header.source_m[0]);
+    rows_.source_z.push_back(header.source_m[2]);
+    rows_.receiver_x.push_back(header.receiver_m[0]);
+    rows_.receiver_z.push_back(header.receiver_m[2]);
+    rows_.values.insert(rows_.values.end(), values.begin(), values.end());
+    if (rows_.shot.size() == rows_a_chunk_) write_rows();
   }
 
   void add_means(const std::map<Component, SpectrumMean>& means) override {
@@ -55,6 +61,7 @@ class SpectrumNetcdf final : public SpectrumFile {
   }
 
   void finish() override {
+    write_rows();
     if (components_.size() == 1)
       describe(quantity_, quantity_ + " of " + name_of(*components_.begin()),
                spectrum_unit(*components_.begin(), facts_.power));
@@ -63,6 +70,30 @@ class SpectrumNetcdf final : public SpectrumFile {
   }
 
  private:
+  /// Traces that are not in the file yet.
+  struct Rows {
+    std::vector<int> shot, channel, component;
+    std::vector<double> source_x, source_z, receiver_x, receiver_z, values;
+  };
+
+  void write_rows() {
+    const std::size_t count = rows_.shot.size();
+    if (count == 0) return;
+    const std::vector<std::size_t> first = {traces_ - count};
+    const auto put = [&](const char* name, const auto& column) {
+      file_.put(name, first, {count}, column.data());
+    };
+    put("shot", rows_.shot);
+    put("channel", rows_.channel);
+    put("component", rows_.component);
+    put("source_x", rows_.source_x);
+    put("source_z", rows_.source_z);
+    put("receiver_x", rows_.receiver_x);
+    put("receiver_z", rows_.receiver_z);
+    file_.put(quantity_, {first[0], 0}, {count, facts_.frequencies_hz.size()}, rows_.values.data());
+    rows_ = {};
+  }
+
   void describe(const std::string& variable, const std::string& long_name, const std::string& units) {
     file_.put_attribute(variable, "long_name", long_name);
     if (!units.empty()) file_.put_attribute(variable, "units", units);
@@ -91,13 +122,15 @@ class SpectrumNetcdf final : public SpectrumFile {
     define("receiver_x", Type::f64, "receiver x", "m");
     define("receiver_z", Type::f64, "receiver depth", "m");
     file_.define_variable(quantity_, Type::f64, {"trace", "frequency"},
-                          {true, {1, facts_.frequencies_hz.size()}});
+                          {true, {rows_a_chunk_, facts_.frequencies_hz.size()}});
   }
 
   OutputFile& out_;
   SpectrumFacts facts_;
   NetcdfFile file_;
   std::string quantity_;
+  std::size_t rows_a_chunk_;
+  Rows rows_;
   std::size_t traces_ = 0;
   std::set<Component> components_;
 };

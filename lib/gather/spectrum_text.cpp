@@ -70,15 +70,13 @@ std::unique_ptr<SpectrumFile> spectrum_text(OutputFile& out, const SpectrumFacts
 }
 
 std::string definition_of(const SampleAxis& axis, const SpectrumSettings& settings, std::size_t length) {
-  std::string window = "none";
-  for (const std::string& name : window_names())
-    if (window_named(name) == settings.window) window = name;
   const std::string quantity =
       settings.power ? "one-sided energy spectral density 2 |F|^2 (|F|^2 at 0 and at the Nyquist frequency)"
                      : "amplitude spectrum |F|";
-  return quantity + ", F = dt sum w x exp(-2 pi i f t); window w: " + window + ", not compensated; " +
-         std::to_string(length - static_cast<std::size_t>(axis.count)) + " zeros appended to " +
-         std::to_string(axis.count) + " samples of dt = " + shown(axis.interval_s) + " s";
+  return quantity + ", F = dt sum w x exp(-2 pi i f t); window w: " + name_of(settings.window) +
+         ", not compensated; " + std::to_string(length - static_cast<std::size_t>(axis.count)) +
+         " zeros appended to " + std::to_string(axis.count) + " samples of dt = " + shown(axis.interval_s) +
+         " s";
 }
 
 std::string spectrum_unit(Component component, bool power) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/netcdf_file.hpp"
 #include "gather/spectrum_file.hpp"
 #include "segy_shared.hpp"
 
@@ -113,4 +114,36 @@ TEST(SpectrumText, HoldsAColumnAComponentWithItsUnit) {
   std::stringstream text;
   text << in.rdbuf();
   EXPECT_EQ(text.str(), "# sw-x\n# how\n# frequency_Hz vz[m s-1 Hz-1] (mean of 2)\n0 1.5\n10 4\n");
+}
+
+TEST(SpectrumNetcdf, HoldsEveryTraceInOrder) {
+  // more traces than go into one piece of the file
+  const segy::Scratch scratch;
+  OutputFile out(scratch.file("s.nc"), OutputFile::Content::binary);
+  const std::size_t bins = 1000;
+  std::vector<double> frequencies(bins);
+  std::iota(frequencies.begin(), frequencies.end(), 0.0);
+  const auto file = spectrum_netcdf(out, {frequencies, true, "how", "sw-x", {}});
+  for (int trace = 0; trace < 100; ++trace) {
+    TraceHeader header;
+    header.shot = trace / 10;
+    header.channel = trace;
+    header.component = Component::p;
+    header.receiver_m = {2.5 * trace, 0, 7};
+    std::vector<double> values(bins, trace);
+    values[0] = -trace;
+    file->add(header, values);
+  }
+  file->finish();
+  const NetcdfFile read = NetcdfFile::open(scratch.file("s.nc"));
+  const auto values = read.get<double>("power");
+  ASSERT_EQ(values.size(), 100 * bins);
+  const auto shot = read.get<int>("shot");
+  const auto x_m = read.get<double>("receiver_x");
+  for (std::size_t trace = 0; trace < 100; ++trace) {
+    EXPECT_EQ(values[trace * bins], -double(trace));
+    EXPECT_EQ(values[trace * bins + bins - 1], double(trace));
+    EXPECT_EQ(shot[trace], int(trace) / 10);
+    EXPECT_EQ(x_m[trace], 2.5 * double(trace));
+  }
 }
