@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "segy/conversion.hpp"
+#include "segy_shared.hpp"
+#include "segy_write_cases.hpp"
+
+// segyio, which half of the world reads SEG-Y with, finds every word and every sample that were written.
+
+using namespace slipwave;
+using namespace slipwave::segy;
+
+namespace {
+
+bool has_segyio() { return std::system("/usr/bin/python3 -c 'import segyio' 2>/dev/null") == 0; }
+
+/// What `gather` must look like: words from the table of the format, samples as they are.
+void put_expected(const std::string& path, const Gather& gather, const FileFormat& format,
+                  const std::string& text) {
+  std::vector<TraceHeader> headers;
+  for (const auto& trace : gather.traces) headers.push_back(trace.header);
+  const SurveyLayout layout = layout_of(headers);
+  std::ofstream out(path);
+  const auto count = gather.axis.count;
+  out << "bin 3217 2000\nbin 3221 " << count << "\nbin 3225 " << format.code << "\nbin 3213 24\nbin 3255 1\n";
+  out << "bin 3505 0\n";
+  for (std::size_t line = 0; line < 40; ++line) out << "text " << text.substr(80 * line, 80) << '\n';
+  std::int64_t number = 0;
+  for (const auto& trace : gather.traces) {
+    TraceWords words = words_from_si(trace.header, layout);
+    ++number;
+    words.set("tracl", number);
+    words.set("tracr", number);
+    words.set("ns", count);
+    words.set("dt", 2000);
+    out << "trace";
+    for (const Field& field : TraceLayout::fields)
+      if (field.byte != 25)  // the ordinal within the bin is counted while writing
+        out << ' ' << field.byte << '=' << words.get(FieldName<TraceLayout>(field));
+    out << "\nsamples";
+    for (const double sample : trace.samples) out << ' ' << sample;
+    out << '\n';
+  }
+}
+
+int segyio_reads(const Scratch& scratch, Endian endian) {
+  const std::string script = SLIPWAVE_TESTS_UNIT "/segyio_reads.py";
+  return std::system(("/usr/bin/python3 '" + script + "' '" + scratch.file("g.sgy") + "' " + name_of(endian) +
+                      " '" + scratch.file("expected") + "'")
+                         .c_str());
+}
+
+}  // namespace
+
+TEST(Segyio, FindsEveryWordAndSampleOfRevisions0And1) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  const Scratch scratch;
+  const Gather gather = survey_gather();
+  for (const int revision : {0, 1})
+    for (const int code : {1, 2, 3, 5, 8})
+      for (const Endian endian : {Endian::big, Endian::little}) {
+        SCOPED_TRACE("format " + std::to_string(code) + " revision " + std::to_string(revision) + " " +
+                     name_of(endian));
+        const FileFormat format{code, revision, endian, TextEncoding::ebcdic, false};
+        write_file(scratch.file("g.sgy"), gather, format);
+        put_expected(scratch.file("expected"), gather, format, Reader(scratch.file("g.sgy")).header().text);
+        EXPECT_EQ(segyio_reads(scratch, endian), 0);
+      }
+}
+
+TEST(Segyio, FindsTheSameInWhatWasConverted) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  const Scratch scratch;
+  const Gather gather = survey_gather();
+  write_file(scratch.file("two.sgy"), gather, {6, 2, Endian::little, TextEncoding::ascii, false});
+  const FileFormat format{1, 0, Endian::big, TextEncoding::ebcdic, false};
+  {
+    Reader reader(scratch.file("two.sgy"));
+    OutputFile out(scratch.file("g.sgy"), OutputFile::Content::binary);
+    Writer writer(out, info_as(reader, "sw-convert", format));
+    segy::Trace trace;
+    while (reader.next(trace)) writer.write(trace, false);
+    out.commit();
+  }
+  put_expected(scratch.file("expected"), gather, format, Reader(scratch.file("g.sgy")).header().text);
+  EXPECT_EQ(segyio_reads(scratch, Endian::big), 0);
+}
