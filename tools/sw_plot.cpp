@@ -36,7 +36,7 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("movie", settings.movie, "snapshot: all of them, FILE-0001.png and so on");
-  options.add("log", settings.log, "spectrum: amplitudes on a log axis");
+  options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "errors: several files in one panel");
   settings.traces.declare(options);
 }

@@ -14,6 +14,10 @@ std::string unit_as_shown(const std::string& unit) {
   if (unit == "m s-1 Hz-1") return "m/s/Hz";
   if (unit == "(m s-1)^2 s Hz-1") return "(m/s)\u00b2 s/Hz";
   if (unit == "Pa Hz-1") return "Pa/Hz";
+  if (unit == "m s-1 Hz-1 m") return "m\u00b2/s/Hz";
+  if (unit == "(m s-1)^2 s Hz-1 m2") return "(m\u00b2/s)\u00b2 s/Hz";
+  if (unit == "Pa Hz-1 m") return "Pa m/Hz";
+  if (unit == "Pa^2 s Hz-1 m2") return "(Pa m)\u00b2 s/Hz";
   return unit == "Pa^2 s Hz-1" ? "Pa\u00b2 s/Hz" : unit;
 }
 
@@ -48,8 +52,26 @@ void read_traces(const NetcdfFile& file, const std::string& variable, const std:
   }
   const auto descends =
       std::adjacent_find(spectra.places.begin(), spectra.places.end(), std::greater_equal<>());
-  spectra.at_x = descends == spectra.places.end() && spectra.places.size() > 1;
-  for (std::size_t n = 0; !spectra.at_x && n < spectra.places.size(); ++n) spectra.places[n] = double(n + 1);
+  if (descends == spectra.places.end() && spectra.places.size() > 1) {
+    spectra.place = Spectra::Place::receiver_x;
+    return;
+  }
+  for (std::size_t n = 0; n < spectra.places.size(); ++n) spectra.places[n] = double(n + 1);
+}
+
+void read_fk(const NetcdfFile& file, const std::optional<Component>& wanted, Spectra& spectra) {
+  const std::vector<std::string> axes = {"wavenumber", "frequency"};
+  for (const auto& variable : file.variables()) {
+    if (variable.dimensions != axes || (wanted && variable.name != name_of(*wanted))) continue;
+    spectra.places = file.get<double>("wavenumber");
+    spectra.place = Spectra::Place::wavenumber;
+    const auto unit = unit_as_shown(file.text_attribute(variable.name, "units").value_or(""));
+    const auto values = file.get<double>(variable.name);
+    const auto bins = std::ptrdiff_t(spectra.frequencies_hz.size());
+    for (auto first = values.begin(); first != values.end(); first += bins)
+      spectra.lines.push_back({variable.name, unit, {first, first + bins}});
+    return;
+  }
 }
 
 }  // namespace
@@ -65,7 +87,9 @@ Spectra read_spectra(const NetcdfFile& file, const std::optional<Component>& com
                      file.text_attribute("", "title").value_or("").find("energy") != std::string::npos;
   spectra.quantity = power ? "energy density" : "amplitude";
   const std::string of_traces = power ? "power" : "amplitude";
-  if (file.has_variable(of_traces))
+  if (file.has_variable("wavenumber"))
+    read_fk(file, component, spectra);
+  else if (file.has_variable(of_traces))
     read_traces(file, of_traces, component, spectra);
   else
     read_means(file, component, spectra);

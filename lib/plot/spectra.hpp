@@ -12,7 +12,8 @@ class NetcdfFile;
 
 namespace slipwave::plot {
 
-/// What a file of sw-spectrum holds: spectra of components, or one of each trace.
+/// What a file of sw-spectrum holds: spectra of components, or of one component at many places, which are
+/// traces or wavenumbers.
 struct Spectra {
   struct Line {
     std::string name, unit;  // "vz", "m/s/Hz"
@@ -21,15 +22,15 @@ struct Spectra {
   std::string name;      // of the file, without folders
   std::string quantity;  // "amplitude" or "energy density"
   std::vector<double> frequencies_hz;
-  std::vector<Line> lines;     // of a component, or of traces of one component, in ascending order of places
-  std::vector<double> places;  // of traces; empty: the lines are of components
-  bool at_x = false;           // places are x of the receivers, not numbers
+  std::vector<Line> lines;     // of a component each, or all of one component, in ascending order of places
+  std::vector<double> places;  // empty: the lines are of components
+  enum class Place { trace_number, receiver_x, wavenumber } place = Place::trace_number;
   bool each() const { return !places.empty(); }
 };
 
 /// `component`: of these traces, or this component's mean, only. Without it, all components of means, and of
-/// traces those of the first one's. Traces stand at the x of their receivers where these ascend, else one
-/// after the other. Throws Error naming the file when it holds no such spectra.
+/// traces and of f-k those of the first one's. Traces stand at the x of their receivers where these ascend,
+/// else one after the other. Throws Error naming the file when it holds no such spectra.
 Spectra read_spectra(const NetcdfFile& file, const std::optional<Component>& component);
 
 }  // namespace slipwave::plot

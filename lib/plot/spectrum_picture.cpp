@@ -125,23 +125,60 @@ Picture draw_lines(const std::vector<Spectra>& files, bool log, const Look& look
   return {canvas.finish(), canvas.words()};
 }
 
-Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
+/// Values as colours show them, a trace or wavenumber each.
+struct Shown {
   std::vector<std::vector<float>> traces;
+  Axis quantity;
+};
+
+/// In dB of the greatest value.
+Shown in_decibels(const Spectra& spectra) {
+  constexpr double floor_db = -60;
+  double greatest = 0;
+  for (const auto& line : spectra.lines)
+    for (const double value : line.values) greatest = std::max(greatest, value);
+  const double factor = spectra.quantity == "amplitude" ? 20 : 10;
+  Shown shown{{}, {spectra.quantity + " of " + spectra.lines[0].name, "dB", floor_db, 0}};
+  for (const auto& line : spectra.lines) {
+    shown.traces.emplace_back();
+    for (const double value : line.values)
+      shown.traces.back().push_back(
+          float(value > 0 ? std::max(factor * std::log10(value / greatest), floor_db) : floor_db));
+  }
+  return shown;
+}
+
+Shown as_they_are(const Spectra& spectra, const Look& look) {
+  Shown shown{{}, {spectra.quantity + " of " + spectra.lines[0].name, spectra.lines[0].unit, 0, 1}};
   Magnitudes magnitudes;
   for (const auto& line : spectra.lines) {
-    traces.emplace_back(line.values.begin(), line.values.end());
-    magnitudes.add(traces.back());
+    shown.traces.emplace_back(line.values.begin(), line.values.end());
+    magnitudes.add(shown.traces.back());
   }
   const double full = magnitudes.percentile(look.clip_percent);
-  const Limits limits = look.colours.value_or(Limits{0, full > 0 ? full : 1});
+  if (full > 0) shown.quantity.high = full;
+  return shown;
+}
+
+Axis place_axis(const Spectra& spectra, const std::vector<double>& edges) {
+  if (spectra.place == Spectra::Place::wavenumber) return {"wavenumber", "1/m", edges.front(), edges.back()};
+  if (spectra.place == Spectra::Place::receiver_x) return {"receiver x", "m", edges.front(), edges.back()};
+  return {"trace", "", edges.front(), edges.back(), false, true};
+}
+
+Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page) {
+  auto shown = log ? in_decibels(spectra) : as_they_are(spectra, look);
+  const auto& traces = shown.traces;
+  if (look.colours) {
+    shown.quantity.low = look.colours->low;
+    shown.quantity.high = look.colours->high;
+  }
+  const Limits limits{shown.quantity.low, shown.quantity.high};
   const auto edges = edges_between(spectra.places);
   PanelSpec spec{page.title,
-                 spectra.at_x ? Axis{"receiver x", "m", edges.front(), edges.back()}
-                              : Axis{"trace", "", edges.front(), edges.back(), false, true},
+                 place_axis(spectra, edges),
                  frequency_axis({spectra}, false, look.y, "--y"),
-                 ColourBar{map_of(look, "uniform"),
-                           {spectra.quantity + " of " + spectra.lines[0].name, spectra.lines[0].unit,
-                            limits.low, limits.high}},
+                 ColourBar{map_of(look, "uniform"), shown.quantity},
                  {}};
   narrow(spec.x, look.x, "--x");
   if (page.height_pt == 0) page.height_pt = 10 * points_per_cm;
@@ -153,7 +190,7 @@ Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
                                     even_edges(-step / 2, step, std::int64_t(spectra.frequencies_hz.size())));
   const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, edges);
   const auto raster = reduced<float>([&](std::int64_t n) { return traces[std::size_t(n)].data(); }, rows,
-                                     columns, Take::extreme);
+                                     columns, log ? Take::greatest : Take::extreme);
   Image image(width, height);
   for (int column = 0; column < width; ++column) {
     for (int row = 0; row < height; ++row) {
@@ -173,9 +210,10 @@ Picture draw_each(const Spectra& spectra, const Look& look, Page page) {
 Picture draw_spectra(const std::vector<Spectra>& files, bool log, const Look& look, Page page) {
   const bool each = std::any_of(files.begin(), files.end(), [](const Spectra& one) { return one.each(); });
   if (each && files.size() > 1)
-    throw Error("spectra of each trace are drawn from one file, found " + std::to_string(files.size()),
-                ErrorKind::usage);
-  return each ? draw_each(files[0], look, page) : draw_lines(files, log, look, page);
+    throw Error(
+        "spectra of each trace or wavenumber are drawn from one file, found " + std::to_string(files.size()),
+        ErrorKind::usage);
+  return each ? draw_each(files[0], log, look, page) : draw_lines(files, log, look, page);
 }
 
 }  // namespace slipwave::plot

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
+#include "gather/fk_file.hpp"
 #include "gather/spectrum_file.hpp"
 #include "plot/colour_map.hpp"
 #include "plot/spectra.hpp"
@@ -23,6 +24,7 @@ class PlotSpectrum : public testing::Test {
       : path_(std::filesystem::temp_directory_path() / ("plot_spectrum_" + std::to_string(::getpid()))) {}
   ~PlotSpectrum() override { std::filesystem::remove(path_); }
 
+  std::string path() const { return path_.string(); }
   NetcdfFile open() const { return NetcdfFile::open(path_.string()); }
   void write_means() const {
     OutputFile out(path_.string(), OutputFile::Content::binary);
@@ -70,7 +72,7 @@ TEST_F(PlotSpectrum, TracesOfOneComponentStandAtTheirReceivers) {
   write_traces({5, 10, 20});
   const auto spectra = read_spectra(open(), Component::vz);
   EXPECT_TRUE(spectra.each());
-  EXPECT_TRUE(spectra.at_x);
+  EXPECT_EQ(spectra.place, Spectra::Place::receiver_x);
   EXPECT_EQ(spectra.places, (std::vector<double>{5, 10, 20}));
   ASSERT_EQ(spectra.lines.size(), 3u);
   EXPECT_EQ(spectra.lines[2].values, (std::vector<double>{100, 102, 100}));
@@ -80,12 +82,12 @@ TEST_F(PlotSpectrum, TracesOfOneComponentStandAtTheirReceivers) {
 TEST_F(PlotSpectrum, TracesThatDoNotAscendStandByNumber) {
   write_traces({5, 20, 10});
   const auto spectra = read_spectra(open(), {});
-  EXPECT_FALSE(spectra.at_x);
+  EXPECT_EQ(spectra.place, Spectra::Place::trace_number);
   EXPECT_EQ(spectra.places, (std::vector<double>{1, 2, 3}));
 }
 
 TEST_F(PlotSpectrum, ThePeakStandsAtItsFrequency) {
-  Spectra spectra{"a.nc", "amplitude", {}, {{"vz", "m/s/Hz", {}}}, {}, false};
+  Spectra spectra{"a.nc", "amplitude", {}, {{"vz", "m/s/Hz", {}}}, {}};
   for (int n = 0; n <= 400; ++n) {
     spectra.frequencies_hz.push_back(0.25 * n);
     spectra.lines[0].values.push_back(n == 160 ? 1 : 0);  // at 40 Hz
@@ -114,6 +116,66 @@ TEST_F(PlotSpectrum, SpectraOfEachTraceAreDrawnAlone) {
   const auto spectra = read_spectra(open(), {});
   EXPECT_GT(draw_spectra({spectra}, false, {}, page_of_size("")).bytes.size(), 1000u);
   EXPECT_THROW(draw_spectra({spectra, spectra}, false, {}, page_of_size("")), Error);
+}
+
+TEST_F(PlotSpectrum, FkSpectraHaveALineForEachWavenumber) {
+  {
+    OutputFile out(path(), OutputFile::Content::binary);
+    FkSpectra spectra({4, 0.25, 0}, {});
+    for (const auto component : {Component::vz, Component::p}) {
+      for (int n = 0; n < 3; ++n) {
+        TraceHeader header;
+        header.component = component;
+        header.receiver_m[0] = 10.0 * n;
+        spectra.add(header, std::vector<double>{component == Component::vz ? 1.0 : 2.0, 0, 0, 0});
+      }
+    }
+    spectra.finish();
+    write_fk_netcdf(out, {{4, 0.25, 0}, {}, "", {}}, spectra);
+  }
+  const auto spectra = read_spectra(open(), Component::p);
+  EXPECT_EQ(spectra.place, Spectra::Place::wavenumber);
+  EXPECT_EQ(spectra.frequencies_hz, (std::vector<double>{0, 1, 2}));
+  ASSERT_EQ(spectra.places.size(), 3u);
+  EXPECT_NEAR(spectra.places[0], -1 / 30.0, 1e-12);
+  ASSERT_EQ(spectra.lines.size(), 3u);
+  EXPECT_EQ(spectra.lines[0].unit, "Pa m/Hz");
+  // three equal spikes: all at k = 0, 3 of 2 Pa times 0.25 s times 10 m
+  EXPECT_NEAR(spectra.lines[1].values[2], 15, 1e-12);
+  EXPECT_NEAR(spectra.lines[0].values[2], 0, 1e-12);
+  EXPECT_EQ(read_spectra(open(), {}).lines[0].name, "vz");
+  EXPECT_THROW(read_spectra(open(), Component::vx), Error);
+}
+
+TEST_F(PlotSpectrum, AWavenumberStandsWhereItBelongsWithItsDecibels) {
+  // 1 at k = 0.02 and f = 30, a hundredth (-40 dB) at k = -0.04 and f = 80, nothing elsewhere
+  Spectra spectra{"a.nc", "amplitude", {}, {}, {}, Spectra::Place::wavenumber};
+  for (int n = 0; n <= 100; ++n) spectra.frequencies_hz.push_back(n);
+  for (int j = -50; j < 50; ++j) {
+    spectra.places.push_back(0.001 * j);
+    spectra.lines.push_back({"vz", "m/s/Hz", std::vector<double>(101)});
+  }
+  spectra.lines[70].values[30] = 1;
+  spectra.lines[10].values[80] = 0.01;
+  Look look;
+  look.y = Limits{0, 100};
+  look.map = "white-black";
+  const auto pixels = decoded(draw_spectra({spectra}, true, look, page_of_size("1000x800px")).bytes);
+  const auto map = map_of(look, "uniform");
+  const auto where = [&](double share) {
+    const std::uint32_t colour = map.pixel(share) & 0xffffff;
+    Patch patch{0, 1000, -1, 800, -1};
+    for (int y = 20; y < 700; ++y)
+      for (int x = 100; x < 800; ++x)
+        if (alike(pixels.at(x, y), colour))
+          patch = {patch.count + 1, std::min(patch.left, x), std::max(patch.right, x), std::min(patch.top, y),
+                   std::max(patch.bottom, y)};
+    return patch;
+  };
+  const Patch weak = where(1.0 / 3);  // 20 of 60 dB
+  ASSERT_GT(weak.count, 20);
+  EXPECT_LT(weak.right - weak.left, 12);
+  EXPECT_LT(weak.bottom - weak.top, 12);
 }
 
 }  // namespace
