@@ -1,9 +1,12 @@
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/region.hpp"
 
 using namespace slipwave;
 
@@ -11,7 +14,9 @@ namespace {
 
 struct Settings {
   std::string model = "-";
-  std::string box, polygon;
+  std::string box, polygon, ellipse, slab;
+  int count = 0, seed = 1;
+  std::string body;
   std::vector<std::string> dips, normals;
   double friction = 0, viscosity_s = 0, strength_pa = 0;
   std::string name;
@@ -22,6 +27,14 @@ void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
   options.add("box", settings.box, "X0:X1,Z0:Z1", "the region: cells whose centres lie in a box, m");
   options.add("polygon", settings.polygon, "FILE", "or in a polygon: a line \"X Z\" for each vertex");
+  options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
+              "or in an ellipse round X,Z: half axes A, which dips by DIP, and B");
+  options.add("slab", settings.slab, "X,Z:L,T[:DIP]", "or in a slab of length L and thickness T");
+  options.add("count", settings.count, "N",
+              "not all of the region but N small slabs in it, along the planes");
+  options.add("body", settings.body, "L,T",
+              "their mean length and thickness [1/10 of the region's longer side, 1/10 of that]");
+  options.add("seed", settings.seed, "S", "another S, other slabs");
   options.add(
       "dip", settings.dips, "DEG",
       "angle of the planes from the horizontal, deepening towards +x; give two for two families of planes");
@@ -49,20 +62,40 @@ std::vector<Point<2>> normals_of(const Settings& settings) {
   return normals;
 }
 
-std::function<bool(const Point<2>&)> region_of(const Settings& settings) {
-  if (settings.box.empty() == settings.polygon.empty()) {
-    throw Error(std::string("found ") + (settings.box.empty() ? "neither --box nor" : "both --box and") +
-                    " --polygon, expected one of them",
-                ErrorKind::usage);
-  }
-  if (!settings.box.empty()) {
-    const auto box = in_place("--box", [&] { return parse_box<2>(settings.box); });
-    return [box](const Point<2>& at) { return box.contains(at); };
+Region region_of(const Settings& settings) {
+  const int given =
+      !settings.box.empty() + !settings.polygon.empty() + !settings.ellipse.empty() + !settings.slab.empty();
+  if (given != 1) {
+    throw Error(
+        "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, expected one of them",
+        ErrorKind::usage);
   }
   if (settings.polygon == "-" && settings.model == "-") {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
-  return [polygon = Polygon::read(settings.polygon)](const Point<2>& at) { return polygon.contains(at); };
+  if (!settings.polygon.empty()) return read_polygon(settings.polygon);
+  if (!settings.ellipse.empty())
+    return in_place("--ellipse", [&] { return parse_ellipse(settings.ellipse); });
+  if (!settings.slab.empty()) return in_place("--slab", [&] { return parse_slab(settings.slab); });
+  return in_place("--box", [&] { return region_of_box(parse_box<2>(settings.box)); });
+}
+
+/// The region itself, or slabs in it that lie along planes of this dip.
+Region bodies_of(const Settings& settings, const Region& region, double dip_deg) {
+  if (settings.count == 0) {
+    if (settings.body.empty()) return region;
+    throw Error("found --body without --count, expected both", ErrorKind::usage);
+  }
+  const auto& low = region.bounds.low_m;
+  const auto& high = region.bounds.high_m;
+  Scatter scatter{settings.count, std::uint64_t(settings.seed), 0, 0, dip_deg};
+  scatter.length_m = std::max(high[0] - low[0], high[1] - low[1]) / 10;
+  scatter.thickness_m = scatter.length_m / 10;
+  if (!settings.body.empty()) {
+    const auto body = in_place("--body", [&] { return parse_point<2>(settings.body); });
+    scatter.length_m = body[0], scatter.thickness_m = body[1];
+  }
+  return in_place("--count", [&] { return scattered_in(region, scatter); });
 }
 
 void run(const Settings& settings, const cli::Context& context) {
@@ -70,7 +103,7 @@ void run(const Settings& settings, const cli::Context& context) {
   for (const auto& normal : normals_of(settings)) {
     set.systems.push_back({normal, settings.friction, settings.viscosity_s, settings.strength_pa});
   }
-  const auto region = region_of(settings);
+  const auto region = bodies_of(settings, region_of(settings), dip_of_normal(set.systems[0].normal));
   OutputFile out(settings.output, OutputFile::Content::binary);
   auto model = read_model<2>(settings.model);
   set.name =
@@ -78,7 +111,7 @@ void run(const Settings& settings, const cli::Context& context) {
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true}); });
-  const auto count = add_fractures<2>(model, set, region);
+  const auto count = add_fractures<2>(model, set, region.contains);
   check(model, {.allow_auxetic = true});
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
@@ -98,7 +131,8 @@ int main(int argc, char** argv) {
   return cli::run_tool(
       argc, argv,
       {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
-       "[M] (--box BOX | --polygon FILE) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o M]",
+       "[M] (--box BOX | --polygon FILE | ...) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o "
+       "M]",
        "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 4e3 -o broken.nc"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -1,12 +1,10 @@
 #include "model/fracture.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "model/points_file.hpp"
 
 namespace slipwave {
 
@@ -24,6 +22,12 @@ Point<2> normal_of_dip(double dip_deg) {
   return normal;
 }
 
+double dip_of_normal(const Point<2>& normal) {
+  // Either of the two directions of the normal: the one that points up.
+  const double up = normal[1] > 0 ? -1 : 1;
+  return std::atan2(up * normal[0], up * -normal[1]) * 180 / std::numbers::pi;
+}
+
 template <int D>
 Point<D> unit_normal(const Point<D>& direction) {
   double length = 0;
@@ -34,29 +38,6 @@ Point<D> unit_normal(const Point<D>& direction) {
   Point<D> normal = direction;
   for (auto& part : normal) part /= length;
   return normal;
-}
-
-Polygon::Polygon(std::vector<Point<2>> vertices) : vertices_(std::move(vertices)) {
-  if (vertices_.size() < 3) {
-    throw Error("found " + std::to_string(vertices_.size()) + " vertices, expected at least 3");
-  }
-}
-
-Polygon Polygon::read(const std::string& path) {
-  std::vector<Point<2>> vertices;
-  for (const auto& point : read_points(path)) vertices.push_back(point.at);
-  return in_place(shown_input(path), [&] { return Polygon(std::move(vertices)); });
-}
-
-bool Polygon::contains(const Point<2>& point) const {
-  bool inside = false;
-  for (std::size_t i = 0, j = vertices_.size() - 1; i < vertices_.size(); j = i++) {
-    const auto& a = vertices_[i];
-    const auto& b = vertices_[j];
-    if ((a[1] > point[1]) == (b[1] > point[1])) continue;
-    if (point[0] < a[0] + (b[0] - a[0]) * (point[1] - a[1]) / (b[1] - a[1])) inside = !inside;
-  }
-  return inside;
 }
 
 template <int D>

@@ -2,11 +2,7 @@
 
 #include <cstdint>
 #include <functional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "base/parse.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
@@ -17,22 +13,12 @@ namespace slipwave {
 /// 90. Throws a usage Error beyond -90 to 90.
 Point<2> normal_of_dip(double dip_deg);
 
+/// The dip of the planes of a unit normal, from -90 to 90 degrees: the inverse of normal_of_dip().
+double dip_of_normal(const Point<2>& normal);
+
 /// `direction` scaled to length 1. Throws a usage Error when it has none.
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);
-
-/// A closed polygon in the x-z plane.
-class Polygon {
- public:
-  /// One vertex "X Z" or "X,Z" a line; # begins a comment. At least three. Throws Error naming file and line.
-  static Polygon read(const std::string& path);
-  explicit Polygon(std::vector<Point<2>> vertices);
-  /// Even-odd rule.
-  bool contains(const Point<2>& point) const;
-
- private:
-  std::vector<Point<2>> vertices_;
-};
 
 /// How many cells a new fracture set took and did not take.
 struct FractureCount {

@@ -1,3 +1,5 @@
+#include <cstdlib>
+
 #include "shell.hpp"
 
 namespace {
@@ -58,4 +60,26 @@ TEST_F(ModelGeology, OfLayersIsTakenFromAFileOfOptions) {
       "size = 200x100\nstep = 10\nlayer = 0:1500:0:1000\nlayer = sine,40,5,100:1800+0.5:700+0.2:2000+0.1\n");
   const auto text = done("sw-layers --config m.ini | sw-info -");
   EXPECT_TRUE(has(text, "vp            1500 to 18")) << text;
+}
+
+TEST_F(ModelGeology, OfFracturesFillsEllipsesAndSlabs) {
+  done("sw-layers --size 1000x1000 --step 5 --layer 0:3000:1500:2200 -o m.nc");
+  const std::string rest = " --dip 30 --friction 0.1 --viscosity 1 | sw-info -";
+  // pi 200 m 100 m are 2513 cells of 25 m2; 400 m x 50 m are 800.
+  EXPECT_TRUE(has(done("sw-fracture m.nc --ellipse 500,500:200,100:20" + rest), "cells 251"));
+  EXPECT_TRUE(has(done("sw-fracture m.nc --slab 500,500:400,50" + rest), "cells 800"));
+}
+
+TEST_F(ModelGeology, OfFracturesScattersTheSameSlabsForASeed) {
+  done("sw-layers --size 1000x1000 --step 5 --layer 0:3000:1500:2200 -o m.nc");
+  const std::string line =
+      "sw-fracture m.nc --box 200:800,300:700 --count 25 --dip 50 --friction 0.1 --viscosity 1 ";
+  done(line + "--seed 2 -o a.nc; " + line + "--seed 2 > b.nc; cmp a.nc b.nc");
+  done(line + "--seed 3 -o c.nc; ! cmp -s a.nc c.nc");
+  // 25 slabs of 60 m x 6 m on average have 9000 m2 where none overlap, 360 cells.
+  const auto json = done("sw-info --json a.nc");
+  const auto at = json.find("\"cells\":", json.find("fractures-1"));
+  ASSERT_NE(at, std::string::npos) << json;
+  const int cells = std::atoi(json.c_str() + at + 8);
+  EXPECT_TRUE(cells > 200 && cells < 450) << json;
 }

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "base/parse.hpp"
 #include "model/fracture.hpp"
 #include "model/layers.hpp"
 #include "model/relations.hpp"
@@ -70,6 +71,16 @@ TEST(FractureNormal, IsPerpendicularToAPlaneDeepeningTowardsX) {
   EXPECT_EQ(normal_of_dip(0), (Point<2>{0, -1}));
 }
 
+TEST(FractureNormal, GivesItsDipBackWhicheverWayItPoints) {
+  for (const double dip : {-89.0, -30.0, 0.0, 17.0, 90.0}) {
+    const auto normal = normal_of_dip(dip);
+    EXPECT_NEAR(dip_of_normal(normal), dip, 1e-12);
+    if (dip < 90) {
+      EXPECT_NEAR(dip_of_normal({-normal[0], -normal[1]}), dip, 1e-12);
+    }
+  }
+}
+
 TEST(FractureNormal, IsScaledToLengthOne) {
   EXPECT_EQ(unit_normal<2>({-3, 4}), (Point<2>{-0.6, 0.8}));
   EXPECT_EQ(unit_normal<2>({1e-200, 0}), (Point<2>{1, 0}));
@@ -114,15 +125,6 @@ TEST(Fractures, FitTheCodeOfOneByte) {
   for (int i = 0; i < 255; ++i) add_fractures<2>(model, set, everywhere);
   EXPECT_EQ(model.fracture[0], 255);
   EXPECT_THROW(add_fractures<2>(model, set, everywhere), Error);
-}
-
-TEST(Polygon, ContainsByTheEvenOddRule) {
-  const Polygon notched({{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}});
-  EXPECT_TRUE(notched.contains({2, 5}));
-  EXPECT_TRUE(notched.contains({8, 5}));
-  EXPECT_FALSE(notched.contains({5, 8}));
-  EXPECT_FALSE(notched.contains({-1, 5}));
-  EXPECT_THROW(Polygon({{0, 0}, {1, 1}}), Error);
 }
 
 TEST(Relations, FollowTheirFormulas) {

@@ -1,0 +1,110 @@
+#include "model/region.hpp"
+
+#include <cmath>
+
+#include "model_cases.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+/// Area of a region, by counting points 0.5 m apart in twice its bounds; every point inside must lie within
+/// them.
+double counted_area(const Region& region) {
+  const auto& low = region.bounds.low_m;
+  const auto& high = region.bounds.high_m;
+  const double more_x = (high[0] - low[0]) / 2, more_z = (high[1] - low[1]) / 2;
+  double area = 0;
+  for (double x = low[0] - more_x + 0.25; x < high[0] + more_x; x += 0.5)
+    for (double z = low[1] - more_z + 0.25; z < high[1] + more_z; z += 0.5) {
+      if (!region.contains({x, z})) continue;
+      area += 0.25;
+      EXPECT_TRUE(region.bounds.contains({x, z})) << x << ' ' << z;
+    }
+  return area;
+}
+
+constexpr double pi = 3.141592653589793;
+const Region square = region_of_box({{0, 0}, {1000, 1000}});
+
+}  // namespace
+
+TEST(Region, OfAPolygonFollowsTheEvenOddRule) {
+  const auto notched = region_of_polygon({{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}});
+  EXPECT_TRUE(notched.contains({2, 5}));
+  EXPECT_TRUE(notched.contains({8, 5}));
+  EXPECT_FALSE(notched.contains({5, 8}));
+  EXPECT_FALSE(notched.contains({-1, 5}));
+  EXPECT_THROW(region_of_polygon({{0, 0}, {1, 1}}), Error);
+}
+
+TEST(Region, OfAnEllipseHasItsAreaAndItsDip) {
+  const auto ellipse = parse_ellipse("300,200:80,20:30");
+  EXPECT_NEAR(counted_area(ellipse), pi * 80 * 20, 15);
+  // Its long axis deepens towards +x.
+  const double x = 79 * std::cos(pi / 6), z = 79 * std::sin(pi / 6);
+  EXPECT_TRUE(ellipse.contains({300 + x, 200 + z}));
+  EXPECT_TRUE(ellipse.contains({300 - x, 200 - z}));
+  EXPECT_FALSE(ellipse.contains({300 + x, 200 - z}));
+}
+
+TEST(Region, OfASlabHasItsAreaAndItsDip) {
+  const auto slab = parse_slab("300,200:160,40:-20");
+  EXPECT_NEAR(counted_area(slab), 160 * 40, 15);
+  const double x = 79 * std::cos(pi / 9), z = 79 * std::sin(pi / 9);
+  EXPECT_TRUE(slab.contains({300 + x, 200 - z}));
+  EXPECT_FALSE(slab.contains({300 + x, 200 + z}));
+}
+
+TEST(Scatter, IsTheSameForASeedAndAnotherForTheNext) {
+  const auto a = scattered_in(square, {30, 7, 100, 10, 40}),
+             again = scattered_in(square, {30, 7, 100, 10, 40}),
+             other = scattered_in(square, {30, 8, 100, 10, 40});
+  int differ = 0;
+  for (double x = 2; x < 1000; x += 5)
+    for (double z = 2; z < 1000; z += 5) {
+      EXPECT_EQ(a.contains({x, z}), again.contains({x, z}));
+      differ += a.contains({x, z}) != other.contains({x, z});
+    }
+  EXPECT_GT(differ, 500);
+}
+
+TEST(Scatter, OnlyAddsSlabsWhereTheCountGrows) {
+  const auto few = scattered_in(square, {20, 7, 100, 10, 40}),
+             many = scattered_in(square, {60, 7, 100, 10, 40});
+  int more = 0;
+  for (double x = 2; x < 1000; x += 5)
+    for (double z = 2; z < 1000; z += 5) {
+      EXPECT_LE(few.contains({x, z}), many.contains({x, z}));
+      more += few.contains({x, z}) != many.contains({x, z});
+    }
+  EXPECT_GT(more, 300);
+}
+
+TEST(Scatter, CoversWhatIndependentSlabsCover) {
+  // Of a large region n slabs of mean area a leave exp(-n a/A) free. Slabs of 10 m x 4 m in 1000 m x 1000 m,
+  // so hardly any reaches the border; n a/A = 0.4.
+  const auto slabs = scattered_in(square, {10000, 3, 10, 4, 70});
+  EXPECT_NEAR(counted_area(slabs) / 1e6, 1 - std::exp(-0.4), 0.01);
+}
+
+TEST(Scatter, StaysInItsRegion) {
+  const auto ellipse = parse_ellipse("500,500:300,100:45");
+  const auto slabs = scattered_in(ellipse, {40, 1, 200, 20, 0});
+  int inside = 0;
+  for (double x = 2; x < 1000; x += 5)
+    for (double z = 2; z < 1000; z += 5) {
+      if (!slabs.contains({x, z})) continue;
+      ++inside;
+      EXPECT_TRUE(ellipse.contains({x, z}));
+    }
+  EXPECT_GT(inside, 500);
+}
+
+TEST(Scatter, GivesUpWhereARegionIsNextToNothing) {
+  const Region empty{{{0, 0}, {10, 10}}, [](const Point<2>&) { return false; }};
+  EXPECT_EQ(sentence_of([&] {
+              scattered_in(empty, {1, 1, 10, 1, 0});
+            }),
+            "found no place for a slab in the region, expected it to fill more of its bounds");
+}
