@@ -131,7 +131,7 @@ int main(int argc, char** argv) {
   return cli::run_tool(
       argc, argv,
       {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
-       "[M] (--box BOX | --polygon FILE | ...) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o "
+       "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o "
        "M]",
        "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 4e3 -o broken.nc"},
       [&](cli::Options& options) { declare(options, settings); },
