@@ -34,7 +34,9 @@ const SampleFormat* readable_format(const FileHeader& header, const ReadOptions&
   const std::int64_t code = options.format ? *options.format : header.binary.get("format");
   if (const SampleFormat* format = find_format(code)) return format;
   if (code == 4)
-    throw Error("sample format code 4 (fixed point with gain) is ambiguous; say with --format what it is");
+    throw Error(
+        "sample format code 4 (fixed point with gain) is ambiguous; say what the samples are (--format or "
+        "--input-format)");
   throw Error("sample format code " + std::to_string(code) +
               " (byte 3225), expected 1, 2, 3, 5 to 12, 15 or 16");
 }
