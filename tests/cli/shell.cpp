@@ -1,6 +1,7 @@
 #include "shell.hpp"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -61,8 +62,10 @@ Ran Shell::run(const std::string& line) const {
     _exit(127);
   }
   int status = 0;
-  waitpid(child, &status, 0);
+  rusage usage{};
+  wait4(child, &status, 0, &usage);
   Ran ran;
+  ran.peak_mib = double(usage.ru_maxrss) / 1024;
   ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   ran.out = content_of(out);
   ran.err = content_of(err);

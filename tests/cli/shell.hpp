@@ -8,6 +8,7 @@
 struct Ran {
   int code = 0;  // of bash with pipefail: of the last command that failed; 128 + N when a signal ended it
   std::string out, err;
+  double peak_mib = 0;  // resident memory of the largest process
 };
 
 /// A test that runs shell lines in a fresh temporary directory, removed afterwards, with the tools of this
