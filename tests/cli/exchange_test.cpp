@@ -1,0 +1,58 @@
+#include <string>
+
+#include "shell.hpp"
+
+// The recipes of docs/exchange.md for programs that can be installed from Debian, and what ours promise
+// there.
+
+namespace {
+
+class Exchange : public Shell {
+ protected:
+  void SetUp() override {
+    done(
+        "sw-layers --size 300x200 --step 5 --layer 0:2500:1250:2200 | sw-shoot - --source 100,20 --source "
+        "200,20 "
+        "--wavelet ricker:30 --receivers 0:300:25,10 --time 0.2 --record vx,vz -o gather.sgy");
+  }
+  bool has_segyio() const { return run("/usr/bin/python3 -c 'import segyio'").code == 0; }
+  /// What Python says of a file after a recipe.
+  std::string python(const std::string& program) const {
+    write("program.py", program);
+    return done("/usr/bin/python3 program.py");
+  }
+};
+
+}  // namespace
+
+TEST_F(Exchange, RecipeOfSegyioGivesSamplesAndPositions) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  const std::string page = SLIPWAVE_DOCS "/exchange.md";
+  done("sed -n '/^```python/,/^```/{/^```/!p}' '" + page + "' | sed '/^from obspy/,$d' > recipe.py");
+  EXPECT_EQ(python(content("recipe.py") + "print(samples.shape, x_m[:3], x_m.max())\n"),
+            "(52, 201) [ 0. 25. 50.] 300.0\n");
+}
+
+TEST_F(Exchange, RecipeOfOpendtectSortsOneComponentByMidpointAndOffset) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  done("sw-select gather.sgy --where component=vz | sw-sort --key cdp,offset -o line.sgy");
+  EXPECT_EQ(python("import segyio\n"
+                   "f = segyio.open('line.sgy', ignore_geometry=True)\n"
+                   "order = [(h[21], h[37]) for h in f.header]\n"
+                   "print(len(order), order == sorted(order), {h[29] for h in f.header}, f.bin[3505])\n"),
+            "26 True {12} 0\n");
+}
+
+TEST_F(Exchange, RecipeOfSeismicUnixLeavesHeadersAndNativeFloats) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  done("sw-convert gather.sgy --su > gather.su; sw-convert < gather.su > back.sgy");
+  EXPECT_EQ(python("import numpy, segyio\n"
+                   "f = segyio.open('gather.sgy', ignore_geometry=True)\n"
+                   "raw = numpy.fromfile('gather.su', numpy.uint8).reshape(52, 240 + 4 * 201)\n"
+                   "samples = raw[:, 240:].copy().view('=f4')\n"
+                   "shots = raw[:, 8:12].copy().view('=i4')[:, 0]\n"
+                   "print((samples == f.trace.raw[:]).all(), (shots == f.attributes(9)[:]).all(),\n"
+                   "      raw[:, 180:240].any())\n"),
+            "True True False\n");
+  done("sw-compare back.sgy gather.sgy --tolerance 0 > /dev/null");
+}
