@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.hpp"
+#include "base/input_bytes.hpp"
 #include "base/parse.hpp"
 #include "model/points_file.hpp"
 
@@ -16,13 +17,14 @@ std::vector<Point<2>> read_curve(const std::string& path) {
   std::vector<Point<2>> points;
   for (const auto& point : read_points(path)) {
     if (!points.empty() && !(point.at[0] > points.back()[0])) {
-      throw Error(path + ": line " + std::to_string(point.line) + ": found x = " + shown(point.at[0]) +
-                  " after " + shown(points.back()[0]) + ", expected x to ascend");
+      throw Error(shown_input(path) + ": line " + std::to_string(point.line) + ": found x = " +
+                  shown(point.at[0]) + " after " + shown(points.back()[0]) + ", expected x to ascend");
     }
     points.push_back(point.at);
   }
   if (points.size() < 2) {
-    throw Error(path + ": found " + std::to_string(points.size()) + " points, expected at least 2");
+    throw Error(shown_input(path) + ": found " + std::to_string(points.size()) +
+                " points, expected at least 2");
   }
   return points;
 }

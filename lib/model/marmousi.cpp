@@ -95,12 +95,18 @@ class CellMean {
   std::vector<Part> parts_;
 };
 
-void check_settings(const MarmousiSettings& settings) {
+void check_settings(const Grid<2>& grid, const MarmousiSettings& settings) {
   const auto refuse = [](const std::string& name, double value, const std::string& expected) {
     throw Error("found a " + name + " of " + shown(value) + ", expected " + expected, ErrorKind::usage);
   };
   if (!(settings.water_m >= 0)) refuse("depth of water", settings.water_m, "it not below zero");
   if (!(settings.scale > 0)) refuse("scale", settings.scale, "it above zero");
+  // Beds and provinces are counted by whole numbers.
+  constexpr double widest_m = 1e9;
+  for (const double length : {grid.end(0), grid.end(1), settings.water_m}) {
+    if (!(length / settings.scale <= widest_m))
+      refuse("length", length, "it at most " + shown(widest_m) + " m times the scale");
+  }
   if (settings.vp_over_vs && !(*settings.vp_over_vs >= std::sqrt(2.)))
     refuse("vp/vs", *settings.vp_over_vs, "at least sqrt(2)");
 }
@@ -108,7 +114,7 @@ void check_settings(const MarmousiSettings& settings) {
 }  // namespace
 
 Medium<2> marmousi_medium(const Grid<2>& grid, const MarmousiSettings& settings, bool average) {
-  check_settings(settings);
+  check_settings(grid, settings);
   Medium<2> medium{Field<2>(grid), Field<2>(grid), Field<2>(grid)};
   const auto column_at = [&](double cells) {
     return Column(settings, grid.origin_m[0] + cells * grid.spacing_m);

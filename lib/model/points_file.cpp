@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "base/input_bytes.hpp"
@@ -12,7 +13,10 @@ namespace slipwave {
 
 std::vector<NumberedPoint> read_points(const std::string& path) {
   const auto bytes = read_all(path);
-  std::istringstream text(std::string(bytes.begin(), bytes.end()));
+  const std::string_view all(bytes.data(), bytes.size());
+  // Some editors begin a text with this mark.
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
+  std::istringstream text(std::string(all.substr(all.starts_with(byte_order_mark) ? 3 : 0)));
   std::vector<NumberedPoint> points;
   std::string line;
   for (int number = 1; std::getline(text, line); ++number) {

@@ -50,7 +50,7 @@ TEST(Horizon, OfASineHasItsMeanItsCrestsAndItsPhase) {
 }
 
 TEST(Horizon, OfAFileIsStraightBetweenPointsAndLevelBeyond) {
-  const TextFile file("# x z\n0 100\n\n200,300 # a step down\r\n300 250\n");
+  const TextFile file("\xef\xbb\xbf# x z\n0 100\n\n200,300 # a step down\r\n300 250\n");
   const auto curve = Horizon::parse("@" + file.path());
   EXPECT_EQ(curve.at(-50), 100);
   EXPECT_EQ(curve.at(0), 100);

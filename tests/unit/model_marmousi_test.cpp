@@ -141,6 +141,9 @@ TEST(Marmousi, RefusesSettingsWithoutSense) {
   settings = {}, settings.scale = 0;
   EXPECT_EQ(sentence_of([&] { marmousi_medium(grid, settings); }),
             "found a scale of 0, expected it above zero");
+  settings.scale = 1e-300;
+  EXPECT_EQ(sentence_of([&] { marmousi_medium(grid, settings); }),
+            "found a length of 20, expected it at most 1e+09 m times the scale");
   settings = {}, settings.vp_over_vs = 1.2;
   EXPECT_EQ(sentence_of([&] { marmousi_medium(grid, settings); }),
             "found a vp/vs of 1.2, expected at least sqrt(2)");
