@@ -191,6 +191,15 @@ TraceHeader Reader::si_header(const Trace& trace) const {
   return si_from_words(trace.words, header_, extension_of(trace.extensions, header_.endian));
 }
 
+TraceHeader Reader::si_header(const RawTrace& trace) const {
+  return si_from_words(trace.words, header_, extension_of(trace.extensions, header_.endian));
+}
+
+SampleAxis Reader::axis_of(const RawTrace& trace) const {
+  const auto count = static_cast<std::int64_t>(trace.samples.size()) / header_.format->bytes;
+  return {count, axis_.interval_s, start_s(trace.words, header_)};
+}
+
 SampleAxis Reader::axis_of(const Trace& trace) const {
   return {static_cast<std::int64_t>(trace.samples.size()), axis_.interval_s, start_s(trace.words, header_)};
 }

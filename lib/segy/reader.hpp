@@ -63,7 +63,9 @@ class Reader {
 
   /// Header and axis of a trace of this input in SI.
   TraceHeader si_header(const Trace& trace) const;
+  TraceHeader si_header(const RawTrace& trace) const;
   SampleAxis axis_of(const Trace& trace) const;
+  SampleAxis axis_of(const RawTrace& trace) const;
   /// Do the trace headers say how long each trace is?
   bool lengths_by_trace() const noexcept { return lengths_by_trace_; }
 

@@ -8,6 +8,7 @@
 #include "gather/difference.hpp"
 #include "segy/conversion.hpp"
 #include "segy/extension.hpp"
+#include "segy/pair.hpp"
 #include "segy_shared.hpp"
 #include "segy_write_cases.hpp"
 
@@ -181,6 +182,32 @@ TEST(AdditionalHeader, GivesPositionsThatDoNotFitTheFirst) {
       }
       expect_same(read_file(scratch.file("x")), expected);
     }
+}
+
+TEST(AdditionalHeader, CountsWhenFilesAreReadSideBySide) {
+  const Scratch scratch;
+  for (const double x : {7e9, 8e9}) {
+    Bytes bytes = with_headers(plain_file(scratch, 2), [&](std::size_t) {
+      ExtensionWords words;
+      words.set_real("xsx", x);
+      return extension_bytes(words, Endian::big, TextEncoding::ebcdic);
+    });
+    put_word(bytes, "extra_headers", 1);
+    put_bytes(scratch.file(x < 7.5e9 ? "7" : "8"), bytes);
+  }
+  const auto refusal = [&](auto trace_a, auto trace_b) {
+    Reader a(scratch.file("7"));
+    Reader b(scratch.file("8"));
+    try {
+      PairReader(a, b).next(trace_a, trace_b);
+    } catch (const Error& error) {
+      return std::string(error.what()).substr(scratch.file("8").size());
+    }
+    return std::string("accepted");
+  };
+  const std::string expected = ": trace 1: source x is 8e+09 m, expected 7e+09 m as in " + scratch.file("7");
+  EXPECT_EQ(refusal(segy::Trace(), segy::Trace()), expected);
+  EXPECT_EQ(refusal(RawTrace(), RawTrace()), expected);
 }
 
 TEST(AdditionalHeader, OfAnotherNameIsCarriedAndNotRead) {
