@@ -1,7 +1,6 @@
 #include "gather/comparison.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,7 +66,7 @@ void Comparison::Sums::add(const Sums& other) {
 // Twice the length, so that the circular correlation of the transform is the plain one.
 Comparison::Comparison(const SampleAxis& axis)
     : axis_(axis),
-      transform_(std::bit_ceil(2 * static_cast<std::size_t>(std::max<std::int64_t>(axis.count, 1)))) {
+      transform_(fast_transform_length(2 * static_cast<std::size_t>(std::max<std::int64_t>(axis.count, 1)))) {
   cross_.resize(transform_.bins());
   cross_all_.resize(transform_.bins());
 }
