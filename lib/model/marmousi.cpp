@@ -64,19 +64,25 @@ bool is_cut(const std::array<std::vector<Bed>, 3>& beds, std::size_t k) {
 constexpr int points_x = 4, points_z = 8;
 
 /// The mean over points spread evenly through a cell. Those of one bed differ by its gradient only, so one
-/// stands for all.
+/// stands for all; and what lies between two points of a bed, one below the other, is taken for that bed too.
 class CellMean {
  public:
   explicit CellMean(const Grid<2>& grid) : grid_(grid) {}
   Material operator()(std::int64_t k, const Material& centre, const std::array<Column, points_x>& columns) {
     parts_.clear();
     for (const auto& column : columns) {
+      const auto z_of = [&](int n) {
+        return grid_.origin_m[1] + (double(k) + (n + 0.5) / points_z) * grid_.spacing_m;
+      };
+      std::array<Bed, points_z> beds;
+      beds.front() = column.bed_at(z_of(0));
+      beds.back() = column.bed_at(z_of(points_z - 1));
+      fill_between(beds, 0, points_z - 1, [&](int n) { return column.bed_at(z_of(n)); });
       for (int n = 0; n < points_z; ++n) {
-        const double z = grid_.origin_m[1] + (double(k) + (n + 0.5) / points_z) * grid_.spacing_m;
-        const auto bed = column.bed_at(z);
+        const auto& bed = beds[std::size_t(n)];
         auto part =
             std::find_if(parts_.begin(), parts_.end(), [&](const Part& p) { return p.body == bed.body; });
-        if (part == parts_.end()) part = parts_.insert(part, {bed.body, column.material_of(bed, z), 0});
+        if (part == parts_.end()) part = parts_.insert(part, {bed.body, column.material_of(bed, z_of(n)), 0});
         part->points += 1;
       }
     }
@@ -91,6 +97,20 @@ class CellMean {
     Material material;
     double points;
   };
+
+  template <class BedAt>
+  static void fill_between(std::array<Bed, points_z>& beds, int from, int to, const BedAt& bed_at) {
+    if (to - from < 2) return;
+    if (beds[std::size_t(from)].body == beds[std::size_t(to)].body) {
+      std::fill(beds.begin() + from + 1, beds.begin() + to, beds[std::size_t(from)]);
+      return;
+    }
+    const int middle = (from + to) / 2;
+    beds[std::size_t(middle)] = bed_at(middle);
+    fill_between(beds, from, middle, bed_at);
+    fill_between(beds, middle, to, bed_at);
+  }
+
   const Grid<2>& grid_;
   std::vector<Part> parts_;
 };
