@@ -1,10 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <malloc.h>
+#include <sys/stat.h>
+
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <new>
 #include <random>
+#include <thread>
 
 #include "base/error.hpp"
 #include "segy/describe.hpp"
@@ -18,29 +23,63 @@ using namespace slipwave::segy;
 
 namespace {
 
-std::size_t& largest_request() {
-  static thread_local std::size_t largest = 0;
-  return largest;
+/// What is asked of the heap: the largest request, and how much is held, now and at most.
+struct Heap {
+  std::atomic<std::size_t> largest{0};
+  std::atomic<std::size_t> held{0};
+  std::atomic<std::size_t> most{0};
+};
+
+Heap& heap() {
+  static Heap counts;
+  return counts;
+}
+
+void raise(std::atomic<std::size_t>& mark, std::size_t value) {
+  std::size_t old = mark;
+  while (old < value && !mark.compare_exchange_weak(old, value)) continue;
 }
 
 void* noted(std::size_t count) {
-  largest_request() = std::max(largest_request(), count);
-  if (void* const memory = std::malloc(count == 0 ? 1 : count)) return memory;
-  throw std::bad_alloc();
+  void* const memory = std::malloc(count == 0 ? 1 : count);
+  if (memory == nullptr) throw std::bad_alloc();
+  raise(heap().largest, count);
+  raise(heap().most, heap().held += malloc_usable_size(memory));
+  return memory;
+}
+
+void released(void* memory) {
+  if (memory != nullptr) heap().held -= malloc_usable_size(memory);
+  std::free(memory);
 }
 
 }  // namespace
 
 void* operator new(std::size_t count) { return noted(count); }
 void* operator new[](std::size_t count) { return noted(count); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete[](void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept { released(memory); }
+void operator delete[](void* memory) noexcept { released(memory); }
+void operator delete(void* memory, std::size_t) noexcept { released(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { released(memory); }
 
 namespace {
 
+/// Of a small file, however large the numbers in its headers: buffers.
 constexpr std::size_t bound_bytes = 4 << 20;
+
+/// What `body` took from the heap beyond what was held before.
+struct Taken {
+  std::size_t largest;
+  std::size_t most;
+};
+template <class Body>
+Taken taken_by(Body&& body) {
+  const std::size_t before = heap().held;
+  heap().largest = 0;
+  heap().most = before;
+  body();
+  return {heap().largest, heap().most - before};
+}
 
 struct Outcome {
   std::int64_t traces = 0;
@@ -145,9 +184,8 @@ TEST(DamagedFile, WithHeadersChangedAtRandomStaysBounded) {
           bytes[at] = static_cast<std::uint8_t>(kind == 0 ? 0xff : kind == 1 ? 0x7f : random());
         }
         overwrite(scratch.file("mutant"), bytes);
-        largest_request() = 0;
-        ASSERT_NO_THROW(outcome_of(scratch.file("mutant"))) << "round " << round;
-        ASSERT_LT(largest_request(), bound_bytes) << "round " << round;
+        const Taken taken = taken_by([&] { outcome_of(scratch.file("mutant")); });
+        ASSERT_LT(taken.most, bound_bytes) << "round " << round;
       }
     }
 }
@@ -159,7 +197,34 @@ TEST(DamagedFile, PromisingTwoThousandMillionSamplesTakesNoMemory) {
   store_bytes(&bytes[3506], 2, Endian::big, 65535);       // headers a trace
   store_bytes(&bytes[3512], 8, Endian::big, 0x7fffffffffffffff);
   put_bytes(scratch.file("absurd"), bytes);
-  largest_request() = 0;
-  EXPECT_NE(outcome_of(scratch.file("absurd")).complaint.find("ends within trace 1"), std::string::npos);
-  EXPECT_LT(largest_request(), bound_bytes);
+  const Taken taken = taken_by([&] {
+    EXPECT_NE(outcome_of(scratch.file("absurd")).complaint.find("ends within trace 1"), std::string::npos);
+  });
+  EXPECT_LT(taken.most, bound_bytes);
+}
+
+TEST(DamagedFile, PromisingTooMuchTakesNoMoreThanItHoldsAnd64MiB) {
+  const Scratch scratch;
+  write_file(scratch.file("big"), survey_gather(500'000, 1),
+             {5, 2, Endian::big, TextEncoding::ebcdic, false});
+  auto bytes = bytes_of(scratch.file("big"));
+  store_bytes(&bytes[3268], 4, Endian::big, 2147483647);
+  store_bytes(&bytes[3512], 8, Endian::big, 0);
+  put_bytes(scratch.file("big"), bytes);
+  const std::size_t allowed = bytes.size() + (64 << 20);
+  bytes = {};
+  const Taken of_file = taken_by([&] { outcome_of(scratch.file("big")); });
+  EXPECT_LT(of_file.most, bound_bytes);  // its length shows that nothing of it can be read
+  ASSERT_EQ(mkfifo(scratch.file("pipe").c_str(), 0600), 0);
+  std::thread writer([&] {
+    const std::string line = "cat '" + scratch.file("big") + "' > '" + scratch.file("pipe") + "'";
+    EXPECT_EQ(std::system(line.c_str()), 0);
+  });
+  const Taken of_pipe = taken_by([&] {
+    EXPECT_NE(outcome_of(scratch.file("pipe")).complaint.find("ends within trace 1"), std::string::npos);
+  });
+  writer.join();
+  EXPECT_GT(of_pipe.most, std::size_t{20} << 20);  // it was read, and counted
+  EXPECT_LT(of_pipe.largest, allowed);
+  EXPECT_LT(of_pipe.most, allowed);
 }
