@@ -112,12 +112,14 @@ void Gains::control(std::span<double> samples, std::size_t half) {
   squares_.assign(count + 2 * half, 0.0);
   for (std::size_t n = 0; n < count; ++n) squares_[n + half] = (samples[n] / unit) * (samples[n] / unit);
   before_ = after_ = squares_;
-  for (std::size_t n = 1; n < squares_.size(); ++n)
-    if (n % width != 0) before_[n] += before_[n - 1];
-  for (std::size_t n = squares_.size() - 1; n-- > 0;)
-    if ((n + 1) % width != 0) after_[n] += after_[n + 1];
-  for (std::size_t n = 0; n < count; ++n) {
-    const double sum = n % width == 0 ? before_[n + width - 1] : after_[n] + before_[n + width - 1];
+  const std::size_t padded = squares_.size();
+  for (std::size_t block = 0; block < padded; block += width) {
+    const std::size_t end = std::min(block + width, padded);
+    for (std::size_t n = block + 1; n < end; ++n) before_[n] += before_[n - 1];
+    for (std::size_t n = end - 1; n-- > block;) after_[n] += after_[n + 1];
+  }
+  for (std::size_t n = 0, in_block = 0; n < count; ++n, in_block = in_block + 1 == width ? 0 : in_block + 1) {
+    const double sum = in_block == 0 ? before_[n + width - 1] : after_[n] + before_[n + width - 1];
     const std::size_t there = std::min(count - 1, n + half) - (n > half ? n - half : 0) + 1;
     const double rms = std::sqrt(sum / static_cast<double>(there));
     if (rms > 0) samples[n] /= rms * unit;
