@@ -60,6 +60,12 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Trace trace_a;
   segy::Trace trace_b;
   while (pair.both.next(trace_a, trace_b)) {
+    const auto check = [&](const segy::Reader& reader, const segy::Trace& trace) {
+      in_place(reader.name() + ": trace " + std::to_string(reader.delivered()),
+               [&] { check_finite(trace.samples); });
+    };
+    check(a, trace_a);
+    check(pair.b, trace_b);
     const TraceHeader header = a.si_header(trace_a);
     const Misfit misfit = comparison_of(header.component).add(trace_a.samples, trace_b.samples);
     if (!settings.summary) print(row(place_of(a.delivered(), header), misfit));

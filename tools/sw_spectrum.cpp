@@ -51,8 +51,10 @@ void for_each_trace(segy::Reader& reader, const Progress& progress,
                     const std::function<void(const TraceHeader&, std::span<const double>)>& take) {
   segy::Trace trace;
   while (reader.next(trace)) {
-    in_place(reader.name() + ": trace " + std::to_string(reader.delivered()),
-             [&] { take(reader.si_header(trace), trace.samples); });
+    in_place(reader.name() + ": trace " + std::to_string(reader.delivered()), [&] {
+      check_finite(trace.samples);
+      take(reader.si_header(trace), trace.samples);
+    });
     if (progress && reader.size())
       progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
   }

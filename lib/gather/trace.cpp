@@ -1,5 +1,6 @@
 #include "gather/trace.hpp"
 
+#include <cmath>
 #include <iterator>
 
 #include "base/error.hpp"
@@ -39,6 +40,13 @@ Component component_named(const std::string& name) {
     known += (known.empty() ? "" : ", ") + std::string(row.name);
   }
   throw Error("component \"" + name + "\", expected one of " + known, ErrorKind::usage);
+}
+
+void check_finite(std::span<const double> samples) {
+  for (std::size_t n = 0; n < samples.size(); ++n)
+    if (!std::isfinite(samples[n]))
+      throw Error("sample " + std::to_string(n + 1) + ": " + shown(samples[n]) +
+                  ", expected a finite number");
 }
 
 }  // namespace slipwave

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,6 +41,9 @@ struct Trace {
   TraceHeader header;
   std::vector<double> samples;
 };
+
+/// Throws Error "sample 17: nan, expected a finite number" for the first that is none; samples count from 1.
+void check_finite(std::span<const double> samples);
 
 /// Traces of equal length.
 struct Gather {

@@ -1,6 +1,5 @@
 #include "gather/trace_filter.hpp"
 
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -23,10 +22,7 @@ void TraceFilter::apply(std::vector<double>& samples, double start_s) {
   if (static_cast<std::int64_t>(samples.size()) != from_.count)
     throw Error(std::to_string(samples.size()) + " samples, expected " + std::to_string(from_.count) +
                 " as in the first trace");
-  for (std::size_t n = 0; n < samples.size(); ++n)
-    if (!std::isfinite(samples[n]))
-      throw Error("sample " + std::to_string(n + 1) + ": " + shown(samples[n]) +
-                  ", expected a finite number");
+  check_finite(samples);
   if (!taper_.empty()) multiply(samples, taper_);
   for (Convolution& convolution : convolutions_) convolution.apply(samples);
   if (resampling_) samples = resampling_->of(samples);

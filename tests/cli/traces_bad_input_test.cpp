@@ -88,6 +88,38 @@ TEST_F(TracesBadInput, OfSwSelectAndSwSortSaysWhere) {
   });
 }
 
+TEST_F(TracesBadInput, WhatIsNoNumberIsNamedByTraceAndSample) {
+  // a NaN for the 17th sample of the second trace
+  done(
+      "cp a.sgy nan.sgy; printf '\\177\\300\\000\\000' | "
+      "dd of=nan.sgy bs=1 seek=$((3600 + 644 + 240 + 64)) conv=notrunc status=none");
+  const std::string what = "trace 2: sample 17: nan";
+  expect_all({
+      {"sw-filter nan.sgy --gain rms", 1, "sw-filter: nan.sgy: " + what + ", expected a finite number"},
+      {"sw-spectrum nan.sgy", 1, "sw-spectrum: nan.sgy: " + what + ", expected a finite number"},
+      {"sw-spectrum nan.sgy --fk --text", 1, "sw-spectrum: nan.sgy: " + what + ", expected a finite number"},
+      {"sw-compare a.sgy nan.sgy", 1, "sw-compare: nan.sgy: " + what + ", expected a finite number"},
+      {"sw-diff nan.sgy a.sgy", 1, "sw-diff: " + what + ", expected a finite number"},
+  });
+}
+
+TEST_F(TracesBadInput, FkWantsTheTracesOfAShotTogetherOnAnEvenLine) {
+  done("sw-select a.sgy --where 'channel!=2' -o uneven.sgy; sw-select a.sgy --where channel=1 -o one.sgy");
+  done("sw-sort a.sgy --key channel -o mixed.sgy");
+  expect_all({
+      {"sw-spectrum a.sgy --fk --each", 2,
+       "sw-spectrum: found --fk and --each, expected one of them: a gather makes one f-k spectrum"},
+      {"sw-spectrum uneven.sgy --fk", 1,
+       "sw-spectrum: uneven.sgy: shot 1, vx: receivers at x = 0 and 200 m, expected one every 150 m"},
+      {"sw-spectrum one.sgy --fk", 1,
+       "sw-spectrum: one.sgy: shot 1, vx: has 1 receiver, expected a line of at least two"},
+  });
+  done(
+      "sw-spectrum a.sgy --fk --text | grep -v '^#' > a.txt; sw-spectrum mixed.sgy --fk --text | grep -v "
+      "'^#' | "
+      "cmp - a.txt");
+}
+
 TEST_F(TracesBadInput, FilesThatAreNoneOrEndEarlyLeaveNoOutput) {
   done("head -c 5400 a.sgy > cut.sgy; : > empty.sgy; mkdir folder; echo text > text.sgy");
   for (const std::string tool :
