@@ -17,6 +17,8 @@ class PairReader {
  private:
   template <class AnyTrace>
   bool next_of_both(AnyTrace& a, AnyTrace& b);
+  template <class AnyTrace>
+  bool equal_headers(const AnyTrace& a, const AnyTrace& b) const;
 
   Reader& a_;
   Reader& b_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "segy/geometry.hpp"
 #include "segy/layout_trace.hpp"
 #include "segy/sample_format.hpp"
 #include "segy/words.hpp"
@@ -23,7 +22,7 @@ std::vector<double> samples_of(const TraceView& view) {
 }  // namespace
 
 TraceView view_of(const segy::Reader& reader, const segy::RawTrace& trace) {
-  return {reader.delivered(), segy::si_from_words(trace.words, reader.header()), &trace, &reader.header()};
+  return {reader.delivered(), reader.si_header(trace), &trace, &reader.header()};
 }
 
 enum class HeaderKey::Fact {

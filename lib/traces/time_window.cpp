@@ -49,8 +49,8 @@ SampleAxis TimeWindow::cut(const SampleAxis& axis) const {
 
 void TimeWindow::cut(segy::RawTrace& trace, const segy::Reader& reader) const {
   const auto bytes = static_cast<std::size_t>(reader.header().format->bytes);
-  const SampleAxis axis{static_cast<std::int64_t>(trace.samples.size() / bytes),
-                        reader.axis_with_interval().interval_s, segy::start_s(trace.words, reader.header())};
+  reader.axis_with_interval();  // refuses a file that does not say its interval
+  const SampleAxis axis = reader.axis_of(trace);
   const SampleAxis left = cut(axis);
   if (left.count < 1)
     throw Error("has no samples from " + shown(from_s) + " to " + shown(to_s) + " s, it goes from " +
