@@ -102,6 +102,9 @@ TEST(Kernel, HoldsTheLagsOfItsSpanEndsIncluded) {
   ASSERT_EQ(kernel.values.size(), 8U);  // -3 .. 4
   EXPECT_DOUBLE_EQ(kernel.values[7], 0.008 * 0.002);
   EXPECT_DOUBLE_EQ(kernel.values[0], -0.006 * 0.002);
+  // 0.3/0.1 is a little below 3 in floating point
+  EXPECT_EQ(sampled_kernel([](double t) { return t; }, 0, 0.3, 0.1).values.size(), 4U);
+  EXPECT_EQ(sampled_kernel([](double t) { return t; }, -0.3, 0, 0.1).first_lag, -3);
 }
 
 TEST(Ormsby, HasTheImpulseResponseOfItsTrapezoid) {

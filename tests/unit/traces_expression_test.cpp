@@ -180,6 +180,32 @@ TEST(Expression, OfAbsurdDepthIsRefused) {
     EXPECT_NE(deep(open).find("is nested more than 200 deep"), std::string::npos) << open;
 }
 
+TEST(Expression, OfAnyWordsIsParsedOrRefusedInOneSentence) {
+  const std::vector<std::string> words = {"offset", "component", "vz",  "abs", "(",    ")",       "(",  ")",
+                                          "and",    "or",        "not", "=",   "!=",   "<",       ">=", "+",
+                                          "-",      "*",         "/",   "%",   ",",    ":",       "1",  "2.5",
+                                          "1e3",    "$",         "'",   ".",   "shot", "\xc3\xa9"};
+  std::uint32_t state = 3;
+  const auto draw = [&](std::size_t below) {
+    state = state * 1664525U + 1013904223U;
+    return (state >> 8) % below;
+  };
+  int parsed = 0;
+  for (int trial = 0; trial < 200000; ++trial) {
+    std::string text;
+    const std::size_t length = 1 + draw(9);
+    for (std::size_t n = 0; n < length; ++n) text += words[draw(words.size())] + (draw(3) != 0 ? " " : "");
+    const std::string outcome = refusal(text);
+    if (outcome == "accepted") {
+      value_of(text);
+      ++parsed;
+    } else {
+      ASSERT_EQ(outcome.find("character "), 0U) << text << ": " << outcome;
+    }
+  }
+  EXPECT_GT(parsed, 1000);
+}
+
 TEST(HeaderKey, IsEveryWordOfATraceHeader) {
   segy::RawTrace trace;
   const segy::FileHeader file;

@@ -19,6 +19,8 @@ TEST(TimeWindow, HoldsItsEnds) {
   EXPECT_EQ(left(0.0701, 0.0709).count, 0);
   EXPECT_EQ(left(0.2, 0.3).count, 0);
   EXPECT_EQ(left(0, 0.01).count, 0);
+  // 0.3/0.1 is a little below 3 in floating point
+  EXPECT_EQ((TimeWindow{0, 0.3}.cut(SampleAxis{10, 0.1, 0}).count), 4);
 }
 
 TEST(TimeWindow, TakesSamplesAndSetsTheDelay) {
