@@ -48,6 +48,20 @@ TEST_F(Streaming, SortTakesTheMemoryItIsGiven) {
   EXPECT_GT(growth_mib(sort + "100"), 25);
 }
 
+TEST_F(Streaming, SortSaysWhatItsTemporaryFileIsShortOf) {
+  const std::string sort = "sw-sort whole.sgy --key offset --memory 1 -o sorted.sgy";
+  const Ran full = run("ulimit -f 10000; " + sort);
+  EXPECT_EQ(full.code, 1);
+  EXPECT_NE(full.err.find(": writing a temporary file: File too large\n"), std::string::npos) << full.err;
+  expect_refused("TMPDIR=/no/such/place " + sort, 1, "sw-sort: /no/such/place: No such file or directory");
+  const Ran ended =
+      run("timeout -s TERM 0.05 bash -c 'exec sw-sort --key offset --memory 1 -o sorted.sgy < "
+          "<(cat whole.sgy; sleep 10)'");
+  EXPECT_NE(ended.code, 0);
+  EXPECT_FALSE(exists("sorted.sgy"));
+  EXPECT_EQ(done("find $TMPDIR -name 'slipwave.*'"), "");
+}
+
 TEST_F(Streaming, AReaderThatStopsEarlyStopsTheWholePipeQuietly) {
   const Ran ran =
       run("cat whole.sgy | sw-filter --gain rms | sw-sort --key offset --memory 2 | head -c 5000 | wc -c");

@@ -191,7 +191,7 @@ TEST(Expression, OfAnyWordsIsParsedOrRefusedInOneSentence) {
     return (state >> 8) % below;
   };
   int parsed = 0;
-  for (int trial = 0; trial < 200000; ++trial) {
+  for (int trial = 0; trial < 50000; ++trial) {
     std::string text;
     const std::size_t length = 1 + draw(9);
     for (std::size_t n = 0; n < length; ++n) text += words[draw(words.size())] + (draw(3) != 0 ? " " : "");
@@ -203,7 +203,7 @@ TEST(Expression, OfAnyWordsIsParsedOrRefusedInOneSentence) {
       ASSERT_EQ(outcome.find("character "), 0U) << text << ": " << outcome;
     }
   }
-  EXPECT_GT(parsed, 1000);
+  EXPECT_GT(parsed, 300);
 }
 
 TEST(HeaderKey, IsEveryWordOfATraceHeader) {
