@@ -25,8 +25,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add(
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
       "a layer from DEPTH down, from the top one on; DIP in degrees, deepening towards +x, DEPTH at x = 0; "
-      "VS 0 is fluid, above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or @FILE of "
-      "lines \"X Z\"; VP, VS, RHO may be A+K or A-K: A at the top, K more or less a metre");
+      "VS 0 is fluid, above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
+      "@FILE of lines \"X Z\", smooth@FILE without kinks; VP, VS, RHO may be A+K or A-K: A at the top, K "
+      "more or less a metre");
   options.add("no-average", settings.no_average,
               "cells cut by a top take the material of their centre, not the mean over their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");

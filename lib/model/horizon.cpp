@@ -29,6 +29,26 @@ std::vector<Point<2>> read_curve(const std::string& path) {
   return points;
 }
 
+double slope_between(const Point<2>& a, const Point<2>& b) { return (b[1] - a[1]) / (b[0] - a[0]); }
+
+/// Slopes at the points of a smooth curve: of the parabola through a point and both its neighbours, at the
+/// ends of that through the next point.
+std::vector<double> smooth_slopes(const std::vector<Point<2>>& points) {
+  const std::size_t last = points.size() - 1;
+  if (last == 1) return std::vector<double>(2, slope_between(points[0], points[1]));
+  std::vector<double> slopes(points.size(), 0.);
+  for (std::size_t n = 1; n < last; ++n) {
+    const double before = slope_between(points[n - 1], points[n]),
+                 next = slope_between(points[n], points[n + 1]);
+    const double left = points[n][0] - points[n - 1][0], right = points[n + 1][0] - points[n][0];
+    slopes[n] = (right * before + left * next) / (left + right);
+  }
+  // A parabola's slope between two points is the mean of those at both.
+  slopes[0] = 2 * slope_between(points[0], points[1]) - slopes[1];
+  slopes[last] = 2 * slope_between(points[last - 1], points[last]) - slopes[last - 1];
+  return slopes;
+}
+
 }  // namespace
 
 Horizon::Horizon(double depth_m, double dip_deg)
@@ -42,8 +62,12 @@ Horizon::Horizon(double depth_m, double dip_deg)
 Horizon Horizon::parse(std::string_view text, double dip_deg) {
   Horizon horizon(0, dip_deg);
   const auto parts = split(text, ',');
+  constexpr std::string_view smooth = "smooth@";
   if (text.starts_with('@')) {
     horizon.points_ = read_curve(std::string(text.substr(1)));
+  } else if (text.starts_with(smooth)) {
+    horizon.points_ = read_curve(std::string(text.substr(smooth.size())));
+    horizon.slopes_ = smooth_slopes(horizon.points_);
   } else if (parts.front() == "sine") {
     if (parts.size() != 4 && parts.size() != 5) {
       throw Error("found '" + std::string(text) + "', expected sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]",
@@ -76,7 +100,13 @@ double Horizon::at(double x_m) const {
   if (behind == points_.end()) return depth + points_.back()[1];
   const auto& a = *(behind - 1);
   const auto& b = *behind;
-  return depth + a[1] + (b[1] - a[1]) * (x_m - a[0]) / (b[0] - a[0]);
+  const double width = b[0] - a[0], t = (x_m - a[0]) / width;
+  depth += a[1] + (b[1] - a[1]) * t;
+  if (slopes_.empty()) return depth;
+  // What a cubic with the slopes of both ends adds to the straight line.
+  const auto n = std::size_t(behind - points_.begin());
+  const double slope = slope_between(a, b);
+  return depth + width * t * (1 - t) * ((slopes_[n - 1] - slope) * (1 - t) - (slopes_[n] - slope) * t);
 }
 
 double Horizon::from_m() const {

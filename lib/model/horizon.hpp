@@ -16,8 +16,10 @@ class Horizon {
   /// |dip| < 90 degrees.
   explicit Horizon(double depth_m, double dip_deg = 0);
   /// "DEPTH"; "sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]" for z = MEAN + AMPLITUDE sin(360 x/WAVELENGTH + PHASE)
-  /// in degrees; "@FILE" for straight lines between points "X Z", one a line, x ascending. `dip_deg` tilts
-  /// any of them about x = 0. Throws a usage Error, or one naming file and line.
+  /// in degrees; "@FILE" for straight lines between points "X Z", one a line, x ascending; "smooth@FILE" for
+  /// a curve with a continuous slope through them: cubics whose slope at a point is that of the parabola
+  /// through it and its neighbours. `dip_deg` tilts any of them about x = 0. Throws a usage Error, or one
+  /// naming file and line.
   static Horizon parse(std::string_view text, double dip_deg = 0);
 
   double at(double x_m) const;
@@ -34,6 +36,7 @@ class Horizon {
   double depth_m_ = 0, slope_ = 0;
   double amplitude_m_ = 0, wavelength_m_ = 1, phase_deg_ = 0;
   std::vector<Point<2>> points_;
+  std::vector<double> slopes_;  // at the points, of a smooth curve; else empty
   std::string name_ = "0 m";
 };
 

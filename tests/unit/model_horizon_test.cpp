@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <utility>
+#include <vector>
 
 #include "model/layers.hpp"
 #include "model_cases.hpp"
@@ -60,6 +62,49 @@ TEST(Horizon, OfAFileIsStraightBetweenPointsAndLevelBeyond) {
   EXPECT_EQ(curve.at(1000), 250);
   EXPECT_EQ(curve.from_m(), 0);
   EXPECT_EQ(curve.to_m(), 300);
+}
+
+TEST(Horizon, OfASmoothCurveGoesThroughItsPointsWithoutAKink) {
+  const TextFile file("0 100\n150 180\n300 190\n400 120\n700 300\n");
+  const auto curve = Horizon::parse("smooth@" + file.path());
+  for (const auto& [x, z] :
+       std::vector<std::pair<double, double>>{{0, 100}, {150, 180}, {300, 190}, {400, 120}}) {
+    EXPECT_NEAR(curve.at(x), z, 1e-9);
+    if (x == 0) continue;
+    const double step = 1e-4;
+    EXPECT_NEAR((curve.at(x) - curve.at(x - step)) / step, (curve.at(x + step) - curve.at(x)) / step, 1e-4)
+        << x;
+  }
+  EXPECT_EQ(curve.at(-10), 100);
+}
+
+TEST(Horizon, OfASmoothCurveGivesParabolasExactly) {
+  std::string points;
+  const auto parabola = [](double x) { return 300 - 0.4 * x + 5e-4 * x * x; };
+  for (const double x : {0., 80., 250., 300., 700.})
+    points += std::to_string(x) + ' ' + std::to_string(parabola(x)) + '\n';
+  const TextFile file(points);
+  const auto curve = Horizon::parse("smooth@" + file.path());
+  for (double x = 0; x <= 700; x += 7) EXPECT_NEAR(curve.at(x), parabola(x), 1e-5) << x;
+  const TextFile straight("0 100\n500 200\n");
+  EXPECT_NEAR(Horizon::parse("smooth@" + straight.path()).at(125), 125, 1e-9);
+}
+
+TEST(Horizon, OfASmoothCurveIsNearerToWhatWasSampledThanStraightLines) {
+  const auto sine = Horizon::parse("sine,400,50,1000");
+  const auto error = [&](const std::string& kind, double spacing) {
+    std::string points;
+    for (double x = 0; x <= 1000; x += spacing)
+      points += std::to_string(x) + ' ' + std::to_string(sine.at(x)) + '\n';
+    const TextFile file(points);
+    const auto curve = Horizon::parse(kind + file.path());
+    double square = 0;
+    for (double x = 0.5; x < 1000; ++x) square += std::pow(curve.at(x) - sine.at(x), 2);
+    return std::sqrt(square / 1000);
+  };
+  for (const double spacing : {100., 50., 25.}) EXPECT_LT(error("smooth@", spacing), error("@", spacing) / 3);
+  // Straight lines are of second order.
+  EXPECT_NEAR(error("@", 50) / error("@", 25), 4, 0.2);
 }
 
 TEST(Horizon, IsParsedStrictly) {
