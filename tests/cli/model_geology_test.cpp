@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 
 #include "shell.hpp"
@@ -82,4 +83,23 @@ TEST_F(ModelGeology, OfFracturesScattersTheSameSlabsForASeed) {
   ASSERT_NE(at, std::string::npos) << json;
   const int cells = std::atoi(json.c_str() + at + 8);
   EXPECT_TRUE(cells > 200 && cells < 450) << json;
+}
+
+TEST_F(ModelGeology, OfLayersWithAGradientBendsRaysAsInTheClosedForm) {
+  // From one point to another in speeds v = v0 + k z it takes acosh(1 + k^2 d^2/(2 v1 v2))/k. Uniform rock in
+  // which the straight way takes as long gives the same pulse at the same time.
+  const double k = 1, v1 = 2000 + k * 200, v2 = 2000 + k * 800, square = 400. * 400 + 600. * 600;
+  const double speed = std::sqrt(square) * k / std::acosh(1 + k * k * square / (2 * v1 * v2));
+  const std::string size = "sw-layers --size 1200x1200 --step 5 --layer 0:";
+  const std::string shot =
+      " | sw-shoot - --source 300,200 --wavelet ricker:15 --receivers 700,800 --top absorbing "
+      "--record p --time 0.6 -q -o ";
+  done(size + "2000+1:1000+0.5:2000" + shot + "gradient.sgy");
+  done(size + std::to_string(speed) + ":1200:2000" + shot + "uniform.sgy");
+  const double lag = std::atof(done("sw-compare uniform.sgy gradient.sgy | awk 'END { print $NF }'").c_str());
+  EXPECT_LT(std::abs(lag), 1e-4);
+  // With a speed that is 1 % higher the lag is 1 % of 0.29 s.
+  done(size + std::to_string(1.01 * speed) + ":1200:2000" + shot + "faster.sgy");
+  const double late = std::atof(done("sw-compare faster.sgy gradient.sgy | awk 'END { print $NF }'").c_str());
+  EXPECT_NEAR(std::abs(late), 0.0029, 3e-4);
 }
