@@ -41,11 +41,20 @@ AccuracyTable table_of(const std::string& title) {
 }
 
 Spectra spectra_of(const std::string& unit) {
-  Spectra spectra{"a.nc", "amplitude", {}, {{"vz", unit, {}}, {"p", "Pa/Hz", {}}}, {}, false};
+  Spectra spectra{"a.nc", "amplitude", {}, {{"vz", unit, {}}, {"p", "Pa/Hz", {}}}, {}};
   for (int n = 0; n < 100; ++n) {
     spectra.frequencies_hz.push_back(n);
     spectra.lines[0].values.push_back(1e-7 * std::exp(-0.01 * n * n));
     spectra.lines[1].values.push_back(3e4 * std::exp(-0.02 * n * n));
+  }
+  return spectra;
+}
+
+Spectra fk_spectra() {
+  Spectra spectra{"a.nc", "amplitude", {0, 10, 20, 30}, {}, {}, Spectra::Place::wavenumber};
+  for (int j = -20; j < 20; ++j) {
+    spectra.places.push_back(0.00125 * j);
+    spectra.lines.push_back({"vz", "m²/s/Hz", {0, 1e-9 * j * j, 2e-9 * j * j, 0}});
   }
   return spectra;
 }
@@ -71,6 +80,8 @@ std::vector<std::pair<std::string, std::function<Picture(const Page&)>>> kinds()
        [=](const Page& page) { return draw_snapshot(snapshot, 1e-12, fractured_blocks(), marks, {}, page); }},
       {"error", [=](const Page& page) { return draw_error({table_of("One")}, false, {}, page); }},
       {"spectra", [=](const Page& page) { return draw_spectra({spectra_of("m/s/Hz")}, false, {}, page); }},
+      {"f-k spectra", [=](const Page& page) { return draw_spectra({fk_spectra()}, false, {}, page); }},
+      {"f-k spectra in dB", [=](const Page& page) { return draw_spectra({fk_spectra()}, true, {}, page); }},
       {"log spectra", [=](const Page& page) { return draw_spectra({spectra_of("Pa/Hz")}, true, {}, page); }},
   };
 }
