@@ -41,6 +41,9 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
     info.layout.traces_per_shot = header.binary.get("xntrpr");
   info.text = with_entry(header.text, entry, format.revision);
   if (holds_extended_text(format)) info.extended = header.extended;
+  // they may be in another code than the first text, and stay so where that one stays
+  if (format.encoding != header.encoding)
+    for (ExtendedText& extended : info.extended) extended.encoding = format.encoding;
   if (holds_extra_headers(reader, format)) info.extra_headers = header.extra_headers;
   info.carried = header.binary;
   info.carried_revision = std::min(header.major, 2);

@@ -28,6 +28,9 @@ void read_revision(FileHeader& header) {
     header.major = swapped ? second : first;
     header.minor = swapped ? first : second;
   }
+  // The bytes are free in revision 0: what is no revision and has no mark of revision 2 is none.
+  if (header.major > 2 && header.binary.get("byte_order") != byte_order_constant)
+    header.major = header.minor = 0;
 }
 
 const SampleFormat* readable_format(const FileHeader& header, const ReadOptions& options) {
@@ -62,6 +65,9 @@ bool ends_stanzas(const std::string& text) {
 /// A count of extended headers, or -1: up to the stanza that ends them.
 void read_extended(ByteSource& source, FileHeader& header) {
   const std::int64_t count = header.binary.get("extended");
+  // Revision 0 knows none: there the word counts where a text follows.
+  const auto next = source.peek(text_bytes);
+  if (header.major == 0 && !looks_like_text(next) && !begins_stanza(next)) return;
   if (count < -1)
     throw Error(std::to_string(count) + " extended textual headers (byte 3505), expected a number or -1");
   std::array<std::uint8_t, text_bytes> block{};
@@ -70,9 +76,10 @@ void read_extended(ByteSource& source, FileHeader& header) {
     if (source.read(block) < block.size())
       throw Error("ends within extended textual header " + number +
                   (count < 0 ? ", before a stanza ((SEG: EndText))" : " of " + std::to_string(count)));
-    header.extended.push_back(decode_text(block, encoding_of(block)));
+    const TextEncoding encoding = encoding_of(block);
+    header.extended.push_back({decode_text(block, encoding), encoding});
     const auto read = static_cast<std::int64_t>(header.extended.size());
-    more = count < 0 ? !ends_stanzas(header.extended.back()) : read < count;
+    more = count < 0 ? !ends_stanzas(header.extended.back().text) : read < count;
     if (more && read == most_extended)
       throw Error("no stanza ((SEG: EndText)) in " + number + " extended textual headers");
   }

@@ -20,6 +20,13 @@ struct ReadOptions {
   bool su = false;            // a Seismic Unix file, also where it does not look like one
 };
 
+/// One of the 3200-byte texts that may follow the binary header.
+struct ExtendedText {
+  std::string text;  // ISO 8859-1
+  TextEncoding encoding = TextEncoding::ebcdic;
+  bool operator==(const ExtendedText&) const = default;
+};
+
 /// What stands before the traces, and what it says about them.
 struct FileHeader {
   bool su = false;  // no reel headers: text, binary and extended are empty
@@ -33,7 +40,7 @@ struct FileHeader {
   bool feet = false;
   std::string text;  // 3200 characters, ISO 8859-1
   BinaryWords binary;
-  std::vector<std::string> extended;   // 3200 characters each, as text
+  std::vector<ExtendedText> extended;
   std::int64_t extra_headers = 0;      // of 240 bytes, in every trace after the first one
   std::uint64_t first_trace = 0;       // offset of the first trace
   std::optional<std::int64_t> traces;  // where revision 2 says how many

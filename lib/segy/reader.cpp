@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "segy/extension.hpp"
 #include "segy/geometry.hpp"
+#include "segy/sniff.hpp"
 
 namespace slipwave::segy {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 /// Of a pipe memory grows by so much at a time.
 constexpr std::uint64_t smallest_step = 1 << 20;
 constexpr std::uint64_t largest_step = 1 << 25;
-
-/// A stanza begins "((" in either encoding; as a trace number within the line it is one beyond reason.
-bool begins_stanza(std::span<const std::uint8_t> bytes) {
-  return bytes.size() >= 2 && bytes[0] == bytes[1] && (bytes[0] == 0x28 || bytes[0] == 0x4d);
-}
 
 }  // namespace
 

@@ -10,18 +10,6 @@ namespace slipwave::segy {
 namespace {
 
 constexpr std::size_t header_bytes = text_bytes + BinaryLayout::size;
-constexpr std::int64_t byte_order_constant = 0x01020304;
-
-/// Nineteen of twenty bytes are printable characters or blanks (0 counts as one).
-bool is_text(std::span<const std::uint8_t> bytes) {
-  const std::string text = decode_text(bytes, encoding_of(bytes));
-  const auto printable = std::count_if(text.begin(), text.end(), [](char c) {
-    return (c >= ' ' && c <= '~') || c == '\r' || c == '\n' || c == '\t' || c == '\0';
-  });
-  const auto blank = std::count(text.begin(), text.end(), '\0');
-  return 20 * printable >= 19 * static_cast<std::ptrdiff_t>(text.size()) &&
-         2 * blank < static_cast<std::ptrdiff_t>(text.size());
-}
 
 std::optional<Endian> order_of_format(std::span<const std::uint8_t, BinaryLayout::size> binary) {
   for (const Endian endian : {Endian::big, Endian::little}) {
@@ -62,6 +50,20 @@ int bits_of(const TraceWords& words) {
 
 }  // namespace
 
+bool looks_like_text(std::span<const std::uint8_t> bytes) {
+  const std::string text = decode_text(bytes, encoding_of(bytes));
+  const auto printable = std::count_if(text.begin(), text.end(), [](char c) {
+    return (c >= ' ' && c <= '~') || c == '\r' || c == '\n' || c == '\t' || c == '\0';
+  });
+  const auto blank = std::count(text.begin(), text.end(), '\0');
+  return 20 * printable >= 19 * static_cast<std::ptrdiff_t>(text.size()) &&
+         2 * blank < static_cast<std::ptrdiff_t>(text.size());
+}
+
+bool begins_stanza(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 2 && bytes[0] == bytes[1] && (bytes[0] == 0x28 || bytes[0] == 0x4d);
+}
+
 Endian byte_order_of(std::span<const std::uint8_t, BinaryLayout::size> binary) {
   return order_of_format(binary).value_or(Endian::big);
 }
@@ -80,9 +82,11 @@ Endian su_byte_order_of(std::span<const std::uint8_t, TraceLayout::size> header,
 
 FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_t> size) {
   const bool whole = first.size() >= header_bytes;
-  if (whole && is_text(first.first(text_bytes))) {
+  if (whole && looks_like_text(first.first(text_bytes))) {
     // text that goes on where numbers should stand is somebody's notes
-    const bool goes_on = is_text(first.subspan(text_bytes, BinaryLayout::size));
+    constexpr std::size_t assigned = 60;  // of the binary header, in every revision
+    const bool has_format = order_of_format(first.subspan<text_bytes, BinaryLayout::size>()).has_value();
+    const bool goes_on = !has_format && looks_like_text(first.subspan(text_bytes, assigned));
     return goes_on ? FileKind::unknown : FileKind::segy;
   }
   if (first.size() >= TraceLayout::size) {

@@ -19,6 +19,17 @@ FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_
 /// SEG-Y or Seismic Unix: segy::Reader would take it.
 bool looks_like_segy(std::span<const std::uint8_t> first, std::optional<std::uint64_t> size = {});
 
+/// Nineteen of twenty bytes are printable characters or blanks, in ASCII or EBCDIC (0 counts as one, but not
+/// for more than half of them).
+bool looks_like_text(std::span<const std::uint8_t> bytes);
+
+/// A stanza begins "((" in either encoding; as the first bytes of a trace header that is a trace number
+/// beyond reason.
+bool begins_stanza(std::span<const std::uint8_t> bytes);
+
+/// What the word at 3297 is since revision 2, in the file's byte order.
+inline constexpr std::int64_t byte_order_constant = 0x01020304;
+
 /// Byte order of a SEG-Y file from its binary header: the constant at 3297, then the format code, else big.
 Endian byte_order_of(std::span<const std::uint8_t, BinaryLayout::size> binary);
 

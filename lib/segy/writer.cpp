@@ -26,15 +26,15 @@ Writer::Writer(OutputFile& out, FileInfo info)
   interval_word_ = interval_word(info_.axis.interval_s);
   if (info_.format.su) return;
   if (info_.text.empty()) info_.text = lay_out_text({}, info_.format.revision);
-  const auto put_text = [&](const std::string& text) {
-    const auto bytes = encode_text(text, info_.format.encoding);
+  const auto put_text = [&](const std::string& text, TextEncoding encoding) {
+    const auto bytes = encode_text(text, encoding);
     out_.write(bytes.data(), bytes.size());
   };
-  put_text(info_.text);
+  put_text(info_.text, info_.format.encoding);
   const auto binary = binary_header(info_).in_file_order(info_.format.endian);
   const auto stamped = with_revision_stamp(binary, info_.format);
   out_.write(stamped.data(), stamped.size());
-  for (const std::string& text : info_.extended) put_text(text);
+  for (const ExtendedText& extended : info_.extended) put_text(extended.text, extended.encoding);
 }
 
 void Writer::write(const TraceHeader& header, std::span<const double> samples) {

@@ -31,7 +31,7 @@ struct FileInfo {
   SampleAxis axis;
   SurveyLayout layout;
   std::string text;                    // 3200 characters (lay_out_text, with_entry); empty: stamps only
-  std::vector<std::string> extended;   // extended textual headers of 3200 characters each
+  std::vector<ExtendedText> extended;  // of 3200 characters each
   std::optional<BinaryWords> carried;  // the binary header of the input, for what this does not say
   int carried_revision = 1;            // of the file that carried traces come from: 0 has no time scalar
   bool lengths_vary = false;           // every trace has its own length, axis has the first one's

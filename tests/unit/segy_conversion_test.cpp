@@ -200,7 +200,9 @@ TEST(Conversion, OfTheCorpusKeepsItsFacts) {
       EXPECT_EQ(after.axis, before.axis);
       EXPECT_EQ(after.traces, before.traces);
       EXPECT_EQ(after.shots, before.shots);
-      EXPECT_EQ(after.header.extended, before.header.extended);
+      ASSERT_EQ(after.header.extended.size(), before.header.extended.size());
+      for (std::size_t i = 0; i < after.header.extended.size(); ++i)
+        EXPECT_EQ(after.header.extended[i].text, before.header.extended[i].text);
       if (before.traces == 0) continue;
       EXPECT_NEAR(after.sample.lowest, before.sample.lowest, 1e-6 * std::fabs(before.sample.lowest));
       EXPECT_NEAR(after.rms, before.rms, 1e-6 * before.rms);

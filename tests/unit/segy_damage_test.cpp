@@ -167,6 +167,16 @@ TEST(DamagedFile, WithFormat4IsReadOnlyWhenToldHow) {
   EXPECT_EQ(read_file(scratch.file("four"), options).traces.size(), 12U);
 }
 
+TEST(DamagedFile, WithRubbishInTheFreeBytesOfRevision0IsReadAllTheSame) {
+  const Scratch scratch;
+  auto bytes = valid_file(scratch, 0, false);
+  for (const std::uint8_t rubbish : {0x40, 0x20, 0xff, 0x07}) {
+    std::fill(bytes.begin() + 3260, bytes.begin() + 3600, rubbish);
+    put_bytes(scratch.file("rubbish"), bytes);
+    EXPECT_EQ(read_file(scratch.file("rubbish")).traces.size(), 12U) << int(rubbish);
+  }
+}
+
 TEST(DamagedFile, WithHeadersChangedAtRandomStaysBounded) {
   const Scratch scratch;
   std::mt19937 random(20240611);

@@ -95,7 +95,7 @@ void rewrite(const std::string& from, const std::string& to, const FileFormat& f
 TEST(ExtendedText, IsReadByCountAndUpToItsStanzaAndCarriedAlong) {
   const Scratch scratch;
   Bytes bytes = plain_file(scratch, 1);
-  const Bytes first = text_block("((SEG: Measurement Units ver 1.0))");
+  const Bytes first = text_block("((SEG: Measurement Units ver 1.0))", TextEncoding::ascii);
   const Bytes last = text_block("((SEG:EndText))");
   bytes.insert(bytes.begin() + 3600, last.begin(), last.end());
   bytes.insert(bytes.begin() + 3600, first.begin(), first.end());
@@ -105,7 +105,7 @@ TEST(ExtendedText, IsReadByCountAndUpToItsStanzaAndCarriedAlong) {
     expect_same(read_file(scratch.file("x")), survey_gather(samples, 1));
     const Reader reader(scratch.file("x"));
     ASSERT_EQ(reader.header().extended.size(), 2U);
-    EXPECT_EQ(reader.header().extended[0].substr(0, 34), "((SEG: Measurement Units ver 1.0))");
+    EXPECT_EQ(reader.header().extended[0].text.substr(0, 34), "((SEG: Measurement Units ver 1.0))");
     const FileInfo info = info_like(reader, "sw-nothing");
     EXPECT_EQ(info.extended, reader.header().extended);
     rewrite(scratch.file("x"), scratch.file("y"), format_of(reader));
