@@ -43,6 +43,16 @@ segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context, 
   return info;
 }
 
+void note_needs(const RecordSorter& records, const std::string& directory, const cli::Context& context) {
+  const auto mib = [](std::uint64_t bytes) {
+    return shown(static_cast<double>(bytes) / (1 << 20), 3) + " MiB";
+  };
+  std::string needs =
+      std::to_string(records.count()) + " traces took " + mib(records.most_held()) + " of memory";
+  if (records.on_disk() > 0) needs += " and " + mib(records.on_disk()) + " on disk, in " + directory;
+  context.note(needs);
+}
+
 void run(const Settings& settings, const cli::Context& context) {
   const auto keys = in_place("--key", [&] { return parse_sort_keys(settings.key); });
   if (settings.memory_mib < 1)
@@ -59,9 +69,7 @@ void run(const Settings& settings, const cli::Context& context) {
     if (progress && reader.size())
       progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
   }
-  if (sorter.records().on_disk() > 0)
-    context.note(std::to_string(sorter.records().on_disk() >> 20) + " MiB of traces went through " +
-                 directory);
+  note_needs(sorter.records(), directory, context);
   const segy::FileInfo info = info_of(reader, context, keys.front(), sorter);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);

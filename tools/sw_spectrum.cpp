@@ -89,6 +89,8 @@ void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, c
       reader, context.progress("transforming"),
       [&](const TraceHeader& header, std::span<const double> samples) { spectra.add(header, samples); });
   in_place(reader.name(), [&] { spectra.finish(); });
+  context.note("took " + shown(spectra.bytes() / (1 << 20), 3) +
+               " MiB for a shot, its transform and the spectra");
   const FkFacts facts{axis, settings.spectrum, context.command_line, source_of(reader)};
   if (settings.text)
     write_fk_text(out, facts, spectra);

@@ -1,9 +1,9 @@
 #include "base/fft.hpp"
 
 #include <fftw3.h>
+#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -29,6 +29,15 @@ struct Destroyed {
   }
 };
 using Plan = std::unique_ptr<fftw_plan_s, Destroyed>;
+
+/// Memory that is not there would be given all the same, and the process ended when it is used.
+void check_memory(double bytes, const std::string& size) {
+  const double there =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+  if (there > 0 && bytes > there)
+    throw Error("a Fourier transform of " + size + " samples takes " + shown(bytes / (1 << 30), 3) +
+                " GiB, this machine has " + shown(there / (1 << 30), 3) + " GiB");
+}
 
 }  // namespace
 
@@ -56,6 +65,7 @@ struct RealTransform::Plans {
 RealTransform::RealTransform(std::size_t length) {
   if (length < 1 || length > static_cast<std::size_t>(std::numeric_limits<int>::max()))
     throw Error("a Fourier transform of " + std::to_string(length) + " samples, expected 1 to 2147483647");
+  check_memory(16 * static_cast<double>(length), std::to_string(length));
   plans_.reset(new Plans{length, nullptr, nullptr, nullptr, nullptr});
   plans_->real.reset(fftw_alloc_real(length));
   plans_->complex.reset(fftw_alloc_complex(length / 2 + 1));
@@ -113,11 +123,10 @@ RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {
   const std::string size = std::to_string(rows) + " x " + std::to_string(length);
   if (rows < 1 || length < 1 || rows > most || length > most)
     throw Error("a Fourier transform of " + size + " samples, expected 1 to 2147483647 along each axis");
+  check_memory(bytes_for(rows, length), size);
   plan_.reset(new Plan{rows, length, nullptr, nullptr});
-  if (bytes_for(rows, length) < 1e18) plan_->complex.reset(fftw_alloc_complex(rows * plan_->bins()));
-  if (!plan_->complex)
-    throw Error("no memory for a Fourier transform of " + size + " samples, " +
-                std::to_string(std::llround(bytes_for(rows, length) / (1 << 20))) + " MiB");
+  plan_->complex.reset(fftw_alloc_complex(rows * plan_->bins()));
+  if (!plan_->complex) throw Error("no memory for a Fourier transform of " + size + " samples");
   {
     const auto lock = planner();
     plan_->forward.reset(fftw_plan_dft_r2c_2d(static_cast<int>(rows), static_cast<int>(length),

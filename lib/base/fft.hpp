@@ -18,7 +18,7 @@ std::size_t fast_transform_length(std::size_t length);
 /// One object serves one thread at a time; different objects are independent.
 class RealTransform {
  public:
-  /// length >= 1, below 2^31.
+  /// length >= 1, below 2^31; throws Error otherwise, and when the machine has not the memory.
   explicit RealTransform(std::size_t length);
   RealTransform(RealTransform&&) noexcept;
   RealTransform& operator=(RealTransform&&) noexcept;
@@ -45,7 +45,7 @@ class RealTransform {
 /// Plans as for RealTransform.
 class RealTransform2 {
  public:
-  /// Both 1 to 2^31 - 1; takes 8 rows (length + 2) bytes, or throws Error.
+  /// Both 1 to 2^31 - 1. Throws Error otherwise, and when the machine has not the memory, bytes_for().
   RealTransform2(std::size_t rows, std::size_t length);
   RealTransform2(RealTransform2&&) noexcept;
   RealTransform2& operator=(RealTransform2&&) noexcept;
@@ -55,6 +55,7 @@ class RealTransform2 {
   std::size_t length() const noexcept;
   /// length()/2 + 1
   std::size_t bins() const noexcept;
+  /// Some 8 bytes a sample.
   static double bytes_for(std::size_t rows, std::size_t length);
 
   /// Samples of row m, to be filled before forward(); all zero after clear().

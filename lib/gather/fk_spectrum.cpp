@@ -11,12 +11,6 @@ namespace {
 
 constexpr double evenness = 1e-3;  // of the spacing
 
-std::size_t padded(std::size_t count, double pad) {
-  if (!(pad >= 1 && pad <= 1e6))
-    throw Error("zero padding of " + shown(pad) + " times the trace, expected 1 to 1e6", ErrorKind::usage);
-  return static_cast<std::size_t>(std::ceil(pad * static_cast<double>(count)));
-}
-
 std::string receivers_shown(std::size_t count, double spacing_m) {
   return std::to_string(count) + " receivers every " + shown(spacing_m, 6) + " m";
 }
@@ -31,7 +25,7 @@ FkTransform::FkTransform(const SampleAxis& axis, std::size_t receivers, double s
       along_(
           window_weights(settings.window, static_cast<std::size_t>(std::max<std::int64_t>(axis.count, 0)))),
       across_(window_weights(settings.window, receivers)),
-      transform_(padded(receivers, settings.pad), padded(along_.size(), settings.pad)) {
+      transform_(padded_length(receivers, settings.pad), padded_length(along_.size(), settings.pad)) {
   if (!(interval_s_ > 0) || !(spacing_m_ > 0))
     throw Error("an f-k spectrum of samples every " + shown(interval_s_) + " s and receivers every " +
                 shown(spacing_m_) + " m, expected both above 0");
@@ -88,6 +82,8 @@ void FkSpectra::add(const TraceHeader& header, std::span<const double> samples) 
       throw Error("shot " + std::to_string(shot_) +
                   " comes again after another one, expected its traces together (sw-sort --key shot)");
   }
+  held_ += samples.size();
+  most_held_ = std::max(most_held_, held_);
   gathers_[header.component].push_back({header.receiver_m, {samples.begin(), samples.end()}});
 }
 
@@ -103,6 +99,13 @@ void FkSpectra::finish_shot() {
     in_place("shot " + std::to_string(shot_) + ", " + name_of(component),
              [&, of = component] { finish_gather(of, gathers_[of]); });
   gathers_.clear();
+  held_ = 0;
+}
+
+double FkSpectra::bytes() const {
+  double bytes = 8.0 * static_cast<double>(most_held_) + (transform_ ? transform_->bytes() : 0);
+  for (const auto& [component, mean] : means_) bytes += 8.0 * static_cast<double>(mean.values.size());
+  return bytes;
 }
 
 void FkSpectra::finish_gather(Component component, std::vector<Placed>& placed) {

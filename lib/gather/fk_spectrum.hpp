@@ -38,6 +38,8 @@ class FkTransform {
   std::size_t zeros_in_time() const noexcept { return transform_.length() - along_.size(); }
   std::size_t zeros_in_space() const noexcept { return transform_.rows() - across_.size(); }
 
+  double bytes() const { return RealTransform2::bytes_for(transform_.rows(), transform_.length()); }
+
   /// Adds the spectrum of `traces`, one a receiver in order of position, to `sum`: a row of frequencies for
   /// each wavenumber.
   void add(std::span<const std::vector<double>> traces, std::span<double> sum);
@@ -67,6 +69,8 @@ class FkSpectra {
   };
   const std::map<Component, Mean>& means() const { return means_; }
   const FkTransform& transform() const { return *transform_; }
+  /// What the largest shot, the transform and the spectra take.
+  double bytes() const;
   /// 'x', 'y' or 'z': the receivers' positions along this axis.
   char direction() const { return "xyz"[direction_]; }
 
@@ -86,6 +90,7 @@ class FkSpectra {
   std::set<std::int64_t> shots_;
   std::map<Component, std::vector<Placed>> gathers_;  // of the current shot
   std::map<Component, Mean> means_;
+  std::size_t held_ = 0, most_held_ = 0;  // samples of the current and of the largest shot
 };
 
 }  // namespace slipwave

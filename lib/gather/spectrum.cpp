@@ -27,12 +27,16 @@ std::size_t transform_length(const SampleAxis& axis, double pad) {
   if (axis.count < 1 || !(axis.interval_s > 0))
     throw Error("a spectrum of " + std::to_string(axis.count) + " samples every " + shown(axis.interval_s) +
                 " s, expected at least one sample and an interval above 0");
-  if (!(pad >= 1 && pad <= 1e6))
-    throw Error("zero padding of " + shown(pad) + " times the trace, expected 1 to 1e6", ErrorKind::usage);
-  return static_cast<std::size_t>(std::ceil(pad * static_cast<double>(axis.count)));
+  return padded_length(static_cast<std::size_t>(axis.count), pad);
 }
 
 }  // namespace
+
+std::size_t padded_length(std::size_t count, double pad) {
+  if (!(pad >= 1 && pad <= 1000))
+    throw Error("zero padding of " + shown(pad) + " times the trace, expected 1 to 1000", ErrorKind::usage);
+  return static_cast<std::size_t>(std::ceil(pad * static_cast<double>(count)));
+}
 
 std::vector<std::string> window_names() {
   std::vector<std::string> names;

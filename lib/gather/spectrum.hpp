@@ -24,9 +24,12 @@ std::vector<double> window_weights(Window window, std::size_t count);
 
 struct SpectrumSettings {
   Window window = Window::none;
-  double pad = 1;      // transform length over trace length, >= 1: the rest is zeros
+  double pad = 1;      // transform length over trace length, 1 to 1000: the rest is zeros
   bool power = false;  // energy density instead of amplitude
 };
+
+/// `pad` times `count`, rounded up; usage Error unless pad is 1 to 1000.
+std::size_t padded_length(std::size_t count, double pad);
 
 /// Spectra of traces of one sampling, at f_k = k / (length dt), k = 0 .. length/2:
 ///   amplitude  |F(f_k)|, F(f_k) = dt sum_n w_n x_n exp(-2 pi i f_k n dt), the Fourier integral's value;

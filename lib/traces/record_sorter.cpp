@@ -88,6 +88,7 @@ std::uint8_t* RecordSorter::room_for(std::size_t bytes) {
     block_bytes_ = std::max(bytes, std::clamp(share, least_block, usual_block));
     blocks_.emplace_back(new std::uint8_t[block_bytes_]);
     held_bytes_ += block_bytes_;
+    most_held_ = std::max(most_held_, held_bytes_);
     block_used_ = 0;
   }
   block_used_ += bytes;

@@ -28,6 +28,8 @@ class RecordSorter {
   void deliver(const std::function<void(std::span<const std::uint8_t>)>& take);
 
   std::int64_t count() const noexcept { return count_; }
+  /// Bytes held for records at most so far.
+  std::uint64_t most_held() const noexcept { return most_held_; }
   /// Bytes in the temporary file; 0 when memory sufficed.
   std::uint64_t on_disk() const noexcept { return on_disk_; }
   std::size_t parts() const noexcept { return parts_.size(); }
@@ -60,7 +62,7 @@ class RecordSorter {
   std::vector<double> held_keys_;  // keys_ numbers a record, by Held::number
   std::vector<std::unique_ptr<std::uint8_t[]>> blocks_;
   std::size_t block_bytes_ = 0, block_used_ = 0;  // of the last block
-  std::uint64_t held_bytes_ = 0;
+  std::uint64_t held_bytes_ = 0, most_held_ = 0;
   std::unique_ptr<Temporary> file_;
   std::vector<Part> parts_;
   std::uint64_t on_disk_ = 0;

@@ -111,6 +111,8 @@ TEST_F(TracesBadInput, FkWantsTheTracesOfAShotTogetherOnAnEvenLine) {
        "sw-spectrum: found --fk and --each, expected one of them: a gather makes one f-k spectrum"},
       {"sw-spectrum uneven.sgy --fk", 1,
        "sw-spectrum: uneven.sgy: shot 1, vx: receivers at x = 0 and 200 m, expected one every 150 m"},
+      {"sw-spectrum a.sgy --pad 1e4", 2,
+       "sw-spectrum: zero padding of 10000 times the trace, expected 1 to 1000"},
       {"sw-spectrum one.sgy --fk", 1,
        "sw-spectrum: one.sgy: shot 1, vx: has 1 receiver, expected a line of at least two"},
   });

@@ -78,7 +78,7 @@ TEST_F(Traces, AreSortedTheSameThroughATemporaryFile) {
   done("sw-sort big.sgy --key=-offset,shot -o in-memory.sgy");
   const Ran ran = run("sw-sort big.sgy --key=-offset,shot --memory 1 -v -o through-file.sgy");
   EXPECT_EQ(ran.code, 0);
-  EXPECT_TRUE(has(ran.err, "MiB of traces went through ")) << ran.err;
+  EXPECT_TRUE(has(ran.err, " of memory and ") && has(ran.err, " MiB on disk, in ")) << ran.err;
   // the command differs, so the text does
   EXPECT_EQ(done("for f in in-memory through-file; do tail -c +3201 $f.sgy | cksum; done | uniq | wc -l"),
             "1\n");

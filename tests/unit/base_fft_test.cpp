@@ -85,3 +85,15 @@ TEST(FastTransformLength, IsTheNextEvenProductOfSmallPrimes) {
   }
   EXPECT_THROW(fast_transform_length(std::size_t{1} << 31), Error);
 }
+
+TEST(RealTransform2, RefusesWhatTheMachineHasNoMemoryFor) {
+  try {
+    RealTransform2(2000000000, 2000000000);
+    ADD_FAILURE();
+  } catch (const Error& error) {
+    EXPECT_EQ(
+        std::string(error.what()).find("a Fourier transform of 2000000000 x 2000000000 samples takes 2.98e"),
+        0U)
+        << error.what();
+  }
+}
