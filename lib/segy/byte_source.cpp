@@ -15,7 +15,7 @@
 namespace slipwave::segy {
 namespace {
 
-constexpr std::size_t buffer_bytes = 1 << 18;
+constexpr std::size_t file_buffer_bytes = 1 << 18;
 
 Error failure(const std::string& name) { return Error(name + ": " + std::strerror(errno)); }
 
@@ -46,8 +46,9 @@ ByteSource::ByteSource(const std::string& path, std::vector<std::uint8_t> alread
       size_ = static_cast<std::uint64_t>(std::max<off_t>(about.st_size - from, 0));
     }
   }
-  std::size_t wanted = buffer_bytes;
-  if (size_) wanted = static_cast<std::size_t>(std::min<std::uint64_t>(wanted, *size_));
+  // a pipe gives 64 KiB at once
+  std::size_t wanted = peek_limit;
+  if (size_) wanted = static_cast<std::size_t>(std::min<std::uint64_t>(file_buffer_bytes, *size_));
   buffer_.resize(std::max(wanted, end_));
 }
 
