@@ -1,12 +1,15 @@
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/input_bytes.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "segy/conversion.hpp"
 #include "trace_input.hpp"
 #include "traces/expression.hpp"
+#include "traces/selection.hpp"
 #include "traces/time_window.hpp"
 
 using namespace slipwave;
@@ -39,17 +42,24 @@ std::optional<Expression> condition_of(const std::string& text) {
   });
 }
 
-/// The file header of what is selected: how many traces there will be is not known beforehand.
-segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context, bool all_traces,
+/// The file header says how many traces follow. Files are read for it beforehand, pipes can not be: 0.
+SelectionCounts counts_of(const Settings& settings, const Expression& condition) {
+  if (!is_regular_input(settings.input)) return {};
+  segy::Reader reader(settings.input, settings.input_options.read_options());
+  return count_selected(reader, condition);
+}
+
+segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context,
+                       const std::optional<SelectionCounts>& counts,
                        const std::optional<TimeWindow>& window) {
   segy::FileInfo info = segy::info_as(reader, context.command_line, segy::format_of(reader));
   if (window && reader.axis_with_interval().count > 0) info.axis = window->cut(info.axis);
   info.axis.count =
       std::max<std::int64_t>(info.axis.count, 1);  // none: the first trace will be refused by name
-  if (all_traces) return info;
-  info.layout.traces = 0;
-  info.layout.traces_per_shot = 0;
-  if (info.carried) info.carried->set("ntrpr", 0);
+  if (!counts) return info;
+  info.layout.traces = counts->traces;
+  info.layout.traces_per_shot = counts->per_shot;
+  if (info.carried) info.carried->set("ntrpr", 0);  // the layout's
   return info;
 }
 
@@ -59,9 +69,11 @@ void run(const Settings& settings, const cli::Context& context) {
   if (!settings.time.empty()) window = in_place("--time", [&] { return parse_time_window(settings.time); });
   if (!condition && !window)
     throw Error("found neither --where nor --time, expected one of them", ErrorKind::usage);
+  std::optional<SelectionCounts> counts;
+  if (condition) counts = counts_of(settings, *condition);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const segy::FileInfo info = info_of(reader, context, !condition, window);
+  const segy::FileInfo info = info_of(reader, context, counts, window);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("selecting");

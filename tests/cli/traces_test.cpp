@@ -73,6 +73,22 @@ TEST_F(Traces, SortedFilesSayByWhat) {
   EXPECT_EQ(word("channel,shot", 3213), "9");
 }
 
+TEST_F(Traces, SelectedFilesSayHowManyThereAre) {
+  const auto word = [&](int byte, const std::string& type) {
+    return done("od --endian=big -An -t " + type + " -j " + std::to_string(byte - 1) + " -N " +
+                type.substr(1) + " s.sgy | tr -d ' \\n'");
+  };
+  done("sw-select line.sgy --where 'component=vz and not (shot=2 and channel>5)' -o s.sgy");
+  EXPECT_EQ(word(3213, "d2"), "13");
+  done("sw-convert line.sgy --revision 2 -o two.sgy; sw-select two.sgy --where 'component=vz' -o s.sgy");
+  EXPECT_EQ(word(3261, "d4"), "13");
+  EXPECT_EQ(word(3513, "d8"), "39");
+  // what a pipe holds is not known before its end
+  done("cat two.sgy | sw-select --where 'component=vz' -o s.sgy");
+  EXPECT_EQ(word(3513, "d8"), "0");
+  EXPECT_EQ(info("s.sgy", "traces"), "39");
+}
+
 TEST_F(Traces, AreSortedTheSameThroughATemporaryFile) {
   done("body() { tail -c +3601 line.sgy; }; { cat line.sgy; for i in $(seq 20); do body; done; } > big.sgy");
   done("sw-sort big.sgy --key=-offset,shot -o in-memory.sgy");

@@ -1,0 +1,22 @@
+#include "traces/selection.hpp"
+
+#include <algorithm>
+
+namespace slipwave {
+
+SelectionCounts count_selected(segy::Reader& reader, const Expression& condition) {
+  SelectionCounts counts;
+  segy::RawTrace trace;
+  std::int64_t shot = 0, of_shot = 0;
+  while (reader.next(trace)) {
+    const TraceView view = view_of(reader, trace);
+    if (condition.value(view) == 0) continue;
+    of_shot = counts.traces > 0 && view.header.shot == shot ? of_shot + 1 : 1;
+    shot = view.header.shot;
+    ++counts.traces;
+    counts.per_shot = std::max(counts.per_shot, of_shot);
+  }
+  return counts;
+}
+
+}  // namespace slipwave

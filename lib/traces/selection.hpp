@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstdint>
+
+#include "segy/reader.hpp"
+#include "traces/expression.hpp"
+
+namespace slipwave {
+
+/// Of the traces that meet a condition: how many, and how many of one shot follow each other at most.
+struct SelectionCounts {
+  std::int64_t traces = 0, per_shot = 0;
+};
+
+/// Reads all traces that are left.
+SelectionCounts count_selected(segy::Reader& reader, const Expression& condition);
+
+}  // namespace slipwave
