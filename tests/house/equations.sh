@@ -1,7 +1,7 @@
 #!/bin/sh
 # equations.sh ROOT: every equation tag (E1), (S2a) ... defined in docs/theory.md names tests, and those exist.
 # A tag is defined where it ends a line of mathematics or starts a row of a table; its tests are named as
-# `Suite.Test` on the lines down to the next definition.
+# `Suite.Test` on the lines down to the next definition. Tests that other pages of docs/ name exist, too.
 set -eu
 cd "$1"
 theory=docs/theory.md
@@ -19,6 +19,7 @@ find tests -name '*_test.cpp' | sort | xargs awk '
     sub(/,/, ".", line)
     print line
   }' > "$tests"
+status=0
 awk -v tests="$tests" -v theory="$theory" '
   function close_tag() {
     if (tag != "" && !named) { printf "%s:%d: (%s) names no test\n", theory, at, tag; bad = 1 }
@@ -47,4 +48,12 @@ awk -v tests="$tests" -v theory="$theory" '
     close_tag()
     if (!tags) { print theory ": no equation tags found"; bad = 1 }
     exit bad
-  }' "$theory"
+  }' "$theory" || status=1
+for page in docs/*.md; do
+  [ "$page" != "$theory" ] || continue
+  names=$(grep -oE '`[A-Z][A-Za-z0-9]*[.][A-Z][A-Za-z0-9_]*`' "$page" | tr -d '`' | sort -u || :)
+  for name in $names; do
+    grep -qxF "$name" "$tests" || { echo "$page: there is no test $name"; status=1; }
+  done
+done
+exit "$status"
