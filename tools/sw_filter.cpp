@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,18 +40,20 @@ void declare(cli::Options& options, Settings& settings) {
   settings.input_options.declare(options);
 }
 
-Kernel kernel_of(const Settings& settings, double interval_s) {
+/// The part of the wavelet that a trace is long enough to feel.
+Kernel kernel_of(const Settings& settings, const SampleAxis& axis) {
   const Wavelet wavelet = in_place("--convolve", [&] { return parse_wavelet(settings.wavelet); });
   const double shift_s = settings.zero_delay ? wavelet.delay_s() : 0;
-  return sampled_kernel([&](double t_s) { return wavelet(t_s + shift_s); }, -shift_s,
-                        wavelet.duration_s() - shift_s, interval_s);
+  const double longest_s = static_cast<double>(axis.count) * axis.interval_s;
+  return sampled_kernel([&](double t_s) { return wavelet(t_s + shift_s); }, std::max(-shift_s, -longest_s),
+                        std::min(wavelet.duration_s() - shift_s, longest_s), axis.interval_s);
 }
 
 /// In the order in which TraceFilter takes them.
-FilterSteps steps_of(const Settings& settings, double interval_s) {
+FilterSteps steps_of(const Settings& settings, const SampleAxis& axis) {
   FilterSteps steps;
   if (!settings.taper.empty()) steps.taper = in_place("--taper", [&] { return parse_taper(settings.taper); });
-  if (!settings.wavelet.empty()) steps.convolution = kernel_of(settings, interval_s);
+  if (!settings.wavelet.empty()) steps.convolution = kernel_of(settings, axis);
   if (!settings.band.empty()) steps.band = in_place("--band", [&] { return parse_ormsby(settings.band); });
   steps.interval_s = settings.interval_s;
   for (const auto& gain : settings.gains)
@@ -63,7 +66,7 @@ void run(const Settings& settings, const cli::Context& context) {
     throw Error("--zero-delay: found no --convolve, expected one", ErrorKind::usage);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   const SampleAxis& axis = reader.axis_with_interval();
-  TraceFilter filter(axis, steps_of(settings, axis.interval_s));
+  TraceFilter filter(axis, steps_of(settings, axis));
   OutputFile out(settings.output, OutputFile::Content::binary);
   segy::FileInfo info = segy::info_like(reader, context.command_line);
   info.axis = filter.axis();

@@ -121,3 +121,11 @@ TEST_F(Traces, ConvolutionShiftsByTheWaveletsDelayUnlessTold) {
   const auto lag = done("sw-compare late.sgy now.sgy --summary | awk '/all/ { print $5 }'");
   EXPECT_NEAR(std::stod(lag), 0.075, 1e-4);
 }
+
+TEST_F(Traces, AWaveletMuchLongerThanTheTracesCostsNothing) {
+  // a sine of eleven days; 2 GB hold an eighth of its samples
+  done("(ulimit -v 2000000; sw-filter line.sgy --convolve sine:1e-6 -o long.sgy)");
+  // from its start it grows like 2 pi F t: twice the frequency, twice the values
+  done("sw-filter line.sgy --convolve sine:2e-6 --gain scale:0.5 -o half.sgy");
+  done("sw-compare long.sgy half.sgy --tolerance 1e-6 -q");
+}
