@@ -4,8 +4,10 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
+#include <atomic>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -59,6 +61,69 @@ void parallel_for(std::int64_t count, std::int64_t grain,
   const std::int64_t longest = std::max(grain, count / (pieces_a_worker * threads));
   tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, std::size_t(longest)), run,
                     tbb::simple_partitioner());
+}
+
+namespace {
+
+/// The pieces of parallel_passes() and what each still waits for.
+class Pieces {
+ public:
+  Pieces(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
+         const std::function<void(std::int64_t, std::int64_t, int)>& body)
+      : passes_(passes), bands_(bands), under_way_(under_way), body_(body) {
+    waits_ = std::make_unique<std::atomic<int>[]>(std::size_t(passes * bands));
+    for (std::int64_t pass = 0; pass < passes; ++pass)
+      for (std::int64_t band = 0; band < bands; ++band)
+        waits(pass, band) = (band > 0) + (pass > 0) + (band == 0 && pass >= under_way);
+  }
+  void run() {
+    group_.run_and_wait([this] { run_from(0, 0); });
+  }
+
+ private:
+  std::atomic<int>& waits(std::int64_t pass, std::int64_t band) {
+    return waits_[std::size_t(pass * bands_ + band)];
+  }
+  /// One thing a piece waited for is done: whether it was the last.
+  bool ready(std::int64_t pass, std::int64_t band) {
+    return pass < passes_ && band < bands_ && waits(pass, band).fetch_sub(1) == 1;
+  }
+  void run_from(std::int64_t pass, std::int64_t band) {
+    for (;;) {
+      flush_subnormals();
+      body_(pass, band, std::max(0, tbb::this_task_arena::current_thread_index()));
+      const auto start = [this](std::int64_t next_pass, std::int64_t next_band) {
+        if (ready(next_pass, next_band))
+          group_.run([this, next_pass, next_band] { run_from(next_pass, next_band); });
+      };
+      const bool last = band + 1 == bands_;
+      if (band > 0) start(pass + 1, band - 1);
+      if (last) start(pass + 1, band);
+      if (last) start(pass + under_way_, 0);
+      // The next band shares most with this one.
+      if (last || !ready(pass, band + 1)) return;
+      ++band;
+    }
+  }
+
+  std::int64_t passes_, bands_, under_way_;
+  const std::function<void(std::int64_t, std::int64_t, int)>& body_;
+  std::unique_ptr<std::atomic<int>[]> waits_;
+  tbb::task_group group_;
+};
+
+}  // namespace
+
+void parallel_passes(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
+                     const std::function<void(std::int64_t, std::int64_t, int)>& body) {
+  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  if (threads > 1 && under_way > 1 && passes > 1 && bands > 2) {
+    Pieces(passes, bands, under_way, body).run();
+    return;
+  }
+  flush_subnormals();
+  for (std::int64_t pass = 0; pass < passes; ++pass)
+    for (std::int64_t band = 0; band < bands; ++band) body(pass, band, 0);
 }
 
 }  // namespace slipwave

@@ -13,6 +13,12 @@ namespace slipwave {
 
 enum class SlipCorrection { first, second };
 
+/// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
+struct Passage {
+  int steps = 0;         // time steps in one pass
+  int stripe_cells = 0;  // columns swept together, a multiple of 16
+};
+
 /// How the scene is computed. Defaults are those of sw-shoot.
 struct Numerics {
   int order = 5;                      // of the reconstruction: 1, 3, 5, 7
@@ -22,6 +28,7 @@ struct Numerics {
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
   int time_order = 2;  // of the splitting in time: 2, 4
+  Passage passage;
 };
 
 /// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included.

@@ -1,8 +1,7 @@
 #include "solver/absorbing.hpp"
 
+#include <algorithm>
 #include <numeric>
-
-#include "base/parallel.hpp"
 
 namespace slipwave::solver {
 
@@ -27,39 +26,33 @@ std::int64_t AbsorbingZones<D, Real>::cells() const {
 
 /// Cells of one line that share the zone and factor of an axis other than x.
 template <int D, class Real>
-void AbsorbingZones<D, Real>::damp(int axis, int side, const Index<D>& line, std::int64_t x_first,
-                                   std::int64_t count, Real factor) {
+void AbsorbingZones<D, Real>::damp(const StepTime& time, int axis, int side, const Index<D>& line,
+                                   const Columns& columns, Real factor) {
   constexpr std::int64_t piece = 64;
   Real target[piece] = {};
-  for (int row = 0; row < FieldRows<D>::count; ++row) {
-    Real* u = state_.field_row(line, row) + x_first;
-    for (std::int64_t done = 0; done < count; done += piece) {
-      const std::int64_t n = std::min(piece, count - done);
-      if (background_) background_->values(axis, side, line, x_first + done, n, row, target);
-      const Real* along = factors_[0].data() + x_first + done;
+  for (int row = 0; row < FieldRows<D>::count && !columns.empty(); ++row) {
+    Real* u = state_.field_row(line, row);
+    for (std::int64_t first = columns.first; first < columns.last; first += piece) {
+      const std::int64_t n = std::min(piece, columns.last - first);
+      if (background_) background_->values(time, axis, side, line, first, n, row, target);
+      const Real* along = factors_[0].data() + first;
       for (std::int64_t i = 0; i < n; ++i)
-        u[done + i] = target[i] + (axis == 0 ? along[i] : factor) * (u[done + i] - target[i]);
+        u[first + i] = target[i] + (axis == 0 ? along[i] : factor) * (u[first + i] - target[i]);
     }
   }
 }
 
 template <int D, class Real>
-void AbsorbingZones<D, Real>::run(const StepTime& time) {
-  if (background_) background_->advance(time);
-  const std::int64_t lines = state_.layout.lines(), nx = state_.layout.shape()[0];
-  const std::int64_t low = domain_.low_zone[0], high = domain_.high_zone[0];
-  parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t number = begin; number < end; ++number) {
-      const Index<D> line = state_.layout.line_index(number);
-      for (int axis = 1; axis < D; ++axis) {
-        const Real factor = factors_[std::size_t(axis)][std::size_t(line[std::size_t(axis)])];
-        const int side = line[std::size_t(axis)] < domain_.low_zone[std::size_t(axis)] ? 0 : 1;
-        if (factor < 1) damp(axis, side, line, 0, nx, factor);
-      }
-      if (low > 0) damp(0, 0, line, 0, low, 1);
-      if (high > 0) damp(0, 1, line, nx - high, high, 1);
-    }
-  });
+void AbsorbingZones<D, Real>::run(const StepTime& time, std::int64_t number, const Columns& columns) {
+  const std::int64_t nx = state_.layout.shape()[0], low = domain_.low_zone[0], high = domain_.high_zone[0];
+  const Index<D> line = state_.layout.line_index(number);
+  for (int axis = 1; axis < D; ++axis) {
+    const Real factor = factors_[std::size_t(axis)][std::size_t(line[std::size_t(axis)])];
+    const int side = line[std::size_t(axis)] < domain_.low_zone[std::size_t(axis)] ? 0 : 1;
+    if (factor < 1) damp(time, axis, side, line, columns, factor);
+  }
+  damp(time, 0, 0, line, {columns.first, std::min(columns.last, low)}, 1);
+  damp(time, 0, 1, line, {std::max(columns.first, nx - high), columns.last}, 1);
 }
 
 template class AbsorbingZones<2, float>;

@@ -16,7 +16,10 @@ class AbsorbingZones : public Pass {
   /// `background` may be null: the zones then damp to zero. Keeps references.
   AbsorbingZones(State<D, Real>& state, const Domain<D>& domain, double dt_s, double vp_max,
                  Background<D, Real>* background);
-  void run(const StepTime& time) override;
+  void begin(const StepTime& time) override {
+    if (background_) background_->advance(time);
+  }
+  void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
   std::string name() const override {
     return background_ ? "absorbing zones, incoming wave" : "absorbing zones";
   }
@@ -24,7 +27,8 @@ class AbsorbingZones : public Pass {
   std::span<const std::int64_t> lines() const override { return lines_; }
 
  private:
-  void damp(int axis, int side, const Index<D>& line, std::int64_t x_first, std::int64_t count, Real factor);
+  void damp(const StepTime& time, int axis, int side, const Index<D>& line, const Columns& columns,
+            Real factor);
 
   State<D, Real>& state_;
   const Domain<D>& domain_;

@@ -87,9 +87,9 @@ class Column {
     begin_with(form_, domain_.grid, state_);
   }
   /// `from_top`: the wave comes in through the top zone, else through the bottom one.
-  void advance(double t, bool from_top) {
+  void advance(std::int64_t step, double t, bool from_top) {
     for (const auto& sweep : splitting_)
-      if (sweep.axis == 1) sweeps_.across(1, Real(sweep.part));
+      if (sweep.axis == 1) sweeps_.along(1, Real(sweep.part));
     const auto last = std::int64_t(factors_.size()) - 1;
     for (std::int64_t k = 0; k <= last; ++k) {
       const double factor = factors_[std::size_t(k)];
@@ -101,8 +101,14 @@ class Column {
         u = Real(target + factor * (double(u) - target));
       }
     }
+    auto& now = kept_[std::size_t(step % Pass::most_steps_under_way)];
+    now.clear();
+    for (std::int64_t k = 0; k <= last; ++k)
+      for (int row = 0; row < FieldRows<2>::count; ++row) now.push_back(state_.field_row({0, k}, row)[0]);
   }
-  Real value(std::int64_t k, int row) const { return state_.field_row({0, k}, row)[0]; }
+  Real value(std::int64_t step, std::int64_t k, int row) const {
+    return kept_[std::size_t(step % Pass::most_steps_under_way)][std::size_t(k * FieldRows<2>::count + row)];
+  }
 
  private:
   static EdgeLaws<2> edges_of(const Scene<2>& scene) {
@@ -117,6 +123,7 @@ class Column {
   std::vector<SweepPart> splitting_;
   std::vector<double> factors_;
   PlaneForm form_;
+  std::array<std::vector<Real>, std::size_t(Pass::most_steps_under_way)> kept_;  // [step][cell][row]
 };
 
 /// A wave travelling straight down or up.
@@ -135,17 +142,16 @@ class VerticalWave : public Background<2, Real> {
   }
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime& time) override {
-    time_s_ = time.end_s();
     for (auto& column : columns_)
-      if (column) column->advance(time_s_, from_top_);
+      if (column) column->advance(time.step, time.end_s(), from_top_);
   }
-  void values(int axis, int side, const Index<2>& line, std::int64_t, std::int64_t count, int field_row,
-              Real* out) const override {
+  void values(const StepTime& time, int axis, int side, const Index<2>& line, std::int64_t,
+              std::int64_t count, int field_row, Real* out) const override {
     double value = 0;
     if (axis == 0)
-      value = columns_[std::size_t(side)]->value(line[1], field_row);
+      value = columns_[std::size_t(side)]->value(time.step, line[1], field_row);
     else if (from_top_ == (side == 0))
-      value = form_.value(field_row, 0, grid_.centre(1, line[1]), time_s_);
+      value = form_.value(field_row, 0, grid_.centre(1, line[1]), time.end_s());
     std::fill(out, out + count, Real(value));
   }
   bool needs_whole_step() const override { return false; }
@@ -154,7 +160,6 @@ class VerticalWave : public Background<2, Real> {
   PlaneForm form_;
   Grid<2> grid_;
   bool from_top_;
-  double time_s_ = 0;
   std::array<std::unique_ptr<Column<Real>>, 2> columns_;
 };
 
@@ -164,19 +169,18 @@ class ObliqueWave : public Background<2, Real> {
  public:
   ObliqueWave(const PlaneForm& form, const Domain<2>& domain) : form_(form), grid_(domain.grid) {}
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
-  void advance(const StepTime& time) override { time_s_ = time.end_s(); }
-  void values(int, int, const Index<2>& line, std::int64_t x_first, std::int64_t count, int field_row,
-              Real* out) const override {
+  void advance(const StepTime&) override {}
+  void values(const StepTime& time, int, int, const Index<2>& line, std::int64_t x_first, std::int64_t count,
+              int field_row, Real* out) const override {
     const double z = grid_.centre(1, line[1]);
     for (std::int64_t i = 0; i < count; ++i)
-      out[i] = Real(form_.value(field_row, grid_.centre(0, x_first + i), z, time_s_));
+      out[i] = Real(form_.value(field_row, grid_.centre(0, x_first + i), z, time.end_s()));
   }
   bool needs_whole_step() const override { return true; }
 
  private:
   PlaneForm form_;
   Grid<2> grid_;
-  double time_s_ = 0;
 };
 
 }  // namespace

@@ -16,12 +16,12 @@ class Background {
   virtual ~Background() = default;
   /// Puts the wave of t = 0 into the fields of the computed grid.
   virtual void begin(State<D, Real>& state) = 0;
-  /// Brings it to time.end_s().
+  /// Brings it to time.end_s(), step after step. It still knows the steps under way (Pass).
   virtual void advance(const StepTime& time) = 0;
-  /// Its values of one field row in `count` cells of a line from x_first on, which lie in the zone of `axis`,
-  /// `side` (0 low, 1 high).
-  virtual void values(int axis, int side, const Index<D>& line, std::int64_t x_first, std::int64_t count,
-                      int field_row, Real* out) const = 0;
+  /// Its values at that step of one field row in `count` cells of a line from x_first on, which lie in the
+  /// zone of `axis`, `side` (0 low, 1 high).
+  virtual void values(const StepTime& time, int axis, int side, const Index<D>& line, std::int64_t x_first,
+                      std::int64_t count, int field_row, Real* out) const = 0;
   /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
   virtual bool needs_whole_step() const = 0;
 };

@@ -18,14 +18,15 @@ template <int Order>
 Complex flux(double courant, double phase) {
   constexpr int reach = reach_of(Order);
   double real[2 * reach + 1], imaginary[2 * reach + 1];
+  const double nothing[2 * reach + 1] = {};
   for (int n = -reach; n <= reach; ++n) {
     real[n + reach] = std::cos(n * phase);
     imaginary[n + reach] = std::sin(n * phase);
   }
-  double even, odd, even_imaginary, odd_imaginary;
-  even_odd<Order>(real + reach, 1, courant, even, odd);
-  even_odd<Order>(imaginary + reach, 1, courant, even_imaginary, odd_imaginary);
-  return {even + odd, even_imaginary + odd_imaginary};
+  double up, up_imaginary, down;
+  leave_cell<Order>(real + reach, nothing + reach, 1, 1., courant, up, down);
+  leave_cell<Order>(imaginary + reach, nothing + reach, 1, 1., courant, up_imaginary, down);
+  return {up, up_imaginary};
 }
 
 /// The factor of (E12) for a wave that turns by `phase` from cell to cell and travels towards higher cells.

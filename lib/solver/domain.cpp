@@ -13,6 +13,28 @@ int ghost_impedance(EdgeLaw law, Wave wave) {
   return continuation(law, wave) == Continuation::traction_free ? 0 : 1;
 }
 
+/// Shorter stretches of one material are not worth telling apart.
+constexpr std::int64_t shortest_stretch = 64;
+
+template <int D, class Real>
+void find_stretches(State<D, Real>& state) {
+  const std::int64_t nx = state.layout.shape()[0];
+  for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
+    const auto material = state.material_from(state.layout.line_index(line), 0);
+    const auto same = [&](std::int64_t i, std::int64_t j) {
+      return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
+             material.zs[i] == material.zs[j];
+    };
+    for (std::int64_t first = 0, x = 1; x <= nx; ++x) {
+      if (x < nx && same(first, x)) continue;
+      if (x - first >= std::min(shortest_stretch, nx))
+        state.stretches.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
+      first = x;
+    }
+    state.first_stretch[std::size_t(line) + 1] = state.stretches.size();
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -63,11 +85,8 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool empty = medium.is_void(cell), solid = medium.is_solid(cell);
     const double rho = medium.rho[cell], vp = medium.vp[cell], vs = medium.vs[cell];
-    const double values[material_rows] = {
-        empty || ghost ? 0 : courant / rho,         empty ? 0 : p_factor * rho * vp,
-        ghost ? 0 : empty ? no_wave : vp * courant, solid ? s_factor * rho * vs : 0,
-        ghost ? 0 : solid ? vs * courant : no_wave,
-    };
+    const double values[material_rows] = {empty || ghost ? 0 : courant / rho, empty ? 0 : p_factor * rho * vp,
+                                          solid ? s_factor * rho * vs : 0};
     Index<D> line = at;
     line[0] = 0;
     for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);
@@ -100,6 +119,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
       }
     }
   });
+  find_stretches(state);
 }
 
 template <int D, class Real>

@@ -80,9 +80,12 @@ std::vector<EdgeTerm<D>> edge_slope(const Domain<D>& domain, const Index<D>& at,
 
 template <int D, class Real>
 FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, int axis, int side)
-    : axis_(axis), outward_(side ? -1 : 1), padded_nx_(layout.padded_nx()), shape_(layout.shape()) {
+    : axis_(axis),
+      side_(side),
+      outward_(side ? -1 : 1),
+      padded_nx_(layout.padded_nx()),
+      shape_(layout.shape()) {
   const Layout<D> material(shape_, material_rows);
-  material_pitch_ = material.row_pitch();
   Index<D> first{};
   first[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
   for (std::int64_t n = 0; n < domain.grid.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
@@ -91,11 +94,16 @@ FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, in
     int pair = 0;
     const auto add = [&](int row, int impedance_row) {
       const auto terms = edge_slope(domain, at, axis, side, row);
+      const auto begin = terms_.size();
       for (const auto& term : terms)
-        terms_.push_back({layout.cell(term.cell) + term.row * layout.row_pitch(), Real(term.weight)});
+        terms_.push_back({axis == 0 ? layout.line_number(term.cell) * D + term.row
+                                    : layout.cell(term.cell) + term.row * layout.row_pitch(),
+                          Real(term.weight)});
+      const auto place = [&](int material_row) {
+        return material.cell(at) + material_row * material.row_pitch();
+      };
       if (!terms.empty())
-        cells_.push_back(
-            {pair, number(at), material.cell(at) + impedance_row * material_pitch_, terms_.size()});
+        cells_.push_back({pair, number(at), place(row_b), place(impedance_row), begin, terms_.size()});
       ++pair;
     };
     add(FieldRows<D>::velocity(axis), row_zp);
@@ -103,6 +111,7 @@ FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, in
       if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
   }
   if (cells_.empty()) return;
+  if (axis == 0) kept_.assign(std::size_t(layout.lines() * D), 0);
   Index<D> last = shape_;
   for (auto& n : last) --n;
   for (auto* lists : {&bends_, &jumps_})
@@ -119,17 +128,25 @@ std::int64_t FreeEdge<D, Real>::number(const Index<D>& at) const {
 }
 
 template <int D, class Real>
-void FreeEdge<D, Real>::measure(const State<D, Real>& state) {
-  const Real* const fields = state.fields.data();
+void FreeEdge<D, Real>::keep(const State<D, Real>& state, std::int64_t line) {
+  const Real* const cell = state.field_row(state.layout.line_index(line), 0) + (side_ ? shape_[0] - 1 : 0);
+  for (int row = 0; row < D; ++row)
+    kept_[std::size_t(line * D + row)] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch()];
+}
+
+template <int D, class Real>
+void FreeEdge<D, Real>::measure(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
+  const Real* const fields = axis_ == 0 ? kept_.data() : state.fields.data();
   const Real* const material = state.material.data();
-  std::size_t term = 0;
-  for (const Cell& cell : cells_) {
+  auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
+                               [](const Cell& one, std::int64_t number) { return one.number < number; });
+  for (; cell != cells_.end() && cell->number < last; ++cell) {
     Real bend = 0;
-    for (; term < cell.terms_end; ++term) bend += terms_[term].weight * fields[terms_[term].place];
-    // Impedance times Courant number: the modulus times dt/h.
-    const Real stiffness = material[cell.impedance] * material[cell.impedance + material_pitch_];
-    bends_[std::size_t(cell.pair)][std::size_t(cell.number)] = bend;
-    jumps_[std::size_t(cell.pair)][std::size_t(cell.number)] = outward_ * stiffness * bend;
+    for (auto term = cell->terms_begin; term < cell->terms_end; ++term)
+      bend += terms_[term].weight * fields[terms_[term].place];
+    const Real z = material[cell->impedance], stiffness = z * z * material[cell->b];
+    bends_[std::size_t(cell->pair)][std::size_t(cell->number)] = bend;
+    jumps_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * bend;
   }
 }
 

@@ -36,8 +36,14 @@ class FreeEdge {
   FreeEdge(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
 
   bool empty() const { return cells_.empty(); }
-  /// Takes the fields as they are now, before a sweep across the edge.
-  void measure(const State<D, Real>& state);
+  /// Keeps the velocities of the edge of the x axis on this line as they are now: measure() works with those,
+  /// since sweeps along x change line after line.
+  void keep(const State<D, Real>& state, std::int64_t line);
+  /// Makes bend() and jump() at cells first <= number < last of the edge for a sweep across it that follows,
+  /// from the fields as they are, or were kept, up to two cells beyond.
+  void measure(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  /// Cells along the edge that measure() reads beside each.
+  static constexpr std::int64_t reach = 2;
   /// Of a pair of the sweep across (0 P, then S by axes), at the cells of the edge (number()): what v gains,
   /// over 2 j + 1, and what s gains in a sweep of a whole step.
   const Real* bend(int pair) const { return bends_[std::size_t(pair)].data(); }
@@ -50,18 +56,19 @@ class FreeEdge {
     std::int64_t place;
     Real weight;
   };
-  /// One pair at one cell of the edge. stiffness: place of the pair's impedance in the material.
+  /// One pair at one cell of the edge; the places of b and of the pair's impedance in the material.
   struct Cell {
     int pair;
-    std::int64_t number, impedance;
-    std::size_t terms_end;
+    std::int64_t number, b, impedance;
+    std::size_t terms_begin, terms_end;
   };
-  int axis_ = 0;
+  int axis_ = 0, side_ = 0;
   Real outward_ = 1;
-  std::int64_t padded_nx_ = 0, material_pitch_ = 0;
+  std::int64_t padded_nx_ = 0;
   Index<D> shape_{};
-  std::vector<Cell> cells_;
-  std::vector<Term> terms_;
+  std::vector<Cell> cells_;  // by number
+  std::vector<Term> terms_;  // places in the fields, at the edge of the x axis in kept_
+  std::vector<Real> kept_;   // [line][velocity]
   std::array<std::vector<Real>, D> bends_, jumps_;
 };
 

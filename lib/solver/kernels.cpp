@@ -3,18 +3,20 @@
 #include <cassert>
 #include <cstring>
 
+#include "solver/kernel_tables.hpp"
+
 namespace slipwave::solver {
 
 #if defined(__x86_64__)
-const Kernels<float>* kernels_x86_64_v2(int order, float);
-const Kernels<double>* kernels_x86_64_v2(int order, double);
-const Kernels<float>* kernels_x86_64_v3(int order, float);
-const Kernels<double>* kernels_x86_64_v3(int order, double);
-const Kernels<float>* kernels_x86_64_v4(int order, float);
-const Kernels<double>* kernels_x86_64_v4(int order, double);
+const KernelTables<float>& kernels_x86_64_v2(float);
+const KernelTables<double>& kernels_x86_64_v2(double);
+const KernelTables<float>& kernels_x86_64_v3(float);
+const KernelTables<double>& kernels_x86_64_v3(double);
+const KernelTables<float>& kernels_x86_64_v4(float);
+const KernelTables<double>& kernels_x86_64_v4(double);
 #endif
-const Kernels<float>* kernels_generic(int order, float);
-const Kernels<double>* kernels_generic(int order, double);
+const KernelTables<float>& kernels_generic(float);
+const KernelTables<double>& kernels_generic(double);
 
 const char* instruction_set() {
 #if defined(__x86_64__)
@@ -30,21 +32,37 @@ const char* instruction_set() {
 #endif
 }
 
+namespace {
+
 template <class Real>
-const Kernels<Real>& kernels(int order) {
-  const Kernels<Real>* found = nullptr;
+const KernelTables<Real>& best_tables() {
 #if defined(__x86_64__)
   const char* level = instruction_set();
-  if (!std::strcmp(level, "x86-64-v4")) found = kernels_x86_64_v4(order, Real());
-  if (!std::strcmp(level, "x86-64-v3")) found = kernels_x86_64_v3(order, Real());
-  if (!std::strcmp(level, "x86-64-v2")) found = kernels_x86_64_v2(order, Real());
+  if (!std::strcmp(level, "x86-64-v4")) return kernels_x86_64_v4(Real());
+  if (!std::strcmp(level, "x86-64-v3")) return kernels_x86_64_v3(Real());
+  if (!std::strcmp(level, "x86-64-v2")) return kernels_x86_64_v2(Real());
 #endif
-  if (!found) found = kernels_generic(order, Real());
+  return kernels_generic(Real());
+}
+
+}  // namespace
+
+template <class Real>
+const Kernels<Real>& kernels(int order, bool uniform) {
+  const auto& tables = best_tables<Real>();
+  const auto* found = uniform ? tables.of_order_uniform(order) : tables.of_order(order);
   assert(found);
   return *found;
 }
 
-template const Kernels<float>& kernels<float>(int);
-template const Kernels<double>& kernels<double>(int);
+template <class Real>
+const StretchKernels<Real>& stretch_kernels() {
+  return best_tables<Real>().stretch;
+}
+
+template const Kernels<float>& kernels<float>(int, bool);
+template const Kernels<double>& kernels<double>(int, bool);
+template const StretchKernels<float>& stretch_kernels<float>();
+template const StretchKernels<double>& stretch_kernels<double>();
 
 }  // namespace slipwave::solver

@@ -10,41 +10,97 @@ constexpr int max_reach = 3;
 constexpr int orders[] = {1, 3, 5, 7};
 constexpr int reach_of(int order) { return (order - 1) / 2; }
 
+/// Cells first <= x < last of a line.
+struct Columns {
+  std::int64_t first = 0, last = 0;
+  std::int64_t count() const { return last - first; }
+  bool empty() const { return last <= first; }
+};
+
+/// Values at faces: of the P pair (v_n, s_nn) and the S pair (v_t, s_nt).
+template <class Real>
+struct Faces {
+  Real *v_p, *s_p, *v_s, *s_s;
+  Faces at(std::int64_t i) const { return {v_p + i, s_p + i, v_s + i, s_s + i}; }
+};
+
+/// What leaves cells up and down along the axis, of the P and the S pair.
+template <class Real>
+struct Leaving {
+  Real *up_p, *down_p, *up_s, *down_s;
+};
+
+/// Material of a stretch of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
+template <class Real>
+struct MaterialRows {
+  const Real *b, *zp, *zs;
+};
+
+/// Fields of a stretch of cells that a sweep changes. vt and st are null where there is no shear; the second
+/// passive stress and S pair of three dimensions are not there yet.
+template <class Real>
+struct SweptRows {
+  Real *v, *s, *passive, *vt, *st;
+};
+
+/// What the matched layer does to a change (MatchedLayer), one value for all cells or one a cell.
+template <class Real>
+struct StretchFactors {
+  const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
+};
+
 /// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
-/// x),
-/// `_lo` and `_hi` are the faces before and behind each cell. n is a multiple of 16; cells beyond the
-/// medium carry b = Z = 0 and stay as they are. One wave family is a pair (v, s): P (v_n, s_nn) or S (v_t,
-/// s_nt).
-/// A sweep back in time, scale < 0, is one forward in time of -v (E19): `leave` and the updates turn the sign
-/// of v, and faces hold -v*.
+/// x), `lo` and `hi` are the faces before and behind each cell. Cells beyond the medium carry b = Z = 0 and
+/// stay as they are. A sweep back in time, scale < 0, is one forward in time of -v (E19): `leave` and the
+/// updates turn the sign of v, and faces hold -v*.
 template <class Real>
 struct Kernels {
   /// What leaves every cell upwards and downwards within the time step (theory.md (E6), (E7)):
-  /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; courant = c dt/h, scale = part of the step.
+  /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
   void (*leave)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
-                const Real* courant, Real scale, Real* up, Real* down);
-  /// The exact Riemann solution at the faces below (lo) and above (hi) which `up` and `down` meet (E8).
-  void (*meet)(std::int64_t n, const Real* up_lo, const Real* impedance_lo, const Real* down_hi,
-               const Real* impedance_hi, Real* v_face, Real* s_face);
-  /// P update (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], and each passive normal stress += lambda
-  /// dt/h [v*]. passive_1 may be null in a fluid-only or one-dimensional scene, passive_2 is null in 2-D.
-  void (*update_normal)(std::int64_t n, Real scale, const Real* v_lo, const Real* v_hi, const Real* s_lo,
-                        const Real* s_hi, const Real* b, const Real* zp, const Real* cp, const Real* zs,
-                        const Real* cs, Real* v, Real* s, Real* passive_1, Real* passive_2);
-  /// S update (E9): v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
-  void (*update_shear)(std::int64_t n, Real scale, const Real* v_lo, const Real* v_hi, const Real* s_lo,
-                       const Real* s_hi, const Real* b, const Real* zs, const Real* cs, Real* v, Real* s);
+                const Real* b, Real scale, Real* up, Real* down);
+  /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
+  /// above (hi) meet (E8), of both pairs, with one division.
+  void (*meet)(std::int64_t n, const Real* up_p, const Real* down_p, const Real* up_s, const Real* down_s,
+               const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
+  /// The same of the P pair alone.
+  void (*meet_p)(std::int64_t n, const Real* up_p, const Real* down_p, const MaterialRows<Real>& lo,
+                 const MaterialRows<Real>& hi, const Faces<Real>& faces);
+  /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], the passive normal stress += lambda dt/h [v*];
+  /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
+  void (*update)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                 const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  /// The same where no cell carries shear.
+  void (*update_p)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                   const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 
-/// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor.
+/// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;
+/// phi = left phi + added (now - before) unless phi is to stay.
 template <class Real>
-const Kernels<Real>& kernels(int order);
+struct StretchKernels {
+  /// Factors by cell, all cells in plates or none.
+  void (*along)(std::int64_t n, const StretchFactors<Real>& by_cell, Real plate, const Real* before,
+                Real* now, Real* phi, bool remember);
+  /// The same factors for all cells, plates (1) or not (0) by cell.
+  void (*across)(std::int64_t n, const StretchFactors<Real>& of_all, const Real* plates, const Real* before,
+                 Real* now, Real* phi, bool remember);
+};
+
+/// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
+/// stretches of one material, of which only the first cell is read; they give the same bits.
+template <class Real>
+const Kernels<Real>& kernels(int order, bool uniform);
+template <class Real>
+const StretchKernels<Real>& stretch_kernels();
 
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
 const char* instruction_set();
 
-extern template const Kernels<float>& kernels<float>(int);
-extern template const Kernels<double>& kernels<double>(int);
+extern template const Kernels<float>& kernels<float>(int, bool);
+extern template const Kernels<double>& kernels<double>(int, bool);
+extern template const StretchKernels<float>& stretch_kernels<float>();
+extern template const StretchKernels<double>& stretch_kernels<double>();
 
 }  // namespace slipwave::solver

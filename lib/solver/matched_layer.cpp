@@ -45,7 +45,7 @@ std::vector<double> parts_along(int axis, int dimension, int time_order) {
 template <int D, class Real>
 MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
                                     double vp_max, double slow_hz, int time_order)
-    : layout_(layout) {
+    : layout_(layout), kernels_(stretch_kernels<Real>()) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
@@ -64,14 +64,13 @@ MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& do
         const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
         const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
         const double sum = d + alpha, lost = -std::expm1(-sum * time);
-        Factors& of_slot = factors.emplace_back();
-        of_slot.kept = Real(std::exp(-plain_share * d * time));
-        of_slot.lost_in_plates =
-            Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time));
-        of_slot.of_memory = Real(lost / (sum * dt_s));
-        of_slot.of_change = Real(d / sum * (1 - lost / (sum * time)));
-        of_slot.left = Real(1 - lost);
-        of_slot.added = Real(lost * d / sum * dt_s / time);
+        factors.kept.push_back(Real(std::exp(-plain_share * d * time)));
+        factors.lost_in_plates.push_back(
+            Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time)));
+        factors.of_memory.push_back(Real(lost / (sum * dt_s)));
+        factors.of_change.push_back(Real(d / sum * (1 - lost / (sum * time))));
+        factors.left.push_back(Real(1 - lost));
+        factors.added.push_back(Real(lost * d / sum * dt_s / time));
       }
     }
     std::int64_t rows = FieldRows<D>::count;
@@ -146,9 +145,12 @@ void MatchedLayer<D, Real>::find_plates(int axis, const Domain<D>& domain) {
 }
 
 template <int D, class Real>
-bool MatchedLayer<D, Real>::covers(int axis, const Index<D>& line) const {
+std::array<Columns, 2> MatchedLayer<D, Real>::covered(int axis, const Index<D>& line,
+                                                      const Columns& columns) const {
   const auto& layer = axes_[std::size_t(axis)];
-  return axis == 0 ? layer.low + layer.high > 0 : layer.holds(line[std::size_t(axis)]);
+  if (axis > 0) return {layer.holds(line[std::size_t(axis)]) ? columns : Columns{}, Columns{}};
+  return {Columns{columns.first, std::min(columns.last, layer.low)},
+          Columns{std::max(columns.first, layer.cells - layer.high), std::min(columns.last, layer.cells)}};
 }
 
 template <int D, class Real>
@@ -165,44 +167,23 @@ Real* MatchedLayer<D, Real>::memory_of(int axis, const Index<D>& line, int field
 }
 
 template <int D, class Real>
-void MatchedLayer<D, Real>::keep(int axis, const Index<D>&, std::int64_t count, const Real* row,
-                                 Real* to) const {
-  if (axis > 0) {
-    std::copy(row, row + count, to);
-    return;
-  }
-  const auto& layer = axes_[0];
-  std::copy(row, row + layer.low, to);
-  std::copy(row + layer.cells - layer.high, row + layer.cells, to + layer.low);
-}
-
-template <int D, class Real>
-void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_row, std::int64_t count,
+void MatchedLayer<D, Real>::stretch(int axis, const Index<D>& line, int field_row, const Columns& columns,
                                     Real scale, const Real* before, Real* row, bool remember) {
   const auto& layer = axes_[std::size_t(axis)];
   const auto part = std::find(layer.parts.begin(), layer.parts.end(), scale) - layer.parts.begin();
-  const auto& of_slots = layer.factors[std::size_t(part)];
+  const auto& factors = layer.factors[std::size_t(part)];
   Real* const memory = memory_of(axis, line, field_row);
-  const auto one = [remember](const Factors& factors, Real plate, Real was, Real& now, Real& phi) {
-    const Real change = now - was;
-    now -= factors.of_memory * phi + factors.of_change * change;
-    now *= factors.kept - plate * factors.lost_in_plates;
-    if (remember) phi = factors.left * phi + factors.added * change;
-  };
   if (axis > 0) {
-    const auto& factors = of_slots[std::size_t(layer.slot(line[std::size_t(axis)]))];
+    const auto cell = line[std::size_t(axis)];
     const Real* const plates =
-        layer.plates[line[std::size_t(axis)] < layer.low ? 0 : 1].data() + along_edge(axis, line);
-    for (std::int64_t i = 0; i < count; ++i) one(factors, plates[i], before[i], row[i], memory[line[0] + i]);
+        layer.plates[cell < layer.low ? 0 : 1].data() + along_edge(axis, line) - line[0] + columns.first;
+    kernels_.across(columns.count(), factors.from(layer.slot(cell)), plates, before, row,
+                    memory + columns.first, remember);
     return;
   }
-  const auto here = std::size_t(along_edge(axis, line));
-  const Real low_plate = layer.plates[0][here], high_plate = layer.plates[1][here];
-  for (std::int64_t i = 0; i < layer.low; ++i)
-    one(of_slots[std::size_t(i)], low_plate, before[i], row[i], memory[i]);
-  Real* const high = row + layer.cells - layer.high - layer.low;
-  for (std::int64_t i = layer.low; i < layer.low + layer.high; ++i)
-    one(of_slots[std::size_t(i)], high_plate, before[i], high[i], memory[i]);
+  const auto slot = layer.slot(columns.first);
+  const Real plate = layer.plates[columns.first < layer.low ? 0 : 1][std::size_t(along_edge(axis, line))];
+  kernels_.along(columns.count(), factors.from(slot), plate, before, row, memory + slot, remember);
 }
 
 template <int D, class Real>

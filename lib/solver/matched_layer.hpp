@@ -24,27 +24,30 @@ class MatchedLayer {
   MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
                int time_order = 2);
 
-  /// Whether a sweep along `axis` over the line at these indices passes through the layer.
-  bool covers(int axis, const Index<D>& line) const;
-  /// Copies the part of a row that lies in the layer, `count` cells from line[0] on. `to` takes `count`
-  /// values.
-  void keep(int axis, const Index<D>& line, std::int64_t count, const Real* row, Real* to) const;
-  /// Takes from the row what the layer's memory takes of its change since keep(). `scale` is a
-  /// part of the splitting. Only with `remember` the memory moves on.
-  void stretch(int axis, const Index<D>& line, int field_row, std::int64_t count, Real scale,
+  /// Parts of the columns first <= x < last of a line that lie in the layer of this axis, in order; empty
+  /// ones where there are less than two.
+  std::array<Columns, 2> covered(int axis, const Index<D>& line, const Columns& columns) const;
+  /// Takes from a row what the layer's memory takes of its change, in columns that covered() gave. `before`
+  /// and `row` point at the first of them. `scale` is a part of the splitting. Only with `remember` the
+  /// memory moves on.
+  void stretch(int axis, const Index<D>& line, int field_row, const Columns& columns, Real scale,
                const Real* before, Real* row, bool remember);
   std::int64_t memory_bytes() const;
 
  private:
-  /// Of one cell and one part of the step: what the memory takes, what the change itself takes, what is left
-  /// of the memory, what the change adds to it, what is left of the field and how much less in plates.
+  /// Of one part of the step, by slot: what the memory takes, what the change itself takes, what is left of
+  /// the memory, what the change adds to it, what is left of the field and how much less in plates.
   struct Factors {
-    Real of_memory{}, of_change{}, left{}, added{}, kept{}, lost_in_plates{};
+    std::vector<Real> of_memory, of_change, left, added, kept, lost_in_plates;
+    StretchFactors<Real> from(std::int64_t slot) const {
+      return {of_memory.data() + slot, of_change.data() + slot, left.data() + slot,
+              added.data() + slot,     kept.data() + slot,      lost_in_plates.data() + slot};
+    }
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
-    std::vector<Real> parts;                    // of a step that sweeps along this axis are made of
-    std::vector<std::vector<Factors>> factors;  // [part][low zone, then high zone, in the order of the cells]
+    std::vector<Real> parts;       // of a step that sweeps along this axis are made of
+    std::vector<Factors> factors;  // [part], slots: low zone, then high zone, by cells
     Buffer<Real> memory;
     std::array<std::vector<Real>, 2> plates;  // low and high zone: 1 in plates, else 0, along the edge
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
@@ -55,6 +58,7 @@ class MatchedLayer {
   Real* memory_of(int axis, const Index<D>& line, int field_row);
 
   Layout<D> layout_;
+  const StretchKernels<Real>& kernels_;
   std::array<Axis, std::size_t(D)> axes_;
 };
 

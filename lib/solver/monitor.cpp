@@ -10,8 +10,7 @@
 namespace slipwave::solver {
 
 template <int D, class Real>
-void Monitor<D, Real>::run(const StepTime& time) {
-  if ((time.step + 1) % every != 0) return;
+void Monitor<D, Real>::look(const StepTime& time) const {
   constexpr Real beyond = Real(1e30);
   const std::int64_t lines = state_.layout.lines(), nx = state_.layout.shape()[0];
   std::vector<char> bad_lines(std::size_t(lines), 0);

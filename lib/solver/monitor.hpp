@@ -1,28 +1,34 @@
 #pragma once
 
+#include <functional>
+
 #include "gather/trace.hpp"
 #include "scene/scene.hpp"
 #include "solver/domain.hpp"
 #include "solver/pass.hpp"
-#include "solver/recorder.hpp"
 
 namespace slipwave::solver {
 
 /// Looks at all velocities every `every` steps; throws an Error of kind unstable that says when and where
 /// once one of them is not finite or beyond what any source could make.
 template <int D, class Real>
-class Monitor : public Pass {
+class Monitor {
  public:
   static constexpr std::int64_t every = 50;
   Monitor(const State<D, Real>& state, const Domain<D>& domain) : state_(state), domain_(domain) {}
-  void run(const StepTime& time) override;
-  std::string name() const override { return "stability watch"; }
-  std::int64_t cells() const override { return domain_.grid.size() / every; }
+  /// To be called when no step is under way.
+  void look(const StepTime& time) const;
+  /// The first step after `step` that ends with a look.
+  static std::int64_t next_after(std::int64_t step) { return (step / every + 1) * every - 1; }
 
  private:
   const State<D, Real>& state_;
   const Domain<D>& domain_;
 };
+
+/// Where the fields of a line stand whole at the end of a step: cell 0 of row 0.
+template <class Real>
+using WholeLine = std::function<const Real*(std::int64_t line)>;
 
 /// The model's part of one component of the wave field, line by line as it stands whole.
 template <int D, class Real>

@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 
+#include "solver/kernels.hpp"
+
 namespace slipwave::solver {
 
 /// The instant a pass works for: the end of step number `step` (0-based).
@@ -13,14 +15,17 @@ struct StepTime {
   double end_s() const { return double(step + 1) * dt_s; }
 };
 
-/// One part of a time step: it exists only in scenes that call for it.
+/// One part of a time step: it exists only in scenes that call for it. It works line by line and on part of a
+/// line at a time, as the fields come by; several steps may be under way at once, on different lines.
 class Pass {
  public:
   virtual ~Pass() = default;
-  /// Brings the fields to time.end_s(); then they are recorded.
-  virtual void run(const StepTime& time) = 0;
+  /// Before the first line of each step, step after step.
+  virtual void begin(const StepTime&) {}
+  /// Brings the fields of these columns of a line to time.end_s(); then they are recorded.
+  virtual void run(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
   /// What the next step begins with, after recording.
-  virtual void run_after(const StepTime&) {}
+  virtual void run_after(const StepTime&, std::int64_t, const Columns&) {}
   /// What it does, for --plan.
   virtual std::string name() const = 0;
   /// Cells it works on.
@@ -30,6 +35,9 @@ class Pass {
   virtual std::span<const std::int64_t> lines() const { return {}; }
   /// Whether it does anything at that instant.
   virtual bool acts(const StepTime&) const { return true; }
+
+  /// Steps that may be under way at once: what begin() made for a step must last that long.
+  static constexpr std::int64_t most_steps_under_way = 32;
 };
 
 }  // namespace slipwave::solver

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 #include "acquisition/interpolation.hpp"
-#include "base/parallel.hpp"
 #include "grid/locate.hpp"
 
 namespace slipwave::solver {
@@ -35,6 +36,7 @@ template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                             std::size_t shot) {
   const auto& source = scene.survey.sources[shot - 1];
+  std::vector<ValueWeight> all;
   gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
   TraceHeader header;
   header.shot = std::int64_t(shot);
@@ -49,16 +51,28 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
       header.water_depth_receiver_m = water_depth_m(scene.model.medium, receiver);
       gather_.traces.push_back({header, {}});
       gather_.traces.back().samples.reserve(std::size_t(gather_.axis.count));
-      first_weight_.push_back(weights_.size());
+      first_weight_.push_back(all.size());
       for (const auto& weight : component_weights<D>(layout, domain, receiver, component))
-        weights_.push_back(weight);
+        all.push_back(weight);
     }
   }
-  first_weight_.push_back(weights_.size());
+  first_weight_.push_back(all.size());
   history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
-  lines_ = lines_of(weights_);
-  for (auto& weight : weights_)
-    weight.line = std::lower_bound(lines_.begin(), lines_.end(), weight.line) - lines_.begin();
+  values_.assign(std::size_t(Pass::most_steps_under_way) * all.size(), 0);
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+    const auto key = [&](std::size_t n) {
+      return std::tuple(all[n].line, layout.column(all[n].place), all[n].place, n);
+    };
+    return key(one) < key(other);
+  });
+  for (const auto n : order) {
+    starts_.resize(std::size_t(all[n].line) + 1, reads_.size());
+    reads_.push_back({layout.column(all[n].place), all[n].place / layout.row_pitch(), n});
+  }
+  starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
+  for (const auto& weight : all) weights_.push_back(weight.weight);
 }
 
 template <int D, class Real>
@@ -68,20 +82,30 @@ std::int64_t Recorder<D, Real>::steps_needed(const Recording& recording, double 
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::run(const StepTime& time, const WholeLine<Real>& whole_line) {
-  const auto traces = std::int64_t(gather_.traces.size());
+void Recorder<D, Real>::sample(const StepTime& time, std::int64_t line, const Columns& columns,
+                               const Real* fields, std::int64_t pitch) {
+  const auto end = reads_.begin() + std::ptrdiff_t(starts_[std::size_t(line) + 1]);
+  auto read = reads_.begin() + std::ptrdiff_t(starts_[std::size_t(line)]);
+  if (read == end) return;
+  Real* const values = values_of(time);
+  read = std::lower_bound(read, end, columns.first,
+                          [](const Read& one, std::int64_t column) { return one.column < column; });
+  for (; read != end && read->column < columns.last; ++read)
+    values[read->weight] = fields[read->row * pitch + read->column];
+}
+
+template <int D, class Real>
+void Recorder<D, Real>::finish(const StepTime& time) {
+  const auto traces = gather_.traces.size();
   const std::int64_t instant = time.step + 1;
-  double* const now = history_.data() + instant % kept * traces;
-  std::vector<const Real*> fields;
-  for (const auto line : lines_) fields.push_back(whole_line(line));
-  parallel_for(traces, 64, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t trace = begin; trace < end; ++trace) {
-      double sum = 0;
-      for (auto n = first_weight_[std::size_t(trace)]; n < first_weight_[std::size_t(trace) + 1]; ++n)
-        sum += weights_[n].weight * double(fields[std::size_t(weights_[n].line)][weights_[n].place]);
-      now[trace] = sum;
-    }
-  });
+  double* const now = history_.data() + instant % kept * std::int64_t(traces);
+  const Real* const values = values_of(time);
+  for (std::size_t trace = 0; trace < traces; ++trace) {
+    double sum = 0;
+    for (auto n = first_weight_[trace]; n < first_weight_[trace + 1]; ++n)
+      sum += weights_[n] * double(values[n]);
+    now[trace] = sum;
+  }
   interpolate(instant, time.dt_s);
 }
 

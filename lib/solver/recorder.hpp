@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -8,10 +7,6 @@
 #include "solver/point_access.hpp"
 
 namespace slipwave::solver {
-
-/// Where the fields of a line stand whole at the end of a step: cell 0 of row 0.
-template <class Real>
-using WholeLine = std::function<const Real*(std::int64_t line)>;
 
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
 /// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)).
@@ -21,9 +16,14 @@ class Recorder {
   /// `shot` is the 1-based number traces carry.
   Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot);
 
-  void run(const StepTime& time, const WholeLine<Real>& whole_line);
-  /// Lines it reads.
-  std::span<const std::int64_t> lines() const { return lines_; }
+  /// Whether it reads anything of a line.
+  bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
+  /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
+  /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
+  void sample(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
+              std::int64_t pitch);
+  /// Step after step, when all columns of all lines have been taken.
+  void finish(const StepTime& time);
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
 
   /// Steps after which every sample is known.
@@ -34,12 +34,22 @@ class Recorder {
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
   void interpolate(std::int64_t newest, double dt_s);
+  Real* values_of(const StepTime& time) {
+    return values_.data() + time.step % Pass::most_steps_under_way * std::int64_t(reads_.size());
+  }
 
+  /// A value that is read: where, and which of the weights it belongs to.
+  struct Read {
+    std::int64_t column, row;
+    std::size_t weight;
+  };
   Gather gather_;
-  std::vector<ValueWeight> weights_;       // of all traces; `line` is an index into lines_
+  std::vector<double> weights_;            // of all traces
   std::vector<std::size_t> first_weight_;  // of each trace, and the end
+  std::vector<Read> reads_;                // by line, then column
+  std::vector<std::size_t> starts_;        // of each line in reads_, and the end
+  std::vector<Real> values_;               // [step modulo those under way][weight]
   std::vector<double> history_;            // [instant modulo kept][trace]
-  std::vector<std::int64_t> lines_;
   std::int64_t next_sample_ = 0;
 };
 

@@ -9,10 +9,7 @@ template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                 const SnapshotSink<D>& snapshots) {
   solver::Step<D, Real> step(scene, shot, snapshots);
-  for (std::int64_t n = 0; n < step.steps(); ++n) {
-    step.run(n);
-    if (progress) progress(n + 1, step.steps());
-  }
+  step.run_to(step.steps(), progress);
   return step.take_gather();
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/parallel.hpp"
 #include "fracture/slip_law.hpp"
 
 namespace slipwave::solver {
@@ -23,25 +22,28 @@ class SlipPass : public Pass {
           if (model.fracture[cell] != set + 1) continue;
           const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
           const double mu = double(model.medium.rho[cell]) * model.medium.vs[cell] * model.medium.vs[cell];
-          group.cells.push_back(state.layout.cell(at));
+          const std::int64_t line = state.layout.line_number(at);
+          group.starts.resize(std::size_t(line) + 1, group.columns.size());
+          group.columns.push_back(at[0]);
           group.d.push_back(slip_d<Real>(system.viscosity_s, mu, dt_s));
         }
-        group.memory.resize(group.cells.size());
-        cells_ += std::int64_t(group.cells.size());
-        if (!group.cells.empty()) groups_.push_back(std::move(group));
+        group.starts.resize(std::size_t(state.layout.lines()) + 1, group.columns.size());
+        group.memory.resize(group.columns.size());
+        cells_ += std::int64_t(group.columns.size());
+        if (!group.columns.empty()) groups_.push_back(std::move(group));
       }
     lines_ = fracture_lines(state.layout, domain, model);
   }
 
-  void run(const StepTime&) override {
-    each_cell([](Group& group, std::size_t n, Stress<D, Real>& s) {
+  void run(const StepTime&, std::int64_t line, const Columns& columns) override {
+    each_cell(line, columns, [](Group& group, std::size_t n, Stress<D, Real>& s) {
       correct<Correction, D, Real>(group.law, group.normal, group.d[n], s, group.memory[n]);
     });
   }
-  void run_after(const StepTime&) override {
+  void run_after(const StepTime&, std::int64_t line, const Columns& columns) override {
     if constexpr (requires(typename Correction::template Memory<D, Real> memory) { memory.ahead; })
-      each_cell([](Group& group, std::size_t n, Stress<D, Real>& s) {
-        begin<Correction, D, Real>(group.normal, s, group.memory[n]);
+      each_cell(line, columns, [](Group& group, std::size_t n, Stress<D, Real>& s) {
+        slipwave::begin<Correction, D, Real>(group.normal, s, group.memory[n]);
       });
   }
   std::string name() const override { return "slip, " + std::string(Correction::name) + " order"; }
@@ -52,32 +54,35 @@ class SlipPass : public Pass {
   struct Group {
     Traction<D, Real> normal{};
     SlipStrength<Real> law;
-    std::vector<std::int64_t> cells;  // places of the cells in field row 0
+    std::vector<std::int64_t> columns;  // of the cells, line after line
+    std::vector<std::size_t> starts;    // of each line in columns, and the end
     std::vector<Real> d;
     std::vector<typename Correction::template Memory<D, Real>> memory;
   };
-  /// Runs change(group, number in the group, stress) on the stress of every cell, system after system.
+  /// Runs change(group, number in the group, stress) on the stress of every cell of these columns, system
+  /// after system.
   template <class Change>
-  void each_cell(const Change& change) {
+  void each_cell(std::int64_t line, const Columns& columns, const Change& change) {
     using Rows = FieldRows<D>;
     const std::int64_t pitch = state_.layout.row_pitch();
-    Real* const fields = state_.fields.data();
-    for (auto& group : groups_)
-      parallel_for(std::int64_t(group.cells.size()), 1024, [&](std::int64_t first, std::int64_t end, int) {
-        for (auto n = std::size_t(first); n < std::size_t(end); ++n) {
-          Real* const cell = fields + group.cells[n];
-          Stress<D, Real> s;
-          for (int i = 0; i < D; ++i) {
-            s(i, i) = cell[Rows::normal_stress(i) * pitch];
-            for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
-          }
-          change(group, n, s);
-          for (int i = 0; i < D; ++i) {
-            cell[Rows::normal_stress(i) * pitch] = s(i, i);
-            for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
-          }
+    Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
+    for (auto& group : groups_) {
+      const auto begin = group.columns.begin() + std::ptrdiff_t(group.starts[std::size_t(line)]);
+      const auto end = group.columns.begin() + std::ptrdiff_t(group.starts[std::size_t(line) + 1]);
+      for (auto at = std::lower_bound(begin, end, columns.first); at != end && *at < columns.last; ++at) {
+        Real* const cell = fields + *at;
+        Stress<D, Real> s;
+        for (int i = 0; i < D; ++i) {
+          s(i, i) = cell[Rows::normal_stress(i) * pitch];
+          for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
         }
-      });
+        change(group, std::size_t(at - group.columns.begin()), s);
+        for (int i = 0; i < D; ++i) {
+          cell[Rows::normal_stress(i) * pitch] = s(i, i);
+          for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
+        }
+      }
+    }
   }
 
   State<D, Real>& state_;

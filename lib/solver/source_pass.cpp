@@ -34,14 +34,24 @@ class SourcePass : public Pass {
             -injection.moment_rate(i, j) / volume);
     }
     find_lines(centre);
+    std::stable_sort(values_.begin(), values_.end(),
+                     [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
   }
-  void run(const StepTime& time) override {
+  void run(const StepTime& time, std::int64_t line, const Columns& columns) override {
     if (!acts(time)) return;
+    auto value = std::lower_bound(values_.begin(), values_.end(), line,
+                                  [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
+    if (value == values_.end() || value->line != line) return;
     const double amount = 0.5 * time.dt_s * wavelet_(time.end_s());
-    for (const auto& value : values_)
-      state_.field_row(state_.layout.line_index(value.line), 0)[value.place] += Real(amount * value.weight);
+    Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
+    for (; value != values_.end() && value->line == line; ++value) {
+      const std::int64_t x = state_.layout.column(value->place);
+      if (x >= columns.first && x < columns.last) fields[value->place] += Real(amount * value->weight);
+    }
   }
-  void run_after(const StepTime& time) override { run(time); }
+  void run_after(const StepTime& time, std::int64_t line, const Columns& columns) override {
+    run(time, line, columns);
+  }
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> lines() const override { return lines_; }

@@ -85,6 +85,14 @@ bool contrast(const Walk<D>& z, int reach) {
   return false;
 }
 
+/// Whether a cell up to `reach` cells to one side carries the wave.
+template <int D>
+bool carried_near(const Walk<D>& z, int reach) {
+  for (int n = 1; n <= reach && !z.leaves_grid(n); ++n)
+    if (z(n) > 0) return true;
+  return false;
+}
+
 /// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
 /// more, and so does a single cell between a contact and another end: with more, random media of single cells
 /// and a crust of one cell grew at order 5 and 7 (docs/theory.md).
@@ -131,29 +139,35 @@ void continued(const SpanEnd& end, int offset, std::int64_t stride, const Real* 
 
 template <int Order, class Real>
 void correct_cell(const SpanEnd& end, std::int64_t stride, const Real* v, const Real* s, Real impedance,
-                  Real courant, Real scale, Real& up, Real& down) {
+                  Real b, Real scale, Real& up, Real& down) {
   constexpr int reach = reach_of(Order);
   Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
   for (int k = -reach; k <= reach; ++k)
     continued(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
   const Real sign = scale < 0 ? -1 : 1;
-  leave_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance, courant, sign * scale, up,
-                    down);
+  leave_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance, sign * scale * (impedance * b),
+                    up, down);
 }
 
 }  // namespace
 
 template <int D>
 SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                   const BentAt<D>& bent) {
+                   const BentAt<D>& bent)
+    : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
   starts_.assign(1, 0);
   for (std::int64_t line = 0; line < lines; ++line) {
     for (std::int64_t x = 0; x < nx; ++x) {
       const auto at = grid.index(line * nx + x);
-      if (impedance(at) == 0) continue;
       const Walk<D> down(impedance, at, axis, -1), up(impedance, at, axis, +1);
+      constexpr auto on = Continuation::none;
+      if (impedance(at) == 0) {
+        if (carried_near(down, reach) || carried_near(up, reach))
+          cells_.push_back({std::int32_t(x), 0, 0, on, on, 0, 0, 0, 0, nothing_leaves});
+        continue;
+      }
       const Side low = side_of(down, continuation(edges[axis][0], wave), reach);
       const Side high = side_of(up, continuation(edges[axis][1], wave), reach);
       // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
@@ -164,7 +178,6 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
       } else if (reach > most_at_kinks &&
                  ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)) ||
                   contrast(down, reach) || contrast(up, reach))) {
-        constexpr auto on = Continuation::none;
         cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
                           std::int8_t(most_at_kinks)});
       }
@@ -174,31 +187,35 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
 }
 
 template <class Real>
-void SpanEnds::correct(int order, std::int64_t line, std::int64_t x_first, std::int64_t x_last,
-                       std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
-                       const Real* courant, Real scale, Real* up, Real* down) const {
+void SpanEnds::correct_line(int order, std::int64_t line, const Columns& columns, std::int64_t stride,
+                            const Real* v, const Real* s, const MaterialRows<Real>& material, Real scale,
+                            Real* up, Real* down) const {
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = cells_.begin() + starts_[std::size_t(line)];
-  if (cell == stop) return;
   using CorrectCell =
       void(const SpanEnd&, std::int64_t, const Real*, const Real*, Real, Real, Real, Real&, Real&);
   static constexpr CorrectCell* correct_as[] = {correct_cell<1, Real>, correct_cell<3, Real>,
                                                 correct_cell<5, Real>, correct_cell<7, Real>};
-  if (x_first > 0)
-    cell =
-        std::lower_bound(cell, stop, x_first, [](const SpanEnd& end, std::int64_t x) { return end.x < x; });
-  for (; cell != stop && cell->x < x_last; ++cell) {
-    const auto i = cell->x - x_first;
-    correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],
-                                                            courant[i], scale, up[i], down[i]);
+  const Real* const impedance = wave_ == wave_p ? material.zp : material.zs;
+  if (columns.first > 0)
+    cell = std::lower_bound(cell, stop, columns.first,
+                            [](const SpanEnd& end, std::int64_t x) { return end.x < x; });
+  for (; cell != stop && cell->x < columns.last; ++cell) {
+    const auto i = cell->x - columns.first;
+    if (cell->reach == nothing_leaves)
+      up[i] = down[i] = 0;
+    else
+      correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],
+                                                              material.b[i], scale, up[i], down[i]);
   }
 }
 
 template SpanEnds::SpanEnds(const Field<2>&, const EdgeLaws<2>&, int, Wave, int, const BentAt<2>&);
 template SpanEnds::SpanEnds(const Field<3>&, const EdgeLaws<3>&, int, Wave, int, const BentAt<3>&);
-template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const float*,
-                                const float*, const float*, const float*, float, float*, float*) const;
-template void SpanEnds::correct(int, std::int64_t, std::int64_t, std::int64_t, std::int64_t, const double*,
-                                const double*, const double*, const double*, double, double*, double*) const;
+template void SpanEnds::correct_line(int, std::int64_t, const Columns&, std::int64_t, const float*,
+                                     const float*, const MaterialRows<float>&, float, float*, float*) const;
+template void SpanEnds::correct_line(int, std::int64_t, const Columns&, std::int64_t, const double*,
+                                     const double*, const MaterialRows<double>&, double, double*,
+                                     double*) const;
 
 }  // namespace slipwave::solver

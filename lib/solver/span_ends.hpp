@@ -42,15 +42,16 @@ constexpr double contact_ratio = 1.5;
 
 /// A cell whose stencil would reach past an end of its span: the cells of a line that carry the wave without
 /// a gap or a strong contact. Beyond the end the wave field continues as the law says (theory.md (E10),
-/// (E11)).
+/// (E11)). Or a cell that does not carry the wave beside one that does: nothing leaves it.
 struct SpanEnd {
   std::int32_t x;         // the cell's place on its row
   std::int8_t low, high;  // cells of the span before and behind it, as far as the stencil reaches
   Continuation low_law, high_law;
   std::int8_t beyond_low, beyond_high;  // contact: cells of the neighbouring span that may be read
   float share_low, share_high;          // contact: Z of the other side over the sum of both
-  std::int8_t reach;                    // of the reconstruction used here
+  std::int8_t reach;  // of the reconstruction used here, nothing_leaves where the wave is not carried
 };
+constexpr std::int8_t nothing_leaves = -1;
 
 /// Whether fields bend at the edge of this side (0 low, 1 high) on the line through a cell (FreeEdge).
 template <int D>
@@ -68,13 +69,21 @@ class SpanEnds {
            const BentAt<D>& bent);
 
   std::size_t size() const { return cells_.size(); }
-  /// Overwrites up and down (index 0 = cell x_first) for the listed cells x_first <= x < x_last of a row.
+  /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
+  /// first.
   template <class Real>
-  void correct(int order, std::int64_t line, std::int64_t x_first, std::int64_t x_last, std::int64_t stride,
-               const Real* v, const Real* s, const Real* impedance, const Real* courant, Real scale, Real* up,
-               Real* down) const;
+  void correct(int order, std::int64_t line, const Columns& columns, std::int64_t stride, const Real* v,
+               const Real* s, const MaterialRows<Real>& material, Real scale, Real* up, Real* down) const {
+    if (starts_[std::size_t(line)] < starts_[std::size_t(line) + 1])
+      correct_line(order, line, columns, stride, v, s, material, scale, up, down);
+  }
 
  private:
+  template <class Real>
+  void correct_line(int order, std::int64_t line, const Columns& columns, std::int64_t stride, const Real* v,
+                    const Real* s, const MaterialRows<Real>& material, Real scale, Real* up,
+                    Real* down) const;
+  Wave wave_ = wave_p;
   std::vector<SpanEnd> cells_;        // by line, then x
   std::vector<std::int64_t> starts_;  // of each line in cells_, and the end
 };

@@ -7,18 +7,16 @@
 namespace slipwave::solver {
 namespace {
 
-constexpr std::int64_t vector = 16;  // values of the widest vector
-
 std::int64_t rounded_up(std::int64_t n, std::int64_t to) { return (n + to - 1) / to * to; }
 
 }  // namespace
 
 template <int D>
 Layout<D>::Layout(const Index<D>& shape, int rows_a_line) : shape_(shape) {
-  padded_nx_ = rounded_up(shape[0], vector);
-  row_pitch_ = lead + padded_nx_ + vector;
+  padded_nx_ = rounded_up(shape[0], block);
+  row_pitch_ = lead + padded_nx_ + block;
   // Rows a multiple of 4 KiB apart would fall into the same few sets of the cache.
-  while (row_pitch_ % 1024 == 0 || (rows_a_line * row_pitch_) % 1024 == 0) row_pitch_ += vector;
+  while (row_pitch_ % 1024 == 0 || (rows_a_line * row_pitch_) % 1024 == 0) row_pitch_ += block;
   std::int64_t stride = rows_a_line * row_pitch_;
   strides_[0] = 1;
   for (int axis = 1; axis < D; ++axis) {
@@ -38,10 +36,11 @@ std::int64_t Layout<D>::lines() const {
 template <int D>
 Index<D> Layout<D>::line_index(std::int64_t n) const {
   Index<D> at{};
-  for (int axis = 1; axis < D; ++axis) {
+  for (int axis = 1; axis + 1 < D; ++axis) {
     at[axis] = n % shape_[axis];
     n /= shape_[axis];
   }
+  at[D - 1] = n;
   return at;
 }
 
@@ -62,6 +61,7 @@ State<D, Real> make_state(const Index<D>& shape) {
   state.material = Buffer<Real>(state.material_layout.total());
   clear(state.fields, state.layout.stride(1));
   clear(state.material, state.material_layout.stride(1));
+  state.first_stretch.assign(std::size_t(state.layout.lines()) + 1, 0);
   return state;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <vector>
 
 #include "grid/field.hpp"
 #include "solver/kernels.hpp"
@@ -37,6 +38,7 @@ template <int D>
 class Layout {
  public:
   static constexpr std::int64_t lead = 16;
+  static constexpr std::int64_t block = 16;  // values of the widest vector
   static constexpr std::int64_t ghost_lines = max_reach + 1;
 
   Layout() = default;
@@ -58,6 +60,8 @@ class Layout {
     return offset;
   }
   std::int64_t cell(const Index<D>& at) const { return line(at) + at[0]; }
+  /// x of a value counted from cell 0 of row 0 of its line.
+  std::int64_t column(std::int64_t place) const { return place % row_pitch_; }
   /// Indices of line number n (x fastest of the others), its x = 0.
   Index<D> line_index(std::int64_t n) const;
   std::int64_t line_number(const Index<D>& at) const {
@@ -81,17 +85,27 @@ struct FieldRows {
   }
 };
 
-/// Rows of a line of the material: b = dt/(rho h), impedances rho c and Courant numbers c dt/h of P and S.
-enum MaterialRow : int { row_b, row_zp, row_cp, row_zs, row_cs, material_rows };
+/// Rows of a line of the material: b = dt/(rho h) and the impedances rho c of P and S, 0 in cells that do not
+/// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h.
+enum MaterialRow : int { row_b, row_zp, row_zs, material_rows };
 
-/// Courant number that marks cells without the wave (fluid for S, void for both); see leave_cell.
-constexpr double no_wave = 1e6;
+/// Cells first <= x < last of a line that are of one material.
+template <class Real>
+struct Stretch {
+  std::int64_t first, last;
+  Real b, zp, zs;
+  MaterialRows<Real> rows() const { return {&b, &zp, &zs}; }
+};
 
 /// Wave field and material of the computed grid: the model and the absorbing zones round it.
 template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;
   Buffer<Real> fields, material;
+  /// Stretches of one material, line after line, and where each line begins (fill_material). Sweeps over such
+  /// a stretch read nothing else of the material.
+  std::vector<Stretch<Real>> stretches;
+  std::vector<std::size_t> first_stretch;
 
   Real* field_row(const Index<D>& at, int row) {
     return fields.data() + layout.line(at) + row * layout.row_pitch();
@@ -104,6 +118,18 @@ struct State {
   }
   const Real* material_row(const Index<D>& at, int row) const {
     return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
+  }
+  /// From a cell of a line on; the line before the first and the one after the last are there.
+  MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x) const {
+    const Real* b = material_row(line, row_b) + x;
+    return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
+  }
+  /// The stretch that holds all cells first <= x < last of a line, null where there is none.
+  const Stretch<Real>* stretch(std::int64_t line, std::int64_t first, std::int64_t last) const {
+    const auto end = first_stretch[std::size_t(line) + 1];
+    for (auto n = first_stretch[std::size_t(line)]; n < end && stretches[n].first <= first; ++n)
+      if (last <= stretches[n].last) return &stretches[n];
+    return nullptr;
   }
 };
 

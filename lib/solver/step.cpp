@@ -1,10 +1,9 @@
 #include "solver/step.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "solver/absorbing.hpp"
-#include "solver/monitor.hpp"
 #include "solver/slip_pass.hpp"
 #include "solver/source_pass.hpp"
 
@@ -13,18 +12,17 @@ namespace slipwave::solver {
 template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
-      splitting_(splitting(D, scene.numerics.time_order)),
       domain_(
           make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
       state_(make_state<D, Real>(domain_.grid.shape)),
       sweeps_(state_, domain_, scene.numerics.order),
-      ahead_(std::size_t(state_.layout.lines())),
+      pipeline_(sweeps_, state_.layout, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
+      whole_(std::size_t(Pass::most_steps_under_way)),
+      monitor_(state_, domain_),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
       duration_s_(scene.recording.duration_s),
       snapshots_(snapshots),
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)) {
-  all_lines_.resize(ahead_.size());
-  std::iota(all_lines_.begin(), all_lines_.end(), 0);
   fill_material(state_, domain_, scene.model.medium, dt_s_);
   build_step(scene, shot);
   if (background_) background_->begin(state_);
@@ -53,23 +51,9 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     add(make_source_pass(state_, domain_, scene, source));
   }
   if (scene.slips()) add(make_slip_pass(state_, domain_, scene, dt_s_));
-  add(std::make_unique<Monitor<D, Real>>(state_, domain_));
   recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot);
   // The same sweeps with and without slip: their difference must be the work of slip alone.
   fracture_lines_ = fracture_lines(state_.layout, domain_, scene.model);
-}
-
-template <int D, class Real>
-void Step<D, Real>::find_whole_lines(const StepTime& time) {
-  std::vector<char> acting;
-  for (const auto& pass : passes_) acting.push_back(pass->acts(time));
-  if (acting == acting_) return;
-  acting_ = acting;
-  whole_.assign(std::size_t(state_.layout.lines()), 0);
-  for (const auto line : fracture_lines_) whole_[std::size_t(line)] = 1;
-  for (std::size_t n = 0; n < passes_.size(); ++n)
-    if (acting[n])
-      for (const auto line : passes_[n]->lines()) whole_[std::size_t(line)] = 1;
 }
 
 template <int D, class Real>
@@ -81,49 +65,73 @@ bool Step<D, Real>::snapshot_due(const StepTime& time) const {
 }
 
 template <int D, class Real>
-void Step<D, Real>::read_ahead(std::span<const std::int64_t> lines) {
-  reading_.clear();
-  for (const auto line : lines) {
-    if (whole_[std::size_t(line)]) continue;
-    reading_.push_back(line);
-    auto& copy = ahead_[std::size_t(line)];
-    if (copy.size() == 0)
-      copy = Buffer<Real>(FieldRows<D>::count * state_.layout.row_pitch() + Layout<D>::lead);
+void Step<D, Real>::run_to(std::int64_t last, const Progress& progress) {
+  progress_ = &progress;
+  while (done_ < last) {
+    // Nothing is under way where all fields are looked at.
+    std::int64_t until = std::min(last, Monitor<D, Real>::next_after(done_) + 1);
+    for (snapshot_step_ = done_; snapshot_step_ < until; ++snapshot_step_)
+      if (snapshot_due({snapshot_step_, dt_s_})) break;
+    const bool snapshot = snapshot_step_ < until;
+    if (snapshot) {
+      until = snapshot_step_ + 1;
+      snapshot_ = Buffer<Real>(state_.fields.size());
+    }
+    pipeline_.run(done_, until);
+    done_ = until;
+    const StepTime time{done_ - 1, dt_s_};
+    if (snapshot) take_snapshot(time);
+    if (Monitor<D, Real>::next_after(done_ - 2) == done_ - 1) monitor_.look(time);
   }
-  sweeps_.ahead_along_x(reading_, Real(splitting_.front().part), [this](std::int64_t line) {
-    return ahead_[std::size_t(line)].data() + Layout<D>::lead;
-  });
 }
 
 template <int D, class Real>
-void Step<D, Real>::run(std::int64_t step) {
-  const StepTime time{step, dt_s_};
-  // The last sweep of a step and the first of the next are alike.
-  const Real end = Real(splitting_.front().part);
-  if (step == 0) sweeps_.along_x([end](std::int64_t) { return end; });
-  for (std::size_t n = 1; n + 1 < splitting_.size(); ++n)
-    sweeps_.along(splitting_[n].axis, Real(splitting_[n].part));
-
-  find_whole_lines(time);
-  const bool snapshot = snapshot_due(time);
-  read_ahead(snapshot ? std::span<const std::int64_t>(all_lines_) : recorder_->lines());
-  // Where nothing acts on the line now, this sweep and the first of the next step are one.
-  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? end : 2 * end; });
-  for (const auto& pass : passes_) pass->run(time);
-
-  const WholeLine<Real> whole_line = [this](std::int64_t line) -> const Real* {
-    if (!whole_[std::size_t(line)]) return ahead_[std::size_t(line)].data() + Layout<D>::lead;
-    return state_.field_row(state_.layout.line_index(line), 0);
+void Step<D, Real>::take_snapshot(const StepTime& time) {
+  const WholeLine<Real> line = [this](std::int64_t n) {
+    return snapshot_.data() + state_.layout.line(state_.layout.line_index(n));
   };
-  recorder_->run(time, whole_line);
-  if (snapshot) {
-    snapshots_(time.end_s(),
-               [&](Component component) { return field_of(state_.layout, domain_, whole_line, component); });
-    // Only the recorder's copies are needed again soon.
-    for (auto& copy : ahead_) copy = {};
+  snapshots_(time.end_s(),
+             [&](Component component) { return field_of(state_.layout, domain_, line, component); });
+  snapshot_ = {};
+}
+
+template <int D, class Real>
+void Step<D, Real>::begin(const StepTime& time) {
+  auto& whole = whole_[std::size_t(time.step % Pass::most_steps_under_way)];
+  whole.assign(std::size_t(state_.layout.lines()), 0);
+  for (const auto line : fracture_lines_) whole[std::size_t(line)] = 1;
+  for (const auto& pass : passes_) {
+    pass->begin(time);
+    if (!pass->acts(time)) continue;
+    for (const auto line : pass->lines()) whole[std::size_t(line)] = 1;
   }
-  for (const auto& pass : passes_) pass->run_after(time);
-  sweeps_.along_x([&](std::int64_t line) { return whole_[std::size_t(line)] ? end : Real(0); });
+}
+
+template <int D, class Real>
+void Step<D, Real>::look(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
+                         std::int64_t pitch) {
+  recorder_->sample(time, line, columns, fields, pitch);
+  if (time.step != snapshot_step_) return;
+  Real* const to = snapshot_.data() + state_.layout.line(state_.layout.line_index(line));
+  for (int row = 0; row < FieldRows<D>::count; ++row)
+    std::copy(fields + row * pitch + columns.first, fields + row * pitch + columns.last,
+              to + row * state_.layout.row_pitch() + columns.first);
+}
+
+template <int D, class Real>
+void Step<D, Real>::run(const StepTime& time, std::int64_t line, const Columns& columns) {
+  for (const auto& pass : passes_) pass->run(time, line, columns);
+}
+
+template <int D, class Real>
+void Step<D, Real>::run_after(const StepTime& time, std::int64_t line, const Columns& columns) {
+  for (const auto& pass : passes_) pass->run_after(time, line, columns);
+}
+
+template <int D, class Real>
+void Step<D, Real>::finish(const StepTime& time) {
+  recorder_->finish(time);
+  if (*progress_) (*progress_)(time.step + 1, steps_);
 }
 
 template <int D, class Real>
@@ -137,6 +145,7 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
   if (layer_)
     passes.push_back({"matched layer", double(domain_.grid.size() - domain_.model_grid.size()) / all});
   for (const auto& pass : passes_) passes.push_back({pass->name(), double(pass->cells()) / all});
+  passes.push_back({"stability watch", 1. / Monitor<D, Real>::every});
   passes.push_back({"receivers", double(recorder_->cells()) / all});
   return passes;
 }
@@ -144,6 +153,7 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
 template <int D, class Real>
 std::int64_t Step<D, Real>::memory_bytes() const {
   return (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
+         std::int64_t(state_.stretches.size() * sizeof(Stretch<Real>)) + pipeline_.memory_bytes() +
          (layer_ ? layer_->memory_bytes() : 0);
 }
 

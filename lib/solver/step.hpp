@@ -3,9 +3,11 @@
 #include <memory>
 #include <vector>
 
+#include "base/progress.hpp"
 #include "scene/scene.hpp"
-#include "scene/splitting.hpp"
 #include "solver/background.hpp"
+#include "solver/monitor.hpp"
+#include "solver/pipeline.hpp"
 #include "solver/recorder.hpp"
 #include "solver/simulation.hpp"
 #include "solver/sweeps.hpp"
@@ -14,12 +16,12 @@ namespace slipwave::solver {
 
 /// Everything one shot needs, and the list of passes that make a time step. build_step alone knows the order.
 template <int D, class Real>
-class Step {
+class Step : private EndOfStep<Real> {
  public:
   Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots);
 
-  /// Brings the fields from the end of step - 1 to the end of `step`. Steps must follow each other from 0 on.
-  void run(std::int64_t step);
+  /// Brings the fields to the end of step last - 1, from where they are. `progress` is told of each step.
+  void run_to(std::int64_t last, const Progress& progress = {});
   std::int64_t steps() const { return steps_; }
   Gather take_gather() { return recorder_->take(); }
   std::vector<PlannedPass> planned() const;
@@ -29,29 +31,41 @@ class Step {
 
  private:
   void build_step(const Scene<D>& scene, std::size_t shot);
-  void find_whole_lines(const StepTime& time);
   bool snapshot_due(const StepTime& time) const;
-  void read_ahead(std::span<const std::int64_t> lines);
+  void take_snapshot(const StepTime& time);
+
+  void begin(const StepTime& time) override;
+  bool whole(const StepTime& time, std::int64_t line) const override {
+    return whole_[std::size_t(time.step % Pass::most_steps_under_way)][std::size_t(line)];
+  }
+  bool looks(const StepTime& time, std::int64_t line) const override {
+    return time.step == snapshot_step_ || recorder_->reads(line);
+  }
+  void look(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
+            std::int64_t pitch) override;
+  void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
+  void run_after(const StepTime& time, std::int64_t line, const Columns& columns) override;
+  void finish(const StepTime& time) override;
 
   double dt_s_;
-  std::vector<SweepPart> splitting_;
   Domain<D> domain_;
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;
+  Pipeline<D, Real> pipeline_;
   std::unique_ptr<Background<D, Real>> background_;
   std::unique_ptr<MatchedLayer<D, Real>> layer_;
   std::vector<std::unique_ptr<Pass>> passes_;  // at the end of a step, in order
-  std::vector<char> whole_;                    // lines whose sweep along x ends with the step
-  std::vector<char> acting_;                   // which passes `whole_` was made for
+  std::vector<std::vector<char>> whole_;  // [step under way][line]: its last sweep along x ends with the step
   std::vector<std::int64_t> fracture_lines_;
-  // Lines that are not whole are read from a copy half a sweep ahead: looking on changes nothing.
-  std::vector<Buffer<Real>> ahead_;
-  std::vector<std::int64_t> reading_, all_lines_;
+  Monitor<D, Real> monitor_;
   std::unique_ptr<Recorder<D, Real>> recorder_;
+  Buffer<Real> snapshot_;  // all fields as they stand whole, laid out as the state
+  std::int64_t snapshot_step_ = -1;
   std::optional<double> snapshot_every_s_;
   double duration_s_;
   SnapshotSink<D> snapshots_;
-  std::int64_t steps_;
+  std::int64_t steps_, done_ = 0;
+  const Progress* progress_ = nullptr;
 };
 
 }  // namespace slipwave::solver

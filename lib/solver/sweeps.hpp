@@ -1,8 +1,6 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <span>
 #include <vector>
 
 #include "scene/edges.hpp"
@@ -11,14 +9,15 @@
 #include "solver/matched_layer.hpp"
 #include "solver/span_ends.hpp"
 #include "solver/state.hpp"
+#include "solver/workspace.hpp"
 
 namespace slipwave::solver {
 
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
 /// by `scale` of the time step, back in time where it is negative, under the part of the equations with
-/// derivatives along its axis. Lines of a
-/// sweep along x, and columns of a sweep across, do not depend on each other: threads share them out and the
-/// result does not depend on their number.
+/// derivatives along its axis. Lines of a sweep along x, and columns of a sweep across, do not depend on each
+/// other. Sweeps come in pieces, for the passes through memory of Pipeline: the results do not depend on how
+/// they are cut.
 template <int D, class Real>
 class Sweeps {
  public:
@@ -28,54 +27,89 @@ class Sweeps {
   /// From now on sweeps are stretched in this layer (null: nowhere), which must outlive them.
   void use(MatchedLayer<D, Real>* layer) { layer_ = layer; }
 
-  /// Along x, on every line for which part(line) gives a scale that is not 0.
-  void along_x(const std::function<Real(std::int64_t line)>& part);
-  /// The fields of a line (all rows, as in the state, from its cell 0 in row 0) `scale` of a step further
-  /// along x than the state has them, written to `to`; the state stays as it is. Lines are shared out to
-  /// threads.
-  void ahead_along_x(std::span<const std::int64_t> lines, Real scale,
-                     const std::function<Real*(std::int64_t line)>& to);
-  /// Along y or z.
-  void across(int axis, Real scale);
-  /// Along any axis, on every line.
+  /// A whole sweep along any axis, shared out to threads.
   void along(int axis, Real scale);
+
+  /// A piece of a sweep along x: brings columns `columns` of a line forward. Pieces of a line follow each
+  /// other from cell 0 to the last, `carry` goes on from one to the next. 2 * lag further cells must not
+  /// change before (as many as there are).
+  void along_x(std::int64_t line, const Columns& columns, Real scale, Carry<Real>& carry,
+               Workspace<Real>& work);
+  static constexpr std::int64_t lag = Layout<D>::block;
+  /// What along_x() will make of these columns, read from lag more cells on both sides; the state stays as it
+  /// is. Pointer to the line's cell 0 in row 0 of a copy, in the workspace, rows ahead_pitch() apart.
+  const Real* ahead_along_x(std::int64_t line, const Columns& columns, Real scale, Workspace<Real>& work);
+
+  /// A piece of a sweep along z: row `step` - reach, counted from the top, sends out what leaves it and row
+  /// step - rows_behind() is brought forward, where there are such rows. Rows up to `step` and `reach` cells
+  /// on both sides must be there as they were before the sweep. Call for each step from 0 up to the number of
+  /// rows + rows_behind() - 1 with the same columns; the ring goes along.
+  void along_z(std::int64_t step, const Columns& columns, Real scale, Ring<Real>& ring,
+               Workspace<Real>& work);
+  /// Rows that a sweep along z still needs behind the newest one.
+  std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
+  int ring_rows() const { return std::max(reach_, 1) + 1; }
+
+  /// Whether free edges at the sides bend the fields: sweeps along x then need the velocities there of
+  /// FreeEdge::reach lines on both sides as they were before the sweep (keep_sides).
+  bool sides_bend() const { return !free_edges_[0][0].empty() || !free_edges_[0][1].empty(); }
+  void keep_sides(std::int64_t line, const Columns& columns);
+  /// Before the first piece of a line is swept along x.
+  void measure_sides(std::int64_t line);
+  /// Before along_z of that step, on all columns it and the pieces before it were given and lag more.
+  void measure_ends(std::int64_t step, const Columns& columns);
+
+  /// These columns of a line will be needed soon.
+  void expect(std::int64_t line, const Columns& columns, Coming<Real>& coming) const;
+  Workspace<Real> make_workspace(std::int64_t widest) const;
+  /// Cell 0 of row 0.
+  const Real* fields_of(std::int64_t line) const {
+    return state_.field_row(state_.layout.line_index(line), 0);
+  }
   /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
   std::int64_t span_end_cells() const;
+  /// Whether S waves are swept at all.
+  bool shear() const { return shear_; }
 
  private:
-  /// A wave family along one axis on one row: its fields, material and span ends.
+  static constexpr int z_axis = D - 1;
+  /// A wave family along one axis: its fields' rows and span ends.
   struct Pair {
     Wave wave;
     int v, s;  // rows of the line
-    const SpanEnds* ends;
   };
-  void sweep_line(std::int64_t line, Real* fields, Real scale, Real* scratch, bool remember);
-  void sweep_columns(int axis, const Index<D>& first, std::int64_t width, Real scale, Real* scratch);
-  void measure_free_edges(int axis);
-  void fill_ghost_cells(std::int64_t line, Real* v, Real* s, int pair, Wave wave, Real scale) const;
-  void fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, int number, const Pair& pair,
-                        Real scale);
-  void update(const Index<D>& at, Real* fields, int axis, const Pair& pair, std::int64_t width, Real scale,
-              const Real* v_lo, const Real* v_hi, const Real* s_lo, const Real* s_hi, Real* spare,
-              bool remember);
-  std::array<Pair, D> pairs(int axis) const;
+  /// A stretch of a line: cells that send out, cells that are brought forward, and where its fields stand.
+  struct Piece {
+    std::int64_t line;
+    Columns leave, update;
+    Real* fields;  // cell 0 of row 0
+    std::int64_t pitch;
+    bool remember;
+  };
+  void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
+  void send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
+                std::int64_t pitch, std::int64_t stride, Real scale, const Leaving<Real>& leaving,
+                Coming<Real>& coming) const;
+  void meet(std::int64_t n, bool uniform, const Leaving<Real>& up, const Leaving<Real>& down,
+            const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces) const;
+  void update(int axis, const Index<D>& line, const Columns& columns, Real* fields, std::int64_t pitch,
+              Real scale, const Faces<Real>& lo, const Faces<Real>& hi, Workspace<Real>& work, bool remember);
+  void enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
+                const Leaving<Real>& entering) const;
+  void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
+  void fill_ghost_rows(int side, const Columns& columns, Real scale);
+  std::array<Pair, D> make_pairs(int axis) const;
   int pair_count() const { return shear_ ? D : 1; }
-  std::int64_t stripe_width() const;
 
   State<D, Real>& state_;
-  const Kernels<Real>& kernels_;
+  std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
   MatchedLayer<D, Real>* layer_ = nullptr;
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;
   std::array<std::array<SpanEnds, 2>, D> ends_;                 // [axis][wave]
+  std::array<std::array<Pair, D>, D> pairs_;                    // [axis]: P, then S by axes
   std::array<std::array<FreeEdge<D, Real>, 2>, D> free_edges_;  // [axis][side]
-  std::vector<Buffer<Real>> scratch_;                           // one a thread
 };
-
-/// What enters the grid through its low (up) or high (down) edge, given what leaves it there (E11).
-/// The impedance of the ghost beyond the edge is part of the law (fill_material).
-template <class Real>
-void edge_state(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering);
 
 }  // namespace slipwave::solver

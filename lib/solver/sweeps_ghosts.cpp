@@ -4,68 +4,100 @@
 
 // What stencils read beyond the edges of the grid (theory.md (E11)).
 namespace slipwave::solver {
+namespace {
+
+/// Signs of the mirror image of a pair.
+template <class Real>
+struct Mirror {
+  Real v, s;
+  bool level;
+  explicit Mirror(Continuation law)
+      : v(law == Continuation::motionless ? -1 : 1),
+        s(law == Continuation::traction_free ? -1 : 1),
+        level(law == Continuation::level) {}
+  /// The cell, counted from the edge, that stands for ghost j.
+  std::int64_t image(std::int64_t j, std::int64_t cells) const { return level ? 0 : std::min(j, cells - 1); }
+};
+
+}  // namespace
 
 template <int D, class Real>
-void Sweeps<D, Real>::measure_free_edges(int axis) {
-  for (auto& edge : free_edges_[axis]) edge.measure(state_);
+void Sweeps<D, Real>::keep_sides(std::int64_t line, const Columns& columns) {
+  if (columns.first == 0 && !free_edges_[0][0].empty()) free_edges_[0][0].keep(state_, line);
+  if (columns.last == state_.layout.shape()[0] && !free_edges_[0][1].empty())
+    free_edges_[0][1].keep(state_, line);
 }
 
-/// The values a stencil finds beyond both ends of a row.
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, Real* v, Real* s, int pair, Wave wave,
+void Sweeps<D, Real>::measure_sides(std::int64_t line) {
+  for (auto& edge : free_edges_[0])
+    if (!edge.empty()) edge.measure(state_, line, line + 1);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::measure_ends(std::int64_t step, const Columns& columns) {
+  if (step == reach_) free_edges_[z_axis][0].measure(state_, columns.first, columns.last);
+  if (step == state_.layout.shape()[z_axis])
+    free_edges_[z_axis][1].measure(state_, columns.first, columns.last);
+}
+
+/// The values a stencil finds beyond an end of a line.
+template <int D, class Real>
+void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch,
                                        Real scale) const {
   const std::int64_t n = state_.layout.shape()[0];
-  for (const int side : {0, 1}) {
-    const Continuation law = continuation(edges_[0][side], wave);
-    const Real v_sign = law == Continuation::motionless ? -1 : 1,
-               s_sign = law == Continuation::traction_free ? -1 : 1;
+  const auto& edge = free_edges_[0][side];
+  const auto& all = pairs_[0];
+  for (int p = 0; p < pair_count(); ++p) {
+    const Mirror<Real> mirror(continuation(edges_[0][side], all[p].wave));
+    Real* const v = fields + all[p].v * pitch;
+    Real* const s = fields + all[p].s * pitch;
     for (std::int64_t j = 0; j < reach_; ++j) {
-      const std::int64_t from = law == Continuation::level ? 0 : std::min(j, n - 1);
+      const std::int64_t from = mirror.image(j, n);
       const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - from : from;
-      v[ghost] = v_sign * v[cell];
-      s[ghost] = s_sign * s[cell];
-      if (const auto& edge = free_edges_[0][side]; !edge.empty()) {
-        v[ghost] += Real(2 * j + 1) * edge.bend(pair)[line];
-        s[ghost] += scale * edge.jump(pair)[line];
-      }
+      v[ghost] = mirror.v * v[cell];
+      s[ghost] = mirror.s * s[cell];
+      if (edge.empty()) continue;
+      v[ghost] += Real(2 * j + 1) * edge.bend(p)[line];
+      s[ghost] += scale * edge.jump(p)[line];
     }
   }
 }
 
+/// The same beyond the first or the last row.
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_lines(int axis, const Index<D>& first, std::int64_t width, int number,
-                                       const Pair& pair, Real scale) {
-  const std::int64_t n = state_.layout.shape()[axis];
-  for (const int side : {0, 1}) {
-    const Continuation law = continuation(edges_[axis][side], pair.wave);
-    const Real v_sign = law == Continuation::motionless ? -1 : 1,
-               s_sign = law == Continuation::traction_free ? -1 : 1;
+void Sweeps<D, Real>::fill_ghost_rows(int side, const Columns& columns, Real scale) {
+  const std::int64_t n = state_.layout.shape()[z_axis];
+  const auto& edge = free_edges_[z_axis][side];
+  const auto& all = pairs_[z_axis];
+  for (int p = 0; p < pair_count(); ++p) {
+    const Mirror<Real> mirror(continuation(edges_[z_axis][side], all[p].wave));
     for (std::int64_t j = 0; j < reach_; ++j) {
-      const std::int64_t from = law == Continuation::level ? 0 : std::min(j, n - 1);
-      Index<D> ghost = first, cell = first;
-      ghost[axis] = side ? n + j : -1 - j;
-      cell[axis] = side ? n - 1 - from : from;
-      for (const auto& [row, sign] : {std::pair(pair.v, v_sign), std::pair(pair.s, s_sign)}) {
-        Real* to = state_.field_row(ghost, row) + first[0];
-        const Real* source = state_.field_row(cell, row) + first[0];
-        for (std::int64_t i = 0; i < width; ++i) to[i] = sign * source[i];
-        const auto& edge = free_edges_[axis][side];
-        if (edge.empty()) continue;
-        const bool is_v = row == pair.v;
-        const Real* gain = (is_v ? edge.bend(number) : edge.jump(number)) + edge.number(first);
-        const Real share = is_v ? Real(2 * j + 1) : scale;
-        for (std::int64_t i = 0; i < width; ++i) to[i] += share * gain[i];
-      }
+      const std::int64_t from = mirror.image(j, n);
+      Index<D> ghost{}, cell{};
+      ghost[z_axis] = side ? n + j : -1 - j;
+      cell[z_axis] = side ? n - 1 - from : from;
+      const auto fill = [&](int row, Real sign, const Real* gain, Real share) {
+        Real* const to = state_.field_row(ghost, row);
+        const Real* const source = state_.field_row(cell, row);
+        for (std::int64_t i = columns.first; i < columns.last; ++i)
+          to[i] = sign * source[i] + (gain ? share * gain[i] : Real(0));
+      };
+      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.bend(p), Real(2 * j + 1));
+      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.jump(p), scale);
     }
   }
 }
 
-template void Sweeps<2, float>::measure_free_edges(int);
-template void Sweeps<2, double>::measure_free_edges(int);
-template void Sweeps<2, float>::fill_ghost_cells(std::int64_t, float*, float*, int, Wave, float) const;
-template void Sweeps<2, double>::fill_ghost_cells(std::int64_t, double*, double*, int, Wave, double) const;
-template void Sweeps<2, float>::fill_ghost_lines(int, const Index<2>&, std::int64_t, int, const Pair&, float);
-template void Sweeps<2, double>::fill_ghost_lines(int, const Index<2>&, std::int64_t, int, const Pair&,
-                                                  double);
+template void Sweeps<2, float>::keep_sides(std::int64_t, const Columns&);
+template void Sweeps<2, double>::keep_sides(std::int64_t, const Columns&);
+template void Sweeps<2, float>::measure_sides(std::int64_t);
+template void Sweeps<2, double>::measure_sides(std::int64_t);
+template void Sweeps<2, float>::measure_ends(std::int64_t, const Columns&);
+template void Sweeps<2, double>::measure_ends(std::int64_t, const Columns&);
+template void Sweeps<2, float>::fill_ghost_cells(std::int64_t, int, float*, std::int64_t, float) const;
+template void Sweeps<2, double>::fill_ghost_cells(std::int64_t, int, double*, std::int64_t, double) const;
+template void Sweeps<2, float>::fill_ghost_rows(int, const Columns&, float);
+template void Sweeps<2, double>::fill_ghost_rows(int, const Columns&, double);
 
 }  // namespace slipwave::solver

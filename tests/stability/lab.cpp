@@ -6,6 +6,7 @@
 
 #include "solver/absorbing.hpp"
 #include "solver/slip_pass.hpp"
+#include "whole_pass.hpp"
 
 namespace slipwave {
 
@@ -78,8 +79,9 @@ Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) 
 template <class Real>
 void Lab<Real>::step() {
   for (const auto& sweep : splitting_) sweeps_->along(sweep.axis, Real(sweep.part));
-  for (const auto& pass : passes_) pass->run({steps_, dt_s_});
-  for (const auto& pass : passes_) pass->run_after({steps_, dt_s_});
+  const solver::StepTime time{steps_, dt_s_};
+  for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_.layout);
+  for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_.layout);
   ++steps_;
 }
 

@@ -9,6 +9,7 @@
 #include "media.hpp"
 #include "solver/matched_layer.hpp"
 #include "solver/slip_pass.hpp"
+#include "whole_pass.hpp"
 
 namespace slipwave {
 namespace {
@@ -40,14 +41,13 @@ class InLayer {
     }
   }
   void steps(int count) {
-    const auto half = [](std::int64_t) { return 0.5; };
     for (int n = 0; n < count; ++n) {
-      sweeps_.along_x(half);
-      sweeps_.across(1, 1);
-      sweeps_.along_x(half);
+      sweeps_.along(0, 0.5);
+      sweeps_.along(1, 1);
+      sweeps_.along(0, 0.5);
       if (!slip_) continue;
-      slip_->run({n, dt_s_});
-      slip_->run_after({n, dt_s_});
+      solver::run_everywhere(*slip_, {n, dt_s_}, state_.layout);
+      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_.layout);
     }
   }
   double energy() const { return solver::energy(state_, domain_, scene_.model.medium); }

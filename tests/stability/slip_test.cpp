@@ -83,7 +83,10 @@ TEST_P(Slip, NeverAddsEnergyToDenormalWavesInFloat) {
   // Stresses near 1e-37 Pa beside velocities that are denormal: what the smallest numbers round off is
   // the whole field. It may not grow past that.
   expect_no_growth_with_slip<float>(friction(), viscosity_s(), 1e-44, 4);
-  expect_no_growth_with_slip<float>(friction(), viscosity_s(), 1e-36, 1e-2);
+  // Velocities up to half the amplitude a of which the smallest number m is lost: m/(a/2) of them, twice that
+  // of the energy.
+  constexpr double amplitude = 4e-36, smallest = std::numeric_limits<float>::min();
+  expect_no_growth_with_slip<float>(friction(), viscosity_s(), amplitude, 4 * smallest / amplitude);
 }
 
 INSTANTIATE_TEST_SUITE_P(FrictionAndViscosity, Slip,

@@ -54,6 +54,40 @@ TEST(Traces, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
+TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
+  struct Cut {
+    const char* name;
+    EdgeLaw sides;
+    int order, time_order;
+    const char* mechanism;
+  };
+  for (const auto& [name, sides, order, time_order, mechanism] :
+       {Cut{"matched layer", EdgeLaw::absorbing, 5, 2, "explosion"},
+        Cut{"free sides", EdgeLaw::free, 7, 2, "force:1,2"}, Cut{"rigid", EdgeLaw::rigid, 1, 2, "explosion"},
+        Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "explosion"},
+        Cut{"free sides, order 4 in time", EdgeLaw::free, 5, 4, "explosion"}}) {
+    SCOPED_TRACE(name);
+    auto scene = reef(317, 150);
+    scene.edges[0] = {sides, sides};
+    scene.numerics.order = order;
+    scene.numerics.time_order = time_order;
+    scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
+    scene.recording.duration_s = 0.06;
+    scene.numerics.passage = {1, 1 << 20};  // lines in one piece
+    const auto whole = [&] {
+      const ThreadLimit one(1);
+      return samples_of(shoot(scene, 1));
+    }();
+    for (const auto& passage : {Passage{0, 0}, Passage{1, 16}, Passage{2, 64}, Passage{3, 112}})
+      for (const int threads : {1, 3}) {
+        const ThreadLimit limit(threads);
+        scene.numerics.passage = passage;
+        EXPECT_EQ(samples_of(shoot(scene, 1)), whole)
+            << passage.steps << " steps, " << passage.stripe_cells << " cells, " << threads << " threads";
+      }
+  }
+}
+
 TEST(Traces, DoNotDependOnWhoElseIsLooking) {
   auto scene = reef();
   const auto all = samples_of(shoot(scene, 1));

@@ -2,6 +2,7 @@
 
 #include "slip_layer.hpp"
 #include "solver/slip_pass.hpp"
+#include "whole_pass.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -45,14 +46,14 @@ Waves solved(const Setup& setup, double h, std::vector<double>& times_s) {
   times_s.clear();
   for (std::int64_t n = 0; double(n) * dt_s < end_s; ++n) {
     lab.sweep(1, 1);
-    slip->run({n, dt_s});
+    run_everywhere(*slip, {n, dt_s}, lab.state().layout);
     const auto wave = [&](std::int64_t k, double direction) {
       return (lab(L::sxz, 1, k) - direction * z_s * lab(L::vx, 1, k)) / 2;
     };
     waves.through.push_back(wave(last + away, 1));
     waves.back.push_back(wave(first - away, -1));
     times_s.push_back(double(n + 1) * dt_s - way_s);
-    slip->run_after({n, dt_s});
+    run_after_everywhere(*slip, {n, dt_s}, lab.state().layout);
   }
   EXPECT_EQ(lab(L::szz, 0, last), -normal_pa);
   return waves;

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "solver/kernels.hpp"
+
+namespace slipwave::solver {
+
+/// What one instruction set offers: kernels by order, for any material and for stretches of one.
+template <class Real>
+struct KernelTables {
+  const Kernels<Real>* (*of_order)(int order);
+  const Kernels<Real>* (*of_order_uniform)(int order);
+  StretchKernels<Real> stretch;
+};
+
+}  // namespace slipwave::solver

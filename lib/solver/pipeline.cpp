@@ -1,0 +1,215 @@
+#include "solver/pipeline.hpp"
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+// Measured on grids from 10^4 to 10^8 cells (tests/bench, docs/performance.md).
+/// Columns of a stripe: what the sweeps need of them stays in a first cache of 32 to 48 KiB.
+constexpr std::int64_t usual_stripe = 256;
+/// Steps a pass through memory makes: more of them only pay where memory is slower than here.
+constexpr int usual_steps = 1;
+/// Rows that are asked for before the first sweep comes to them.
+constexpr std::int64_t rows_ahead = 1;
+/// Rows of a band, at least. Between bands some rows leave the cache.
+constexpr std::int64_t fewest_band_rows = 32;
+
+}  // namespace
+
+template <int D, class Real>
+Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const Layout<D>& layout, int time_order, double dt_s,
+                            EndOfStep<Real>& end, const Passage& passage)
+    : sweeps_(sweeps),
+      layout_(layout),
+      splitting_(splitting(D, time_order)),
+      dt_s_(dt_s),
+      end_(end),
+      steps_a_pass_(passage.steps > 0 ? passage.steps : usual_steps),
+      stripe_width_(passage.stripe_cells > 0 ? passage.stripe_cells : usual_stripe),
+      rows_(layout.shape()[D - 1]),
+      side_rows_(sweeps.sides_bend() ? FreeEdge<D, Real>::reach : 0) {
+  const auto longest = stages(0, steps_a_pass_);
+  longest_ = longest.back().behind + side_rows_;
+  std::int64_t along_x = 0, along_z = 0, widest = 0;
+  for (const auto& stage : longest) {
+    along_x += stage.kind == Stage::along_z ? 0 : stage.kind == Stage::along_x ? 1 : 2;
+    along_z += stage.kind == Stage::along_z;
+    widest = std::max(widest, stage.ahead);
+  }
+  band_rows_ = std::max(fewest_band_rows, longest_ + 2 * max_reach);
+  bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
+  const int threads = parallel_workers();
+  const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
+  under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
+  for (auto& pass : under_way_)
+    for (std::int64_t n = 0; n < along_z; ++n)
+      pass.rings.emplace_back(0, layout.padded_nx(), sweeps.ring_rows());
+  const auto stripe = std::min(stripe_width_ * 2 + widest, layout.padded_nx());
+  for (int n = 0; n < threads; ++n)
+    workers_.push_back({sweeps.make_workspace(stripe + 2 * Sweeps<D, Real>::lag),
+                        std::vector<Carry<Real>>(
+                            std::size_t(stripes() > 1 ? along_x * (2 * band_rows_ + longest_) : along_x)),
+                        std::vector<Columns>(2 * longest.size())});
+}
+
+template <int D, class Real>
+std::int64_t Pipeline<D, Real>::memory_bytes() const {
+  const auto ring = layout_.padded_nx() * (6 + 4 * sweeps_.ring_rows()) * std::int64_t(sizeof(Real));
+  return std::int64_t(under_way_.size() * under_way_.front().rings.size()) * ring;
+}
+
+/// The stages of a pass that makes these steps.
+template <int D, class Real>
+auto Pipeline<D, Real>::stages(std::int64_t first, std::int64_t last) const -> std::vector<Stage> {
+  std::vector<Stage> all;
+  // The last sweep of a step and the first of the next are alike: both belong to the end of a step.
+  const Real end = Real(splitting_.front().part);
+  if (first == 0) all.push_back({Stage::along_x, end, {0, dt_s_}});
+  for (std::int64_t step = first; step < last; ++step) {
+    for (std::size_t n = 1; n + 1 < splitting_.size(); ++n)
+      all.push_back({splitting_[n].axis == 0 ? Stage::along_x : Stage::along_z,
+                     Real(splitting_[n].part),
+                     {step, dt_s_}});
+    all.push_back({Stage::end_of_step, end, {step, dt_s_}});
+  }
+  std::int64_t behind = 0;
+  int along_x = 0, along_z = 0;
+  for (auto& stage : all) {
+    stage.behind = behind;
+    const bool z = stage.kind == Stage::along_z;
+    behind += z ? sweeps_.rows_behind() : side_rows_;
+    stage.number = z ? along_z++ : along_x;
+    if (!z) along_x += stage.kind == Stage::end_of_step ? 2 : 1;
+  }
+  constexpr std::int64_t each = 2 * Sweeps<D, Real>::lag;
+  std::int64_t ahead = 0;
+  for (auto stage = all.rbegin(); stage != all.rend(); ++stage) {
+    if (stage->kind == Stage::end_of_step) ahead += each;
+    stage->ahead = ahead;
+    ahead += each;
+  }
+  return all;
+}
+
+template <int D, class Real>
+std::int64_t Pipeline<D, Real>::stripes() const {
+  return std::max<std::int64_t>(1, (layout_.shape()[0] + stripe_width_ / 2) / stripe_width_);
+}
+
+/// Where a sweep that much ahead ends in a stripe. The one before it in the pass is two blocks ahead of it,
+/// or at the end of the line.
+template <int D, class Real>
+std::int64_t Pipeline<D, Real>::last_column(std::int64_t stripe, std::int64_t ahead) const {
+  constexpr auto block = Layout<D>::block;
+  const std::int64_t nx = layout_.shape()[0], count = stripes();
+  const std::int64_t nominal = stripe + 1 == count ? nx : (stripe + 1) * nx / count / block * block;
+  return nominal + ahead + 2 * Sweeps<D, Real>::lag >= nx ? nx : nominal + ahead;
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::run(std::int64_t first, std::int64_t last) {
+  const std::int64_t passes = (last - first + steps_a_pass_ - 1) / steps_a_pass_;
+  parallel_passes(
+      passes, bands_, std::int64_t(under_way_.size()), [&](std::int64_t pass, std::int64_t band, int worker) {
+        const std::int64_t begin = first + pass * steps_a_pass_;
+        run_band(pass, band, begin, std::min(begin + steps_a_pass_, last), workers_[std::size_t(worker)]);
+      });
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::run_band(std::int64_t number, std::int64_t band, std::int64_t first,
+                                 std::int64_t last, Worker& worker) {
+  auto& pass = under_way_[std::size_t(number) % under_way_.size()];
+  if (band == 0) {
+    pass.stages = stages(first, last);
+    for (std::int64_t step = first; step < last; ++step) end_.begin({step, dt_s_});
+  }
+  const bool ends = band + 1 == bands_;
+  const Columns rows{band * band_rows_, ends ? rows_ + longest_ : (band + 1) * band_rows_};
+  std::fill(worker.columns.begin(), worker.columns.end(), Columns{});
+  for (std::int64_t stripe = 0; stripe < stripes(); ++stripe) {
+    for (std::size_t n = 0; n < pass.stages.size(); ++n) {
+      const auto& stage = pass.stages[n];
+      auto* const columns = &worker.columns[2 * n];
+      columns[0] = {columns[0].last, last_column(stripe, stage.ahead)};
+      columns[1] = {columns[1].last, last_column(stripe, stage.ahead - 2 * Sweeps<D, Real>::lag)};
+    }
+    run_stripe(pass, rows, worker);
+  }
+  if (ends)
+    for (std::int64_t step = first; step < last; ++step) end_.finish({step, dt_s_});
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::run_stripe(UnderWay& pass, const Columns& rows, Worker& worker) {
+  const std::int64_t carried = stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
+  for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
+    if (arriving + rows_ahead < rows_)
+      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.coming());
+    for (std::size_t n = 0; n < pass.stages.size(); ++n) {
+      const auto& stage = pass.stages[n];
+      const auto& columns = worker.columns[2 * n];
+      const std::int64_t row = arriving - stage.behind;
+      if (stage.kind == Stage::along_z) {
+        if (row < 0 || row >= rows_ + sweeps_.rows_behind() || columns.empty()) continue;
+        constexpr auto lag = Sweeps<D, Real>::lag;
+        sweeps_.measure_ends(row, {columns.first == 0 ? 0 : columns.first + lag, columns.last + lag});
+        sweeps_.along_z(row, columns, stage.part, pass.rings[std::size_t(stage.number)], worker.work);
+        continue;
+      }
+      if (side_rows_ > 0 && row >= 0 && row < rows_ && !columns.empty()) sweeps_.keep_sides(row, columns);
+      const std::int64_t line = row - side_rows_;
+      if (line < 0 || line >= rows_) continue;
+      const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
+      Carry<Real>* const carries = worker.carries.data() + stage.number * carried + in_band;
+      if (!columns.empty()) sweeps_.measure_sides(line);
+      if (stage.kind == Stage::along_x)
+        along_x(line, columns, stage.part, *carries, worker);
+      else
+        end_of_step(stage, line, columns, (&columns)[1], carries, worker);
+    }
+  }
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry,
+                                Worker& worker) {
+  if (!columns.empty()) sweeps_.along_x(line, columns, part, carry, worker.work);
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const Columns& first,
+                                    const Columns& second, Carry<Real>* carries, Worker& worker) {
+  const StepTime& time = stage.time;
+  if (end_.whole(time, line)) {
+    if (!first.empty()) {
+      along_x(line, first, stage.part, *carries, worker);
+      end_.run(time, line, first);
+      const auto* fields = sweeps_.fields_of(line);
+      end_.look(time, line, first, fields, layout_.row_pitch());
+      end_.run_after(time, line, first);
+    }
+    const std::int64_t carried = stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
+    along_x(line, second, stage.part, carries[carried], worker);
+    return;
+  }
+  if (first.empty()) return;
+  if (end_.looks(time, line)) {
+    constexpr auto lag = Sweeps<D, Real>::lag;
+    const Columns seen{first.first == 0 ? 0 : first.first + lag,
+                       first.last == layout_.shape()[0] ? first.last : first.last + lag};
+    end_.look(time, line, seen, sweeps_.ahead_along_x(line, seen, stage.part, worker.work),
+              worker.work.pitch());
+  }
+  along_x(line, first, 2 * stage.part, *carries, worker);
+  end_.run(time, line, first);
+  end_.run_after(time, line, first);
+}
+
+template class Pipeline<2, float>;
+template class Pipeline<2, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "scene/splitting.hpp"
+#include "solver/pass.hpp"
+#include "solver/sweeps.hpp"
+
+namespace slipwave::solver {
+
+/// What happens to a line at the end of a step, between the sweeps along x of that step and the next.
+template <class Real>
+class EndOfStep {
+ public:
+  virtual ~EndOfStep() = default;
+  /// Before the first line of a step, step after step.
+  virtual void begin(const StepTime& time) = 0;
+  /// Whether the line's last sweep along x ends with the step. Otherwise it is one with the first of the
+  /// next.
+  virtual bool whole(const StepTime& time, std::int64_t line) const = 0;
+  /// Whether the fields of a line that is not whole are looked at.
+  virtual bool looks(const StepTime& time, std::int64_t line) const = 0;
+  /// Shows the fields as they are at the end of the step: cell 0 of row 0 and the way to the next row.
+  virtual void look(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
+                    std::int64_t pitch) = 0;
+  /// Passes before and after looking.
+  virtual void run(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
+  virtual void run_after(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
+  /// When all lines have come to the end of the step, step after step.
+  virtual void finish(const StepTime& time) = 0;
+};
+
+/// Takes the fields through time in passes through memory. A pass makes one or several steps: row after row
+/// comes to the first sweep, and each following sweep works some rows behind the one before it, so that what
+/// it needs is still in the cache. Rows are cut into stripes of columns that fit the first cache; a sweep
+/// stays some columns behind the one before it, too. Threads work on different passes at once, each on a band
+/// of rows some bands behind the pass before. Everything is computed once and in an order of its own whatever
+/// the number of threads, so results do not depend on it.
+template <int D, class Real>
+class Pipeline {
+ public:
+  /// Keeps references.
+  Pipeline(Sweeps<D, Real>& sweeps, const Layout<D>& layout, int time_order, double dt_s,
+           EndOfStep<Real>& end, const Passage& passage);
+  /// Makes steps first <= n < last, which begin where the last call ended, from 0 on.
+  void run(std::int64_t first, std::int64_t last);
+  std::int64_t memory_bytes() const;
+
+ private:
+  /// What is done to every row in turn. A sweep along x, one along z or the end of a step: two sweeps along x
+  /// with all that happens between them.
+  struct Stage {
+    enum Kind { along_x, along_z, end_of_step } kind;
+    Real part;                // of the step, of each of the two sweeps at its end
+    StepTime time;            // whose end it is, or which it is in
+    std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
+    std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
+    int number = 0;           // among those of its kind; of the sweeps along x the first one's
+  };
+  struct UnderWay {
+    std::vector<Stage> stages;
+    std::vector<Ring<Real>> rings;  // of the sweeps along z
+  };
+  struct Worker {
+    Workspace<Real> work;
+    std::vector<Carry<Real>> carries;  // [sweep along x][row of the band]
+    std::vector<Columns> columns;      // of each stage; the end of a step has two
+  };
+  std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
+  void run_band(std::int64_t pass, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
+  void run_stripe(UnderWay& pass, const Columns& rows, Worker& worker);
+  void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker);
+  void end_of_step(const Stage& stage, std::int64_t line, const Columns& first, const Columns& second,
+                   Carry<Real>* carries, Worker& worker);
+  std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;
+  std::int64_t stripes() const;
+
+  Sweeps<D, Real>& sweeps_;
+  const Layout<D>& layout_;
+  std::vector<SweepPart> splitting_;
+  double dt_s_;
+  EndOfStep<Real>& end_;
+  int steps_a_pass_;
+  std::int64_t stripe_width_;
+  std::int64_t rows_, side_rows_;  // side_rows_: how far sweeps along x stay behind where free sides bend
+  std::int64_t longest_;           // rows from the first to the last stage of a pass
+  std::int64_t band_rows_, bands_;
+  std::vector<UnderWay> under_way_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace slipwave::solver

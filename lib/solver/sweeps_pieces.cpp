@@ -1,0 +1,183 @@
+#include <algorithm>
+
+#include "solver/sweeps.hpp"
+
+// Pieces of sweeps: along x a stretch of a line, along z a row of a stripe of columns.
+namespace slipwave::solver {
+namespace {
+
+template <class Real>
+Leaving<Real> shifted(const Leaving<Real>& from, std::int64_t cells) {
+  return {from.up_p + cells, from.down_p + cells, from.up_s + cells, from.down_s + cells};
+}
+
+/// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
+/// the edge is part of the law (fill_material).
+template <class Real>
+void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering) {
+  const bool motionless = continuation(law, wave) == Continuation::motionless;
+  for (std::int64_t i = 0; i < n; ++i) entering[i] = motionless ? -leaving[i] : Real(0);
+}
+
+}  // namespace
+
+template <int D, class Real>
+void Sweeps<D, Real>::expect(std::int64_t line, const Columns& columns, Coming<Real>& coming) const {
+  const Index<D> at = state_.layout.line_index(line);
+  coming.clear();
+  coming.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
+             FieldRows<D>::count);
+  if (!state_.stretch(line, columns.first, columns.last))
+    coming.add(state_.material_row(at, 0) + columns.first, columns.count(),
+               state_.material_layout.row_pitch(), material_rows);
+}
+
+/// At the low edge what goes up comes from what went down, at the high one the other way round.
+template <int D, class Real>
+void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
+                               const Leaving<Real>& entering) const {
+  const EdgeLaw law = edges_[axis][side];
+  enter(law, wave_p, n, side ? leaving.up_p : leaving.down_p, side ? entering.down_p : entering.up_p);
+  enter(law, wave_s, n, side ? leaving.up_s : leaving.down_s, side ? entering.down_s : entering.up_s);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_x(std::int64_t line, const Columns& columns, Real scale, Carry<Real>& carry,
+                              Workspace<Real>& work) {
+  const std::int64_t nx = state_.layout.shape()[0];
+  const bool begins = columns.first == 0, ends = columns.last == nx;
+  const Columns leave{begins ? 0 : columns.first + lag,
+                      ends ? state_.layout.padded_nx() : columns.last + lag};
+  const auto faces = work.faces();
+  const auto leaving = work.leaving();
+  const std::int64_t last = leave.last - columns.first;
+  const auto waiting = [&](auto&& copy) {
+    copy(faces.v_p, carry.v_p), copy(faces.s_p, carry.s_p);
+    copy(faces.v_s, carry.v_s), copy(faces.s_s, carry.s_s);
+  };
+  if (!begins) {
+    waiting([](Real* to, const Real* from) { std::copy(from, from + lag, to); });
+    leaving.up_p[lag - 1] = carry.up_p;
+    leaving.up_s[lag - 1] = carry.up_s;
+  }
+  const Index<D> at = state_.layout.line_index(line);
+  sweep_piece({line,
+               leave,
+               {columns.first, ends ? leave.last : columns.last},
+               state_.field_row(at, 0),
+               state_.layout.row_pitch(),
+               true},
+              scale, work);
+  if (ends) return;
+  waiting([last](const Real* from, Real* to) { std::copy(from + last - lag, from + last, to); });
+  carry.up_p = leaving.up_p[last - 1];
+  carry.up_s = leaving.up_s[last - 1];
+}
+
+template <int D, class Real>
+const Real* Sweeps<D, Real>::ahead_along_x(std::int64_t line, const Columns& columns, Real scale,
+                                           Workspace<Real>& work) {
+  const auto& layout = state_.layout;
+  const std::int64_t nx = layout.shape()[0];
+  const Columns leave{std::max<std::int64_t>(columns.first - lag, 0),
+                      columns.last + lag >= nx ? layout.padded_nx() : columns.last + lag};
+  const Real* const from = state_.field_row(layout.line_index(line), 0);
+  // Cell 0 of the copy would stand here.
+  Real* const copy = work.copy() - leave.first;
+  for (int row = 0; row < FieldRows<D>::count; ++row)
+    std::copy(from + row * layout.row_pitch() + leave.first - max_reach,
+              from + row * layout.row_pitch() + leave.last + max_reach,
+              copy + row * work.pitch() + leave.first - max_reach);
+  const auto leaving = work.leaving();
+  if (leave.first > 0) leaving.up_p[-1] = leaving.up_s[-1] = 0;
+  sweep_piece({line, leave, columns, copy, work.pitch(), false}, scale, work);
+  return copy;
+}
+
+/// What leaves the cell before the first that sends out is in its place.
+template <int D, class Real>
+void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work) {
+  const std::int64_t nx = state_.layout.shape()[0], base = std::min(piece.leave.first, piece.update.first);
+  const bool begins = piece.leave.first == 0, ends = piece.leave.last >= nx;
+  const Index<D> at = state_.layout.line_index(piece.line);
+  const auto first = shifted(work.leaving(), piece.leave.first - base);
+  if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
+  if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
+  send_out(0, at, piece.leave, piece.fields, piece.pitch, 1, scale, first, work.coming());
+  if (begins) enter_at(0, 0, 1, first, shifted(first, -1));
+  Columns met = piece.leave;
+  if (ends) {
+    const auto beyond = shifted(first, nx - piece.leave.first);
+    met.last += lag;  // where the row fills whole blocks its last face is in the next one
+    for (Real* const zero : {beyond.up_p, beyond.down_p, beyond.up_s, beyond.down_s})
+      std::fill(zero, zero + met.last - nx, Real(0));
+    enter_at(0, 1, 1, shifted(beyond, -1), beyond);
+  }
+  // The faces at the ends of a line have other material on one side.
+  const std::int64_t inner_first = begins ? std::min(lag, met.last) : met.first;
+  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : met.last;
+  const auto faces = work.faces();
+  for (const Columns& part :
+       {Columns{met.first, inner_first}, Columns{inner_first, inner_last}, Columns{inner_last, met.last}}) {
+    if (part.empty()) continue;
+    const auto here = shifted(first, part.first - piece.leave.first);
+    const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
+    const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
+    meet(part.count(), stretch, shifted(here, -1), here, lo,
+         stretch ? lo : state_.material_from(at, part.first), faces.at(part.first - base));
+  }
+  work.coming().ask_for_one();
+  const auto lo = faces.at(piece.update.first - base);
+  update(0, at, piece.update, piece.fields, piece.pitch, scale, lo, lo.at(1), work, piece.remember);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_z(std::int64_t step, const Columns& columns, Real scale, Ring<Real>& ring,
+                              Workspace<Real>& work) {
+  const auto& layout = state_.layout;
+  const std::int64_t rows = layout.shape()[z_axis], row = step - reach_;
+  const Columns wide{columns.first, columns.last == layout.shape()[0] ? layout.padded_nx() : columns.last};
+  const auto line = [](std::int64_t k) {
+    Index<D> at{};
+    at[z_axis] = k;
+    return at;
+  };
+  if (row == 0) fill_ghost_rows(0, wide, scale);
+  if (row == std::max<std::int64_t>(0, rows - reach_)) fill_ghost_rows(1, wide, scale);
+  const std::int64_t x = wide.first, n = wide.count();
+  if (row >= 0 && row < rows)
+    send_out(z_axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(),
+             layout.stride(z_axis), scale, ring.leaving(row, x), work.coming());
+  if (row >= 0 && row <= rows) {
+    const auto above = ring.leaving(row - 1, x), here = ring.leaving(row, x);
+    if (row == 0) enter_at(z_axis, 0, n, here, above);
+    if (row == rows) enter_at(z_axis, 1, n, above, here);
+    const auto stretch = [&](std::int64_t k) {
+      return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), x, x + n) : nullptr;
+    };
+    const auto *lo = stretch(row - 1), *hi = stretch(row);
+    const bool uniform = lo && hi;
+    meet(n, uniform, above, here, uniform ? lo->rows() : state_.material_from(line(row - 1), x),
+         uniform ? hi->rows() : state_.material_from(line(row), x), ring.faces(row, x));
+  }
+  work.coming().ask_for_one();
+  const std::int64_t done = step - rows_behind();
+  if (done >= 0 && done < rows)
+    update(z_axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
+           ring.faces(done, x), ring.faces(done + 1, x), work, true);
+}
+
+template void Sweeps<2, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
+template void Sweeps<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
+                                        Workspace<float>&);
+template const float* Sweeps<2, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
+template void Sweeps<2, float>::along_z(std::int64_t, const Columns&, float, Ring<float>&, Workspace<float>&);
+template void Sweeps<2, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
+template void Sweeps<2, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
+                                         Workspace<double>&);
+template const double* Sweeps<2, double>::ahead_along_x(std::int64_t, const Columns&, double,
+                                                        Workspace<double>&);
+template void Sweeps<2, double>::along_z(std::int64_t, const Columns&, double, Ring<double>&,
+                                         Workspace<double>&);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <algorithm>
+
+#include "solver/state.hpp"
+
+namespace slipwave::solver {
+
+/// What a piece of a sweep along x leaves for the next one of the line: what leaves its last cell upwards and
+/// the faces of the cells that wait for it.
+template <class Real>
+struct Carry {
+  static constexpr std::int64_t faces = 16;
+  Real up_p, up_s;
+  Real v_p[faces], s_p[faces], v_s[faces], s_s[faces];
+};
+
+/// What a sweep along z keeps between its rows: what leaves the newest row upwards (and the one before), and
+/// the faces of the rows that are still to be brought forward. Columns from `first` on.
+template <class Real>
+class Ring {
+ public:
+  Ring(std::int64_t first, std::int64_t width, int face_rows)
+      : first_(first), pitch_(width + 2 * gap), face_rows_(face_rows), values_(pitch_ * (6 + 4 * face_rows)) {
+    std::fill(values_.data(), values_.data() + values_.size(), Real(0));
+  }
+  /// From column x on. What leaves downwards is met at once: there is one row of it.
+  Leaving<Real> leaving(std::int64_t row, std::int64_t x) {
+    const int turn = int(row & 1);
+    return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x)};
+  }
+  Faces<Real> faces(std::int64_t row, std::int64_t x) {
+    const int first = 6 + 4 * int(row % face_rows_);
+    return {at(first, x), at(first + 1, x), at(first + 2, x), at(first + 3, x)};
+  }
+
+ private:
+  static constexpr std::int64_t gap = 16;
+  Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
+  std::int64_t first_, pitch_;
+  int face_rows_;
+  Buffer<Real> values_;
+};
+
+/// Rows of memory that are asked for before they are needed, one after each loop over a piece: stripes are
+/// too short for the processor to guess what comes next, and all at once they would wait for each other.
+template <class Real>
+class Coming {
+ public:
+  void clear() { left_ = 0; }
+  /// `count` rows of `width` values, `pitch` apart.
+  void add(const Real* first, std::int64_t width, std::int64_t pitch, int count) {
+    for (int row = 0; row < count; ++row) rows_[left_++] = first + row * pitch;
+    width_ = width;
+  }
+  void ask_for_one() {
+    if (left_ == 0) return;
+    const Real* const row = rows_[--left_];
+    for (std::int64_t x = 0; x < width_; x += 64 / std::int64_t(sizeof(Real))) __builtin_prefetch(row + x);
+  }
+
+ private:
+  static constexpr int most = 16;
+  const Real* rows_[most] = {};
+  int left_ = 0;
+  std::int64_t width_ = 0;
+};
+
+/// Scratch memory of one thread for pieces of at most `widest` columns.
+template <class Real>
+class Workspace {
+ public:
+  Workspace(std::int64_t widest, int field_rows)
+      : pitch_(widest + 6 * gap), values_(pitch_ * (8 + 6 + field_rows)) {
+    std::fill(values_.data(), values_.data() + values_.size(), Real(0));
+  }
+  Leaving<Real> leaving() { return {row(0), row(1), row(2), row(3)}; }
+  Faces<Real> faces() { return {row(4), row(5), row(6), row(7)}; }
+  /// Fields as they were, while the matched layer needs them.
+  Real* before(int n) { return row(8 + n); }
+  /// A copy of all fields of a piece.
+  Real* copy() { return row(14); }
+  Coming<Real>& coming() { return coming_; }
+  /// From a row of the copy to the next; room for 32 cells before and behind the piece.
+  std::int64_t pitch() const { return pitch_; }
+
+ private:
+  static constexpr std::int64_t gap = 16;
+  Real* row(int n) { return values_.data() + n * pitch_ + 2 * gap; }
+  std::int64_t pitch_;
+  Buffer<Real> values_;
+  Coming<Real> coming_;
+};
+
+}  // namespace slipwave::solver
