@@ -69,13 +69,13 @@ Scene<2> ShotSettings::without_model() const {
   scene.recording.interval_s = interval_s;
   scene.edges[0] = {edge_law(sides), edge_law(sides)};
   scene.edges[1] = {edge_law(top), edge_law(bottom)};
-  scene.numerics = {std::stoi(order),
-                    cfl,
-                    time_step_s,
-                    edge_width,
-                    correction == "first" ? SlipCorrection::first : SlipCorrection::second,
-                    precision == "double",
-                    std::stoi(time_order)};
+  scene.numerics.order = std::stoi(order);
+  scene.numerics.cfl = cfl;
+  scene.numerics.time_step_s = time_step_s;
+  scene.numerics.zone_cells = edge_width;
+  scene.numerics.correction = correction == "first" ? SlipCorrection::first : SlipCorrection::second;
+  scene.numerics.double_precision = precision == "double";
+  scene.numerics.time_order = std::stoi(time_order);
   scene.with_slip = without != "slip";
   return scene;
 }

@@ -15,8 +15,9 @@ enum class SlipCorrection { first, second };
 
 /// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
 struct Passage {
-  int steps = 0;         // time steps in one pass
-  int stripe_cells = 0;  // columns swept together, a multiple of 16
+  int steps = 0;            // time steps in one pass
+  int stripe_cells = 0;     // columns swept together, a multiple of 16
+  bool everywhere = false;  // compute also where nothing has come to, and whatever nobody will see
 };
 
 /// How the scene is computed. Defaults are those of sw-shoot.

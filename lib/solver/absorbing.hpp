@@ -24,6 +24,7 @@ class AbsorbingZones : public Pass {
     return background_ ? "absorbing zones, incoming wave" : "absorbing zones";
   }
   std::int64_t cells() const override;
+  bool stirs(const StepTime&, std::int64_t) const override { return background_ != nullptr; }
   std::span<const std::int64_t> lines() const override { return lines_; }
 
  private:

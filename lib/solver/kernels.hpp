@@ -17,6 +17,16 @@ struct Columns {
   bool empty() const { return last <= first; }
 };
 
+/// Rows and columns.
+struct Box {
+  Columns rows, columns;
+  /// Whether it has anything in common with these.
+  bool meets(const Columns& of_rows, const Columns& of_columns) const {
+    return of_rows.first < rows.last && of_rows.last > rows.first && of_columns.first < columns.last &&
+           of_columns.last > columns.first;
+  }
+};
+
 /// Values at faces: of the P pair (v_n, s_nn) and the S pair (v_t, s_nt).
 template <class Real>
 struct Faces {

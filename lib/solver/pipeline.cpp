@@ -20,16 +20,18 @@ constexpr std::int64_t fewest_band_rows = 32;
 }  // namespace
 
 template <int D, class Real>
-Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const Layout<D>& layout, int time_order, double dt_s,
+Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
                             EndOfStep<Real>& end, const Passage& passage)
     : sweeps_(sweeps),
-      layout_(layout),
+      layout_(state.layout),
+      active_(state),
+      everywhere_(passage.everywhere),
       splitting_(splitting(D, time_order)),
       dt_s_(dt_s),
       end_(end),
       steps_a_pass_(passage.steps > 0 ? passage.steps : usual_steps),
       stripe_width_(passage.stripe_cells > 0 ? passage.stripe_cells : usual_stripe),
-      rows_(layout.shape()[D - 1]),
+      rows_(layout_.shape()[D - 1]),
       side_rows_(sweeps.sides_bend() ? FreeEdge<D, Real>::reach : 0) {
   const auto longest = stages(0, steps_a_pass_);
   longest_ = longest.back().behind + side_rows_;
@@ -46,8 +48,8 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const Layout<D>& layout, in
   under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
   for (auto& pass : under_way_)
     for (std::int64_t n = 0; n < along_z; ++n)
-      pass.rings.emplace_back(0, layout.padded_nx(), sweeps.ring_rows());
-  const auto stripe = std::min(stripe_width_ * 2 + widest, layout.padded_nx());
+      pass.rings.emplace_back(0, layout_.padded_nx(), sweeps.ring_rows());
+  const auto stripe = std::min(stripe_width_ * 2 + widest, layout_.padded_nx());
   for (int n = 0; n < threads; ++n)
     workers_.push_back({sweeps.make_workspace(stripe + 2 * Sweeps<D, Real>::lag),
                         std::vector<Carry<Real>>(
@@ -125,6 +127,8 @@ void Pipeline<D, Real>::run_band(std::int64_t number, std::int64_t band, std::in
   auto& pass = under_way_[std::size_t(number) % under_way_.size()];
   if (band == 0) {
     pass.stages = stages(first, last);
+    const Box all{{0, rows_}, {0, layout_.shape()[0]}}, growth = growth_of_a_step();
+    for (auto& stage : pass.stages) stage.needed = everywhere_ ? all : end_.needed(stage.time, growth);
     for (std::int64_t step = first; step < last; ++step) end_.begin({step, dt_s_});
   }
   const bool ends = band + 1 == bands_;
@@ -154,46 +158,83 @@ void Pipeline<D, Real>::run_stripe(UnderWay& pass, const Columns& rows, Worker& 
       const auto& columns = worker.columns[2 * n];
       const std::int64_t row = arriving - stage.behind;
       if (stage.kind == Stage::along_z) {
-        if (row < 0 || row >= rows_ + sweeps_.rows_behind() || columns.empty()) continue;
-        constexpr auto lag = Sweeps<D, Real>::lag;
-        sweeps_.measure_ends(row, {columns.first == 0 ? 0 : columns.first + lag, columns.last + lag});
-        sweeps_.along_z(row, columns, stage.part, pass.rings[std::size_t(stage.number)], worker.work);
+        if (row >= 0 && row < rows_ + sweeps_.rows_behind() && !columns.empty())
+          along_z(stage, row, columns, pass.rings[std::size_t(stage.number)], worker);
         continue;
       }
       if (side_rows_ > 0 && row >= 0 && row < rows_ && !columns.empty()) sweeps_.keep_sides(row, columns);
       const std::int64_t line = row - side_rows_;
-      if (line < 0 || line >= rows_) continue;
+      if (line < 0 || line >= rows_ ||
+          !stage.needed.meets({line, line + 1},
+                              {(&columns)[stage.kind == Stage::end_of_step].first, columns.last}))
+        continue;
       const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
       Carry<Real>* const carries = worker.carries.data() + stage.number * carried + in_band;
       if (!columns.empty()) sweeps_.measure_sides(line);
-      if (stage.kind == Stage::along_x)
-        along_x(line, columns, stage.part, *carries, worker);
-      else
+      if (stage.kind == Stage::along_x) {
+        if (!columns.empty()) along_x(line, columns, stage.part, *carries, worker);
+      } else {
         end_of_step(stage, line, columns, (&columns)[1], carries, worker);
+      }
     }
   }
 }
 
 template <int D, class Real>
+bool Pipeline<D, Real>::quiet(const Columns& rows, const Columns& columns) const {
+  if (everywhere_) return false;
+  for (auto row = std::max<std::int64_t>(rows.first, 0); row < std::min(rows.last, rows_); ++row)
+    if (!active_.quiet(row, columns)) return false;
+  return true;
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Columns& columns,
+                                Ring<Real>& ring, Worker& worker) {
+  constexpr auto lag = Sweeps<D, Real>::lag;
+  const std::int64_t done = step - sweeps_.rows_behind();
+  if (!stage.needed.meets({done, step + 1}, columns)) return;
+  // Free edges read some cells of the columns beside these.
+  if (quiet({done - 1, step + 1}, {columns.first - lag, columns.last + lag})) {
+    sweeps_.pass_over_z(step, columns, ring);
+    return;
+  }
+  sweeps_.measure_ends(step, {columns.first == 0 ? 0 : columns.first + lag, columns.last + lag});
+  sweeps_.along_z(step, columns, stage.part, ring, worker.work);
+  if (done < 0 || done >= rows_) return;
+  active_.look(done, columns);
+  worker.swept += columns.count();
+}
+
+template <int D, class Real>
 void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry,
                                 Worker& worker) {
-  if (!columns.empty()) sweeps_.along_x(line, columns, part, carry, worker.work);
+  constexpr auto reach = 2 * Sweeps<D, Real>::lag;
+  if (quiet({line - side_rows_, line + side_rows_ + 1}, {columns.first - reach, columns.last + reach})) {
+    carry = {};
+    return;
+  }
+  sweeps_.along_x(line, columns, part, carry, worker.work);
+  active_.look(line, columns);
 }
 
 template <int D, class Real>
 void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const Columns& first,
                                     const Columns& second, Carry<Real>* carries, Worker& worker) {
   const StepTime& time = stage.time;
+  const auto passes = [&](auto&& what) {
+    what();
+    if (end_.stirs(time, line)) active_.look(line, first);
+  };
   if (end_.whole(time, line)) {
     if (!first.empty()) {
       along_x(line, first, stage.part, *carries, worker);
-      end_.run(time, line, first);
-      const auto* fields = sweeps_.fields_of(line);
-      end_.look(time, line, first, fields, layout_.row_pitch());
-      end_.run_after(time, line, first);
+      passes([&] { end_.run(time, line, first); });
+      end_.look(time, line, first, sweeps_.fields_of(line), layout_.row_pitch());
+      passes([&] { end_.run_after(time, line, first); });
     }
     const std::int64_t carried = stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
-    along_x(line, second, stage.part, carries[carried], worker);
+    if (!second.empty()) along_x(line, second, stage.part, carries[carried], worker);
     return;
   }
   if (first.empty()) return;
@@ -205,8 +246,32 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
               worker.work.pitch());
   }
   along_x(line, first, 2 * stage.part, *carries, worker);
-  end_.run(time, line, first);
-  end_.run_after(time, line, first);
+  passes([&] {
+    end_.run(time, line, first);
+    end_.run_after(time, line, first);
+  });
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::find_active_cells() {
+  for (std::int64_t line = 0; line < layout_.lines(); ++line) active_.look(line, {0, layout_.shape()[0]});
+}
+
+/// By how many rows and columns the fields of a cell spread in a step at most.
+template <int D, class Real>
+Box Pipeline<D, Real>::growth_of_a_step() const {
+  constexpr std::int64_t bends = FreeEdge<D, Real>::reach, sweep = max_reach + 1;
+  std::int64_t along_x = 1, along_z = 0;  // the two halves between steps are two sweeps
+  for (const auto& part : splitting_) (part.axis == 0 ? along_x : along_z) += 1;
+  const std::int64_t rows = along_z * sweep + along_x * bends, columns = along_x * sweep + along_z * bends;
+  return {{rows, rows}, {columns, columns}};
+}
+
+template <int D, class Real>
+std::int64_t Pipeline<D, Real>::swept_cells() const {
+  std::int64_t cells = 0;
+  for (const auto& worker : workers_) cells += worker.swept;
+  return cells;
 }
 
 template class Pipeline<2, float>;

@@ -5,6 +5,7 @@
 
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
+#include "solver/active_cells.hpp"
 #include "solver/pass.hpp"
 #include "solver/sweeps.hpp"
 
@@ -25,6 +26,11 @@ class EndOfStep {
   /// Shows the fields as they are at the end of the step: cell 0 of row 0 and the way to the next row.
   virtual void look(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
                     std::int64_t pitch) = 0;
+  /// Whether run() or run_after() may make something of a line that is zero.
+  virtual bool stirs(const StepTime& time, std::int64_t line) const = 0;
+  /// What of the fields at the end of the step is looked at then or later, or anything later looked at comes
+  /// of. `growth`: by how much a step spreads along each axis at most.
+  virtual Box needed(const StepTime& time, const Box& growth) const = 0;
   /// Passes before and after looking.
   virtual void run(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
   virtual void run_after(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
@@ -42,11 +48,15 @@ template <int D, class Real>
 class Pipeline {
  public:
   /// Keeps references.
-  Pipeline(Sweeps<D, Real>& sweeps, const Layout<D>& layout, int time_order, double dt_s,
+  Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
            EndOfStep<Real>& end, const Passage& passage);
+  /// To be called when fields have been set from outside.
+  void find_active_cells();
   /// Makes steps first <= n < last, which begin where the last call ended, from 0 on.
   void run(std::int64_t first, std::int64_t last);
   std::int64_t memory_bytes() const;
+  /// Cells brought forward along z, all sweeps together: what was not left out.
+  std::int64_t swept_cells() const;
 
  private:
   /// What is done to every row in turn. A sweep along x, one along z or the end of a step: two sweeps along x
@@ -58,6 +68,7 @@ class Pipeline {
     std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
+    Box needed{};             // elsewhere nobody will see what it does
   };
   struct UnderWay {
     std::vector<Stage> stages;
@@ -67,18 +78,25 @@ class Pipeline {
     Workspace<Real> work;
     std::vector<Carry<Real>> carries;  // [sweep along x][row of the band]
     std::vector<Columns> columns;      // of each stage; the end of a step has two
+    std::int64_t swept = 0;            // cells, along z
   };
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
   void run_band(std::int64_t pass, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
   void run_stripe(UnderWay& pass, const Columns& rows, Worker& worker);
   void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker);
+  void along_z(const Stage& stage, std::int64_t step, const Columns& columns, Ring<Real>& ring,
+               Worker& worker);
+  bool quiet(const Columns& rows, const Columns& columns) const;
   void end_of_step(const Stage& stage, std::int64_t line, const Columns& first, const Columns& second,
                    Carry<Real>* carries, Worker& worker);
   std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;
   std::int64_t stripes() const;
+  Box growth_of_a_step() const;
 
   Sweeps<D, Real>& sweeps_;
   const Layout<D>& layout_;
+  ActiveCells<D, Real> active_;
+  bool everywhere_;
   std::vector<SweepPart> splitting_;
   double dt_s_;
   EndOfStep<Real>& end_;

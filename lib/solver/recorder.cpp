@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -73,6 +74,20 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
   }
   starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
   for (const auto& weight : all) weights_.push_back(weight.weight);
+}
+
+template <int D, class Real>
+Box Recorder<D, Real>::reads() const {
+  Box box;
+  const auto lines = std::int64_t(starts_.size()) - 1;
+  while (box.rows.first < lines && !reads(box.rows.first)) ++box.rows.first;
+  for (box.rows.last = lines; box.rows.last > box.rows.first && !reads(box.rows.last - 1);) --box.rows.last;
+  box.columns.first = std::numeric_limits<std::int64_t>::max();
+  for (const auto& read : reads_) {
+    box.columns.first = std::min(box.columns.first, read.column);
+    box.columns.last = std::max(box.columns.last, read.column + 1);
+  }
+  return box;
 }
 
 template <int D, class Real>

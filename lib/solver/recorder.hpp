@@ -18,6 +18,8 @@ class Recorder {
 
   /// Whether it reads anything of a line.
   bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
+  /// The rows and columns of all it reads.
+  Box reads() const;
   /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
   /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
   void sample(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,

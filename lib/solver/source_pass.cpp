@@ -55,6 +55,9 @@ class SourcePass : public Pass {
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> lines() const override { return lines_; }
+  bool stirs(const StepTime& time, std::int64_t line) const override {
+    return acts(time) && line >= lines_.front() && line <= lines_.back();
+  }
   bool acts(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
 
  private:

@@ -12,11 +12,12 @@ namespace slipwave::solver {
 template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
+      time_order_(scene.numerics.time_order),
       domain_(
           make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
       state_(make_state<D, Real>(domain_.grid.shape)),
       sweeps_(state_, domain_, scene.numerics.order),
-      pipeline_(sweeps_, state_.layout, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
+      pipeline_(sweeps_, state_, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
       whole_(std::size_t(Pass::most_steps_under_way)),
       monitor_(state_, domain_),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
@@ -25,7 +26,10 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)) {
   fill_material(state_, domain_, scene.model.medium, dt_s_);
   build_step(scene, shot);
-  if (background_) background_->begin(state_);
+  if (background_) {
+    background_->begin(state_);
+    pipeline_.find_active_cells();
+  }
 }
 
 /// What happens at the end of a step, after the sweeps. Source and slip work partly before and partly after
@@ -105,6 +109,33 @@ void Step<D, Real>::begin(const StepTime& time) {
     if (!pass->acts(time)) continue;
     for (const auto line : pass->lines()) whole[std::size_t(line)] = 1;
   }
+}
+
+template <int D, class Real>
+bool Step<D, Real>::stirs(const StepTime& time, std::int64_t line) const {
+  return std::any_of(passes_.begin(), passes_.end(),
+                     [&](const auto& pass) { return pass->stirs(time, line); });
+}
+
+/// What reaches a receiver before the end, or is part of a snapshot.
+template <int D, class Real>
+Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
+  const Box all{{0, domain_.grid.shape[D - 1]}, {0, domain_.grid.shape[0]}};
+  if (snapshot_every_s_) return all;
+  const auto steps = steps_ - time.step;
+  const auto spread = [steps](const Columns& read, const Columns& by) {
+    return Columns{read.first - steps * by.first, read.last + steps * by.last};
+  };
+  const Box read = recorder_->reads();
+  return {spread(read.rows, growth.rows), spread(read.columns, growth.columns)};
+}
+
+template <int D, class Real>
+double Step<D, Real>::computed_share() const {
+  double swept = 0;
+  for (const auto& sweep : splitting(D, time_order_)) swept += sweep.axis == D - 1;
+  return double(pipeline_.swept_cells()) /
+         (double(domain_.grid.size()) * swept * double(std::max<std::int64_t>(done_, 1)));
 }
 
 template <int D, class Real>

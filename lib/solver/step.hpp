@@ -28,6 +28,8 @@ class Step : private EndOfStep<Real> {
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
   std::int64_t memory_bytes() const;
+  /// What of all cells in all steps so far had to be computed.
+  double computed_share() const;
 
  private:
   void build_step(const Scene<D>& scene, std::size_t shot);
@@ -41,6 +43,8 @@ class Step : private EndOfStep<Real> {
   bool looks(const StepTime& time, std::int64_t line) const override {
     return time.step == snapshot_step_ || recorder_->reads(line);
   }
+  bool stirs(const StepTime& time, std::int64_t line) const override;
+  Box needed(const StepTime& time, const Box& growth) const override;
   void look(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
             std::int64_t pitch) override;
   void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
@@ -48,6 +52,7 @@ class Step : private EndOfStep<Real> {
   void finish(const StepTime& time) override;
 
   double dt_s_;
+  int time_order_;
   Domain<D> domain_;
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;

@@ -46,6 +46,8 @@ class Sweeps {
   /// rows + rows_behind() - 1 with the same columns; the ring goes along.
   void along_z(std::int64_t step, const Columns& columns, Real scale, Ring<Real>& ring,
                Workspace<Real>& work);
+  /// The same where it would only make zero of zero.
+  void pass_over_z(std::int64_t step, const Columns& columns, Ring<Real>& ring) const;
   /// Rows that a sweep along z still needs behind the newest one.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
   int ring_rows() const { return std::max(reach_, 1) + 1; }

@@ -167,11 +167,25 @@ void Sweeps<D, Real>::along_z(std::int64_t step, const Columns& columns, Real sc
            ring.faces(done, x), ring.faces(done + 1, x), work, true);
 }
 
+template <int D, class Real>
+void Sweeps<D, Real>::pass_over_z(std::int64_t step, const Columns& columns, Ring<Real>& ring) const {
+  const std::int64_t row = step - reach_;
+  if (row < 0) return;
+  const std::int64_t last =
+      columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
+  const auto leaving = ring.leaving(row, columns.first);
+  const auto faces = ring.faces(row, columns.first);
+  for (Real* const zero : {leaving.up_p, leaving.up_s, faces.v_p, faces.s_p, faces.v_s, faces.s_s})
+    std::fill(zero, zero + last - columns.first, Real(0));
+}
+
+template void Sweeps<2, float>::pass_over_z(std::int64_t, const Columns&, Ring<float>&) const;
 template void Sweeps<2, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
 template void Sweeps<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
                                         Workspace<float>&);
 template const float* Sweeps<2, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
 template void Sweeps<2, float>::along_z(std::int64_t, const Columns&, float, Ring<float>&, Workspace<float>&);
+template void Sweeps<2, double>::pass_over_z(std::int64_t, const Columns&, Ring<double>&) const;
 template void Sweeps<2, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
 template void Sweeps<2, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
                                          Workspace<double>&);

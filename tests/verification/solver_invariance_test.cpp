@@ -73,12 +73,12 @@ TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     scene.numerics.time_order = time_order;
     scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
     scene.recording.duration_s = 0.06;
-    scene.numerics.passage = {1, 1 << 20};  // lines in one piece
+    scene.numerics.passage = {1, 1 << 20, true};  // lines in one piece, all of them
     const auto whole = [&] {
       const ThreadLimit one(1);
       return samples_of(shoot(scene, 1));
     }();
-    for (const auto& passage : {Passage{0, 0}, Passage{1, 16}, Passage{2, 64}, Passage{3, 112}})
+    for (const auto& passage : {Passage{0, 0}, Passage{1, 16}, Passage{2, 64, true}, Passage{3, 112}})
       for (const int threads : {1, 3}) {
         const ThreadLimit limit(threads);
         scene.numerics.passage = passage;

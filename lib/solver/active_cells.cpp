@@ -1,0 +1,28 @@
+#include "solver/active_cells.hpp"
+
+#include <algorithm>
+
+namespace slipwave::solver {
+
+template <int D, class Real>
+void ActiveCells<D, Real>::look(std::int64_t line, const Columns& columns) {
+  char* const active = active_.data() + line * blocks_;
+  const std::int64_t last = std::min((columns.last + block - 1) / block, blocks_);
+  const Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
+  for (std::int64_t n = columns.first / block; n < last; ++n) {
+    if (active[n]) continue;
+    // The last block of a line holds ghosts, too.
+    const std::int64_t count = std::min(block, state_.layout.shape()[0] - n * block);
+    bool found = false;
+    for (int row = 0; row < FieldRows<D>::count; ++row) {
+      const Real* const cells = fields + row * state_.layout.row_pitch() + n * block;
+      for (std::int64_t i = 0; i < count; ++i) found |= cells[i] != 0;
+    }
+    active[n] = found;
+  }
+}
+
+template class ActiveCells<2, float>;
+template class ActiveCells<2, double>;
+
+}  // namespace slipwave::solver
