@@ -1,10 +1,12 @@
 #include "shot_output.hpp"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "base/error.hpp"
+#include "base/parallel.hpp"
 #include "output/derivatives.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "segy/writer.hpp"
@@ -87,6 +89,22 @@ void ShotOutput::check(std::size_t shots) const {
   if (!snapshots.empty() && holds(snapshots, "{component}"))
     throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
                 ErrorKind::usage);
+  if (shots_in_parallel < 0)
+    throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
+                ErrorKind::usage);
+  if (!snapshots.empty() && shots_in_parallel > 1)
+    throw Error("found --snapshots with " + std::to_string(shots_in_parallel) +
+                    " for --shots-in-parallel, expected 1: snapshots are written one after the other",
+                ErrorKind::usage);
+}
+
+std::size_t ShotOutput::shots_at_once(const Scene<2>& scene) const {
+  const auto shots = scene.survey.sources.size();
+  if (!snapshots.empty()) return 1;
+  if (shots_in_parallel > 0) return std::min(std::size_t(shots_in_parallel), shots);
+  const std::int64_t fit = most_together_bytes / memory_of_a_shot_bytes(scene);
+  return std::size_t(
+      std::clamp<std::int64_t>(std::min<std::int64_t>(fit, parallel_threads()), 1, std::int64_t(shots)));
 }
 
 void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
@@ -98,34 +116,47 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
     throw Error("found " + traces + " for both --output and --snapshots, expected two places",
                 ErrorKind::usage);
   std::map<std::string, Collected> files;
-  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
-    const auto file_of = [&](Component component) { return name_for(traces, shot, name_of(component)); };
-    for (const Component component : scene.recording.components) {
-      auto& file = files[file_of(component)];
-      if (!file.out && any_trace)
-        file.out = std::make_unique<OutputFile>(file_of(component), OutputFile::Content::binary);
-    }
+  const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
+  const auto name_of_file = [&](std::size_t shot, Component component) {
+    return name_for(traces, shot, name_of(component));
+  };
+  for (std::size_t first = 1; first <= shots; first += at_once) {
+    const auto count = std::min(at_once, shots - first + 1);
+    for (std::size_t shot = first; shot < first + count; ++shot)
+      for (const Component component : scene.recording.components) {
+        const auto name = name_of_file(shot, component);
+        auto& file = files[name];
+        if (!file.out && any_trace)
+          file.out = std::make_unique<OutputFile>(name, OutputFile::Content::binary);
+      }
     std::optional<SnapshotWriter<2>> writer;
     SnapshotSink<2> sink;
     if (!snapshots.empty()) {
       writer.emplace(
-          name_for(snapshots, shot, ""), scene.model.grid(), parse_snapshot_fields<2>(snapshot_fields),
-          SnapshotHistory{"wave fields of shot " + std::to_string(shot), context.version, history});
+          name_for(snapshots, first, ""), scene.model.grid(), parse_snapshot_fields<2>(snapshot_fields),
+          SnapshotHistory{"wave fields of shot " + std::to_string(first), context.version, history});
       sink = [&](double time_s, const FieldReader<2>& field) {
         std::vector<Field<2>> fields;
         for (const auto& name : writer->fields()) fields.push_back(snapshot_of(name, field));
         writer->write(time_s, fields);
       };
     }
-    Gather gather = shoot(scene, shot, context.progress("shot " + std::to_string(shot)), sink);
-    for (auto& trace : gather.traces) {
-      auto& collected = files[file_of(trace.header.component)].gather;
-      collected.axis = gather.axis;
-      collected.traces.push_back(std::move(trace));
-    }
+    std::vector<Gather> gathers(count);
+    const auto progress = context.progress("shot " + std::to_string(first) +
+                                           (count > 1 ? " to " + std::to_string(first + count - 1) : ""));
+    parallel_jobs(std::int64_t(count), int(at_once), [&](std::int64_t n) {
+      // The first of those that run together speaks for all.
+      gathers[std::size_t(n)] = shoot(scene, first + std::size_t(n), n == 0 ? progress : Progress(), sink);
+    });
+    for (std::size_t n = 0; n < count; ++n)
+      for (auto& trace : gathers[n].traces) {
+        auto& collected = files[name_of_file(first + n, trace.header.component)].gather;
+        collected.axis = gathers[n].axis;
+        collected.traces.push_back(std::move(trace));
+      }
     if (writer) writer->commit();
     // With {shot} in the name nothing more comes for these files.
-    if (!holds(traces, "{shot}") && shot < scene.survey.sources.size()) continue;
+    if (!holds(traces, "{shot}") && first + count <= shots) continue;
     for (auto& [name, file] : files) {
       if (!file.out) continue;
       segy::write_gather(*file.out, file.gather, {}, entries);

@@ -13,12 +13,17 @@ struct ShotOutput {
   std::string traces = "-";
   std::string snapshots;  // empty: none
   std::string snapshot_fields = "vx,vz";
+  int shots_in_parallel = 0;  // 0: as many as there are threads, in most_together_bytes of memory
 
   /// Throws a usage Error when the names can not hold all shots.
   void check(std::size_t shots) const;
+  static constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
   /// Shoots every shot of a checked scene and writes what it recorded. Outputs are opened before the run they
   /// belong to, so that a name that can not be written costs no computing.
   void shoot_all(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
+
+ private:
+  std::size_t shots_at_once(const Scene<2>& scene) const;
 };
 
 }  // namespace slipwave

@@ -26,6 +26,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
   options.add("every", s.every_s, "S", "time between snapshots, s");
   options.add("fields", s.output.snapshot_fields, "LIST", "of vx, vz, p, sxx, szz, sxz, div, curl");
+  options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
+              "shots shot at once; 0: one a thread as long as 1 GiB holds them");
   options.add("error", s.wanted_error, "SHARE",
               "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
   options.add("plan", s.plan, "print what would be computed, and stop");

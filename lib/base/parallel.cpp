@@ -45,14 +45,18 @@ ThreadLimit::~ThreadLimit() = default;
 
 int parallel_workers() { return tbb::this_task_arena::max_concurrency(); }
 
+int parallel_threads() {
+  return std::min(parallel_workers(),
+                  int(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+}
+
 void parallel_for(std::int64_t count, std::int64_t grain,
                   const std::function<void(std::int64_t, std::int64_t, int)>& body) {
   const auto run = [&](const tbb::blocked_range<std::int64_t>& piece) {
     flush_subnormals();
     body(piece.begin(), piece.end(), std::max(0, tbb::this_task_arena::current_thread_index()));
   };
-  const auto threads =
-      std::int64_t(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const std::int64_t threads = parallel_threads();
   if (threads == 1 || count <= grain) {
     if (count > 0) run({0, count});
     return;
@@ -116,14 +120,32 @@ class Pieces {
 
 void parallel_passes(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
                      const std::function<void(std::int64_t, std::int64_t, int)>& body) {
-  const auto threads = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  if (threads > 1 && under_way > 1 && passes > 1 && bands > 2) {
+  if (parallel_threads() > 1 && under_way > 1 && passes > 1 && bands > 2) {
     Pieces(passes, bands, under_way, body).run();
     return;
   }
   flush_subnormals();
   for (std::int64_t pass = 0; pass < passes; ++pass)
     for (std::int64_t band = 0; band < bands; ++band) body(pass, band, 0);
+}
+
+void parallel_jobs(std::int64_t count, int at_once, const std::function<void(std::int64_t)>& body) {
+  const int threads = parallel_threads();
+  at_once = std::clamp(at_once, 1, threads);
+  if (at_once == 1) {
+    for (std::int64_t job = 0; job < count; ++job) body(job);
+    return;
+  }
+  tbb::task_arena outer(at_once);
+  outer.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::int64_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::int64_t>& jobs) {
+          tbb::task_arena inner(std::max(1, threads / at_once));
+          for (std::int64_t job = jobs.begin(); job < jobs.end(); ++job) inner.execute([&] { body(job); });
+        },
+        tbb::simple_partitioner());
+  });
 }
 
 }  // namespace slipwave

@@ -19,6 +19,8 @@ class ThreadLimit {
 
 /// How many workers parallel_for may use: worker numbers are below this.
 int parallel_workers();
+/// How many of them work at once.
+int parallel_threads();
 
 /// Runs body(begin, end, worker) over pieces of 0 .. count, each at least `grain` long (the last may be
 /// shorter), and returns when all are done. Pieces must not depend on each other; who takes which is left to
@@ -34,5 +36,9 @@ void parallel_for(std::int64_t count, std::int64_t grain,
 /// Otherwise as parallel_for; with one thread pass after pass.
 void parallel_passes(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
                      const std::function<void(std::int64_t pass, std::int64_t band, int worker)>& body);
+
+/// Runs body(job) for all jobs, `at_once` of them at a time; each has its even share of the threads to itself
+/// for what it does in parallel.
+void parallel_jobs(std::int64_t count, int at_once, const std::function<void(std::int64_t job)>& body);
 
 }  // namespace slipwave

@@ -1,5 +1,7 @@
 #include "solver/simulation.hpp"
 
+#include <algorithm>
+
 #include "solver/step.hpp"
 
 namespace slipwave {
@@ -22,6 +24,17 @@ Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                                          : shoot_as<D, float>(scene, shot, progress, snapshots);
 }
 
+template <int D>
+std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
+  std::int64_t widest = 0, cells = 1;
+  for (const auto& source : scene.survey.sources)
+    widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
+  for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
+  const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
+  return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
+}
+
+template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&);
 
 }  // namespace slipwave

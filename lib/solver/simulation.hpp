@@ -23,6 +23,10 @@ template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {});
 
+/// What the fields and the material of a shot take of memory at most, bytes.
+template <int D>
+std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
+
 /// One pass of a time step and the share of the computed cells it works on.
 struct PlannedPass {
   std::string name;

@@ -92,6 +92,10 @@ TEST_F(ShootBadInput, OfPlacesIsNamedInOneLine) {
       {shoot + rest + "--kind moment:1,-1,0", 1,
        "the source at x=102.5 z=52.5 is in fluid and its moment differs between directions, expected --kind "
        "explosion there"},
+      {shoot + rest + "--shots-in-parallel -1", 2, "--shots-in-parallel: found -1, expected 0 or more"},
+      {shoot + rest + "--shots-in-parallel 2 --snapshots s.nc --every 0.1", 2,
+       "found --snapshots with 2 for --shots-in-parallel, expected 1: snapshots are written one after the "
+       "other"},
       {shoot + rest + "--kind plane:0", 1, "the plane wave enters by the top, expected --top absorbing"},
       {shoot + rest + "--kind plane:20 --top absorbing", 1,
        "the plane wave meets vp 3000 vs 1500 rho 2200 at x=2.5 z=62.5 and vp 1500 vs 0 rho 1000 at x=2.5 "

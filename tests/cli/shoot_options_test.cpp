@@ -77,6 +77,17 @@ TEST_F(ShootOptions, SplitByComponentAndShot) {
   EXPECT_TRUE(has(info("only-p.sgy"), "traces           18\n"));
 }
 
+TEST_F(ShootOptions, ShotsInParallelChangeNothing) {
+  const std::string shots = shoot + "--source 100,50 --source 300,50 --source 250,20 --source 150,80 ";
+  done(shots + "--shots-in-parallel 1 -o one.sgy");
+  for (const std::string many : {"2 --threads 2", "3 --threads 3", "0", "9 --threads 1"}) {
+    done(shots + "--shots-in-parallel " + many + " -o many.sgy");
+    done("cmp <(tail -c +3201 one.sgy) <(tail -c +3201 many.sgy)");
+  }
+  done(shots + "--shots-in-parallel 3 -o 's{shot}.sgy'");
+  EXPECT_TRUE(has(info("s4.sgy"), "source x         150 m\n")) << info("s4.sgy");
+}
+
 TEST_F(ShootOptions, SnapshotsAreReadableAndLeaveTheTracesAsTheyAre) {
   done(shoot + at + "--snapshots s.nc --every 0.05 --fields vx,p,div,curl -o other.sgy");
   done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
