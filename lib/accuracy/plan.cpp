@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "accuracy/reached.hpp"
 #include "base/error.hpp"
 #include "base/parallel.hpp"
 #include "base/processor_time.hpp"
@@ -64,8 +65,11 @@ double seconds_of_step(solver::Step<D, Real>& step) {
 
 template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
+  // Steps are timed as they are when waves are everywhere.
+  Scene<D> everywhere = scene;
+  everywhere.numerics.passage.everywhere = true;
   const double start = processor_time_s();
-  solver::Step<D, Real> step(scene, 1, [](double, const FieldReader<D>&) {});
+  solver::Step<D, Real> step(everywhere, 1, [](double, const FieldReader<D>&) {});
   const double build_s = processor_time_s() - start;
   Plan<D> plan;
   plan.computed = step.domain().grid;
@@ -85,8 +89,10 @@ Plan<D> plan_as(const Scene<D>& scene) {
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.error = WavesOfScene(scene).expected();
-  plan.threads = parallel_workers();
-  plan.seconds = double(scene.survey.sources.size()) * (build_s + double(plan.steps) * seconds_of_step(step));
+  plan.threads = parallel_threads();
+  plan.computed_share = expected_share(scene);
+  plan.seconds = double(scene.survey.sources.size()) *
+                 (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
   plan.instruction_set = solver::instruction_set();
   return plan;
 }
@@ -118,6 +124,9 @@ Report report_of(const Plan<D>& plan) {
               "P " + shown(100 * plan.error.p, 2) + " %" +
                   (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
   report.count("cells beside contacts", plan.span_ends);
+  report.text("computed",
+              shown(100 * plan.computed_share, 2) +
+                  " % of all cells in all steps: the others no wave has come to, or none returns from");
   report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
   report.text("expected time", shown(plan.seconds, 2) + " s of the processor, " +
                                    shown(plan.seconds / plan.threads, 2) + " s on " +

@@ -22,6 +22,7 @@ struct Plan {
   std::optional<double> cells_of_shortest_s;
   double loss_per_wavelength = 0;  // of the slowest wave's amplitude, by the scheme's own damping
   double duration_s = 0;           // of the traces
+  double computed_share = 1;       // of all cells in all steps (expected_share)
   ExpectedError error;
   int threads = 1;
   double seconds = 0;  // of the processor, all shots: from the time that a few steps take now

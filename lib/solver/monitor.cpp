@@ -11,7 +11,7 @@ namespace slipwave::solver {
 
 template <int D, class Real>
 void Monitor<D, Real>::look(const StepTime& time) const {
-  constexpr Real beyond = Real(1e30);
+  const Real beyond = Real(1e30 * unit_);
   const std::int64_t lines = state_.layout.lines(), nx = state_.layout.shape()[0];
   std::vector<char> bad_lines(std::size_t(lines), 0);
   parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
@@ -32,7 +32,7 @@ void Monitor<D, Real>::look(const StepTime& time) const {
     for (at[0] = 0; at[0] < nx; ++at[0]) {
       if (std::abs(v[at[0]]) < beyond) continue;
       throw Error("the simulation became unstable: v" + std::string(1, axis_names<D>()[std::size_t(axis)]) +
-                      " is " + shown(double(v[at[0]])) + " at " +
+                      " is " + shown(double(v[at[0]]) / unit_) + " at " +
                       place_of(domain_.grid, domain_.grid.flat(at)) + ", t=" + shown(time.end_s()) +
                       " s (step " + std::to_string(time.step + 1) + "), expected it finite",
                   ErrorKind::unstable);
@@ -42,7 +42,7 @@ void Monitor<D, Real>::look(const StepTime& time) const {
 
 template <int D, class Real>
 Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeLine<Real>& whole_line,
-                  Component component) {
+                  Component component, double unit) {
   Field<D> field(domain.model_grid);
   const std::int64_t nx = domain.model_grid.shape[0], lines = domain.model_grid.size() / nx;
   const auto pitch = layout.row_pitch();
@@ -59,7 +59,7 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
         } else {
           value = cells[row_of<D>(component) * pitch + i];
         }
-        out[std::size_t(i)] = float(value);
+        out[std::size_t(i)] = float(value / unit);
       }
     }
   });
@@ -68,7 +68,7 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
 
 template class Monitor<2, float>;
 template class Monitor<2, double>;
-template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<float>&, Component);
-template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<double>&, Component);
+template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<float>&, Component, double);
+template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<double>&, Component, double);
 
 }  // namespace slipwave::solver

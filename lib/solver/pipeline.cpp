@@ -43,14 +43,14 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
   }
   band_rows_ = std::max(fewest_band_rows, longest_ + 2 * max_reach);
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
-  const int threads = parallel_workers();
+  const int threads = parallel_threads();
   const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
   under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
   for (auto& pass : under_way_)
     for (std::int64_t n = 0; n < along_z; ++n)
       pass.rings.emplace_back(0, layout_.padded_nx(), sweeps.ring_rows());
   const auto stripe = std::min(stripe_width_ * 2 + widest, layout_.padded_nx());
-  for (int n = 0; n < threads; ++n)
+  for (int n = 0; n < parallel_workers(); ++n)
     workers_.push_back({sweeps.make_workspace(stripe + 2 * Sweeps<D, Real>::lag),
                         std::vector<Carry<Real>>(
                             std::size_t(stripes() > 1 ? along_x * (2 * band_rows_ + longest_) : along_x)),
@@ -260,10 +260,11 @@ void Pipeline<D, Real>::find_active_cells() {
 /// By how many rows and columns the fields of a cell spread in a step at most.
 template <int D, class Real>
 Box Pipeline<D, Real>::growth_of_a_step() const {
-  constexpr std::int64_t bends = FreeEdge<D, Real>::reach, sweep = max_reach + 1;
-  std::int64_t along_x = 1, along_z = 0;  // the two halves between steps are two sweeps
+  std::int64_t along_x = 0, along_z = 0;
   for (const auto& part : splitting_) (part.axis == 0 ? along_x : along_z) += 1;
-  const std::int64_t rows = along_z * sweep + along_x * bends, columns = along_x * sweep + along_z * bends;
+  const auto bends = FreeEdge<D, Real>::reach, sweep = sweeps_.reach() + 1;
+  const std::int64_t rows = along_z * sweep + (sweeps_.sides_bend() ? along_x * bends : 0);
+  const std::int64_t columns = along_x * sweep + (sweeps_.ends_bend() ? along_z * bends : 0);
   return {{rows, rows}, {columns, columns}};
 }
 

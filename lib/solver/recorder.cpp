@@ -35,7 +35,8 @@ double water_depth_m(const Medium<D>& medium, const Point<D>& point_m) {
 
 template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
-                            std::size_t shot) {
+                            std::size_t shot, double unit)
+    : unit_(unit) {
   const auto& source = scene.survey.sources[shot - 1];
   std::vector<ValueWeight> all;
   gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
@@ -119,7 +120,7 @@ void Recorder<D, Real>::finish(const StepTime& time) {
     double sum = 0;
     for (auto n = first_weight_[trace]; n < first_weight_[trace + 1]; ++n)
       sum += weights_[n] * double(values[n]);
-    now[trace] = sum;
+    now[trace] = sum / unit_;
   }
   interpolate(instant, time.dt_s);
 }

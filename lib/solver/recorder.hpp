@@ -13,8 +13,9 @@ namespace slipwave::solver {
 template <int D, class Real>
 class Recorder {
  public:
-  /// `shot` is the 1-based number traces carry.
-  Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot);
+  /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step).
+  Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot,
+           double unit);
 
   /// Whether it reads anything of a line.
   bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
@@ -46,6 +47,7 @@ class Recorder {
     std::size_t weight;
   };
   Gather gather_;
+  double unit_;
   std::vector<double> weights_;            // of all traces
   std::vector<std::size_t> first_weight_;  // of each trace, and the end
   std::vector<Read> reads_;                // by line, then column

@@ -12,8 +12,9 @@ namespace {
 template <int D, class Real>
 class SourcePass : public Pass {
  public:
-  SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source)
-      : state_(state), wavelet_(source.wavelet) {
+  SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
+             double unit)
+      : state_(state), wavelet_(source.wavelet), unit_(unit) {
     using Rows = FieldRows<D>;
     const auto injection = *point_injection(source);
     const auto centre = cell_at(domain, source.position_m);
@@ -42,7 +43,7 @@ class SourcePass : public Pass {
     auto value = std::lower_bound(values_.begin(), values_.end(), line,
                                   [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
     if (value == values_.end() || value->line != line) return;
-    const double amount = 0.5 * time.dt_s * wavelet_(time.end_s());
+    const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
     Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
     for (; value != values_.end() && value->line == line; ++value) {
       const std::int64_t x = state_.layout.column(value->place);
@@ -86,6 +87,7 @@ class SourcePass : public Pass {
   }
   State<D, Real>& state_;
   Wavelet wavelet_;
+  double unit_;
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> lines_;
 };
@@ -94,13 +96,13 @@ class SourcePass : public Pass {
 
 template <int D, class Real>
 std::unique_ptr<Pass> make_source_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                       const Source<D>& source) {
-  return std::make_unique<SourcePass<D, Real>>(state, domain, scene, source);
+                                       const Source<D>& source, double unit) {
+  return std::make_unique<SourcePass<D, Real>>(state, domain, scene, source, unit);
 }
 
 template std::unique_ptr<Pass> make_source_pass(State<2, float>&, const Domain<2>&, const Scene<2>&,
-                                                const Source<2>&);
+                                                const Source<2>&, double);
 template std::unique_ptr<Pass> make_source_pass(State<2, double>&, const Domain<2>&, const Scene<2>&,
-                                                const Source<2>&);
+                                                const Source<2>&, double);
 
 }  // namespace slipwave::solver

@@ -12,6 +12,6 @@ namespace slipwave::solver {
 /// fields it sees lie in the middle (trapezoidal rule in time). Keeps a reference to the state.
 template <int D, class Real>
 std::unique_ptr<Pass> make_source_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                       const Source<D>& source);
+                                       const Source<D>& source, double unit);
 
 }  // namespace slipwave::solver

@@ -3,23 +3,52 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grid/locate.hpp"
 #include "solver/absorbing.hpp"
 #include "solver/slip_pass.hpp"
 #include "solver/source_pass.hpp"
 
 namespace slipwave::solver {
+namespace {
+
+/// What a source adds to a velocity in a step, at the largest, is this much of the unit.
+constexpr double largest_addition = 1e-20;
+
+/// What fields are kept in: a power of two times SI. In single precision all that is 10^-18 of what the
+/// source does where it stands then counts as zero, so that the cells in front of the waves are zero and can
+/// be left out (ActiveCells). 1 where that gains nothing, and where fractures know strengths in Pa: with slip
+/// and without, so that the difference of both is the work of slip alone.
+template <int D>
+double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s) {
+  const auto injection = point_injection(source);
+  if (!injection || !scene.model.fracture_sets.empty() || scene.numerics.double_precision) return 1;
+  const auto& medium = scene.model.medium;
+  const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
+  const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
+  const double volume = std::pow(medium.grid().spacing_m, D);
+  double largest = 0;
+  for (int i = 0; i < D; ++i) {
+    largest = std::max(largest, std::abs(injection->force[std::size_t(i)]) / rho);
+    for (int j = 0; j < D; ++j)
+      largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
+  }
+  return largest > 0 ? std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest)))) : 1;
+}
+
+}  // namespace
 
 template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
       time_order_(scene.numerics.time_order),
+      unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_)),
       domain_(
           make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
       state_(make_state<D, Real>(domain_.grid.shape)),
       sweeps_(state_, domain_, scene.numerics.order),
       pipeline_(sweeps_, state_, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
       whole_(std::size_t(Pass::most_steps_under_way)),
-      monitor_(state_, domain_),
+      monitor_(state_, domain_, unit_),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
       duration_s_(scene.recording.duration_s),
       snapshots_(snapshots),
@@ -52,12 +81,14 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     }
   }
   if (point_injection(source)) {
-    add(make_source_pass(state_, domain_, scene, source));
+    add(make_source_pass(state_, domain_, scene, source, unit_));
   }
   if (scene.slips()) add(make_slip_pass(state_, domain_, scene, dt_s_));
-  recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot);
+  recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot, unit_);
   // The same sweeps with and without slip: their difference must be the work of slip alone.
   fracture_lines_ = fracture_lines(state_.layout, domain_, scene.model);
+  // All that was built from them is there.
+  domain_.impedance = {};
 }
 
 template <int D, class Real>
@@ -95,7 +126,7 @@ void Step<D, Real>::take_snapshot(const StepTime& time) {
     return snapshot_.data() + state_.layout.line(state_.layout.line_index(n));
   };
   snapshots_(time.end_s(),
-             [&](Component component) { return field_of(state_.layout, domain_, line, component); });
+             [&](Component component) { return field_of(state_.layout, domain_, line, component, unit_); });
   snapshot_ = {};
 }
 
@@ -122,7 +153,8 @@ template <int D, class Real>
 Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
   const Box all{{0, domain_.grid.shape[D - 1]}, {0, domain_.grid.shape[0]}};
   if (snapshot_every_s_) return all;
-  const auto steps = steps_ - time.step;
+  // The sweep along x that the first step begins with is one more.
+  const auto steps = steps_ - time.step + 1;
   const auto spread = [steps](const Columns& read, const Columns& by) {
     return Columns{read.first - steps * by.first, read.last + steps * by.last};
   };
@@ -171,7 +203,7 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
   std::vector<PlannedPass> passes;
   for (int axis = 0; axis < D; ++axis)
     passes.push_back({std::string("sweep along ") + axis_names<D>()[std::size_t(axis)] +
-                          (domain_.shear() ? ", P and S" : ", P only"),
+                          (sweeps_.shear() ? ", P and S" : ", P only"),
                       1});
   if (layer_)
     passes.push_back({"matched layer", double(domain_.grid.size() - domain_.model_grid.size()) / all});

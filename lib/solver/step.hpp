@@ -53,6 +53,7 @@ class Step : private EndOfStep<Real> {
 
   double dt_s_;
   int time_order_;
+  double unit_;
   Domain<D> domain_;
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;

@@ -55,6 +55,10 @@ class Sweeps {
   /// Whether free edges at the sides bend the fields: sweeps along x then need the velocities there of
   /// FreeEdge::reach lines on both sides as they were before the sweep (keep_sides).
   bool sides_bend() const { return !free_edges_[0][0].empty() || !free_edges_[0][1].empty(); }
+  /// The same of the first and the last row.
+  bool ends_bend() const { return !free_edges_[z_axis][0].empty() || !free_edges_[z_axis][1].empty(); }
+  /// Cells the reconstruction reads to each side.
+  std::int64_t reach() const { return reach_; }
   void keep_sides(std::int64_t line, const Columns& columns);
   /// Before the first piece of a line is swept along x.
   void measure_sides(std::int64_t line);

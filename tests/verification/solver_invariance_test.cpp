@@ -1,10 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 
+#include "accuracy/reached.hpp"
 #include "base/parallel.hpp"
 #include "lab.hpp"
 #include "solver/simulation.hpp"
+#include "solver/step.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -86,6 +89,44 @@ TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
             << passage.steps << " steps, " << passage.stripe_cells << " cells, " << threads << " threads";
       }
   }
+}
+
+TEST(Traces, ScaleWithTheSourceToTheLastBit) {
+  // By powers of two: what the unit of the fields is chosen for must not be seen.
+  auto scene = reef();
+  scene.model.fracture_sets.clear();
+  scene.model.fracture = {};
+  const auto found = samples_of(shoot(scene, 1));
+  for (const int power : {-60, 60}) {
+    scene.survey.sources[0].amplitude = std::ldexp(1e6, power);
+    auto scaled = samples_of(shoot(scene, 1));
+    for (auto& sample : scaled) sample = std::ldexp(sample, -power);
+    EXPECT_EQ(scaled, found) << "2^" << power;
+  }
+}
+
+TEST(ComputedShare, IsAsExpected) {
+  for (const int order : {3, 5, 7})
+    for (const double depth : {10., 1200.})
+      for (const double duration : {0.4, 0.8}) {
+        Scene<2> scene;
+        scene.model.medium = uniform_medium(320, 240, 10, rock);
+        for (std::int64_t k = 0; k < 240; ++k)
+          for (std::int64_t i = 0; i < 320; ++i)
+            put(scene.model.medium, {i, k}, {2000 + 8. * double(k), 1000 + 4. * double(k), 2000});
+        scene.survey.sources = {
+            {{1600, depth}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:20"), 1e6}};
+        scene.survey.receivers_m = {{400, 5}, {2800, 5}};
+        scene.edges = edges_all(EdgeLaw::absorbing);
+        scene.edges[1][0] = EdgeLaw::free;
+        scene.numerics.order = order;
+        scene.recording = {{Component::vz}, duration, 0.002};
+        Step<2, float> step(scene, 1, {});
+        step.run_to(step.steps());
+        EXPECT_NEAR(step.computed_share(), expected_share(scene), 0.15)
+            << "order " << order << ", source " << depth << " m deep, " << duration << " s";
+        EXPECT_LT(step.computed_share(), duration < 0.5 ? 0.65 : 0.9);
+      }
 }
 
 TEST(Traces, DoNotDependOnWhoElseIsLooking) {

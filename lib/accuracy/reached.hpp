@@ -1,0 +1,12 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// What of all cells in all steps has to be computed: those that something has come to and that something may
+/// still come back from (docs/theory.md, 1.7). Expected from first arrivals of P waves on a coarse grid of
+/// the model and the mean of all shots; 1 for scenes in which waves are everywhere from the beginning.
+double expected_share(const Scene<2>& scene);
+
+}  // namespace slipwave
