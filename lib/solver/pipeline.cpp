@@ -202,7 +202,7 @@ void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Col
   sweeps_.measure_ends(step, {columns.first == 0 ? 0 : columns.first + lag, columns.last + lag});
   sweeps_.along_z(step, columns, stage.part, ring, worker.work);
   if (done < 0 || done >= rows_) return;
-  active_.look(done, columns);
+  if (!everywhere_) active_.look(done, columns);
   worker.swept += columns.count();
 }
 
@@ -215,7 +215,7 @@ void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real 
     return;
   }
   sweeps_.along_x(line, columns, part, carry, worker.work);
-  active_.look(line, columns);
+  if (!everywhere_) active_.look(line, columns);
 }
 
 template <int D, class Real>
