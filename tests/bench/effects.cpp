@@ -1,0 +1,39 @@
+// What each effect costs: the same scene of 600 x 500 cells with and without it.
+#include "bench.hpp"
+#include "run.hpp"
+
+namespace slipwave::bench {
+
+void register_effects() {
+  const auto add = [](const std::string& name, const auto& change) {
+    Case what;
+    what.variety = Variety::layered;
+    change(what);
+    register_run("effect:" + name, what);
+  };
+  add("none", [](Case&) {});
+  add("none, every cell another material", [](Case& what) { what.variety = Variety::random; });
+  add("free surface", [](Case& what) { what.top = EdgeLaw::free; });
+  add("matched layer on three sides", [](Case& what) { what.others = EdgeLaw::absorbing; });
+  add("matched layer on four sides", [](Case& what) { what.top = what.others = EdgeLaw::absorbing; });
+  add("zones of a plane wave", [](Case& what) {
+    what.top = what.others = EdgeLaw::absorbing;
+    what.plane_wave = true;
+  });
+  add("slip in 1 % of the cells", [](Case& what) { what.slipping = 0.01; });
+  add("slip in 10 % of the cells", [](Case& what) { what.slipping = 0.1; });
+  add("slip in all cells", [](Case& what) { what.slipping = 1; });
+  add("10 receivers", [](Case& what) {
+    what.receivers = 10;
+    what.duration_s = 10;
+  });
+  add("1000 receivers", [](Case& what) {
+    what.receivers = 1000;
+    what.duration_s = 10;
+  });
+  add("a snapshot every 20 steps",
+      [](Case& what) { what.snapshot_every_s = 20 * time_step_s(make_scene(what)); });
+  add("all fluid", [](Case& what) { what.fluid = true; });
+}
+
+}  // namespace slipwave::bench

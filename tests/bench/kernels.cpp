@@ -1,0 +1,101 @@
+// The inner loops alone, on rows that stay in the first cache.
+#include <vector>
+
+#include "bench.hpp"
+#include "measure.hpp"
+#include "run.hpp"
+#include "solver/kernels.hpp"
+
+namespace slipwave::bench {
+namespace {
+
+constexpr std::int64_t cells = 256, gap = 16, repeats = 200;
+
+/// Rows of fields, material and faces of a stretch of cells, some room before and behind each.
+template <class Real>
+class Rows {
+ public:
+  Rows() : values_(std::size_t(count * pitch)) {
+    for (int row = 0; row < count; ++row)
+      for (std::int64_t i = 0; i < pitch; ++i)
+        values_[std::size_t(row * pitch + i)] = row < 5 ? Real(1e-3) * Real((i * 7 + row) % 11 - 5) : Real(0);
+    for (std::int64_t i = -gap; i < cells + gap; ++i) {
+      row(5)[i] = Real(1e-7) * (1 + Real(0.01) * Real(i % 5));
+      row(6)[i] = Real(4e6) * (1 + Real(0.01) * Real(i % 3));
+      row(7)[i] = Real(2e6) * (1 + Real(0.01) * Real(i % 7));
+    }
+  }
+  Real* row(int n) { return values_.data() + n * pitch + gap; }
+  solver::MaterialRows<Real> material(std::int64_t i) { return {row(5) + i, row(6) + i, row(7) + i}; }
+  /// Faces between the cells: what lies before cell i stands at i.
+  solver::Faces<Real> faces() { return {row(8), row(9), row(10), row(11)}; }
+  Real* leaving(int n) { return row(12 + n); }
+
+ private:
+  static constexpr int count = 16;
+  static constexpr std::int64_t pitch = cells + 2 * gap;
+  std::vector<Real> values_;
+};
+
+enum class Part { leave, meet, update, sweep };
+
+template <class Real>
+void run(benchmark::State& state, Part part, int order, bool uniform) {
+  const auto& kernels = solver::kernels<Real>(order, uniform);
+  Rows<Real> rows;
+  const auto leave = [&](int v, int s, int z, int to) {
+    kernels.leave(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1, Real(1),
+                  rows.leaving(to) - 1, rows.leaving(to + 1) - 1);
+  };
+  const auto meet = [&] {
+    kernels.meet(cells + 1, rows.leaving(0) - 1, rows.leaving(1), rows.leaving(2) - 1, rows.leaving(3),
+                 rows.material(-1), rows.material(0), rows.faces());
+  };
+  const auto update = [&] {
+    kernels.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
+                   {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
+  };
+  const double least = least_seconds(state, [&] {
+    for (std::int64_t n = 0; n < repeats; ++n) {
+      if (part == Part::leave || part == Part::sweep) leave(0, 1, 6, 0);
+      if (part == Part::leave || part == Part::sweep) leave(3, 4, 7, 2);
+      if (part == Part::meet || part == Part::sweep) meet();
+      if (part == Part::update || part == Part::sweep) update();
+      benchmark::ClobberMemory();
+    }
+  });
+  state.counters["cells_per_s"] = double(cells * repeats) / least;
+  if (part == Part::sweep) state.counters["flops"] = flops_a_cell_step(order, uniform, false) / 2.;
+}
+
+template <class Real>
+void add(const char* name, Part part, int order, bool uniform) {
+  const std::string path = std::string("kernel:") + name + "/order:" + std::to_string(order) +
+                           "/material:" + (uniform ? "uniform" : "random") +
+                           "/precision:" + (sizeof(Real) == 4 ? "float" : "double");
+  benchmark::RegisterBenchmark(path.c_str(),
+                               [=](benchmark::State& state) { run<Real>(state, part, order, uniform); })
+      ->UseManualTime()
+      ->Unit(benchmark::kMicrosecond);
+}
+
+template <class Real>
+void add_all() {
+  for (const bool uniform : {true, false}) {
+    for (const int order : solver::orders) {
+      add<Real>("leave", Part::leave, order, uniform);
+      add<Real>("sweep", Part::sweep, order, uniform);
+    }
+    add<Real>("meet", Part::meet, 5, uniform);
+    add<Real>("update", Part::update, 5, uniform);
+  }
+}
+
+}  // namespace
+
+void register_kernels() {
+  add_all<float>();
+  add_all<double>();
+}
+
+}  // namespace slipwave::bench

@@ -1,0 +1,93 @@
+#include "run.hpp"
+
+#include <variant>
+
+#include "base/parallel.hpp"
+#include "solver/step.hpp"
+
+namespace slipwave::bench {
+
+struct Shot::Impl {
+  using Single = solver::Step<2, float>;
+  using Double = solver::Step<2, double>;
+
+  explicit Impl(const Case& what) : threads(what.threads), scene(make_scene(what)) {
+    const SnapshotSink<2> sink = [this](double, const FieldReader<2>& field) {
+      seen += double(field(Component::vz)[0]);
+    };
+    const auto snapshots = scene.snapshot_every_s ? sink : SnapshotSink<2>{};
+    if (what.double_precision)
+      step = std::make_unique<Double>(scene, 1, snapshots);
+    else
+      step = std::make_unique<Single>(scene, 1, snapshots);
+  }
+
+  ThreadLimit threads;
+  Scene<2> scene;
+  std::variant<std::unique_ptr<Single>, std::unique_ptr<Double>> step;
+  std::int64_t done = 0;
+  double seen = 0;
+};
+
+Shot::Shot(const Case& what) : impl_(std::make_unique<Impl>(what)) {}
+Shot::~Shot() = default;
+
+void Shot::run(std::int64_t steps) {
+  impl_->done += steps;
+  std::visit([&](auto& step) { step->run_to(impl_->done); }, impl_->step);
+}
+
+std::int64_t Shot::memory_bytes() const {
+  return std::visit([](const auto& step) { return step->memory_bytes(); }, impl_->step);
+}
+
+int flops_a_cell_step(int order, bool uniform, bool fluid) {
+  const int m = solver::reach_of(order);
+  // Of one pair of fields in one sweep, as written in reconstruction.hpp.
+  // Courant number 2; q = a left, left, bent 4; e0 from the others m + 1; of each neighbour two weights of
+  // degree m - 1 in q by Horner, times bent or left.
+  const int weights = m == 0 ? 0 : 2 + 4 + (m + 1) + 2 * m * (2 * (m - 1) + 1);
+  // Of each of two fields: e0 u, sum, times, plus; difference, times, plus but for the first.
+  const int sums = m == 0 ? 0 : 2 * (1 + 6 * m - 1);
+  const int leave = sums + (m == 0 ? 3 : 6) + (uniform ? 0 : weights);
+  // Riemann: v* 2, s* 4 a pair; sums of impedances 2 a pair, the common division 4 (of one pair 1).
+  const int pairs = fluid ? 1 : 2;
+  const int meet = 6 * pairs + (uniform ? 0 : 2 * pairs + (fluid ? 1 : 4));
+  // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one product for both), v_t 3, s_nt 3; the
+  // moduli where they differ from cell to cell.
+  const int update =
+      fluid ? 1 + 3 + 1 + 1 + 1 + (uniform ? 0 : 4) : 1 + 3 + 2 + 2 + 3 + 3 + (uniform ? 0 : 6);
+  // Sweeps along x of neighbouring steps are one: two sweeps a step.
+  return 2 * (pairs * leave + meet + update);
+}
+
+int bytes_a_cell_step(const Case& what) {
+  const int real = what.double_precision ? 8 : 4;
+  const int fields = what.fluid ? 4 : 5;
+  const int material = what.variety != Variety::random ? 0 : what.fluid ? 2 : 3;
+  return real * (2 * fields + material);
+}
+
+void register_run(const std::string& name, const Case& what) {
+  const std::int64_t cells = what.nx * what.nz;
+  // Threads work on several steps at once: few steps would be spent on starting and ending.
+  const std::int64_t steps = std::max<std::int64_t>(8, 4'000'000 / cells);
+  const std::int64_t repeats = std::max<std::int64_t>(3, 60'000'000 / (cells * steps));
+  const auto run = [=](benchmark::State& state) {
+    Shot shot(what);
+    shot.run(steps);
+    const double least = least_seconds(state, [&] { shot.run(steps); });
+    state.counters["cell_steps_per_s"] = double(cells * steps) / least;
+    state.counters["seconds_per_step"] = least / double(steps);
+    if (what.time_order == 2)
+      state.counters["flops"] = flops_a_cell_step(what.order, what.variety != Variety::random, what.fluid);
+    state.counters["bytes"] = bytes_a_cell_step(what);
+    state.counters["memory_per_cell"] = double(shot.memory_bytes()) / double(cells);
+  };
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->Iterations(repeats)
+      ->UseManualTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace slipwave::bench

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "measure.hpp"
+#include "scenes.hpp"
+
+namespace slipwave::bench {
+
+/// A shot that is run step by step.
+class Shot {
+ public:
+  explicit Shot(const Case& what);
+  ~Shot();
+  void run(std::int64_t steps);
+  std::int64_t memory_bytes() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Floating-point operations on a cell in a step of second order in time, counted by hand (run.cpp).
+int flops_a_cell_step(int order, bool uniform, bool fluid);
+/// Bytes of a cell that a step must move: fields read and written, material read unless it is uniform.
+int bytes_a_cell_step(const Case& what);
+
+/// Registers whole steps of this case by this name, with the counters cell_steps_per_s (cells of the model)
+/// and flops and bytes a cell-step.
+void register_run(const std::string& name, const Case& what);
+
+}  // namespace slipwave::bench

@@ -1,0 +1,68 @@
+#include "scenes.hpp"
+
+#include <cmath>
+#include <random>
+
+#include "model/fracture.hpp"
+
+namespace slipwave::bench {
+namespace {
+
+constexpr double spacing_m = 5;
+
+void fill(Medium<2>& medium, const Case& what) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> spread(0.95F, 1.F);
+  const Index<2> shape = medium.grid().shape;
+  for (std::int64_t k = 0; k < shape[1]; ++k)
+    for (std::int64_t i = 0; i < shape[0]; ++i) {
+      const Index<2> at{i, k};
+      float size = 1;
+      if (what.variety == Variety::layered) size = 0.85F + 0.05F * float(4 * k / shape[1]);
+      if (what.variety == Variety::random) size = spread(engine);
+      medium.vp(at) = 4500 * size;
+      medium.vs(at) = what.fluid ? 0 : 2250 * size;
+      medium.rho(at) = 2500 * size;
+    }
+}
+
+}  // namespace
+
+const char* name_of(Variety variety) {
+  return variety == Variety::uniform ? "uniform" : variety == Variety::layered ? "layered" : "random";
+}
+
+Scene<2> make_scene(const Case& what) {
+  Scene<2> scene;
+  const Grid<2> grid{{what.nx, what.nz}, spacing_m, {0, 0}};
+  scene.model.medium = {Field<2>(grid), Field<2>(grid), Field<2>(grid)};
+  fill(scene.model.medium, what);
+  const double width = double(what.nx) * spacing_m, depth = double(what.nz) * spacing_m;
+  if (what.slipping > 0) {
+    scene.model.fracture = Field<2, std::uint8_t>(grid);
+    const double half = std::sqrt(what.slipping) / 2;
+    add_fractures<2>(scene.model, {"cluster", {{normal_of_dip(60), 0.5, 0.01, 0}}}, [&](const Point<2>& p) {
+      return std::abs(p[0] - width / 2) <= half * width && std::abs(p[1] - depth / 2) <= half * depth;
+    });
+  }
+  scene.edges[0] = {what.others, what.others};
+  scene.edges[1] = {what.top, what.others};
+  scene.numerics.order = what.order;
+  scene.numerics.cfl = 0.4;
+  scene.numerics.time_order = what.time_order;
+  scene.numerics.double_precision = what.double_precision;
+  scene.numerics.passage = what.passage;
+  const Point<2> source = {width / 2 + 1, depth / 2 + 1};
+  if (what.plane_wave)
+    scene.survey.sources = {{source, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:20"), 1}};
+  else
+    scene.survey.sources = {{source, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
+  for (int n = 0; n < what.receivers; ++n)
+    scene.survey.receivers_m.push_back({width * (0.1 + 0.8 * (n + 0.5) / what.receivers), depth * 0.3});
+  scene.recording = {{Component::vx, Component::vz}, what.duration_s, 0.001};
+  if (what.receivers <= 1) scene.recording.interval_s = 0.01;
+  if (what.snapshot_every_s > 0) scene.snapshot_every_s = what.snapshot_every_s;
+  return scene;
+}
+
+}  // namespace slipwave::bench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace slipwave::bench {
+
+/// How the material varies: one, four layers, or another one in each cell.
+enum class Variety { uniform, layered, random };
+const char* name_of(Variety variety);
+
+/// What a run is made of; the defaults call for no effect at all.
+struct Case {
+  std::int64_t nx = 600, nz = 500;
+  Variety variety = Variety::random;
+  int order = 5;
+  int time_order = 2;
+  int threads = 1;
+  bool double_precision = false;
+  Passage passage;
+  EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
+  bool fluid = false;
+  bool plane_wave = false;
+  double slipping = 0;  // share of the cells, a box in the middle
+  int receivers = 1;    // of vx and vz, spread over a line
+  double snapshot_every_s = 0;
+  double duration_s = 100;  // of the traces, which the run need not reach
+};
+
+/// A scene of 5 m cells in memory, with an explosion (or a plane wave from above) that rings for two periods
+/// of 20 Hz, at a Courant number of 0.4.
+Scene<2> make_scene(const Case& what);
+
+}  // namespace slipwave::bench

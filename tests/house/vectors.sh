@@ -1,0 +1,117 @@
+#!/bin/sh
+# vectors.sh BUILD: whether every inner loop of lib/solver/kernels_level.cpp was compiled into vectors of the full width
+# of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
+#
+# Reads the disassembly. A loop is what a jump leads back to from below. Each kernel must have one in which all of the
+# kernel's arithmetic, counted by hand below, is done with vectors of that width; what is left over at the end of a row
+# may be done otherwise.
+set -eu
+build=$1
+if ! command -v objdump >/dev/null 2>&1; then
+  echo "skipped: no objdump"
+  exit 77
+fi
+case $(uname -m) in
+  x86_64 | amd64) ;;
+  *)
+    echo "skipped: knows the instructions of x86-64 only"
+    exit 77
+    ;;
+esac
+status=0
+
+# loops OBJECT: a line "KERNEL<tab>WIDTH<tab>OPERATIONS" for each innermost loop: bits of its widest vectors and the
+# additions and multiplications done with those.
+loops() {
+  objdump -d -C --no-show-raw-insn "$1" | awk '
+    function close_function(  n, from, i, width, done) {
+      sub(/^.*\(anonymous namespace\)::/, "", name)
+      sub(/>\(.*$/, ">", name)
+      for (n = 0; n < count; ++n) {
+        if (!(n in target) || !(target[n] in place)) continue
+        from = place[target[n]]
+        if (from > n) continue
+        # An inner loop holds no other one.
+        for (i = from; i < n; ++i)
+          if ((i in target) && (target[i] in place) && place[target[i]] >= from && place[target[i]] <= i) break
+        if (i < n) continue
+        split("", done)
+        width = 0
+        for (i = from; i <= n; ++i) {
+          done[bits[i]] += flops[i]
+          if (bits[i] > width) width = bits[i]
+        }
+        if (width > 0) printf "%s\t%d\t%d\n", name, width, done[width]
+      }
+    }
+    /^[0-9a-f]+ <.*>:$/ {
+      close_function()
+      name = $0
+      count = 0
+      split("", place); split("", target); split("", bits); split("", flops)
+      next
+    }
+    /^ +[0-9a-f]+:\t/ {
+      at = $1
+      sub(/:$/, "", at)
+      place[at] = count
+      bits[count] = flops[count] = 0
+      if ($2 ~ /^v?(add|sub|mul|div)p[sd]$/) flops[count] = 1
+      if ($2 ~ /^vfn?m(add|sub)[0-9]*p[sd]$/) flops[count] = 2
+      # A sign is turned, or a number doubled, in other ways too: only these count.
+      if (flops[count]) bits[count] = /%zmm/ ? 512 : /%ymm/ ? 256 : 128
+      if ($2 ~ /^j/) target[count] = $3
+      ++count
+    }
+    END { close_function() }'
+}
+
+# want OBJECT LEVEL WIDTH: every kernel of the object does its arithmetic with vectors of WIDTH bits.
+want() {
+  loops "$1" | awk -F '\t' -v level="$2" -v width="$3" '
+    $2 == width && $3 > most[$1] { most[$1] = $3 }
+    $2 != width && $3 > other[$1] { other[$1] = $3; its[$1] = $2 }
+    function need(kernel, least) {
+      ++kernels
+      if (most[kernel] >= least) return
+      printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
+      if (other[kernel] > 0) printf "%s: %s: %d operations on vectors of %d bits\n", level, kernel, other[kernel], its[kernel]
+      bad = 1
+    }
+    END {
+      split("float double", reals, " ")
+      for (r = 1; r <= 2; ++r) {
+        real = reals[r]
+        for (reach = 0; reach <= 3; ++reach) {
+          # Of the two fields of a pair: the own value, then of each neighbour sum, difference and their parts. Of the
+          # weights: the Courant number, q and its kin, two polynomials a neighbour, the one of the own value.
+          sums = reach == 0 ? 3 : 2 * 6 * reach + 6
+          weights = reach == 0 ? 0 : 2 + 4 + (reach + 1) + 2 * reach * (2 * (reach - 1) + 1)
+          need("leave<" (2 * reach + 1) ", true, " real ">", sums)
+          need("leave<" (2 * reach + 1) ", false, " real ">", sums + weights)
+        }
+        need("meet<true, " real ">", 12); need("meet<false, " real ">", 20)
+        need("meet_p<true, " real ">", 6); need("meet_p<false, " real ">", 9)
+        need("update<true, " real ">", 14); need("update<false, " real ">", 22)
+        need("update_p<true, " real ">", 7); need("update_p<false, " real ">", 11)
+        # Along and across, with and without memory of the change.
+        for (way = 0; way <= 1; ++way) {
+          along = way ? "true" : "false"
+          need("stretch_in<" along ", true, " real ">", 11); need("stretch_in<" along ", false, " real ">", 8)
+        }
+      }
+      if (!bad) printf "%s: %d kernels on vectors of %d bits\n", level, kernels, width
+      exit bad
+    }' || status=1
+}
+
+for level in generic=128 x86_64_v2=128 x86_64_v3=256 x86_64_v4=512; do
+  object=$(find "$build/lib/solver" -path "*kernels_${level%=*}.dir*" -name 'kernels_level.cpp.o')
+  if [ -z "$object" ]; then
+    echo "${level%=*}: no object in $build"
+    status=1
+    continue
+  fi
+  want "$object" "${level%=*}" "${level#*=}"
+done
+exit "$status"
