@@ -1,8 +1,21 @@
 // What each effect costs: the same scene of 600 x 500 cells with and without it.
+#include "base/parallel.hpp"
 #include "bench.hpp"
 #include "run.hpp"
+#include "solver/simulation.hpp"
 
 namespace slipwave::bench {
+namespace {
+
+/// A whole shot, computed everywhere or only where something has come to and will be seen of.
+void shot(benchmark::State& state, const Case& what) {
+  const auto scene = make_scene(what);
+  const ThreadLimit threads(what.threads);
+  state.counters["seconds_per_shot"] =
+      least_seconds(state, [&] { benchmark::DoNotOptimize(shoot<2>(scene, 1)); });
+}
+
+}  // namespace
 
 void register_effects() {
   const auto add = [](const std::string& name, const auto& change) {
@@ -34,6 +47,21 @@ void register_effects() {
   add("a snapshot every 20 steps",
       [](Case& what) { what.snapshot_every_s = 20 * time_step_s(make_scene(what)); });
   add("all fluid", [](Case& what) { what.fluid = true; });
+  for (const double duration_s : {0.5, 1., 2.})
+    for (const bool only_where_seen : {false, true}) {
+      Case what;
+      what.variety = Variety::layered;
+      what.top = EdgeLaw::free;
+      what.others = EdgeLaw::absorbing;
+      what.receivers = 100;
+      what.duration_s = duration_s;
+      what.only_where_seen = only_where_seen;
+      const std::string name = std::string("computed:") + (only_where_seen ? "where seen" : "everywhere") +
+                               "/milliseconds:" + std::to_string(int(1000 * duration_s));
+      benchmark::RegisterBenchmark(name.c_str(), [what](benchmark::State& state) { shot(state, what); })
+          ->UseManualTime()
+          ->Unit(benchmark::kMillisecond);
+    }
 }
 
 }  // namespace slipwave::bench

@@ -20,6 +20,7 @@ struct Case {
   int threads = 1;
   bool double_precision = false;
   Passage passage;
+  bool only_where_seen = false;  // leave out cells that no wave has come to or will be seen of
   EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
   bool fluid = false;
   bool plane_wave = false;

@@ -48,7 +48,8 @@ void register_steps() {
         Case what;
         what.nx = what.nz = far_beyond;
         what.threads = threads;
-        what.passage = {steps, stripe};
+        what.passage.steps = steps;
+        what.passage.stripe_cells = stripe;
         register_run("passage/steps:" + std::to_string(steps) + "/stripe:" + std::to_string(stripe) +
                          "/threads:" + std::to_string(threads),
                      what);
