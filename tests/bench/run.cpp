@@ -55,8 +55,7 @@ int flops_a_cell_step(int order, bool uniform, bool fluid) {
   const int meet = 6 * pairs + (uniform ? 0 : 2 * pairs + (fluid ? 1 : 4));
   // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one product for both), v_t 3, s_nt 3; the
   // moduli where they differ from cell to cell.
-  const int update =
-      fluid ? 1 + 3 + 1 + 1 + 1 + (uniform ? 0 : 4) : 1 + 3 + 2 + 2 + 3 + 3 + (uniform ? 0 : 6);
+  const int update = fluid ? 7 + (uniform ? 0 : 4) : 14 + (uniform ? 0 : 8);
   // Sweeps along x of neighbouring steps are one: two sweeps a step.
   return 2 * (pairs * leave + meet + update);
 }
