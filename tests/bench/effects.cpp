@@ -53,6 +53,9 @@ void register_effects() {
       what.variety = Variety::layered;
       what.top = EdgeLaw::free;
       what.others = EdgeLaw::absorbing;
+      what.nx = 1000;
+      what.nz = 600;
+      what.at_the_surface = true;
       what.receivers = 100;
       what.duration_s = duration_s;
       what.only_where_seen = only_where_seen;

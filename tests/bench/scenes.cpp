@@ -53,13 +53,14 @@ Scene<2> make_scene(const Case& what) {
   scene.numerics.double_precision = what.double_precision;
   scene.numerics.passage = what.passage;
   scene.numerics.passage.everywhere = !what.only_where_seen;
-  const Point<2> source = {width / 2 + 1, depth / 2 + 1};
+  const Point<2> source = {width / 2 + 1, what.at_the_surface ? 2 * spacing_m + 1 : depth / 2 + 1};
   if (what.plane_wave)
     scene.survey.sources = {{source, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:20"), 1}};
   else
     scene.survey.sources = {{source, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
   for (int n = 0; n < what.receivers; ++n)
-    scene.survey.receivers_m.push_back({width * (0.1 + 0.8 * (n + 0.5) / what.receivers), depth * 0.3});
+    scene.survey.receivers_m.push_back({width * (0.1 + 0.8 * (n + 0.5) / what.receivers),
+                                        what.at_the_surface ? 2 * spacing_m : depth * 0.3});
   scene.recording = {{Component::vx, Component::vz}, what.duration_s, 0.001};
   if (what.receivers <= 1) scene.recording.interval_s = 0.01;
   if (what.snapshot_every_s > 0) scene.snapshot_every_s = what.snapshot_every_s;

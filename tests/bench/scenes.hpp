@@ -24,8 +24,9 @@ struct Case {
   EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
   bool fluid = false;
   bool plane_wave = false;
-  double slipping = 0;  // share of the cells, a box in the middle
-  int receivers = 1;    // of vx and vz, spread over a line
+  bool at_the_surface = false;  // source and receivers, else in the middle and above it
+  double slipping = 0;          // share of the cells, a box in the middle
+  int receivers = 1;            // of vx and vz, spread over a line
   double snapshot_every_s = 0;
   double duration_s = 100;  // of the traces, which the run need not reach
 };
