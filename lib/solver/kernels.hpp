@@ -46,8 +46,7 @@ struct MaterialRows {
   const Real *b, *zp, *zs;
 };
 
-/// Fields of a stretch of cells that a sweep changes. vt and st are null where there is no shear; the second
-/// passive stress and S pair of three dimensions are not there yet.
+/// Fields of a stretch of cells that a sweep changes; update_p leaves vt and st alone.
 template <class Real>
 struct SweptRows {
   Real *v, *s, *passive, *vt, *st;

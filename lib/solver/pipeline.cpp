@@ -52,8 +52,7 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
   const auto stripe = std::min(stripe_width_ * 2 + widest, layout_.padded_nx());
   for (int n = 0; n < parallel_workers(); ++n)
     workers_.push_back({sweeps.make_workspace(stripe + 2 * Sweeps<D, Real>::lag),
-                        std::vector<Carry<Real>>(
-                            std::size_t(stripes() > 1 ? along_x * (2 * band_rows_ + longest_) : along_x)),
+                        std::vector<Carry<Real>>(std::size_t(along_x * carries_a_sweep())),
                         std::vector<Columns>(2 * longest.size())});
 }
 
@@ -99,6 +98,12 @@ auto Pipeline<D, Real>::stages(std::int64_t first, std::int64_t last) const -> s
 template <int D, class Real>
 std::int64_t Pipeline<D, Real>::stripes() const {
   return std::max<std::int64_t>(1, (layout_.shape()[0] + stripe_width_ / 2) / stripe_width_);
+}
+
+/// Lines of a band that wait for the next stripe; where there is none, nothing waits.
+template <int D, class Real>
+std::int64_t Pipeline<D, Real>::carries_a_sweep() const {
+  return stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
 }
 
 /// Where a sweep that much ahead ends in a stripe. The one before it in the pass is two blocks ahead of it,
@@ -149,7 +154,7 @@ void Pipeline<D, Real>::run_band(std::int64_t number, std::int64_t band, std::in
 
 template <int D, class Real>
 void Pipeline<D, Real>::run_stripe(UnderWay& pass, const Columns& rows, Worker& worker) {
-  const std::int64_t carried = stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
+  const std::int64_t carried = carries_a_sweep();
   for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
     if (arriving + rows_ahead < rows_)
       sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.coming());
@@ -189,6 +194,11 @@ bool Pipeline<D, Real>::quiet(const Columns& rows, const Columns& columns) const
 }
 
 template <int D, class Real>
+void Pipeline<D, Real>::look_for_active(std::int64_t line, const Columns& columns) {
+  if (!everywhere_) active_.look(line, columns);
+}
+
+template <int D, class Real>
 void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Columns& columns,
                                 Ring<Real>& ring, Worker& worker) {
   constexpr auto lag = Sweeps<D, Real>::lag;
@@ -202,7 +212,7 @@ void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Col
   sweeps_.measure_ends(step, {columns.first == 0 ? 0 : columns.first + lag, columns.last + lag});
   sweeps_.along_z(step, columns, stage.part, ring, worker.work);
   if (done < 0 || done >= rows_) return;
-  if (!everywhere_) active_.look(done, columns);
+  look_for_active(done, columns);
   worker.swept += columns.count();
 }
 
@@ -215,7 +225,7 @@ void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real 
     return;
   }
   sweeps_.along_x(line, columns, part, carry, worker.work);
-  if (!everywhere_) active_.look(line, columns);
+  look_for_active(line, columns);
 }
 
 template <int D, class Real>
@@ -224,7 +234,7 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
   const StepTime& time = stage.time;
   const auto passes = [&](auto&& what) {
     what();
-    if (end_.stirs(time, line)) active_.look(line, first);
+    if (end_.stirs(time, line)) look_for_active(line, first);
   };
   if (end_.whole(time, line)) {
     if (!first.empty()) {
@@ -233,8 +243,7 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
       end_.look(time, line, first, sweeps_.fields_of(line), layout_.row_pitch());
       passes([&] { end_.run_after(time, line, first); });
     }
-    const std::int64_t carried = stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
-    if (!second.empty()) along_x(line, second, stage.part, carries[carried], worker);
+    if (!second.empty()) along_x(line, second, stage.part, carries[carries_a_sweep()], worker);
     return;
   }
   if (first.empty()) return;
@@ -254,7 +263,7 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
 
 template <int D, class Real>
 void Pipeline<D, Real>::find_active_cells() {
-  for (std::int64_t line = 0; line < layout_.lines(); ++line) active_.look(line, {0, layout_.shape()[0]});
+  for (std::int64_t line = 0; line < layout_.lines(); ++line) look_for_active(line, {0, layout_.shape()[0]});
 }
 
 /// By how many rows and columns the fields of a cell spread in a step at most.

@@ -87,6 +87,8 @@ class Pipeline {
   void along_z(const Stage& stage, std::int64_t step, const Columns& columns, Ring<Real>& ring,
                Worker& worker);
   bool quiet(const Columns& rows, const Columns& columns) const;
+  void look_for_active(std::int64_t line, const Columns& columns);
+  std::int64_t carries_a_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const Columns& first, const Columns& second,
                    Carry<Real>* carries, Worker& worker);
   std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;

@@ -75,20 +75,20 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
   }
   starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
   for (const auto& weight : all) weights_.push_back(weight.weight);
+  find_box();
 }
 
 template <int D, class Real>
-Box Recorder<D, Real>::reads() const {
-  Box box;
+void Recorder<D, Real>::find_box() {
   const auto lines = std::int64_t(starts_.size()) - 1;
-  while (box.rows.first < lines && !reads(box.rows.first)) ++box.rows.first;
-  for (box.rows.last = lines; box.rows.last > box.rows.first && !reads(box.rows.last - 1);) --box.rows.last;
-  box.columns.first = std::numeric_limits<std::int64_t>::max();
+  while (box_.rows.first < lines && !reads(box_.rows.first)) ++box_.rows.first;
+  for (box_.rows.last = lines; box_.rows.last > box_.rows.first && !reads(box_.rows.last - 1);)
+    --box_.rows.last;
+  box_.columns.first = std::numeric_limits<std::int64_t>::max();
   for (const auto& read : reads_) {
-    box.columns.first = std::min(box.columns.first, read.column);
-    box.columns.last = std::max(box.columns.last, read.column + 1);
+    box_.columns.first = std::min(box_.columns.first, read.column);
+    box_.columns.last = std::max(box_.columns.last, read.column + 1);
   }
-  return box;
 }
 
 template <int D, class Real>

@@ -20,7 +20,7 @@ class Recorder {
   /// Whether it reads anything of a line.
   bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
   /// The rows and columns of all it reads.
-  Box reads() const;
+  const Box& box() const { return box_; }
   /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
   /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
   void sample(const StepTime& time, std::int64_t line, const Columns& columns, const Real* fields,
@@ -36,6 +36,7 @@ class Recorder {
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
+  void find_box();
   void interpolate(std::int64_t newest, double dt_s);
   Real* values_of(const StepTime& time) {
     return values_.data() + time.step % Pass::most_steps_under_way * std::int64_t(reads_.size());
@@ -52,8 +53,9 @@ class Recorder {
   std::vector<std::size_t> first_weight_;  // of each trace, and the end
   std::vector<Read> reads_;                // by line, then column
   std::vector<std::size_t> starts_;        // of each line in reads_, and the end
-  std::vector<Real> values_;               // [step modulo those under way][weight]
-  std::vector<double> history_;            // [instant modulo kept][trace]
+  Box box_;
+  std::vector<Real> values_;     // [step modulo those under way][weight]
+  std::vector<double> history_;  // [instant modulo kept][trace]
   std::int64_t next_sample_ = 0;
 };
 

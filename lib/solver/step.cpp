@@ -158,7 +158,7 @@ Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
   const auto spread = [steps](const Columns& read, const Columns& by) {
     return Columns{read.first - steps * by.first, read.last + steps * by.last};
   };
-  const Box read = recorder_->reads();
+  const Box& read = recorder_->box();
   return {spread(read.rows, growth.rows), spread(read.columns, growth.columns)};
 }
 
