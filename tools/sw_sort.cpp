@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
@@ -13,7 +15,7 @@ using namespace slipwave;
 namespace {
 
 struct Settings {
-  std::string input = "-";
+  std::vector<std::string> inputs;  // none: standard input
   std::string output = "-";
   std::string key;
   int memory_mib = 256;
@@ -21,7 +23,7 @@ struct Settings {
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.positional(settings.input, "A");
+  options.positional(settings.inputs, "A");
   options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
   options.add("key", settings.key, "KEY[,...]",
               "what to sort by: cdp,offset; a - in front for descending: --key=-offset");
@@ -53,21 +55,35 @@ void note_needs(const RecordSorter& records, const std::string& directory, const
   context.note(needs);
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  const auto keys = in_place("--key", [&] { return parse_sort_keys(settings.key); });
-  if (settings.memory_mib < 1)
-    throw Error("--memory: found " + std::to_string(settings.memory_mib) + ", expected at least 1 MiB",
-                ErrorKind::usage);
-  segy::Reader reader(settings.input, settings.input_options.read_options());
-  OutputFile out(settings.output, OutputFile::Content::binary);
-  const std::string directory = temporary_directory();
-  TraceSorter sorter(keys, static_cast<std::uint64_t>(settings.memory_mib) << 20, directory);
-  const Progress progress = context.progress("reading");
+/// Puts all traces of a file into the sorter.
+void add_all(segy::Reader& reader, TraceSorter& sorter, const Progress& progress) {
   segy::RawTrace trace;
   while (reader.next(trace)) {
     sorter.add(view_of(reader, trace));
     if (progress && reader.size())
       progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
+  }
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto keys = in_place("--key", [&] { return parse_sort_keys(settings.key); });
+  if (settings.memory_mib < 1)
+    throw Error("--memory: found " + std::to_string(settings.memory_mib) + ", expected at least 1 MiB",
+                ErrorKind::usage);
+  auto names = settings.inputs;
+  if (names.empty()) names.push_back("-");
+  if (std::count(names.begin(), names.end(), "-") > 1)
+    throw Error("found standard input twice, expected every input once", ErrorKind::usage);
+  segy::Reader reader(names.front(), settings.input_options.read_options());
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  const std::string directory = temporary_directory();
+  TraceSorter sorter(keys, static_cast<std::uint64_t>(settings.memory_mib) << 20, directory);
+  add_all(reader, sorter, context.progress("reading"));
+  for (std::size_t n = 1; n < names.size(); ++n) {
+    segy::Reader next(names[n], settings.input_options.read_options());
+    const std::string differs = segy::record_difference(next, reader);
+    if (!differs.empty()) throw Error(next.name() + ": " + differs + " as in " + reader.name());
+    add_all(next, sorter, context.progress("reading " + names[n]));
   }
   note_needs(sorter.records(), directory, context);
   const segy::FileInfo info = info_of(reader, context, keys.front(), sorter);
@@ -81,8 +97,8 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-sort", "Traces in another order", "[options] [A] [-o OUTPUT]",
-                           "sw-sort line.sgy --key cdp,offset -o sorted.sgy"};
+  const cli::ToolInfo info{"sw-sort", "Traces of one file or several in another order",
+                           "[options] [A...] [-o OUTPUT]", "sw-sort line.sgy --key cdp,offset -o sorted.sgy"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gather/difference.hpp"
+
 namespace slipwave::segy {
 namespace {
 
@@ -57,6 +59,27 @@ FileInfo info_like(const Reader& reader, const std::string& entry) {
   if (format.code == 6) format.revision = 2;
   if (format.code == 5 && !format.su) format.revision = std::min(reader.header().major, 2);
   return info_as(reader, entry, format);
+}
+
+std::string record_difference(const Reader& found, const Reader& expected) {
+  const FileHeader &a = found.header(), &b = expected.header();
+  const auto sentence = [](const std::string& field, const std::string& is, const std::string& wanted) {
+    return "the " + field + " is " + is + ", expected " + wanted;
+  };
+  const auto kind = [](const FileHeader& header) {
+    return header.su ? "Seismic Unix" : "SEG-Y revision " + std::to_string(header.major);
+  };
+  const auto order = [](const FileHeader& header) { return header.endian == Endian::big ? "big" : "little"; };
+  const auto unit = [](const FileHeader& header) { return header.feet ? "feet" : "metres"; };
+  if (kind(a) != kind(b)) return sentence("file", kind(a), kind(b));
+  if (a.endian != b.endian) return sentence("byte order", order(a), order(b));
+  if (a.format->code != b.format->code) return sentence("sample format", a.format->name, b.format->name);
+  if (a.feet != b.feet) return sentence("unit of length", unit(a), unit(b));
+  if (a.extra_headers != b.extra_headers)
+    return sentence("number of additional trace headers", std::to_string(a.extra_headers),
+                    std::to_string(b.extra_headers));
+  if (found.lengths_by_trace() && expected.lengths_by_trace()) return "";
+  return sampling_difference(found.axis(), expected.axis());
 }
 
 std::vector<std::string> losses_of(const Reader& reader, const FileFormat& format) {

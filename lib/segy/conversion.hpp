@@ -18,6 +18,11 @@ FileFormat format_of(const Reader& reader);
 /// words.
 FileInfo info_as(const Reader& reader, const std::string& entry, const FileFormat& format);
 
+/// Why traces of `found` cannot stand beside those of `expected` in one file as they are: the first of kind
+/// of file, byte order, sample format, unit of length, additional headers and sampling that differs, with
+/// both values ("the byte order is little, expected big"); "" when none does.
+std::string record_difference(const Reader& found, const Reader& expected);
+
 /// Sentences about what of the input a file of that format does not hold.
 std::vector<std::string> losses_of(const Reader& reader, const FileFormat& format);
 

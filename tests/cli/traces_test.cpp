@@ -50,6 +50,25 @@ TEST_F(Traces, SelectedOnesAndTheOthersAreAllThereAre) {
   EXPECT_EQ(done("for f in line again; do tail -c +3601 $f.sgy | cksum; done | uniq | wc -l"), "1\n");
 }
 
+TEST_F(Traces, OfSeveralFilesAreSortedIntoOne) {
+  done("for s in 1 2 3; do sw-select line.sgy --where shot=$s -o $s.sgy; done");
+  done("sw-sort 3.sgy 1.sgy 2.sgy --key component,cdp,offset -o a.sgy");
+  done("sw-sort line.sgy --key component,cdp,offset -o b.sgy");
+  done("cmp <(tail -c +3601 a.sgy) <(tail -c +3601 b.sgy)");
+  // The first may come through a pipe.
+  done("cat 3.sgy | sw-sort - 1.sgy 2.sgy --key component,cdp,offset -o c.sgy");
+  done("cmp <(tail -c +3601 a.sgy) <(tail -c +3601 c.sgy)");
+  const auto refused = [&](const std::string& made, const std::string& said) {
+    done(made + " -o other.sgy");
+    expect_refused("sw-sort 1.sgy other.sgy --key cdp -o x.sgy", 1, "sw-sort: other.sgy: the " + said);
+    EXPECT_FALSE(exists("x.sgy"));
+  };
+  refused("sw-convert 2.sgy --format ibm", "sample format is ibm, expected ieee as in 1.sgy");
+  refused("sw-convert 2.sgy --endian little", "byte order is little, expected big as in 1.sgy");
+  refused("sw-convert 2.sgy --su", "file is Seismic Unix, expected SEG-Y revision 1 as in 1.sgy");
+  refused("sw-filter 2.sgy --resample 0.002", "number of samples is 201, expected 401 as in 1.sgy");
+}
+
 TEST_F(Traces, KeepTheirFormatWhenOnlyTheirOrderChanges) {
   for (const std::string format : {"ibm", "int16", "double"}) {
     const std::string revision = format == "double" ? " --revision 2" : "";
