@@ -82,6 +82,9 @@ struct Collected {
 
 void ShotOutput::check(std::size_t shots) const {
   if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<2>(snapshot_fields); });
+  if (first_shot < 1)
+    throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
+                ErrorKind::usage);
   if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
     throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
                     ", expected {shot} in the name",
@@ -117,8 +120,9 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
                 ErrorKind::usage);
   std::map<std::string, Collected> files;
   const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
+  const auto number_of = [&](std::size_t shot) { return shot + std::size_t(first_shot - 1); };
   const auto name_of_file = [&](std::size_t shot, Component component) {
-    return name_for(traces, shot, name_of(component));
+    return name_for(traces, number_of(shot), name_of(component));
   };
   for (std::size_t first = 1; first <= shots; first += at_once) {
     const auto count = std::min(at_once, shots - first + 1);
@@ -132,9 +136,10 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
     std::optional<SnapshotWriter<2>> writer;
     SnapshotSink<2> sink;
     if (!snapshots.empty()) {
-      writer.emplace(
-          name_for(snapshots, first, ""), scene.model.grid(), parse_snapshot_fields<2>(snapshot_fields),
-          SnapshotHistory{"wave fields of shot " + std::to_string(first), context.version, history});
+      writer.emplace(name_for(snapshots, number_of(first), ""), scene.model.grid(),
+                     parse_snapshot_fields<2>(snapshot_fields),
+                     SnapshotHistory{"wave fields of shot " + std::to_string(number_of(first)),
+                                     context.version, history});
       sink = [&](double time_s, const FieldReader<2>& field) {
         std::vector<Field<2>> fields;
         for (const auto& name : writer->fields()) fields.push_back(snapshot_of(name, field));
@@ -142,14 +147,16 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
       };
     }
     std::vector<Gather> gathers(count);
-    const auto progress = context.progress("shot " + std::to_string(first) +
-                                           (count > 1 ? " to " + std::to_string(first + count - 1) : ""));
+    const auto progress =
+        context.progress("shot " + std::to_string(number_of(first)) +
+                         (count > 1 ? " to " + std::to_string(number_of(first + count - 1)) : ""));
     parallel_jobs(std::int64_t(count), int(at_once), [&](std::int64_t n) {
       // The first of those that run together speaks for all.
       gathers[std::size_t(n)] = shoot(scene, first + std::size_t(n), n == 0 ? progress : Progress(), sink);
     });
     for (std::size_t n = 0; n < count; ++n)
       for (auto& trace : gathers[n].traces) {
+        trace.header.shot += first_shot - 1;
         auto& collected = files[name_of_file(first + n, trace.header.component)].gather;
         collected.axis = gathers[n].axis;
         collected.traces.push_back(std::move(trace));

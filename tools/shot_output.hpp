@@ -13,6 +13,7 @@ struct ShotOutput {
   std::string traces = "-";
   std::string snapshots;  // empty: none
   std::string snapshot_fields = "vx,vz";
+  int first_shot = 1;         // number of the first source
   int shots_in_parallel = 0;  // 0: as many as there are threads, in most_together_bytes of memory
 
   /// Throws a usage Error when the names can not hold all shots.

@@ -60,6 +60,18 @@ TEST_F(ShootOptions, APlaneWaveComesInFromTheTop) {
   EXPECT_TRUE(has(info("0.sgy"), "traces           3\n"));
 }
 
+TEST_F(ShootOptions, ShotsOneByOneAreThoseShotTogether) {
+  done(shoot + "--source 100,50 --source 300,50 --first-shot 8 -o 'all-{shot}.sgy'");
+  for (const std::string number : {"8", "9"}) {
+    done(shoot + "--source " + (number == "8" ? "100,50" : "300,50") + " --first-shot " + number +
+         " -o one.sgy");
+    done("sw-compare one.sgy all-" + number + ".sgy --tolerance 0 -q");
+    EXPECT_EQ(done("sw-select one.sgy --where shot=" + number + " | tail -c +3601 | cksum"),
+              done("tail -c +3601 one.sgy | cksum"));
+  }
+  EXPECT_EQ(run("sw-compare all-8.sgy all-9.sgy -q").code, 1);
+}
+
 TEST_F(ShootOptions, SplitByComponentAndShot) {
   const std::string shots = shoot + "--source 100,50 --source 300,50 --record vx,p ";
   done(shots + "-o all.sgy");
