@@ -1,5 +1,6 @@
 #include "plot_kinds.hpp"
 
+#include <cmath>
 #include <cstdio>
 
 #include "accuracy/table.hpp"
@@ -88,9 +89,34 @@ std::optional<plot::ModelSection> model_below(const PlotSettings& settings) {
   return plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property);
 }
 
-plot::Snapshot snapshot_of(const SnapshotReader<2>& reader, const std::string& field, std::size_t time) {
-  return {field, plot::shown_unit(reader.unit(field)), reader.times_s()[time], reader.read(field, time)};
-}
+/// The snapshots of a file, less those of another one where one is given.
+class Snapshots {
+ public:
+  Snapshots(NetcdfFile file, const std::string& minus) : of_(std::move(file)) {
+    if (minus.empty()) return;
+    minus_.emplace(NetcdfFile::open(minus));
+    if (!(minus_->grid() == of_.grid()))
+      throw Error(minus_->name() + ": has a grid of " + shown(minus_->grid()) + ", expected that of " +
+                  of_.name() + ", " + shown(of_.grid()));
+  }
+  const SnapshotReader<2>& file() const { return of_; }
+  plot::Snapshot read(const std::string& field, std::size_t time) const {
+    const double time_s = of_.times_s()[time];
+    plot::Snapshot snapshot{field, plot::shown_unit(of_.unit(field)), time_s, of_.read(field, time)};
+    if (!minus_) return snapshot;
+    const auto other = minus_->nearest(time_s);
+    if (std::fabs(minus_->times_s()[other] - time_s) > 1e-9)
+      throw Error(minus_->name() + ": has no snapshot at " + shown(time_s) + " s, the nearest is at " +
+                  shown(minus_->times_s()[other]) + " s");
+    const auto subtrahend = minus_->read(field, other);
+    for (std::size_t n = 0; n < subtrahend.size(); ++n) snapshot.values[n] -= subtrahend[n];
+    return snapshot;
+  }
+
+ private:
+  SnapshotReader<2> of_;
+  std::optional<SnapshotReader<2>> minus_;
+};
 
 double full_of(const plot::Magnitudes& magnitudes, const PlotSettings& settings) {
   const double full = magnitudes.percentile(settings.look.clip_percent);
@@ -98,10 +124,11 @@ double full_of(const plot::Magnitudes& magnitudes, const PlotSettings& settings)
 }
 
 plot::Picture snapshot_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
-  const SnapshotReader<2> reader(std::move(*input.file));
+  const Snapshots snapshots(std::move(*input.file), settings.minus);
+  const auto& reader = snapshots.file();
   const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
   const auto time = settings.time_s ? reader.nearest(*settings.time_s) : reader.times_s().size() - 1;
-  const auto snapshot = snapshot_of(reader, field, time);
+  const auto snapshot = snapshots.read(field, time);
   plot::Magnitudes magnitudes;
   magnitudes.add({snapshot.values.data(), snapshot.values.size()});
   return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings),
@@ -152,7 +179,8 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
     throw Error(shown_input(input.path) + ": holds no snapshots, expected them for --movie");
   const auto page =
       plot::with_history(page_of(settings), input.file->text_attribute("", "history").value_or(""));
-  const SnapshotReader<2> reader(std::move(*input.file));
+  const Snapshots snapshots(std::move(*input.file), settings.minus);
+  const auto& reader = snapshots.file();
   const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
   const auto times = reader.times_s().size();
   const auto done = [&](std::size_t steps) {
@@ -160,7 +188,7 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
   };
   plot::Magnitudes magnitudes;
   for (std::size_t n = 0; n < times; ++n) {
-    const auto values = reader.read(field, n);
+    const auto values = snapshots.read(field, n).values;
     magnitudes.add({values.data(), values.size()});
     done(n + 1);
   }
@@ -174,7 +202,7 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
     OutputFile out(settings.output.substr(0, dot) + number + settings.output.substr(dot),
                    OutputFile::Content::binary);
     const auto picture =
-        plot::draw_snapshot(snapshot_of(reader, field, n), full, model, marks, settings.look, page);
+        plot::draw_snapshot(snapshots.read(field, n), full, model, marks, settings.look, page);
     out.write(picture.bytes.data(), picture.bytes.size());
     out.commit();
     done(times + n + 1);

@@ -26,7 +26,7 @@ struct PlotSettings {
   std::optional<double> shot;
   plot::GatherStyle gather;
   // models and snapshots
-  std::string property = "vp", survey, field, over;
+  std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
   bool movie = false;
   // spectra and errors

@@ -26,7 +26,7 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
   options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
   options.add("shot", settings.shot, "N", "gather: this shot only");
-  options.add_choice("axis", texts.axis, {"auto", "x", "offset", "depth", "trace"},
+  options.add_choice("axis", texts.axis, {"auto", "x", "midpoint", "offset", "depth", "trace"},
                      "gather: where traces stand");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
@@ -35,6 +35,7 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
+  options.add("minus", settings.minus, "FILE", "snapshot: less that of this file at the same time");
   options.add("movie", settings.movie, "snapshot: all of them, FILE-0001.png and so on");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "errors: several files in one panel");

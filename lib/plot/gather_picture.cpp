@@ -19,6 +19,9 @@ Axis axis_of(const TracePlaces& traces, const std::vector<double>& edges) {
     case TraceAxis::x:
       axis = {"receiver x", "m"};
       break;
+    case TraceAxis::midpoint:
+      axis = {"midpoint x", "m"};
+      break;
     case TraceAxis::offset:
       axis = {"offset", "m"};
       break;

@@ -17,8 +17,9 @@ struct AxisName {
   TraceAxis axis;
   const char* name;
 };
-constexpr std::array<AxisName, 5> axis_names = {{{TraceAxis::automatic, "auto"},
+constexpr std::array<AxisName, 6> axis_names = {{{TraceAxis::automatic, "auto"},
                                                  {TraceAxis::x, "x"},
+                                                 {TraceAxis::midpoint, "midpoint"},
                                                  {TraceAxis::offset, "offset"},
                                                  {TraceAxis::depth, "depth"},
                                                  {TraceAxis::number, "trace"}}};
@@ -27,6 +28,8 @@ double place_of(const TraceHeader& header, TraceAxis axis, std::size_t number) {
   switch (axis) {
     case TraceAxis::x:
       return header.receiver_m[0];
+    case TraceAxis::midpoint:
+      return (header.receiver_m[0] + header.source_m[0]) / 2;
     case TraceAxis::offset:
       return header.receiver_m[0] - header.source_m[0];
     case TraceAxis::depth:

@@ -14,8 +14,8 @@ class Reader;
 namespace slipwave::plot {
 
 /// What stands along the axis of traces.
-enum class TraceAxis { automatic, x, offset, depth, number };
-/// "auto", "x", "offset", "depth", "trace"; throws a usage Error that lists them.
+enum class TraceAxis { automatic, x, midpoint, offset, depth, number };
+/// "auto", "x", "midpoint", "offset", "depth", "trace"; throws a usage Error that lists them.
 TraceAxis trace_axis_named(const std::string& name);
 
 /// Which traces of a file are drawn.

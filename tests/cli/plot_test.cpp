@@ -91,6 +91,28 @@ TEST_F(Plot, AMovieHasAFrameForEachTimeOnOneScale) {
   done("mkdir again; sw-plot s.nc --field vz --movie -o again/wave.png; diff -r film again");
 }
 
+TEST_F(Plot, TakesOneFileOfSnapshotsFromAnother) {
+  // Without slip all is linear, and twice the amplitude exactly twice the wave.
+  const std::string linear = shoot + "--without slip --fields vz -o g.sgy --every ";
+  done(layers + "| " + fracture + "-o m.nc; " + linear + "0.1 --snapshots one.nc; " + linear +
+       "0.1 --amplitude 2 --snapshots two.nc; " + linear + "0.15 --snapshots late.nc");
+  const auto pixels = [&](const std::string& arguments, const std::string& file) {
+    done("sw-plot " + arguments + " -o " + file);
+    return done("tail -c +$(grep -abo IDAT " + file + " | head -n 1 | cut -d : -f 1) " + file + " | cksum");
+  };
+  const auto one = pixels("one.nc", "one.png");
+  EXPECT_EQ(pixels("two.nc --minus one.nc", "two.png"), one);
+  EXPECT_NE(pixels("one.nc --minus one.nc", "none.png"), one);
+  done("sw-plot two.nc --minus one.nc --movie -o a.png; sw-plot one.nc --movie -o b.png");
+  EXPECT_EQ(done("ls a-*.png | wc -l"), done("ls b-*.png | wc -l"));
+  expect_refused("sw-plot one.nc --minus m.nc -o x.png", 1,
+                 "sw-plot: m.nc: found no field of time, z and x, expected snapshots in 2 dimensions");
+  const auto ran = run("sw-plot one.nc --minus late.nc --time 0.1 -o x.png");
+  EXPECT_TRUE(has(ran.err, "sw-plot: late.nc: has no snapshot at 0.1")) << ran.err;
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_FALSE(exists("x.png"));
+}
+
 TEST_F(Plot, WarnsOfWhatItLeavesOut) {
   done(everything);
   const auto ran = run("sw-plot g.sgy -o g.png");
