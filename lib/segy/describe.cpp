@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <unordered_set>
 #include <utility>
 
 #include "base/error.hpp"
@@ -105,10 +106,11 @@ Description describe(const std::string& path, const ReadOptions& options,
   SquareSum squares;
   Trace trace;
   std::optional<std::int64_t> shot;
+  std::unordered_set<std::int64_t> shots;
   try {
     while (reader.next(trace)) {
       const TraceHeader header = reader.si_header(trace);
-      if (shot != header.shot) ++facts.shots;
+      if (shot != header.shot) shots.insert(header.shot);
       shot = header.shot;
       facts.lengths_vary = facts.lengths_vary || !(reader.axis_of(trace) == facts.axis);
       see_header(facts, header);
@@ -118,6 +120,7 @@ Description describe(const std::string& path, const ReadOptions& options,
     facts.damage = error.what();
   }
   facts.traces = reader.delivered();
+  facts.shots = static_cast<std::int64_t>(shots.size());
   facts.rms = squares.rms();
   return facts;
 }

@@ -29,7 +29,7 @@ struct Description {
   SampleAxis axis;            // of the first trace
   bool lengths_vary = false;  // traces have other numbers of samples, or start at other times
   std::int64_t traces = 0;    // whole ones
-  std::int64_t shots = 0;     // runs of traces of one field record
+  std::int64_t shots = 0;     // different field records
   std::map<Component, std::int64_t> components;
   Range source_m[3];  // x, y, z
   Range receiver_m[3];
@@ -40,8 +40,8 @@ struct Description {
   std::optional<std::string> damage;  // what stopped the reading before the end ("ends within trace 4: ...")
 };
 
-/// Reads everything, in the memory of one trace. Throws Error when the headers cannot be read; what goes
-/// wrong later stands in `damage`.
+/// Reads everything, in the memory of one trace and the number of each shot. Throws Error when the headers
+/// cannot be read; what goes wrong later stands in `damage`.
 Description describe(const std::string& path, const ReadOptions& options = {},
                      std::vector<std::uint8_t> already_read = {});
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "segy/gather_report.hpp"
@@ -31,6 +32,17 @@ double rms_with(double small, Change change) {
 }
 
 }  // namespace
+
+TEST(Describe, CountsShotsInWhateverOrderTheirTracesAre) {
+  Gather gather = survey_gather();
+  auto& traces = gather.traces;
+  std::stable_sort(traces.begin(), traces.end(),
+                   [](const auto& a, const auto& b) { return a.header.channel < b.header.channel; });
+  int runs = 1;
+  for (std::size_t n = 1; n < traces.size(); ++n) runs += traces[n].header.shot != traces[n - 1].header.shot;
+  ASSERT_GT(runs, 4);
+  EXPECT_EQ(description_of(gather).shots, 2);
+}
 
 TEST(Describe, ReportsComponentsGeometryAndSamples) {
   const Description facts = description_of(survey_gather(), {});
