@@ -3,7 +3,32 @@
 #include <charconv>
 #include <cmath>
 
+#include "base/utf8.hpp"
+
 namespace slipwave {
+
+std::string excerpt(const std::string& text) {
+  constexpr std::size_t most = 60;
+  return printable(text.size() <= most ? text : text.substr(0, most) + "...");
+}
+
+std::string printable(const std::string& text) {
+  std::string line;
+  for (std::size_t at = 0; at < text.size();) {
+    const auto length = utf8_length(text, at);
+    const auto first = static_cast<unsigned char>(text[at]);
+    // U+0080 to U+009F, C2 80 to C2 9F, are control characters too.
+    const bool control = first < 0x20 || first == 0x7f ||
+                         (length == 2 && first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0);
+    if (length == 0 || control) {
+      line += text[at] == '\n' ? ' ' : '?';
+    } else {
+      line.append(text, at, length);
+    }
+    at += length == 0 ? 1 : length;
+  }
+  return line;
+}
 
 std::string shown(double value) {
   char text[32];

@@ -33,6 +33,12 @@ decltype(auto) in_place(const std::string& place, Body&& body) {
   }
 }
 
+/// What a message quotes of a text: its first 60 bytes, made printable, and "..." where more follow.
+std::string excerpt(const std::string& text);
+/// On one line of printable characters: control characters and bytes that are no UTF-8 become '?', so that
+/// nothing read from a file can drive a terminal.
+std::string printable(const std::string& text);
+
 /// A number as a message shows it: shortest form that reads back as the same double ("12.5", "1e-300").
 std::string shown(double value);
 /// Rounded to so many digits, the rest left out: 160, 1.67, 0.0042.

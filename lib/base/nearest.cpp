@@ -5,6 +5,12 @@
 #include <numeric>
 
 namespace slipwave {
+namespace {
+
+/// Capitals of ASCII are no mistake worth counting.
+char small(char letter) { return letter >= 'A' && letter <= 'Z' ? char(letter - 'A' + 'a') : letter; }
+
+}  // namespace
 
 std::string nearest_of(const std::vector<std::string>& words, const std::string& word) {
   std::string best;
@@ -17,7 +23,7 @@ std::string nearest_of(const std::vector<std::string>& words, const std::string&
       std::size_t diagonal = row[0];
       row[0] = i;
       for (std::size_t j = 1; j <= candidate.size(); ++j) {
-        const std::size_t replaced = diagonal + (word[i - 1] != candidate[j - 1]);
+        const std::size_t replaced = diagonal + (small(word[i - 1]) != small(candidate[j - 1]));
         diagonal = row[j];
         row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
       }

@@ -11,7 +11,7 @@ namespace {
 constexpr double most_points = 1e7;
 
 [[noreturn]] void refuse(std::string_view found, const std::string& expected) {
-  throw Error("found '" + std::string(found) + "', expected " + expected, ErrorKind::usage);
+  throw Error("found '" + excerpt(std::string(found)) + "', expected " + expected, ErrorKind::usage);
 }
 
 template <int D>
@@ -38,7 +38,7 @@ double number_of(std::string_view text, std::string_view whole, const std::strin
   const auto [stop, failed] = std::from_chars(digits.data(), end, value);
   if (failed == std::errc() && stop == end && std::isfinite(value)) return value;
   if (whole == text) refuse(whole, notation);
-  refuse(whole, notation + " ('" + std::string(text) + "' is not a number)");
+  refuse(whole, notation + " ('" + excerpt(std::string(text)) + "' is not a number)");
 }
 
 std::int64_t integer_of(std::string_view text, std::string_view whole, const std::string& notation) {

@@ -68,7 +68,7 @@ void Parser::parse(int argc, const char* const* argv) {
     }
   }
   if (common_.version) return;
-  if (!common_.config.empty()) read_config();
+  if (given_.count("config")) read_config();
   store();
 }
 
@@ -137,6 +137,7 @@ void Parser::refuse_without_value(const std::string& name) const {
 
 void Parser::read_config() {
   const std::string& path = common_.config;
+  if (path.empty()) refuse("--config: found no name, expected a file");
   std::error_code failed;
   if (std::filesystem::is_directory(path, failed)) throw Error(path + ": is a directory, expected a file");
   errno = 0;
@@ -151,7 +152,7 @@ void Parser::read_config() {
   try {
     parsed = po::parse_config_file(file, known, true).options;
   } catch (const po::invalid_config_file_syntax& error) {
-    refuse(path + ": found '" + error.tokens() + "', expected NAME = VALUE");
+    refuse(path + ": found '" + excerpt(error.tokens()) + "', expected NAME = VALUE");
   } catch (const po::error& error) {
     refuse(path + ": " + error.what());
   }
@@ -161,7 +162,7 @@ void Parser::read_config() {
     if (std::find(passed_over.begin(), passed_over.end(), option.string_key) != passed_over.end()) continue;
     if (option.unregistered) {
       const std::string meant = nearest(option.string_key, true);
-      refuse(path + ": unknown option " + option.string_key +
+      refuse(path + ": unknown option " + excerpt(option.string_key) +
              (meant.empty() ? "" : "; did you mean " + meant + "?"));
     }
     auto& values = from_file[option.string_key];

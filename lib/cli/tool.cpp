@@ -2,7 +2,6 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <new>
 
@@ -15,10 +14,9 @@ namespace slipwave::cli {
 namespace {
 
 /// One line, whatever the sentence holds: a file name may contain a line break.
-void say(const std::string& tool, std::string sentence) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+void say(const std::string& tool, const std::string& sentence) {
   const char* clear = isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress bar may stand there
-  std::fprintf(stderr, "%s%s: %s\n", clear, tool.c_str(), sentence.c_str());
+  std::fprintf(stderr, "%s%s: %s\n", clear, tool.c_str(), printable(sentence).c_str());
 }
 
 void print(const std::string& text) {

@@ -29,7 +29,8 @@ std::vector<NumberedPoint> read_points(const std::string& path) {
     if (parts.empty()) continue;
     const std::string place = shown_input(path) + ": line " + std::to_string(number);
     if (parts.size() != 2)
-      throw Error(place + ": found " + std::to_string(parts.size()) + " values, expected X Z");
+      throw Error(place + ": found " + std::to_string(parts.size()) +
+                  (parts.size() == 1 ? " value" : " values") + ", expected X Z");
     try {
       points.push_back({{parse_number(parts[0]), parse_number(parts[1])}, number});
     } catch (const Error& error) {
