@@ -31,6 +31,18 @@ std::string name_for(std::string pattern, std::size_t shot, const std::string& c
   return pattern;
 }
 
+/// A misspelt mark would make a file of that name.
+void check_marks(const std::string& pattern) {
+  for (auto at = pattern.find('{'); at != std::string::npos; at = pattern.find('{', at + 1)) {
+    const auto end = pattern.find('}', at);
+    if (end == std::string::npos) return;
+    const std::string mark = pattern.substr(at, end - at + 1);
+    if (mark != "{shot}" && mark != "{component}")
+      throw Error("found " + mark + " in the name " + pattern + ", expected {shot} or {component}",
+                  ErrorKind::usage);
+  }
+}
+
 bool holds(std::string pattern, const std::string& mark) { return replace(pattern, mark, ""); }
 
 /// What the textual header says of a run.
@@ -81,6 +93,8 @@ struct Collected {
 }  // namespace
 
 void ShotOutput::check(std::size_t shots) const {
+  check_marks(traces);
+  check_marks(snapshots);
   if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<2>(snapshot_fields); });
   if (first_shot < 1)
     throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
@@ -115,7 +129,7 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
   const auto entries = entries_of(scene, history, context.version);
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
-  if (any_trace && snapshots == traces)
+  if (any_trace && !snapshots.empty() && snapshots == traces)
     throw Error("found " + traces + " for both --output and --snapshots, expected two places",
                 ErrorKind::usage);
   std::map<std::string, Collected> files;

@@ -114,6 +114,9 @@ void run(const Settings& s, const cli::Context& context) {
   if (s.wanted && !(*s.wanted > 0))
     throw Error("--error: found " + shown(*s.wanted) + ", expected it above 0", ErrorKind::usage);
   const bool built_in = !s.built_in.empty();
+  expect_other_files(s.output, {s.shot.model});
+  if (built_in && s.shot.model != "-")
+    throw Error("found --case and a model, " + s.shot.model + ", expected one of them", ErrorKind::usage);
   const auto scene = built_in ? full_space_case() : make_scene(s);
   const auto ladder = ladder_of(s, scene);
   // A name that can not be written costs no computing.

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/input_bytes.hpp"
 #include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
@@ -73,6 +74,7 @@ Exported of_snapshots(NetcdfFile file, const Settings& settings) {
 
 void run(const Settings& settings, const cli::Context& context) {
   const auto format = settings.output_options.file_format();
+  expect_other_files(settings.output, {settings.input});
   auto file = NetcdfFile::open(settings.input);
   const std::string history = file.text_attribute("", "history").value_or("");
   const bool is_model = kind_of(file) == "model";
@@ -86,7 +88,7 @@ void run(const Settings& settings, const cli::Context& context) {
     if (end > begin) exported.facts.entries.push_back(commands.substr(begin, end - begin));
     begin = end + 1;
   }
-  write_section(out, exported.values, exported.facts, format);
+  in_place(shown_input(settings.input), [&] { write_section(out, exported.values, exported.facts, format); });
   out.commit();
 }
 

@@ -46,6 +46,7 @@ Scene<2> make_scene(const Settings& s) {
     scene.snapshot_every_s = s.every_s;
   }
   s.output.check(scene.survey.sources.size());
+  for (const auto& output : {s.output.traces, s.output.snapshots}) expect_other_files(output, {s.shot.model});
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
     throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
   s.shot.read_model_into(scene);

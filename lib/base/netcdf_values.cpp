@@ -134,6 +134,9 @@ std::vector<T> NetcdfFile::get(const std::string& name, const std::vector<std::s
     impl_->fail(name, "found " + std::to_string(found.shape.size()) + " dimensions, expected " +
                           std::to_string(count.size()));
   }
+  nc_type type = 0;
+  impl_->check(nc_inq_vartype(impl_->id, impl_->variable_id(name), &type), name);
+  if (type == NC_CHAR || type == NC_STRING) impl_->fail(name, "found text, expected numbers");
   impl_->check_size(name, count, sizeof(T));
   std::size_t values = 1;
   for (const auto length : count) values *= length;

@@ -176,4 +176,16 @@ void OutputFile::commit() {
 
 const std::string& OutputFile::shown_name() const { return impl_->shown_name; }
 
+void expect_other_files(const std::string& output, const std::vector<std::string>& inputs) {
+  struct stat of_output {};
+  if (output.empty() || output == "-" || stat(output.c_str(), &of_output) != 0) return;
+  if (!S_ISREG(of_output.st_mode)) return;
+  for (const auto& input : inputs) {
+    struct stat of_input {};
+    if (input.empty() || input == "-" || stat(input.c_str(), &of_input) != 0) continue;
+    if (of_input.st_dev == of_output.st_dev && of_input.st_ino == of_output.st_ino)
+      throw Error(output + ": is the input, expected another file for the output", ErrorKind::usage);
+  }
+}
+
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace slipwave {
 
@@ -33,6 +34,10 @@ class OutputFile {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Throws a usage Error when `output` is the same file as one of `inputs`, by whatever name: for tools whose
+/// output is of another kind, where that is a slip and would cost the input. "-" and "" are no files.
+void expect_other_files(const std::string& output, const std::vector<std::string>& inputs);
 
 /// Installs the handlers that remove the temporaries of all living OutputFiles when INT, TERM, HUP or PIPE
 /// ends the process; the process then dies of that signal, so the shell sees 128 + N. A signal that was

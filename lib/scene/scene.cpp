@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "base/error.hpp"
@@ -36,6 +38,15 @@ void check_positive(double value, const char* what, const char* unit) {
   if (!(value > 0) || !std::isfinite(value))
     throw Error("found " + std::string(what) + " of " + shown(value) + ' ' + unit + ", expected it above 0",
                 ErrorKind::usage);
+}
+
+/// They are counted in whole numbers; more would never end.
+void check_count(double duration_s, const char* what, double interval_s, const char* counted) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  if (duration_s / interval_s < most) return;
+  throw Error("found --time of " + shown(duration_s) + " s and " + what + " of " + shown(interval_s) +
+                  " s, expected at most " + std::to_string(std::int64_t(most)) + ' ' + counted,
+              ErrorKind::usage);
 }
 
 /// The medium of all cells along an edge must be one for a plane wave to be known there.
@@ -127,11 +138,15 @@ bool has(Component component) {
 
 template <int D>
 void check_components(const std::vector<Component>& components) {
-  for (const Component component : components)
+  for (const Component component : components) {
+    if (std::count(components.begin(), components.end(), component) > 1)
+      throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
+                  ErrorKind::usage);
     if (!has<D>(component))
       throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
                       "-D, expected vx, vz, p, sxx, szz or sxz",
                   ErrorKind::usage);
+  }
 }
 
 }  // namespace
@@ -183,15 +198,19 @@ void check(const Scene<D>& scene) {
     else
       refuse_void(scene, source.position_m, "the source");
     check_moment_in_fluid(scene, source);
-    if (!std::isfinite(source.amplitude))
-      throw Error("found amplitude " + shown(source.amplitude) + ", expected a finite number",
+    if (!std::isfinite(source.amplitude) || source.amplitude == 0)
+      throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",
                   ErrorKind::usage);
   }
   for (const auto& receiver : scene.survey.receivers_m) refuse_void(scene, receiver, "the receiver");
   check_components<D>(scene.recording.components);
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
-  if (scene.snapshot_every_s) check_positive(*scene.snapshot_every_s, "--every", "s");
+  check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");
+  if (scene.snapshot_every_s) {
+    check_positive(*scene.snapshot_every_s, "--every", "s");
+    check_count(scene.recording.duration_s, "--every", *scene.snapshot_every_s, "snapshots");
+  }
   const auto& numerics = scene.numerics;
   if (numerics.order != 1 && numerics.order != 3 && numerics.order != 5 && numerics.order != 7)
     throw Error("found order " + std::to_string(numerics.order) + ", expected 1, 3, 5 or 7",
@@ -215,6 +234,7 @@ void check(const Scene<D>& scene) {
                     ": h/vp_max is " + shown(limit) + " s",
                 ErrorKind::usage);
   }
+  check_count(scene.recording.duration_s, "a time step", time_step_s(scene), "steps");
 }
 
 template <int D>

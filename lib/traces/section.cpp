@@ -1,7 +1,10 @@
 #include "traces/section.hpp"
 
+#include <cmath>
+
 #include "base/error.hpp"
 #include "gather/trace.hpp"
+#include "grid/grid.hpp"
 #include "segy/geometry.hpp"
 #include "segy/text.hpp"
 
@@ -49,6 +52,10 @@ void write_section(OutputFile& out, const Field<2>& section, const SectionFacts&
     headers[i].channel = static_cast<std::int64_t>(i) + 1;
     headers[i].source_m[0] = headers[i].receiver_m[0] = grid.centre(0, static_cast<std::int64_t>(i));
   }
+  for (std::size_t cell = 0; cell < section.size(); ++cell)
+    if (!std::isfinite(section[cell]))
+      throw Error(facts.quantity + " at " + place_of(grid, static_cast<std::int64_t>(cell)) + " is " +
+                  (std::isnan(section[cell]) ? "NaN" : shown(section[cell])) + ", expected a finite number");
   segy::FileInfo info;
   info.format = format;
   info.axis = {grid.shape[1], grid.spacing_m * seconds_a_metre, 0};

@@ -62,13 +62,13 @@ TEST_F(Export, RefusesWhatItCannotExport) {
       {"sw-export m.nc --property vp --time 1", 2, "sw-export: --time: m.nc is a model, expected snapshots"},
       {"sw-export none.nc --property vp", 1, "sw-export: none.nc: No such file or directory"},
       {"sw-export m.nc --property vp --format double", 1,
-       "sw-export: sample format double exists since revision 2, the file is of revision 1"},
+       "sw-export: m.nc: sample format double exists since revision 2, the file is of revision 1"},
       {"sw-export m.nc --property vp --format float9", 2,
        "sw-export: --format: sample format \"float9\", expected one of ibm, int32, int16, ieee, double, "
        "int24, int8, "
        "int64, uint32, uint16, uint64, uint24, uint8"},
       {"sw-export m.nc --property rho --format int8", 1,
-       "sw-export: trace 1: sample 1: 1000 does not fit a signed integer of 8 bits"},
+       "sw-export: m.nc: trace 1: sample 1: 1000 does not fit a signed integer of 8 bits"},
   };
   for (const auto& one : cases) {
     expect_refused(one.line + " -o out.sgy", one.code, one.message);

@@ -112,3 +112,14 @@ TEST_F(OutputFileTest, NamesTheFileWhenItCannotBeWritten) {
   EXPECT_EQ(sentence_of(directory_.string()), directory_.string() + ": is a directory, expected a file");
   EXPECT_EQ(sentence_of("/dev/full"), "/dev/full: No space left on device");
 }
+
+TEST_F(OutputFileTest, KnowsItsInputsByWhateverName) {
+  std::ofstream(path("model.nc")) << "model";
+  fs::create_symlink(path("model.nc"), path("link.nc"));
+  fs::create_hard_link(path("model.nc"), path("same.nc"));
+  for (const char* name : {"model.nc", "link.nc", "same.nc"})
+    EXPECT_THROW(expect_other_files(path(name), {"-", path("model.nc")}), Error) << name;
+  EXPECT_NO_THROW(expect_other_files(path("new.nc"), {path("model.nc")}));
+  EXPECT_NO_THROW(expect_other_files("-", {"-"}));
+  EXPECT_NO_THROW(expect_other_files("/dev/null", {"/dev/null"}));
+}
