@@ -83,10 +83,21 @@ plot::Picture model_picture(Input& input, const PlotSettings& settings, const pl
   return plot::draw_model(section, as_sets, survey_of(settings), settings.look, page);
 }
 
-std::optional<plot::ModelSection> model_below(const PlotSettings& settings) {
+/// The model under the snapshots; its cells may be larger or smaller than theirs, its extent is the same.
+std::optional<plot::ModelSection> model_below(const PlotSettings& settings, const Grid<2>& grid) {
   if (settings.over.empty()) return std::nullopt;
   const bool as_sets = settings.property == "fractures";
-  return plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property);
+  auto model = plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property);
+  for (const int axis : {0, 1}) {
+    const auto at = std::size_t(axis);
+    const double slack = grid.spacing_m / 2;
+    if (std::fabs(model.grid().origin_m[at] - grid.origin_m[at]) <= slack &&
+        std::fabs(model.grid().end(axis) - grid.end(axis)) <= slack)
+      continue;
+    throw Error("--over: " + settings.over + ": has a grid of " + shown(model.grid()) +
+                ", expected the extent of the snapshots, " + shown(grid));
+  }
+  return model;
 }
 
 /// The snapshots of a file, less those of another one where one is given.
@@ -131,7 +142,7 @@ plot::Picture snapshot_picture(Input& input, const PlotSettings& settings, const
   const auto snapshot = snapshots.read(field, time);
   plot::Magnitudes magnitudes;
   magnitudes.add({snapshot.values.data(), snapshot.values.size()});
-  return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings),
+  return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings, reader.grid()),
                              survey_of(settings), settings.look, page);
 }
 
@@ -193,7 +204,7 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
     done(n + 1);
   }
   const double full = full_of(magnitudes, settings);
-  const auto model = model_below(settings);
+  const auto model = model_below(settings, reader.grid());
   const auto marks = survey_of(settings);
   const auto dot = settings.output.rfind('.');
   for (std::size_t n = 0; n < times; ++n) {

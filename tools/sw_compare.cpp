@@ -44,6 +44,9 @@ std::string place_of(std::int64_t trace, const TraceHeader& header) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
+  if (settings.tolerance && !(*settings.tolerance >= 0))
+    throw Error("--tolerance: found " + shown(*settings.tolerance) + ", expected it not below 0",
+                ErrorKind::usage);
   OpenPair pair(settings.inputs);
   const segy::Reader& a = pair.a;
   std::vector<std::pair<Component, Comparison>> components;  // in the order in which they come

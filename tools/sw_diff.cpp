@@ -24,6 +24,9 @@ void declare(cli::Options& options, Settings& settings) {
   settings.inputs.input_options.declare(options);
 }
 
+/// A number that is none can come from either file.
+std::string place_of(const OpenPair& pair) { return pair.a.name() + " minus " + pair.b.name(); }
+
 /// Floats are subtracted as they lie in the files.
 void subtract_floats(OpenPair& pair, segy::Writer& writer, const std::function<void()>& progress) {
   const segy::Endian order_of_a = pair.a.header().endian, order_of_b = pair.b.header().endian;
@@ -33,7 +36,7 @@ void subtract_floats(OpenPair& pair, segy::Writer& writer, const std::function<v
     difference.resize(a.samples.size());
     slipwave::subtract_floats(a.samples, order_of_a, b.samples, order_of_b, difference);
     a.samples = difference;
-    writer.write(a, pair.a.header().su);
+    in_place(place_of(pair), [&] { writer.write(a, pair.a.header().su); });
     progress();
   }
 }
@@ -42,7 +45,7 @@ void subtract_numbers(OpenPair& pair, segy::Writer& writer, const std::function<
   segy::Trace a, b;
   while (pair.both.next(a, b)) {
     subtract(a.samples, b.samples);
-    writer.write(a, pair.a.header().su);
+    in_place(place_of(pair), [&] { writer.write(a, pair.a.header().su); });
     progress();
   }
 }

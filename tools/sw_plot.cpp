@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
@@ -55,7 +57,7 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
   limits("--y", texts.y, settings.look.y);
   if (!texts.component.empty())
     settings.component = in_place("--component", [&] { return component_named(texts.component); });
-  if (settings.shot && *settings.shot != double(std::int64_t(*settings.shot)))
+  if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
   settings.gather.axis = plot::trace_axis_named(texts.axis);
   settings.gather.density = texts.style != "wiggle";

@@ -16,6 +16,7 @@ std::vector<double> samples_of(const TraceView& view) {
   const auto bytes = view.trace->samples;
   std::vector<double> samples(bytes.size() / static_cast<std::size_t>(format.bytes));
   segy::decode_samples(bytes, format, view.file->endian, samples);
+  check_finite(samples);  // no condition holds for NaN: such a trace would be left out unnoticed
   return samples;
 }
 
