@@ -148,3 +148,10 @@ TEST_F(Traces, AWaveletMuchLongerThanTheTracesCostsNothing) {
   done("sw-filter line.sgy --convolve sine:2e-6 --gain scale:0.5 -o half.sgy");
   done("sw-compare long.sgy half.sgy --tolerance 1e-6 -q");
 }
+
+TEST_F(Traces, HaveTheSameFkSpectrumInWhateverOrderTheyStand) {
+  done("sw-select line.sgy --where shot=2 -o shot.sgy; sw-sort shot.sgy --key=-channel -o mixed.sgy");
+  const std::string numbers = " --fk --text | grep -v '^#'";
+  EXPECT_NE(done("sw-spectrum shot.sgy" + numbers), "");
+  EXPECT_EQ(done("sw-spectrum shot.sgy" + numbers), done("sw-spectrum mixed.sgy" + numbers));
+}

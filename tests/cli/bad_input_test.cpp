@@ -1,0 +1,123 @@
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "bad_models.hpp"
+#include "shell.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A row of a table: a command, and how it is refused.
+struct Row {
+  std::string place;  // "shoot.txt:12"
+  std::string line;
+  int code = 0;
+  std::string sentence;  // what follows "sw-X: "; * stands for any characters
+
+  std::string tool() const {
+    const auto begin = line.find("sw-");
+    return line.substr(begin, line.find(' ', begin) - begin);
+  }
+  /// With an output that must survive, where the tool has one and the row names none.
+  std::string complete() const {
+    return line + (tool() == "sw-info" || line.find(" -o ") != std::string::npos ? "" : " -o out");
+  }
+};
+
+const std::vector<std::string> tables = {"accuracy", "compare", "convert", "diff",   "export",   "filter",
+                                         "fracture", "import",  "info",    "layers", "marmousi", "options",
+                                         "plot",     "select",  "shoot",   "sort",   "spectrum"};
+
+/// Also where links lead in a circle.
+bool exists_as_file(const fs::directory_entry& entry) {
+  std::error_code failed;
+  return entry.is_regular_file(failed);
+}
+
+/// Two lines a row: the command, then indented "CODE: SENTENCE". Lines with # in front are remarks.
+std::vector<Row> rows_of(const std::string& table) {
+  std::ifstream file(SLIPWAVE_BAD_INPUT "/" + table + ".txt");
+  std::vector<Row> rows;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    if (line.empty() || line[0] == '#') continue;
+    if (line[0] != ' ') {
+      rows.push_back({table + ".txt:" + std::to_string(number), line, 0, ""});
+      continue;
+    }
+    rows.back().code = std::stoi(line);
+    rows.back().sentence = line.substr(line.find(": ") + 2);
+  }
+  return rows;
+}
+
+bool matches(const std::string& text, const std::string& pattern) {
+  const auto star = pattern.find('*');
+  if (star == std::string::npos) return text == pattern;
+  if (text.compare(0, star, pattern, 0, star) != 0) return false;
+  for (auto at = star; at <= text.size(); ++at)
+    if (matches(text.substr(at), pattern.substr(star + 1))) return true;
+  return false;
+}
+
+class BadInput : public Shell, public ::testing::WithParamInterface<std::string> {
+ protected:
+  void SetUp() override {
+    write_bad_models(path(""));
+    done("sh " SLIPWAVE_BAD_INPUT "/setup.sh");
+    write("out", "older");
+  }
+
+  /// Everything in the directory, by name.
+  std::map<std::string, std::string> contents() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(path(""))) {
+      const auto name = entry.path().filename().string();
+      all[name] = exists_as_file(entry) ? content(name) : "";
+    }
+    return all;
+  }
+};
+
+}  // namespace
+
+TEST_P(BadInput, IsRefusedInOneLineAndNothingIsWritten) {
+  const auto before = contents();
+  const std::string shot = "shot='--source 100,50 --wavelet ricker:15 --receivers 0:200:50,20 --time 0.1'; ";
+  for (const auto& row : rows_of(GetParam())) {
+    const Ran ran = run(shot + row.complete());
+    EXPECT_EQ(ran.code, row.code) << row.place << ": " << row.line;
+    EXPECT_TRUE(matches(ran.err, row.tool() + ": " + row.sentence + "\n"))
+        << row.place << ": " << row.line << "\n  said     " << ran.err << "  expected " << row.sentence;
+    // sw-info says what it could find out before it says what is wrong.
+    EXPECT_TRUE(ran.out.empty() || row.tool() == "sw-info") << row.place << ": " << row.line;
+    EXPECT_TRUE(contents() == before) << row.place << ": " << row.line << "\n  left " << files();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, BadInput, ::testing::ValuesIn(tables),
+                         [](const auto& info) { return info.param; });
+
+TEST(BadInputTables, HoldHundredsOfRowsAndRowsOfEveryTool) {
+  std::map<std::string, int> of_tool;
+  std::size_t rows = 0;
+  std::set<std::string> lines;
+  for (const auto& table : tables)
+    for (const auto& row : rows_of(table)) {
+      ++rows;
+      ++of_tool[row.tool()];
+      EXPECT_TRUE(lines.insert(row.line).second) << row.place << ": stands twice";
+      EXPECT_TRUE(row.code == 1 || row.code == 2) << row.place;
+      EXPECT_NE(row.sentence, "") << row.place;
+      EXPECT_EQ(row.sentence.find('\n'), std::string::npos) << row.place;
+    }
+  EXPECT_GE(rows, 300U);
+  for (const auto& entry : fs::directory_iterator(SLIPWAVE_BIN)) {
+    const auto tool = entry.path().filename().string();
+    EXPECT_TRUE(tool.compare(0, 3, "sw-") != 0 || of_tool[tool] >= 9) << tool;
+  }
+}

@@ -1,0 +1,141 @@
+#include "bad_models.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/netcdf_file.hpp"
+
+namespace {
+
+using slipwave::NetcdfFile;
+using Type = NetcdfFile::Type;
+
+/// What stands in a model file, each piece free to be wrong.
+struct Contents {
+  std::vector<double> x, z;
+  std::vector<std::string> dimensions = {"z", "x"};  // of the properties
+  std::vector<float> vp, vs, rho;
+  std::vector<std::uint8_t> fracture;  // none: not in the file
+  std::vector<int> slip_set = {0};
+  std::vector<double> normal = {0, 1}, friction = {0.1}, viscosity = {1}, strength = {0};
+  std::string units = "m s-1", left_out;
+  bool texts_for_speeds = false;
+
+  Contents(std::size_t columns, std::size_t rows)
+      : vp(columns * rows, 3000.f), vs(columns * rows, 1500.f), rho(columns * rows, 2200.f) {
+    for (std::size_t i = 0; i < columns; ++i) x.push_back(2.5 + 5 * double(i));
+    for (std::size_t k = 0; k < rows; ++k) z.push_back(2.5 + 5 * double(k));
+  }
+};
+
+// The cell at x = 17.5, z = 12.5.
+constexpr std::size_t cell = 2 * 40 + 3;
+
+void write(const std::string& path, const Contents& model) {
+  auto file = NetcdfFile::create(path, path);
+  file.define_dimension("z", model.z.size());
+  file.define_dimension("x", model.x.size());
+  const auto define = [&](const std::string& name, Type type, const std::vector<std::string>& dimensions) {
+    if (name != model.left_out) file.define_variable(name, type, dimensions);
+  };
+  const auto put = [&](const std::string& name, const auto& values) {
+    if (name != model.left_out) file.put(name, values.data());
+  };
+  define("x", Type::f64, {"x"});
+  define("z", Type::f64, {"z"});
+  for (const std::string name : {"vp", "vs", "rho"}) {
+    define(name, name == "vp" && model.texts_for_speeds ? Type::text : Type::f32, model.dimensions);
+    if (name != model.left_out && !model.units.empty())
+      file.put_attribute(name, "units", name == "rho" ? "kg m-3" : model.units);
+  }
+  if (!model.fracture.empty()) {
+    file.define_dimension("fracture_set", 1);
+    file.define_dimension("slip_system", model.slip_set.size());
+    file.define_dimension("axis", 2);
+    define("fracture", Type::u8, {"z", "x"});
+    define("fracture_name", Type::text, {"fracture_set"});
+    define("slip_set", Type::i32, {"slip_system"});
+    define("slip_normal", Type::f64, {"slip_system", "axis"});
+    for (const std::string name : {"slip_friction", "slip_viscosity", "slip_strength"})
+      define(name, Type::f64, {"slip_system"});
+    put("fracture", model.fracture);
+    if (model.left_out != "fracture_name") file.put_text("fracture_name", {"cracks"});
+    put("slip_set", model.slip_set);
+    put("slip_normal", model.normal);
+    put("slip_friction", model.friction);
+    put("slip_viscosity", model.viscosity);
+    put("slip_strength", model.strength);
+  }
+  put("x", model.x);
+  put("z", model.z);
+  if (model.texts_for_speeds) {
+    file.put_text("vp", std::vector<std::string>(model.vp.size(), "fast"));
+  } else {
+    put("vp", model.vp);
+  }
+  put("vs", model.vs);
+  put("rho", model.rho);
+  file.close();
+}
+
+}  // namespace
+
+void write_bad_models(const std::string& directory) {
+  const auto with = [&](const std::string& name, const std::function<void(Contents&)>& flaw) {
+    Contents model(40, 20);
+    flaw(model);
+    write(directory + "/" + name + ".nc", model);
+  };
+  const auto fractured = [&](const std::string& name, const std::function<void(Contents&)>& flaw) {
+    with(name, [&](Contents& model) {
+      model.fracture.assign(model.vp.size(), 0);
+      model.fracture[cell] = 1;
+      flaw(model);
+    });
+  };
+  with("nan", [](Contents& model) { model.vp[cell] = std::nanf(""); });
+  with("infinite", [](Contents& model) { model.vs[cell] = std::numeric_limits<float>::infinity(); });
+  with("negative", [](Contents& model) { model.vp[cell] = -3000; });
+  with("weightless", [](Contents& model) { model.rho[cell] = 0; });
+  with("fast", [](Contents& model) { model.vs[cell] = 2900; });
+  with("missing", [](Contents& model) { model.left_out = "rho"; });
+  with("turned", [](Contents& model) { model.dimensions = {"x", "z"}; });
+  with("flat", [](Contents& model) {
+    model.dimensions = {"x"};
+    for (auto* values : {&model.vp, &model.vs, &model.rho}) values->resize(40);
+  });
+  with("other-step", [](Contents& model) {
+    for (auto& z : model.z) z *= 2;
+  });
+  with("uneven", [](Contents& model) { model.x[7] += 1; });
+  with("nan-place", [](Contents& model) { model.x[7] = std::nan(""); });
+  with("deep", [](Contents& model) {
+    for (auto& z : model.z) z += 100;
+  });
+  with("no-units", [](Contents& model) { model.units.clear(); });
+  with("feet", [](Contents& model) { model.units = "ft/s"; });
+  with("text", [](Contents& model) { model.texts_for_speeds = true; });
+  write(directory + "/one-cell.nc", Contents(1, 1));
+  write(directory + "/tall.nc", Contents(2, 70000));
+
+  fractured("code", [](Contents& model) { model.fracture[cell] = 2; });
+  fractured("wet", [](Contents& model) { model.vs[cell] = 0; });
+  fractured("no-set", [](Contents& model) { model.slip_set = {1}; });
+  fractured("no-system", [](Contents& model) { model.slip_set = {-1}; });
+  fractured("no-friction", [](Contents& model) { model.left_out = "slip_friction"; });
+  fractured("no-names", [](Contents& model) { model.left_out = "fracture_name"; });
+  fractured("long-normal", [](Contents& model) { model.normal = {1, 1}; });
+  fractured("nan-normal", [](Contents& model) { model.normal = {std::nan(""), 1}; });
+  fractured("pushing", [](Contents& model) { model.friction = {-0.1}; });
+  fractured("nan-viscosity", [](Contents& model) { model.viscosity = {std::nan("")}; });
+  fractured("weak", [](Contents& model) { model.strength = {-1}; });
+  fractured("three-systems", [](Contents& model) {
+    model.slip_set = {0, 0, 0};
+    model.normal = {0, 1, 1, 0, 0.6, 0.8};
+    model.friction = model.viscosity = model.strength = {0.1, 0.1, 0.1};
+  });
+}
