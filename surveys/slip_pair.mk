@@ -1,10 +1,21 @@
 # For a survey that includes this after survey.mk: from $(OUT)/model.nc and shot.cfg to two shots, with slip and
-# without, their difference, its spectrum, and a summary. SPECTRUM holds options of sw-spectrum.
+# without, their difference, spectra, pictures, and a summary. The survey may set
+SHOT =# options of sw-shoot beside those of shot.cfg
+SPECTRUM =# options of sw-spectrum
+COMPONENT = vz# what the pictures of traces and waves show
+WAVE_TIME = 1# the time of the waves' pictures, s
+MODEL_LOOK =# options of sw-plot for the model,
+WAVE_LOOK =# for the waves over it,
+GATHER_LOOK =# for the traces,
+RESPONSE_LOOK = $(GATHER_LOOK)# for those of the response
 
-SPECTRUM =
-SHOOT = $(BIN)/sw-shoot $(OUT)/model.nc --config shot.cfg --threads $(THREADS)
+SHOOT = $(BIN)/sw-shoot $(OUT)/model.nc --config shot.cfg $(SHOT) --threads $(THREADS)
+PLOT = $(BIN)/sw-plot
+PAIR_PICTURES = $(foreach name,model wave wave-response traces traces-response spectrum,$(OUT)/$(name).png)
+TASKS = $(OUT)/fractured.sgy $(OUT)/elastic.sgy
+TASKS_NEED = $(OUT)/model.nc
 
-all: summary $(OUT)/spectrum.nc $(OUT)/spectrum.txt $(OUT)/fractured.nc $(OUT)/elastic.nc## everything, then a summary
+all: summary $(OUT)/spectrum.txt $(PAIR_PICTURES)## everything, then a summary
 
 $(OUT)/fractured.sgy $(OUT)/fractured.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the shot, the fractures slipping
 	$(SHOOT) --snapshots $(OUT)/fractured.nc -o $(OUT)/fractured.sgy
@@ -23,6 +34,29 @@ $(OUT)/spectrum.txt: $(OUT)/response.sgy $(BIN)/sw-spectrum## the same as column
 
 $(OUT)/comparison.txt: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-compare## how far the two shots are apart
 	$(BIN)/sw-compare $(OUT)/fractured.sgy $(OUT)/elastic.sgy -o $@
+
+$(OUT)/model.png: $(OUT)/model.nc $(OUT)/fractured.sgy $(BIN)/sw-plot## the model, its fractures, source and receivers
+	$(PLOT) $< --survey $(OUT)/fractured.sgy $(MODEL_LOOK) -o $@
+
+$(OUT)/wave.png: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot## the wave at WAVE_TIME, over the model
+	$(PLOT) $< --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
+
+$(OUT)/wave-response.png: $(OUT)/fractured.nc $(OUT)/elastic.nc $(OUT)/model.nc $(BIN)/sw-plot## what of it the fractures made
+	$(PLOT) $< --minus $(OUT)/elastic.nc --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
+
+$(OUT)/traces.png: $(OUT)/fractured.sgy $(BIN)/sw-plot## the traces
+	$(PLOT) -q $< --component $(COMPONENT) $(GATHER_LOOK) -o $@
+
+$(OUT)/traces-response.png: $(OUT)/response.sgy $(BIN)/sw-plot## what of them the fractures made
+	$(PLOT) -q $< --component $(COMPONENT) $(RESPONSE_LOOK) -o $@
+
+$(OUT)/spectrum.png: $(OUT)/spectrum.nc $(BIN)/sw-plot## its spectrum
+	$(PLOT) $< -o $@
+
+.PHONY: movie
+movie: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot | $(OUT)## the wave at all times, a picture each
+	mkdir -p '$(OUT)/film'
+	$(PLOT) $< --field $(COMPONENT) --over $(OUT)/model.nc $(WAVE_LOOK) --movie -o '$(OUT)/film/wave.png'
 
 .PHONY: summary
 summary: $(OUT)/model.nc $(OUT)/response.sgy $(OUT)/comparison.txt $(BIN)/sw-info## what came out

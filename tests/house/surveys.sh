@@ -42,7 +42,7 @@ for tool in sw-layers sw-fracture sw-shoot sw-diff sw-spectrum sw-compare sw-inf
   esac
 done
 
-for target in marmousi2 'accuracy marmousi2-model.nc'; do
+for target in paper-marmousi 'accuracy marmousi2-model.nc'; do
   # shellcheck disable=SC2086
   set -- $target
   if said=$("$root/surveys/run" "$1" DATA="$out/nowhere" OUT="$out/made" ${2:+"$out/made/$2"} 2>&1); then

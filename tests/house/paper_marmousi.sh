@@ -1,5 +1,5 @@
 #!/bin/sh
-# marmousi2.sh ROOT BUILD SHARED: the survey marmousi2 from beginning to end, where the model is at hand.
+# paper_marmousi.sh ROOT BUILD SHARED: the survey paper-marmousi in Marmousi-II, where that is at hand.
 set -eu
 data=${SLIPWAVE_SHARED:-$3}/data/marmousi2
 if [ ! -f "$data/marmousi_II_marine.vp" ]; then
@@ -9,7 +9,7 @@ fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 unset MAKEFLAGS MAKELEVEL
-SLIPWAVE_BUILD=$2 "$1/surveys/run" marmousi2 DATA="$data" OUT="$out"
+SLIPWAVE_BUILD=$2 "$1/surveys/run" paper-marmousi DATA="$data" OUT="$out"
 
 # The response of the cluster is near one per cent of the full field, over all traces.
 tail -n 1 "$out/comparison.txt" | awk '
