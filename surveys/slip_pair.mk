@@ -10,7 +10,6 @@ GATHER_LOOK =# for the traces,
 RESPONSE_LOOK = $(GATHER_LOOK)# for those of the response
 
 SHOOT = $(BIN)/sw-shoot $(OUT)/model.nc --config shot.cfg $(SHOT) --threads $(THREADS)
-PLOT = $(BIN)/sw-plot
 PAIR_PICTURES = $(foreach name,model wave wave-response traces traces-response spectrum,$(OUT)/$(name).png)
 TASKS = $(OUT)/fractured.sgy $(OUT)/elastic.sgy
 TASKS_NEED = $(OUT)/model.nc

@@ -12,6 +12,7 @@ BUILD = $(SURVEYS)/../build/release# where the tools are built
 BIN = $(abspath $(BUILD))/bin# where they stand
 OUT = out# where the results go
 THREADS = $(if $(filter -j%,$(MAKEFLAGS)),1,$(shell nproc))# threads of one simulation
+PLOT = $(BIN)/sw-plot# with options for all pictures, --dpi 300
 
 MAKEFLAGS += --no-builtin-rules
 .SUFFIXES:
