@@ -70,6 +70,34 @@ std::vector<char> read_all(const std::string& path, std::vector<char> already_re
   }
 }
 
+InputFile::InputFile(const std::string& path) {
+  Descriptor from = opened(path);
+  struct stat status {};
+  if (fstat(from.number, &status) != 0) throw Error(path + ": " + cause_of(errno));
+  size_ = std::uint64_t(status.st_size);
+  descriptor_ = from.number;
+  from.owned = false;
+}
+
+InputFile::~InputFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+}
+
+bool InputFile::read_at(std::uint64_t offset, void* to, std::size_t count) const {
+  if (count > size_ || offset > size_ - count) return false;
+  auto* at = static_cast<char*>(to);
+  while (count > 0) {
+    const ssize_t got = pread(descriptor_, at, count, off_t(offset));
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw Error(cause_of(errno));
+    if (got == 0) return false;
+    at += got;
+    offset += std::uint64_t(got);
+    count -= std::size_t(got);
+  }
+  return true;
+}
+
 InputStart::InputStart(const std::string& path, std::size_t count) : regular_(is_regular_input(path)) {
   Descriptor from = opened(path);
   bytes_.resize(count);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,25 @@ std::vector<char> read_all(const std::string& path, std::vector<char> already_re
 
 /// Is `path` a regular file? Throws Error naming it when it is missing or a directory. "-" is none.
 bool is_regular_input(const std::string& path);
+
+/// A regular file, read at any place.
+class InputFile {
+ public:
+  /// Throws Error naming the file when it cannot be opened.
+  explicit InputFile(const std::string& path);
+  InputFile(const InputFile&) = delete;
+  InputFile& operator=(const InputFile&) = delete;
+  ~InputFile();
+
+  std::uint64_t size() const { return size_; }
+  /// Copies `count` bytes from `offset` to `to`; false past the end. Throws Error with the bare cause when
+  /// reading fails.
+  bool read_at(std::uint64_t offset, void* to, std::size_t count) const;
+
+ private:
+  int descriptor_ = -1;
+  std::uint64_t size_ = 0;
+};
 
 /// The first bytes of an input, to tell its kind. From a pipe they are taken for good: whoever reads on must
 /// be given taken() first. Keeps a fifo open meanwhile, so that its writer does not see it closed.

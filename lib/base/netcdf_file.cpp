@@ -1,15 +1,16 @@
 #include "base/netcdf_file.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
-#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
+#include <new>
 
 #include "base/error.hpp"
 #include "base/input_bytes.hpp"
@@ -63,10 +64,13 @@ void keep_hdf5_from_exit_handlers() {
   if (const auto function = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, "H5dont_atexit"))) function();
 }
 
-/// To be called before every file is opened; only the first call acts.
+/// To be called before every file is opened. Throws std::bad_alloc where there is no room for one.
 void prepare_library() {
   static const bool done = (keep_hdf5_from_exit_handlers(), true);
   (void)done;
+  // HDF5 does not look whether it got the memory for a file's tables, a few MiB: without it, it crashes.
+  constexpr std::size_t room = std::size_t(16) << 20;
+  ::operator delete(::operator new(room));
 }
 
 }  // namespace
@@ -77,6 +81,7 @@ void NetcdfFile::Impl::fail(const std::string& variable, const std::string& sent
 
 void NetcdfFile::Impl::check(int status, const std::string& variable) const {
   if (status == NC_NOERR) return;
+  failed = true;
   const int system_cause = errno;
   if (status > 0 || status == NC_EHDFERR) {
     // HDF5 keeps the cause to itself, but leaves what the system said.
@@ -128,9 +133,13 @@ NetcdfFile::~NetcdfFile() = default;
 NetcdfFile NetcdfFile::create(const std::string& path, const std::string& shown_name) {
   auto impl = std::make_unique<Impl>();
   impl->shown_name = shown_name;
+  impl->written_path = path;
   prepare_library();
   errno = 0;
-  impl->check(nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &impl->id));
+  const int status = nc_create(path.c_str(), NC_NETCDF4 | NC_CLOBBER, &impl->id);
+  // The library calls a directory that is gone "Permission denied".
+  if (status != NC_NOERR && access(path.c_str(), W_OK) != 0) impl->fail("", cause_of(errno));
+  impl->check(status);
   return NetcdfFile(std::move(impl));
 }
 
@@ -138,19 +147,20 @@ NetcdfFile NetcdfFile::open(const std::string& path) {
   if (!is_regular_input(path)) return open(read_all(path), shown_input(path));
   auto impl = std::make_unique<Impl>();
   impl->shown_name = path;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw Error(path + ": " + cause_of(errno));
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) throw Error(path + ": " + cause_of(errno));
-  impl->file_bytes = std::uint64_t(status.st_size);
-  in_place(path, [&] {
+  {
+    const InputFile file(path);
+    impl->file_bytes = file.size();
     const auto read_at = [&](std::uint64_t offset, void* to, std::size_t count) {
-      file.clear();
-      file.seekg(std::streamoff(offset));
-      return bool(file.read(static_cast<char*>(to), std::streamsize(count)));
+      return file.read_at(offset, to, count);
     };
-    check_not_truncated(read_at, impl->file_bytes);
-  });
+    const bool classic = in_place(path, [&] {
+      check_not_truncated(read_at, impl->file_bytes);
+      std::array<char, 3> first{};
+      return file.read_at(0, first.data(), first.size()) && first == std::array{'C', 'D', 'F'};
+    });
+    // The library takes what a short read of a classic file leaves out for zeros; ours reads on.
+    if (classic) return open(read_all(path), path);
+  }
   prepare_library();
   errno = 0;
   impl->check(nc_open(path.c_str(), NC_NOWRITE, &impl->id));
@@ -179,7 +189,30 @@ NetcdfFile NetcdfFile::open(std::vector<char> bytes, const std::string& shown_na
   return NetcdfFile(std::move(impl));
 }
 
+void NetcdfFile::Impl::settle() const {
+  errno = 0;
+  check(nc_sync(id));
+  // Network file systems and quotas report at the first close what did not fit. All that is left to closing
+  // is a flag in the first bytes, so the first of them is written once more.
+  const int descriptor = ::open(written_path.c_str(), O_RDWR | O_CLOEXEC);
+  char first = 0;
+  const auto moves = [](auto&& call) {
+    ssize_t count = 0;
+    do count = call();
+    while (count < 0 && errno == EINTR);
+    return count == 1;
+  };
+  const bool rewritten = descriptor >= 0 && moves([&] { return pread(descriptor, &first, 1, 0); }) &&
+                         moves([&] { return pwrite(descriptor, &first, 1, 0); });
+  int error_number = rewritten ? 0 : errno;
+  if (descriptor >= 0 && ::close(descriptor) != 0) error_number = errno;
+  if (error_number == 0) return;
+  failed = true;
+  fail("", cause_of(error_number));
+}
+
 void NetcdfFile::close() {
+  if (impl_->id >= 0 && !impl_->written_path.empty()) impl_->settle();
   const int id = impl_->id;
   impl_->id = -1;
   errno = 0;

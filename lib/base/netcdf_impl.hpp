@@ -15,13 +15,19 @@ struct NetcdfFile::Impl {
   int id = -1;              // of an open file, else -1
   std::vector<char> bytes;  // of a file that lies in memory
   std::uint64_t file_bytes = 0;
+  std::string written_path;  // of a file being written, else ""
+  mutable bool failed = false;
 
   Impl() = default;
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
-    if (id >= 0) nc_close(id);
+    // Closing what could not be written can crash in the library; the process ends soon.
+    if (id >= 0 && !(failed && !written_path.empty())) nc_close(id);
   }
+  /// Everything that closing a written file can fail on is done and checked before: the library crashes when
+  /// closing fails.
+  void settle() const;
   /// Throws Error "file: [variable: ]cause" unless `status` is NC_NOERR.
   void check(int status, const std::string& variable = "") const;
   [[noreturn]] void fail(const std::string& variable, const std::string& sentence) const;

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <filesystem>
-#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "base/error.hpp"
+#include "base/input_bytes.hpp"
 #include "base/nearest.hpp"
 #include "base/parse.hpp"
-#include "base/temporary.hpp"
 
 namespace slipwave::cli {
 namespace {
@@ -138,11 +137,8 @@ void Parser::refuse_without_value(const std::string& name) const {
 void Parser::read_config() {
   const std::string& path = common_.config;
   if (path.empty()) refuse("--config: found no name, expected a file");
-  std::error_code failed;
-  if (std::filesystem::is_directory(path, failed)) throw Error(path + ": is a directory, expected a file");
-  errno = 0;
-  std::ifstream file(path);
-  if (!file) throw Error(path + ": " + cause_of(errno ? errno : EIO));
+  const auto bytes = read_all(path);
+  std::istringstream file(std::string(bytes.begin(), bytes.end()));
   po::options_description known;
   for (const auto& option : options_.options_) {
     if (!not_in_config.count(option.name))

@@ -61,7 +61,7 @@ std::size_t ByteSource::read_some(std::span<std::uint8_t> into) {
   ssize_t count = 0;
   do count = ::read(descriptor_, into.data(), into.size());
   while (count < 0 && errno == EINTR);
-  if (count < 0) throw failure(name_);
+  if (count < 0) throw Error(std::strerror(errno));
   return static_cast<std::size_t>(count);
 }
 
@@ -127,7 +127,7 @@ std::uint64_t ByteSource::skip(std::uint64_t count) {
   if (done < count && size_) {
     const std::uint64_t left = std::min(count - done, *size_ > position_ ? *size_ - position_ : 0);
     if (::lseek(descriptor_, static_cast<off_t>(start_ + position_ + left), SEEK_SET) < 0)
-      throw failure(name_);
+      throw Error(std::strerror(errno));
     position_ += left;
     return done + left;
   }

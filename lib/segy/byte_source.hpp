@@ -10,7 +10,8 @@
 namespace slipwave::segy {
 
 /// The bytes of a file or of standard input, read once from the start to the end through one buffer.
-/// Errors name the input ("gather.sgy: No such file or directory").
+/// Errors of opening name the input ("gather.sgy: No such file or directory"); those of reading are the bare
+/// cause.
 class ByteSource {
  public:
   /// `path` is a file, or "-" for standard input, from which `already_read` bytes were taken before.
