@@ -1,7 +1,9 @@
 #include "cli/tool.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <new>
 
@@ -17,6 +19,16 @@ namespace {
 void say(const std::string& tool, const std::string& sentence) {
   const char* clear = isatty(STDERR_FILENO) ? "\r\033[K" : "";  // a progress bar may stand there
   std::fprintf(stderr, "%s%s: %s\n", clear, tool.c_str(), printable(sentence).c_str());
+}
+
+/// A stream that the parent closed would be the number of the next file opened: messages would go into an
+/// output. Put in its place is one that refuses what the tool wants of it.
+void occupy_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) >= 0 || errno != EBADF) continue;
+    const int opened = open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+    if (opened >= 0 && opened != stream) close(opened);  // cannot be: the lowest free number is taken
+  }
 }
 
 void print(const std::string& text) {
@@ -41,6 +53,7 @@ void Context::note(const std::string& sentence) const {
 
 int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,
              const std::function<void(const Context&)>& run) {
+  occupy_closed_streams();
   remove_temporaries_on_signals();
   const std::string version = "slipwave " SLIPWAVE_VERSION;
   try {
