@@ -1,0 +1,33 @@
+#include <algorithm>
+
+#include "fault_scene.hpp"
+
+namespace {
+
+using FaultOfMemory = FaultScene;
+
+}  // namespace
+
+TEST_F(FaultOfMemory, ALimitIsSaidInOneLineAndLeavesTheOlderFile) {
+  // Address space in KiB: the libraries alone take some 80 MiB. Limits go up until the tool has what it
+  // needs.
+  for (const auto& command : commands()) {
+    if (command.output.empty()) continue;
+    write(command.output, "older");
+    const auto before = files();
+    bool done_once = false;
+    for (int kibibytes = 40000; kibibytes <= 400000 && !done_once; kibibytes += 4000) {
+      const Ran ran = run("ulimit -v " + std::to_string(kibibytes) + "; " + command.to_file());
+      // The dynamic loader has its own words for what it has no room for.
+      if (ran.err.find("error while loading shared libraries") != std::string::npos) continue;
+      done_once = ran.code == 0;
+      if (done_once) continue;
+      EXPECT_EQ(ran.code, 1) << kibibytes << ' ' << command.to_file() << '\n' << ran.err;
+      EXPECT_EQ(ran.err.compare(0, command.tool.size() + 2, command.tool + ": "), 0) << ran.err;
+      EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+      EXPECT_EQ(content(command.output), "older") << kibibytes << ' ' << command.to_file();
+      EXPECT_EQ(files(), before) << kibibytes << ' ' << command.to_file();
+    }
+    EXPECT_TRUE(done_once) << command.to_file();
+  }
+}
