@@ -3,6 +3,7 @@
 #include <netcdf.h>
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct NetcdfFile::Impl {
     // Closing what could not be written can crash in the library; the process ends soon.
     if (id >= 0 && !(failed && !written_path.empty())) nc_close(id);
   }
+  /// Opens by what `open` calls, which sets the number, once a child process has survived it.
+  void open_probed(const std::function<int(int&)>& open);
   /// Everything that closing a written file can fail on is done and checked before: the library crashes when
   /// closing fails.
   void settle() const;
