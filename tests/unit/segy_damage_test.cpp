@@ -57,6 +57,14 @@ void released(void* memory) {
 
 void* operator new(std::size_t count) { return noted(count); }
 void* operator new[](std::size_t count) { return noted(count); }
+// Also the form that does not throw: a sanitizer's own would not know what `released` gives back.
+void* operator new(std::size_t count, const std::nothrow_t&) noexcept {
+  try {
+    return noted(count);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* memory) noexcept { released(memory); }
 void operator delete[](void* memory) noexcept { released(memory); }
 void operator delete(void* memory, std::size_t) noexcept { released(memory); }
