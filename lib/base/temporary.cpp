@@ -10,8 +10,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/output_file.hpp"
 
 namespace slipwave {
@@ -52,11 +54,11 @@ void release_slot(Slot* slot) {
 }
 
 extern "C" void remove_and_die(int signal_number) {
+  if (note_signal(signal_number)) return;
   for (Slot* slot = first_slot.load(); slot; slot = slot->next) {
     if (slot->armed) unlink(slot->path.c_str());
   }
-  std::signal(signal_number, SIG_DFL);
-  raise(signal_number);  // blocked until the handler returns, then fatal: the parent sees the signal itself
+  die_of(signal_number);  // blocked until the handler returns, then fatal: the parent sees the signal itself
 }
 
 }  // namespace
@@ -68,6 +70,7 @@ void remove_temporaries_on_signals() {
     if (old_action.sa_handler == SIG_IGN && signal_number != SIGPIPE) continue;
     struct sigaction action {};
     action.sa_handler = remove_and_die;
+    action.sa_flags = SA_RESTART;  // a signal that is only noted interrupts no writing
     sigemptyset(&action.sa_mask);
     sigaction(signal_number, &action, nullptr);
   }
@@ -98,6 +101,19 @@ Temporary::~Temporary() {
   if (descriptor_ >= 0) close(descriptor_);
   if (slot_) unlink(path_.c_str());
   forget();
+}
+
+void remove_strays(const std::string& path) {
+  const std::filesystem::path at(path);
+  const std::string begin = '.' + at.filename().string() + '.', end = ".tmp";
+  std::error_code failed;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(at.has_parent_path() ? at.parent_path() : ".", failed)) {
+    const auto name = entry.path().filename().string();
+    if (name.size() == begin.size() + 6 + end.size() && name.compare(0, begin.size(), begin) == 0 &&
+        name.compare(begin.size() + 6, end.size(), end) == 0)
+      unlink(entry.path().c_str());
+  }
 }
 
 void Temporary::rename_to(const std::string& target) {

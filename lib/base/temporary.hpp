@@ -28,6 +28,10 @@ class Temporary {
   void* slot_ = nullptr;
 };
 
+/// Removes the temporaries of OutputFile and of others beside `path` that a process which was killed has
+/// left.
+void remove_strays(const std::string& path);
+
 /// $TMPDIR, or /tmp.
 std::string temporary_directory();
 

@@ -8,6 +8,7 @@
 #include <new>
 
 #include "base/error.hpp"
+#include "base/interruption.hpp"
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
 #include "cli/parser.hpp"
@@ -82,6 +83,9 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
   } catch (const Error& error) {
     say(info.name, error.what());
     return int(error.kind());
+  } catch (const Interrupted& interrupted) {
+    die_of(interrupted.signal_number);
+    return 128 + interrupted.signal_number;
   } catch (const std::bad_alloc&) {
     say(info.name, "out of memory");
     return 1;

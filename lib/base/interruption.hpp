@@ -1,0 +1,29 @@
+#pragma once
+
+namespace slipwave {
+
+/// Thrown to end a run that a signal asked to end, once everything is in order; main then dies of that
+/// signal (die_of).
+struct Interrupted {
+  int signal_number;
+};
+
+/// While it lives the first INT, TERM or HUP is only noted; another one ends the process at once, as without
+/// it. One at a time. Needs the handlers of remove_temporaries_on_signals().
+class SignalWatch {
+ public:
+  SignalWatch();
+  SignalWatch(const SignalWatch&) = delete;
+  SignalWatch& operator=(const SignalWatch&) = delete;
+  ~SignalWatch();
+  /// The signal that came, 0 as long as none has.
+  int noted() const;
+};
+
+/// For signal handlers: whether the signal was noted by a living SignalWatch and has no other effect.
+bool note_signal(int signal_number) noexcept;
+
+/// Ends the process by the signal, so that the shell sees 128 + N.
+void die_of(int signal_number);
+
+}  // namespace slipwave
