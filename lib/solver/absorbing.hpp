@@ -26,6 +26,9 @@ class AbsorbingZones : public Pass {
   std::int64_t cells() const override;
   bool stirs(const StepTime&, std::int64_t) const override { return background_ != nullptr; }
   std::span<const std::int64_t> lines() const override { return lines_; }
+  void keep(Archive& archive) override {
+    if (background_) background_->keep(archive);
+  }
 
  private:
   void damp(const StepTime& time, int axis, int side, const Index<D>& line, const Columns& columns,

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "solver/state.hpp"
 
 namespace slipwave::solver {
@@ -29,6 +30,7 @@ class ActiveCells {
   /// Looks at the blocks of these columns that were quiet.
   void look(std::int64_t line, const Columns& columns);
   std::int64_t memory_bytes() const { return std::int64_t(active_.size()); }
+  void keep(Archive& archive) { archive.fixed(active_); }
 
  private:
   static constexpr std::int64_t block = Layout<D>::block;

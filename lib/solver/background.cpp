@@ -106,6 +106,7 @@ class Column {
     for (std::int64_t k = 0; k <= last; ++k)
       for (int row = 0; row < FieldRows<2>::count; ++row) now.push_back(state_.field_row({0, k}, row)[0]);
   }
+  void keep(Archive& archive) { archive.fixed(state_.fields.data(), std::size_t(state_.fields.size())); }
   Real value(std::int64_t step, std::int64_t k, int row) const {
     return kept_[std::size_t(step % Pass::most_steps_under_way)][std::size_t(k * FieldRows<2>::count + row)];
   }
@@ -155,6 +156,10 @@ class VerticalWave : public Background<2, Real> {
     std::fill(out, out + count, Real(value));
   }
   bool needs_whole_step() const override { return false; }
+  void keep(Archive& archive) override {
+    for (auto& column : columns_)
+      if (column) column->keep(archive);
+  }
 
  private:
   PlaneForm form_;
@@ -177,6 +182,7 @@ class ObliqueWave : public Background<2, Real> {
       out[i] = Real(form_.value(field_row, grid_.centre(0, x_first + i), z, time.end_s()));
   }
   bool needs_whole_step() const override { return true; }
+  void keep(Archive&) override {}
 
  private:
   PlaneForm form_;

@@ -24,6 +24,8 @@ class Background {
                       std::int64_t count, int field_row, Real* out) const = 0;
   /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
   virtual bool needs_whole_step() const = 0;
+  /// Hands over what it remembers from one step to the next; called when no step is under way.
+  virtual void keep(Archive& archive) = 0;
 };
 
 /// Damping of each cell of an axis over one step, 1 outside the zones (theory.md (E13)).

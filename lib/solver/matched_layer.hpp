@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "base/archive.hpp"
 #include "solver/domain.hpp"
 
 namespace slipwave::solver {
@@ -33,6 +34,10 @@ class MatchedLayer {
   void stretch(int axis, const Index<D>& line, int field_row, const Columns& columns, Real scale,
                const Real* before, Real* row, bool remember);
   std::int64_t memory_bytes() const;
+  /// Hands over what it remembers from one step to the next.
+  void keep(Archive& archive) {
+    for (auto& axis : axes_) archive.fixed(axis.memory.data(), std::size_t(axis.memory.size()));
+  }
 
  private:
   /// Of one part of the step, by slot: what the memory takes, what the change itself takes, what is left of

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 
+#include "base/archive.hpp"
 #include "solver/kernels.hpp"
 
 namespace slipwave::solver {
@@ -37,6 +38,9 @@ class Pass {
   virtual bool stirs(const StepTime&, std::int64_t) const { return false; }
   /// Whether it does anything at that instant.
   virtual bool acts(const StepTime&) const { return true; }
+  /// Hands over all that it remembers from one step to the next, fields apart; called when no step is under
+  /// way.
+  virtual void keep(Archive& archive) = 0;
 
   /// Steps that may be under way at once: what begin() made for a step must last that long.
   static constexpr std::int64_t most_steps_under_way = 32;

@@ -1,6 +1,7 @@
 #include "solver/pipeline.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "base/parallel.hpp"
 
@@ -117,13 +118,19 @@ std::int64_t Pipeline<D, Real>::last_column(std::int64_t stripe, std::int64_t ah
 }
 
 template <int D, class Real>
-void Pipeline<D, Real>::run(std::int64_t first, std::int64_t last) {
+std::int64_t Pipeline<D, Real>::run(std::int64_t first, std::int64_t last,
+                                    const std::function<bool()>& pause) {
   const std::int64_t passes = (last - first + steps_a_pass_ - 1) / steps_a_pass_;
+  // A pass is decided on in its first band, which comes after that of the pass before.
+  std::atomic<std::int64_t> made = passes;
   parallel_passes(
       passes, bands_, std::int64_t(under_way_.size()), [&](std::int64_t pass, std::int64_t band, int worker) {
+        if (pause && band == 0 && pass > 0 && pass < made && pause()) made = pass;
+        if (pass >= made) return;
         const std::int64_t begin = first + pass * steps_a_pass_;
         run_band(pass, band, begin, std::min(begin + steps_a_pass_, last), workers_[std::size_t(worker)]);
       });
+  return std::min(first + made * steps_a_pass_, last);
 }
 
 template <int D, class Real>

@@ -52,8 +52,12 @@ class Pipeline {
            EndOfStep<Real>& end, const Passage& passage);
   /// To be called when fields have been set from outside.
   void find_active_cells();
-  /// Makes steps first <= n < last, which begin where the last call ended, from 0 on.
-  void run(std::int64_t first, std::int64_t last);
+  /// Makes steps first <= n < last, which begin where the last call ended, from 0 on. `pause` is asked before
+  /// each pass but the first, by any thread; where it says so, that pass and all later ones are not begun.
+  /// Returns the first step that was not made.
+  std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause = {});
+  /// Hands over what it remembers between two calls of run().
+  void keep(Archive& archive) { active_.keep(archive); }
   std::int64_t memory_bytes() const;
   /// Cells brought forward along z, all sweeps together: what was not left out.
   std::int64_t swept_cells() const;

@@ -145,6 +145,13 @@ void Recorder<D, Real>::interpolate(std::int64_t newest, double dt_s) {
   }
 }
 
+template <int D, class Real>
+void Recorder<D, Real>::keep(Archive& archive) {
+  archive.value(next_sample_);
+  archive.fixed(history_);
+  for (auto& trace : gather_.traces) archive.values(trace.samples);
+}
+
 template double water_depth_m(const Medium<2>&, const Point<2>&);
 template class Recorder<2, float>;
 template class Recorder<2, double>;

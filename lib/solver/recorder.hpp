@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/archive.hpp"
 #include "scene/scene.hpp"
 #include "solver/pass.hpp"
 #include "solver/point_access.hpp"
@@ -28,6 +29,9 @@ class Recorder {
   /// Step after step, when all columns of all lines have been taken.
   void finish(const StepTime& time);
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
+  /// Hands over what it remembers when no step is under way: the samples so far and the steps the next ones
+  /// are made of.
+  void keep(Archive& archive);
 
   /// Steps after which every sample is known.
   static std::int64_t steps_needed(const Recording& recording, double dt_s);

@@ -9,19 +9,28 @@ namespace {
 
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-                const SnapshotSink<D>& snapshots) {
+                const SnapshotSink<D>& snapshots, Pauses* pauses) {
   solver::Step<D, Real> step(scene, shot, snapshots);
-  step.run_to(step.steps(), progress);
-  return step.take_gather();
+  const Keep keep = [&step](Archive& archive) { step.keep(archive); };
+  std::function<bool()> wanted;
+  if (pauses) {
+    pauses->begin(keep);
+    wanted = [pauses] { return pauses->wanted(); };
+  }
+  for (;;) {
+    step.run_to(step.steps(), progress, wanted);
+    if (step.done() == step.steps()) return step.take_gather();
+    pauses->pause(keep, {step.done(), step.steps()});
+  }
 }
 
 }  // namespace
 
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-             const SnapshotSink<D>& snapshots) {
-  return scene.numerics.double_precision ? shoot_as<D, double>(scene, shot, progress, snapshots)
-                                         : shoot_as<D, float>(scene, shot, progress, snapshots);
+             const SnapshotSink<D>& snapshots, Pauses* pauses) {
+  return scene.numerics.double_precision ? shoot_as<D, double>(scene, shot, progress, snapshots, pauses)
+                                         : shoot_as<D, float>(scene, shot, progress, snapshots, pauses);
 }
 
 template <int D>
@@ -35,6 +44,6 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
 }
 
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
-template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&);
+template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*);
 
 }  // namespace slipwave

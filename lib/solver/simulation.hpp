@@ -6,6 +6,7 @@
 
 #include "base/progress.hpp"
 #include "scene/scene.hpp"
+#include "solver/pauses.hpp"
 
 namespace slipwave {
 
@@ -18,10 +19,11 @@ using SnapshotSink = std::function<void(double time_s, const FieldReader<D>& fie
 
 /// Shoots one shot (1-based number) of a checked scene and returns its traces, component by component in the
 /// order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
-/// Throws an Error of kind unstable when the fields grow beyond all bounds.
+/// `pauses` (may be null) can interrupt it between passes through memory and take it up again; that changes
+/// no bit of what comes out. Throws an Error of kind unstable when the fields grow beyond all bounds.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
-             const SnapshotSink<D>& snapshots = {});
+             const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr);
 
 /// What the fields and the material of a shot take of memory at most, bytes.
 template <int D>

@@ -49,6 +49,10 @@ class SlipPass : public Pass {
   std::string name() const override { return "slip, " + std::string(Correction::name) + " order"; }
   std::int64_t cells() const override { return cells_; }
   std::span<const std::int64_t> lines() const override { return lines_; }
+  void keep(Archive& archive) override {
+    if constexpr (!std::is_empty_v<typename Correction::template Memory<D, Real>>)
+      for (auto& group : groups_) archive.fixed(group.memory);
+  }
 
  private:
   struct Group {

@@ -60,6 +60,7 @@ class SourcePass : public Pass {
     return acts(time) && line >= lines_.front() && line <= lines_.back();
   }
   bool acts(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+  void keep(Archive&) override {}
 
  private:
   /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.

@@ -100,9 +100,9 @@ bool Step<D, Real>::snapshot_due(const StepTime& time) const {
 }
 
 template <int D, class Real>
-void Step<D, Real>::run_to(std::int64_t last, const Progress& progress) {
+void Step<D, Real>::run_to(std::int64_t last, const Progress& progress, const std::function<bool()>& pause) {
   progress_ = &progress;
-  while (done_ < last) {
+  for (bool paused = false; done_ < last && !paused; paused = pause && pause()) {
     // Nothing is under way where all fields are looked at.
     std::int64_t until = std::min(last, Monitor<D, Real>::next_after(done_) + 1);
     for (snapshot_step_ = done_; snapshot_step_ < until; ++snapshot_step_)
@@ -112,12 +112,21 @@ void Step<D, Real>::run_to(std::int64_t last, const Progress& progress) {
       until = snapshot_step_ + 1;
       snapshot_ = Buffer<Real>(state_.fields.size());
     }
-    pipeline_.run(done_, until);
-    done_ = until;
+    done_ = pipeline_.run(done_, until, pause);
     const StepTime time{done_ - 1, dt_s_};
-    if (snapshot) take_snapshot(time);
+    if (snapshot && done_ == until) take_snapshot(time);
     if (Monitor<D, Real>::next_after(done_ - 2) == done_ - 1) monitor_.look(time);
   }
+}
+
+template <int D, class Real>
+void Step<D, Real>::keep(Archive& archive) {
+  archive.value(done_);
+  archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
+  pipeline_.keep(archive);
+  if (layer_) layer_->keep(archive);
+  for (const auto& pass : passes_) pass->keep(archive);
+  recorder_->keep(archive);
 }
 
 template <int D, class Real>

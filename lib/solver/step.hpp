@@ -20,9 +20,14 @@ class Step : private EndOfStep<Real> {
  public:
   Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots);
 
-  /// Brings the fields to the end of step last - 1, from where they are. `progress` is told of each step.
-  void run_to(std::int64_t last, const Progress& progress = {});
+  /// Brings the fields to the end of step last - 1, from where they are, or to where a pass through memory
+  /// ends once `pause` says so (it is asked before each, by any thread). `progress` is told of each step.
+  void run_to(std::int64_t last, const Progress& progress = {}, const std::function<bool()>& pause = {});
   std::int64_t steps() const { return steps_; }
+  /// Steps that have been made.
+  std::int64_t done() const { return done_; }
+  /// Hands over all that the steps to come depend on; between two calls of run_to().
+  void keep(Archive& archive);
   Gather take_gather() { return recorder_->take(); }
   std::vector<PlannedPass> planned() const;
   const Domain<D>& domain() const { return domain_; }
