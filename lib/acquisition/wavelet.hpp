@@ -61,6 +61,8 @@ class Sampled {
   double nominal_hz() const;
   double fine_interval_s() const;
   double amplitude_spectrum(double hz) const;
+  const std::vector<double>& times_s() const { return times_s_; }
+  const std::vector<double>& values() const { return values_; }
 
  private:
   std::vector<double> times_s_, values_;
@@ -90,6 +92,7 @@ class Wavelet {
   /// The frequency above which lies `share` of the wavelet in the root-mean-square sense, that is share^2 of
   /// its energy (W5). 0.01: 2.5 F for Ricker, 8.8 F for one cycle of a sine (its kinks).
   double highest_frequency_hz(double share = 0.01) const;
+  const Shape& shape() const { return shape_; }
   /// As it was asked for: "ricker:30".
   const std::string& text() const { return text_; }
 

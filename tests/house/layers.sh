@@ -12,6 +12,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["gather"] = below["grid"] " gather"
     below["scene"] = below["grid"] " model fracture acquisition gather scene"
     below["solver"] = below["scene"] " solver"
+    below["checkpoint"] = below["solver"] " checkpoint"
     below["accuracy"] = below["solver"] " accuracy"
     below["segy"] = "base gather segy"
     below["traces"] = below["segy"] " grid traces"

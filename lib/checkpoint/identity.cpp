@@ -1,0 +1,188 @@
+#include "checkpoint/identity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <type_traits>
+
+#include "base/error.hpp"
+#include "checkpoint/checksum.hpp"
+
+namespace slipwave {
+namespace {
+
+// Structures are taken apart by name, all members of them: one that gains a member does not compile here
+// until somebody has decided where the member belongs.
+
+/// A checksum over things of all kinds.
+class Digest {
+ public:
+  void add(double value) { sum_.add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::integral auto value) { sum_.add(std::uint64_t(value)); }
+  void add(const std::string& text) { add_all(text); }
+  template <class T>
+  void add(const std::vector<T>& all) {
+    add(all.size());
+    for (const auto& one : all) add(one);
+  }
+  template <std::size_t N>
+  void add(const std::array<double, N>& all) {
+    for (const double one : all) add(one);
+  }
+  template <int D, class Value>
+  void add(const Field<D, Value>& field) {
+    add(field.grid());
+    add(field.size());
+    sum_.add(field.data(), field.size() * sizeof(Value));
+  }
+  template <int D>
+  void add(const Grid<D>& grid) {
+    const auto& [shape, spacing_m, origin_m] = grid;
+    for (const auto cells : shape) add(cells);
+    add(spacing_m);
+    add(origin_m);
+  }
+  template <int D>
+  void add(const SlipSystem<D>& system) {
+    const auto& [normal, friction, viscosity_s, strength_pa] = system;
+    add(normal);
+    for (const double constant : {friction, viscosity_s, strength_pa}) add(constant);
+  }
+  template <int D>
+  void add(const FractureSet<D>& set) {
+    const auto& [name, systems] = set;
+    add(name);
+    add(systems);
+  }
+  template <int D>
+  void add(const Model<D>& model) {
+    const auto& [medium, fracture, sets, title, source, history] = model;
+    const auto& [vp, vs, rho] = medium;
+    add(vp), add(vs), add(rho);
+    add(fracture);
+    add(sets);
+    add(title), add(source), add(history);
+  }
+  void add(const Wavelet& wavelet) {
+    add(wavelet.text());
+    const auto* sampled = std::get_if<shape::Sampled>(&wavelet.shape());
+    if (!sampled) return;  // the text says it all
+    add(sampled->times_s()), add(sampled->values());
+    add(sampled->delay_s());
+  }
+  template <int D>
+  void add(const Mechanism<D>& mechanism) {
+    add(mechanism.index());
+    if (const auto* force = std::get_if<PointForce<D>>(&mechanism)) add(force->vector);
+    if (const auto* wave = std::get_if<PlaneWave<D>>(&mechanism)) {
+      add(wave->angle_deg);
+      add(wave->direction);
+    }
+    if (const auto* moment = std::get_if<MomentTensor<D>>(&mechanism))
+      for (int i = 0; i < D; ++i)
+        for (int j = i; j < D; ++j) add(moment->tensor(i, j));
+  }
+  template <int D>
+  void add(const Source<D>& source) {
+    const auto& [position_m, mechanism, wavelet, amplitude] = source;
+    add(position_m);
+    add<D>(mechanism);
+    add(wavelet);
+    add(amplitude);
+  }
+  std::string text() const { return std::to_string(sum_.sum()); }
+
+ private:
+  void add_all(const std::string& text) {
+    add(text.size());
+    sum_.add(text.data(), text.size());
+  }
+  Checksum sum_;
+};
+
+template <class... Things>
+std::string digest_of(const Things&... things) {
+  Digest digest;
+  (digest.add(things), ...);
+  return digest.text();
+}
+
+const char* name_of(EdgeLaw law) {
+  switch (law) {
+    case EdgeLaw::free:
+      return "free";
+    case EdgeLaw::absorbing:
+      return "absorbing";
+    case EdgeLaw::rigid:
+      return "rigid";
+    case EdgeLaw::mirror:
+      return "mirror";
+  }
+  return "";
+}
+
+}  // namespace
+
+template <int D>
+Identity identity_of(const Scene<D>& scene) {
+  const auto& [model, survey, edges, numerics, recording, snapshot_every_s, with_slip] = scene;
+  const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, passage] = numerics;
+  const auto& [components, duration_s, interval_s] = recording;
+  const auto& [sources, receivers_m] = survey;
+  static_assert(std::is_same_v<std::remove_cvref_t<decltype(passage)>, Passage>);  // changes no result
+  const double step_s = given_step_s ? *given_step_s : time_step_s(scene);
+  std::string recorded;
+  for (const auto component : components)
+    recorded += (recorded.empty() ? "" : ",") + std::string(name_of(component));
+  Identity identity = {
+      {"grid", shown(model.grid())},
+      {"order", std::to_string(order)},
+      {"time order", std::to_string(time_order)},
+      {"time step", shown(step_s) + " s"},
+      {"cfl", shown(cfl)},
+      {"precision", double_precision ? "double" : "float"},
+      {"slip correction", correction == SlipCorrection::first ? "first" : "second"},
+      {"slip", with_slip ? "on" : "off"},
+      {"edge width", std::to_string(zones)},
+      {"length of the traces", shown(duration_s) + " s"},
+      {"sampling interval", shown(interval_s) + " s"},
+      {"components", recorded},
+      {"time between snapshots", snapshot_every_s ? shown(*snapshot_every_s) + " s" : "none"},
+      {"number of sources", std::to_string(sources.size())},
+      {"number of receivers", std::to_string(receivers_m.size())},
+  };
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1})
+      identity.push_back(
+          {std::string(side ? "high" : "low") + " edge of " + axis_names<D>()[std::size_t(axis)],
+           name_of(edges[axis][side])});
+  identity.push_back({"model", digest_of(model), false});
+  identity.push_back({"sources or wavelet", digest_of(sources), false});
+  identity.push_back({"receivers", digest_of(receivers_m), false});
+  return identity;
+}
+
+std::optional<std::string> difference_of(const Identity& found, const Identity& expected) {
+  for (const auto& trait : expected) {
+    const auto same = std::find_if(found.begin(), found.end(),
+                                   [&](const Trait& other) { return other.name == trait.name; });
+    if (same != found.end() && same->value == trait.value) continue;
+    if (!trait.in_words || same == found.end()) return "another " + trait.name;
+    return trait.name + ' ' + same->value + ", expected " + trait.value;
+  }
+  if (found.size() != expected.size()) return "more traits";
+  return {};
+}
+
+void keep(Archive& archive, Identity& identity) {
+  identity.resize(archive.count(identity.size(), 17));
+  for (auto& [name, value, in_words] : identity) {
+    archive.text(name);
+    archive.text(value);
+    archive.value(in_words);
+  }
+}
+
+template Identity identity_of(const Scene<2>&);
+
+}  // namespace slipwave

@@ -1,0 +1,294 @@
+#include "checkpoint/run_book.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <filesystem>
+
+#include "base/error.hpp"
+#include "base/temporary.hpp"
+
+namespace slipwave {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How long a piece of an archive will be.
+class Length : public Archive {
+ public:
+  void bytes(void*, std::size_t count) override { bytes_ += count; }
+  std::size_t count(std::size_t now, std::size_t) override {
+    bytes_ += sizeof(std::uint64_t);
+    return now;
+  }
+  std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  std::uint64_t bytes_ = 0;
+};
+
+void keep_gather(Archive& archive, Gather& gather) {
+  archive.value(gather.axis.count);
+  archive.value(gather.axis.interval_s);
+  archive.value(gather.axis.start_s);
+  gather.traces.resize(archive.count(gather.traces.size(), 1));
+  for (auto& [header, samples] : gather.traces) {
+    auto& [shot, channel, component, source_m, receiver_m, depth_source_m, depth_receiver_m] = header;
+    archive.value(shot);
+    archive.value(channel);
+    archive.value(component);
+    archive.value(source_m);
+    archive.value(receiver_m);
+    archive.value(depth_source_m);
+    archive.value(depth_receiver_m);
+    archive.values(samples);
+  }
+}
+
+/// A few bytes at a time from one archive to another.
+void copy(CheckpointPart from, Archive& to) {
+  std::vector<char> block(std::size_t(1) << 18);
+  while (from.left() > 0) {
+    const auto count = std::size_t(std::min<std::uint64_t>(from.left(), block.size()));
+    from.bytes(block.data(), count);
+    to.bytes(block.data(), count);
+  }
+}
+
+std::string place_words(std::size_t shot, const ShotPlace& place) {
+  return "shot " + std::to_string(shot) + " at step " + std::to_string(place.done) + " of " +
+         std::to_string(place.steps);
+}
+
+}  // namespace
+
+/// What a running shot asks and tells the book.
+class RunBook::ShotPauses : public Pauses {
+ public:
+  ShotPauses(RunBook& book, std::size_t shot)
+      : book_(book), shot_(shot), exceptions_(std::uncaught_exceptions()) {}
+  ~ShotPauses() override { book_.leave(shot_, std::uncaught_exceptions() > exceptions_); }
+  void begin(const Keep& keep) override {
+    const std::lock_guard lock(book_.mutex_);
+    const auto left = book_.left_off_.find(shot_);
+    if (left == book_.left_off_.end()) return;
+    in_place(book_.settings_.path, [&] { keep(left->second.content); });
+    book_.left_off_.erase(left);
+  }
+  bool wanted() override { return book_.wanted(); }
+  void pause(const Keep& keep, const ShotPlace& place) override { book_.pause(shot_, keep, place); }
+
+ private:
+  RunBook& book_;
+  std::size_t shot_;
+  int exceptions_;
+};
+
+RunBook::RunBook(Settings settings) : settings_(std::move(settings)) {
+  if (!keeps_checkpoints()) return;
+  remove_strays(settings_.path);
+  const auto there = [](const std::string& path) {
+    return access(path.c_str(), F_OK) == 0 || errno != ENOENT;
+  };
+  const auto older = older_checkpoint(settings_.path);
+  if (there(settings_.path))
+    read(settings_.path);
+  else if (there(older))
+    read(older);
+  // A place where none can be written is said before anything is computed.
+  CheckpointWriter probe(settings_.path);
+  due_ = (Clock::now() + in_ticks(settings_.every_s)).time_since_epoch().count();
+  watch_.emplace();
+}
+
+RunBook::Clock::duration RunBook::in_ticks(double seconds) {
+  constexpr double longest_s = 1e9;  // more would not fit the clock
+  return std::chrono::duration_cast<Clock::duration>(
+      std::chrono::duration<double>(std::min(seconds, longest_s)));
+}
+
+void RunBook::read(const std::string& path) {
+  reader_ = std::make_unique<CheckpointReader>(path);
+  auto content = reader_->content();
+  Identity found;
+  in_place(path, [&] { slipwave::keep(content, found); });
+  if (const auto difference = difference_of(found, settings_.identity))
+    throw Error(path + ": is of a run with " + *difference + "; remove it to begin anew");
+  keep_finished(content);
+  auto count = content.count(0, 1);
+  for (; count > 0; --count) {
+    std::uint64_t shot = 0, bytes = 0;
+    ShotPlace place;
+    SnapshotMark snapshots;
+    content.value(shot);
+    content.value(place);
+    content.value(snapshots);
+    content.value(bytes);
+    left_off_.emplace(shot, LeftOff{place, snapshots, content.part(bytes)});
+    if (snapshots.bytes > 0) logs_.insert(shot);
+  }
+  older_logs_ = logs_;
+  goes_on_at_ = description();
+}
+
+std::string RunBook::description() const {
+  std::string words;
+  if (settings_.shots > 1)
+    words = std::to_string(finished_.size()) + " of " + std::to_string(settings_.shots) + " shots done";
+  const auto add = [&](std::size_t shot, const ShotPlace& place) {
+    words += (words.empty() ? "" : ", ") + place_words(shot, place);
+  };
+  for (const auto& [shot, running] : running_)
+    if (running.waits) add(shot, running.place);
+  for (const auto& [shot, left] : left_off_) add(shot, left.place);
+  return words.empty() ? "the shot done" : words;
+}
+
+Gather* RunBook::gather(std::size_t shot) {
+  const auto found = finished_.find(shot);
+  return found != finished_.end() && found->second ? &*found->second : nullptr;
+}
+
+void RunBook::finish(std::size_t shot, Gather gather) {
+  const std::lock_guard lock(mutex_);
+  finished_[shot] = std::move(gather);
+}
+
+void RunBook::put_away(std::size_t shot) { finished_[shot].reset(); }
+
+std::string RunBook::snapshot_log(std::size_t shot) const {
+  return settings_.path + ".shot" + std::to_string(shot);
+}
+
+SnapshotMark RunBook::snapshots_of(std::size_t shot) const {
+  const auto left = left_off_.find(shot);
+  return left == left_off_.end() ? SnapshotMark() : left->second.snapshots;
+}
+
+std::unique_ptr<Pauses> RunBook::pauses_of(std::size_t shot, Mark mark) {
+  if (!keeps_checkpoints()) return nullptr;
+  const std::lock_guard lock(mutex_);
+  running_[shot].mark = std::move(mark);
+  return std::make_unique<ShotPauses>(*this, shot);
+}
+
+bool RunBook::wanted() const {
+  return !failed_ && (watch_->noted() != 0 || Clock::now().time_since_epoch().count() >= due_);
+}
+
+bool RunBook::all_wait() const {
+  return std::all_of(running_.begin(), running_.end(), [](const auto& one) { return one.second.waits; });
+}
+
+void RunBook::pause(std::size_t shot, const Keep& keep, const ShotPlace& place) {
+  std::unique_lock lock(mutex_);
+  auto& self = running_.at(shot);
+  self.keep = keep;
+  self.place = place;
+  self.waits = true;
+  const auto page = page_;
+  while (page == page_ && !failed_) {
+    if (all_wait())
+      write_page();
+    else
+      turned_.wait(lock);
+  }
+  self.waits = false;
+  if (ends_ != 0) throw Interrupted{ends_};
+}
+
+/// A shot has ended, one way or the other; others may wait for it.
+void RunBook::leave(std::size_t shot, bool failed) {
+  const std::lock_guard lock(mutex_);
+  if (failed) failed_ = true;
+  running_.erase(shot);
+  turned_.notify_all();
+}
+
+void RunBook::turn_page() {
+  if (!keeps_checkpoints() || !wanted()) return;
+  const std::lock_guard lock(mutex_);
+  write_page();
+  if (ends_ != 0) throw Interrupted{ends_};
+}
+
+/// While all shots wait. A checkpoint that can not be written does not end the run: the older one is there.
+void RunBook::write_page() {
+  ends_ = watch_->noted();
+  const std::string ended = ends_ == 0 ? "" : "ended by signal " + std::to_string(ends_);
+  try {
+    write();
+    if (ends_ != 0) settings_.say(ended + "; " + settings_.path + " holds " + description());
+  } catch (const Error& error) {
+    settings_.warn(ended + (ended.empty() ? "" : "; ") + error.what() +
+                   "; the checkpoint was not written, an older one stays as it was");
+  }
+  due_ = (Clock::now() + in_ticks(settings_.every_s)).time_since_epoch().count();
+  ++page_;
+  for (auto& [shot, running] : running_) running.waits = false;
+  turned_.notify_all();
+}
+
+void RunBook::write() {
+  CheckpointWriter out(settings_.path);
+  std::set<std::size_t> logs;
+  slipwave::keep(out, settings_.identity);
+  keep_finished(out);
+  out.count(running_.size() + left_off_.size(), 1);
+  const auto announce = [&](std::uint64_t shot, ShotPlace place, SnapshotMark snapshots,
+                            std::uint64_t bytes) {
+    out.value(shot);
+    out.value(place);
+    out.value(snapshots);
+    out.value(bytes);
+    if (snapshots.bytes > 0) logs.insert(shot);
+  };
+  for (const auto& [shot, running] : running_) {
+    Length length;
+    running.keep(length);
+    announce(shot, running.place, running.mark ? running.mark() : SnapshotMark(), length.bytes());
+    running.keep(out);
+  }
+  for (const auto& [shot, left] : left_off_) {
+    announce(shot, left.place, left.snapshots, left.content.left());
+    copy(left.content, out);
+  }
+  out.commit();
+  // The older checkpoint stays of use, too.
+  for (const auto shot : older_logs_)
+    if (logs.count(shot) + logs_.count(shot) == 0) unlink(snapshot_log(shot).c_str());
+  older_logs_ = std::exchange(logs_, logs);
+}
+
+void RunBook::keep_finished(Archive& archive) {
+  std::vector<std::uint64_t> shots;
+  for (const auto& [shot, gather] : finished_) shots.push_back(shot);
+  archive.values(shots);
+  for (const auto shot : shots) {
+    auto& gather = finished_[shot];
+    bool kept = gather.has_value();
+    archive.value(kept);
+    if (kept && !gather) gather.emplace();
+    if (kept) keep_gather(archive, *gather);
+  }
+}
+
+void RunBook::close() {
+  if (!keeps_checkpoints()) return;
+  unlink(older_checkpoint(settings_.path).c_str());
+  unlink(settings_.path.c_str());
+  const fs::path path(settings_.path);
+  const std::string log = path.filename().string() + ".shot";
+  std::error_code failed;
+  for (const auto& entry :
+       fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", failed)) {
+    const auto name = entry.path().filename().string();
+    if (name.compare(0, log.size(), log) == 0 && name.size() > log.size() &&
+        name.find_first_not_of("0123456789", log.size()) == std::string::npos)
+      unlink(entry.path().c_str());
+  }
+}
+
+}  // namespace slipwave

@@ -1,0 +1,119 @@
+#include "checkpoint/snapshot_log.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cassert>
+#include <cerrno>
+
+#include "base/error.hpp"
+#include "base/temporary.hpp"
+
+namespace slipwave {
+namespace {
+
+[[noreturn]] void fail(const std::string& path, int error_number) {
+  throw Error(path + ": " + cause_of(error_number));
+}
+
+}  // namespace
+
+template <int D>
+SnapshotLog<D>::SnapshotLog(const std::string& path, const Grid<D>& grid, std::size_t fields,
+                            const SnapshotMark& mark, const Take& take)
+    : path_(path), grid_(grid), mark_(mark) {
+  const int begin_anew = mark.bytes == 0 ? O_CREAT | O_TRUNC : 0;
+  descriptor_ = open(path.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | begin_anew, 0600);
+  if (descriptor_ < 0) fail(path_, errno);
+  try {
+    replay(take, fields);
+    if (ftruncate(descriptor_, off_t(mark_.bytes)) != 0) fail(path_, errno);
+  } catch (...) {
+    close(descriptor_);
+    throw;
+  }
+}
+
+template <int D>
+SnapshotLog<D>::~SnapshotLog() {
+  close(descriptor_);
+}
+
+template <int D>
+void SnapshotLog<D>::replay(const Take& take, std::size_t fields) {
+  struct stat status {};
+  if (fstat(descriptor_, &status) != 0) fail(path_, errno);
+  if (std::uint64_t(status.st_size) < mark_.bytes)
+    throw Error(path_ + ": found " + std::to_string(status.st_size) + " bytes, expected the " +
+                std::to_string(mark_.bytes) + " of which the checkpoint knows");
+  const auto get = [&](void* first, std::size_t count) {
+    char* to = static_cast<char*>(first);
+    while (count > 0) {
+      const ssize_t got = ::read(descriptor_, to, count);
+      if (got < 0 && errno == EINTR) continue;
+      if (got < 0) fail(path_, errno);
+      if (got == 0) throw Error(path_ + ": ended while it was read, expected it to stay as it is");
+      to += got;
+      count -= std::size_t(got);
+    }
+  };
+  const std::uint64_t a_time = sizeof(double) + fields * std::uint64_t(grid_.size()) * sizeof(float);
+  const auto damaged = [&] { return Error(path_ + ": does not hold what the checkpoint says of it"); };
+  if (mark_.bytes != mark_.times * a_time) throw damaged();
+  // Looked at once before anything of it is used.
+  for (const bool use : {false, true}) {
+    if (lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, errno);
+    Checksum checksum;
+    for (std::uint64_t n = 0; n < mark_.times; ++n) {
+      double time_s = 0;
+      get(&time_s, sizeof time_s);
+      checksum.add(&time_s, sizeof time_s);
+      std::vector<Field<D>> all;
+      for (std::size_t field = 0; field < fields; ++field) {
+        all.emplace_back(grid_);
+        get(all.back().data(), all.back().size() * sizeof(float));
+        checksum.add(all.back().data(), all.back().size() * sizeof(float));
+      }
+      if (use) take(time_s, all);
+    }
+    if (checksum.sum() != mark_.checksum) throw damaged();
+  }
+}
+
+template <int D>
+void SnapshotLog<D>::put(const void* first, std::size_t count) {
+  const char* from = static_cast<const char*>(first);
+  Checksum checksum(mark_.checksum);
+  checksum.add(first, count);
+  mark_.checksum = checksum.sum();
+  mark_.bytes += count;
+  while (count > 0) {
+    const ssize_t written = ::write(descriptor_, from, count);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path_, errno);
+    from += written;
+    count -= std::size_t(written);
+  }
+}
+
+template <int D>
+void SnapshotLog<D>::append(double time_s, const std::vector<Field<D>>& fields) {
+  put(&time_s, sizeof time_s);
+  for (const auto& field : fields) {
+    assert(field.grid() == grid_);
+    put(field.data(), field.size() * sizeof(float));
+  }
+  ++mark_.times;
+}
+
+template <int D>
+SnapshotMark SnapshotLog<D>::synchronized() {
+  while (fsync(descriptor_) != 0)
+    if (errno != EINTR) fail(path_, errno);
+  return mark_;
+}
+
+template class SnapshotLog<2>;
+
+}  // namespace slipwave
