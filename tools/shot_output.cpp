@@ -1,12 +1,17 @@
 #include "shot_output.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
+#include <span>
 
 #include "base/error.hpp"
+#include "base/output_file.hpp"
 #include "base/parallel.hpp"
+#include "base/temporary.hpp"
+#include "checkpoint/snapshot_log.hpp"
 #include "output/derivatives.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "segy/writer.hpp"
@@ -84,10 +89,36 @@ void check_sampling(const Recording& recording, const cli::Context& context) {
   for (const auto& sentence : segy::warnings_of(info)) context.warn(sentence);
 }
 
-/// A trace file that is being collected.
-struct Collected {
-  std::unique_ptr<OutputFile> out;
-  Gather gather;
+/// Trace files by name, opened before their shots are shot.
+using TraceFiles = std::map<std::string, OutputFile>;
+
+/// Snapshots of one shot: the file, and with a checkpoint the log that goes with it.
+class Snapshots {
+ public:
+  Snapshots(const std::string& path, const Grid<2>& grid, const std::vector<std::string>& fields,
+            const SnapshotHistory& history, const RunBook& book, std::size_t shot)
+      : writer_(path, grid, fields, history) {
+    if (book.keeps_checkpoints())
+      log_.emplace(book.snapshot_log(shot), grid, fields.size(), book.snapshots_of(shot),
+                   [this](double time_s, const auto& taken) { writer_.write(time_s, taken); });
+  }
+  SnapshotSink<2> sink() {
+    return [this](double time_s, const FieldReader<2>& field) {
+      std::vector<Field<2>> taken;
+      for (const auto& name : writer_.fields()) taken.push_back(snapshot_of(name, field));
+      writer_.write(time_s, taken);
+      if (log_) log_->append(time_s, taken);
+    };
+  }
+  RunBook::Mark mark() {
+    if (!log_) return {};
+    return [this] { return log_->synchronized(); };
+  }
+  void commit() { writer_.commit(); }
+
+ private:
+  SnapshotWriter<2> writer_;
+  std::optional<SnapshotLog<2>> log_;
 };
 
 }  // namespace
@@ -106,6 +137,17 @@ void ShotOutput::check(std::size_t shots) const {
   if (!snapshots.empty() && holds(snapshots, "{component}"))
     throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
                 ErrorKind::usage);
+  if (checkpoint_every_s && checkpoint.empty())
+    throw Error("found --checkpoint-every without --checkpoint, expected where to write it",
+                ErrorKind::usage);
+  if (checkpoint_every_s && !(*checkpoint_every_s > 0))
+    throw Error("--checkpoint-every: found " + shown(*checkpoint_every_s) + ", expected it above 0",
+                ErrorKind::usage);
+  if (checkpoint == "-") throw Error("--checkpoint: found -, expected the name of a file", ErrorKind::usage);
+  for (const auto& output : {traces, snapshots})
+    if (!checkpoint.empty() && checkpoint == output)
+      throw Error("found " + checkpoint + " for both --checkpoint and an output, expected two places",
+                  ErrorKind::usage);
   if (shots_in_parallel < 0)
     throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
                 ErrorKind::usage);
@@ -124,67 +166,118 @@ std::size_t ShotOutput::shots_at_once(const Scene<2>& scene) const {
       std::clamp<std::int64_t>(std::min<std::int64_t>(fit, parallel_threads()), 1, std::int64_t(shots)));
 }
 
+RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
+                              const cli::Context& context) const {
+  RunBook::Settings settings;
+  settings.path = checkpoint;
+  settings.shots = scene.survey.sources.size();
+  settings.first_shot = std::size_t(first_shot);
+  settings.say = [&context](const std::string& sentence) { context.say(sentence); };
+  settings.warn = [&context](const std::string& sentence) { context.warn(sentence); };
+  if (!checkpoint.empty()) {
+    settings.every_s = checkpoint_every_s.value_or(usual_checkpoint_every_s);
+    settings.identity = identity_of(scene);
+    settings.identity.push_back({"program", context.version});
+    if (!snapshots.empty()) settings.identity.push_back({"fields", snapshot_fields});
+    settings.identity.push_back({"first shot", std::to_string(first_shot)});
+    settings.identity.push_back({"history", history, false});
+  }
+  return RunBook(std::move(settings));
+}
+
+/// Whether the files that a finished shot has to itself are where they were put.
+bool ShotOutput::in_place_still(const Scene<2>& scene, RunBook& book, std::size_t shot) const {
+  const auto there = [](const std::string& path) { return path == "-" || access(path.c_str(), F_OK) == 0; };
+  const std::size_t number = shot + std::size_t(first_shot - 1);
+  bool all = snapshots.empty() || there(name_for(snapshots, number, ""));
+  if (!book.gather(shot) && !scene.survey.receivers_m.empty())
+    for (const Component component : scene.recording.components)
+      all &= there(name_for(traces, number, name_of(component)));
+  return all;
+}
+
 void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
                            const cli::Context& context) const {
   const auto entries = entries_of(scene, history, context.version);
-  const bool any_trace = !scene.survey.receivers_m.empty();
+  const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
   if (any_trace) check_sampling(scene.recording, context);
   if (any_trace && !snapshots.empty() && snapshots == traces)
     throw Error("found " + traces + " for both --output and --snapshots, expected two places",
                 ErrorKind::usage);
-  std::map<std::string, Collected> files;
   const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
   const auto number_of = [&](std::size_t shot) { return shot + std::size_t(first_shot - 1); };
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };
-  for (std::size_t first = 1; first <= shots; first += at_once) {
-    const auto count = std::min(at_once, shots - first + 1);
-    for (std::size_t shot = first; shot < first + count; ++shot)
-      for (const Component component : scene.recording.components) {
-        const auto name = name_of_file(shot, component);
-        auto& file = files[name];
-        if (!file.out && any_trace)
-          file.out = std::make_unique<OutputFile>(name, OutputFile::Content::binary);
-      }
-    std::optional<SnapshotWriter<2>> writer;
-    SnapshotSink<2> sink;
-    if (!snapshots.empty()) {
-      writer.emplace(name_for(snapshots, number_of(first), ""), scene.model.grid(),
-                     parse_snapshot_fields<2>(snapshot_fields),
-                     SnapshotHistory{"wave fields of shot " + std::to_string(number_of(first)),
-                                     context.version, history});
-      sink = [&](double time_s, const FieldReader<2>& field) {
-        std::vector<Field<2>> fields;
-        for (const auto& name : writer->fields()) fields.push_back(snapshot_of(name, field));
-        writer->write(time_s, fields);
-      };
+  // Samples are written alike whether anything was computed before, or all came from a checkpoint.
+  flush_subnormals();
+  RunBook book = open_book(scene, history, context);
+  const bool goes_on = !book.goes_on_at().empty();
+  if (goes_on) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
+  std::vector<std::size_t> open;
+  for (std::size_t shot = 1; shot <= shots; ++shot) {
+    if (book.finished(shot) && !in_place_still(scene, book, shot)) book.forget(shot);
+    if (!book.finished(shot)) open.push_back(shot);
+    if (goes_on && !snapshots.empty()) remove_strays(name_for(snapshots, number_of(shot), ""));
+  }
+  TraceFiles files;
+  const auto open_files = [&](std::size_t shot) {
+    for (const Component component : scene.recording.components) {
+      const auto name = name_of_file(shot, component);
+      if (!any_trace || files.count(name) > 0) continue;
+      if (goes_on) remove_strays(name);
+      files.try_emplace(name, name, OutputFile::Content::binary);
     }
-    std::vector<Gather> gathers(count);
-    const auto progress =
-        context.progress("shot " + std::to_string(number_of(first)) +
-                         (count > 1 ? " to " + std::to_string(number_of(first + count - 1)) : ""));
-    parallel_jobs(std::int64_t(count), int(at_once), [&](std::int64_t n) {
-      // The first of those that run together speaks for all.
-      gathers[std::size_t(n)] = shoot(scene, first + std::size_t(n), n == 0 ? progress : Progress(), sink);
-    });
-    for (std::size_t n = 0; n < count; ++n)
-      for (auto& trace : gathers[n].traces) {
+  };
+  // Writes the files that all shots have been shot for; each trace goes once.
+  const auto write_files = [&] {
+    std::map<std::string, Gather> gathers;
+    for (std::size_t shot = 1; shot <= shots; ++shot) {
+      Gather* const gather = book.gather(shot);
+      if (!gather) continue;
+      open_files(shot);
+      for (auto& trace : gather->traces) {
         trace.header.shot += first_shot - 1;
-        auto& collected = files[name_of_file(first + n, trace.header.component)].gather;
-        collected.axis = gathers[n].axis;
+        auto& collected = gathers[name_of_file(shot, trace.header.component)];
+        collected.axis = gather->axis;
         collected.traces.push_back(std::move(trace));
       }
-    if (writer) writer->commit();
-    // With {shot} in the name nothing more comes for these files.
-    if (!holds(traces, "{shot}") && first + count <= shots) continue;
+    }
     for (auto& [name, file] : files) {
-      if (!file.out) continue;
-      segy::write_gather(*file.out, file.gather, {}, entries);
-      file.out->commit();
+      segy::write_gather(file, gathers[name], {}, entries);
+      file.commit();
     }
     files.clear();
+    for (std::size_t shot = 1; shot <= shots; ++shot)
+      if (book.finished(shot)) book.put_away(shot);
+  };
+  if (a_file_a_shot) write_files();
+  for (std::size_t first = 0; first < open.size(); first += at_once) {
+    const std::span<const std::size_t> group(open.data() + first, std::min(at_once, open.size() - first));
+    for (const auto shot : group) open_files(shot);
+    std::optional<Snapshots> kept;
+    if (!snapshots.empty())
+      kept.emplace(name_for(snapshots, number_of(group[0]), ""), scene.model.grid(),
+                   parse_snapshot_fields<2>(snapshot_fields),
+                   SnapshotHistory{"wave fields of shot " + std::to_string(number_of(group[0])),
+                                   context.version, history},
+                   book, group[0]);
+    const auto progress =
+        context.progress("shot " + std::to_string(number_of(group.front())) +
+                         (group.size() > 1 ? " to " + std::to_string(number_of(group.back())) : ""));
+    parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
+      const auto shot = group[std::size_t(n)];
+      const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
+      // The first of those that run together speaks for all.
+      book.finish(shot, shoot(scene, shot, n == 0 ? progress : Progress(),
+                              kept ? kept->sink() : SnapshotSink<2>(), pauses.get()));
+    });
+    if (kept) kept->commit();
+    if (a_file_a_shot) write_files();
+    if (group.back() != open.back()) book.turn_page();
   }
+  if (!a_file_a_shot) write_files();
+  book.close();
 }
 
 }  // namespace slipwave

@@ -19,6 +19,8 @@ namespace {
 /// Pieces a worker gets on average: enough to even out what the machine takes from some of them.
 constexpr std::int64_t pieces_a_worker = 4;
 
+}  // namespace
+
 void flush_subnormals() {
 #if defined(__x86_64__)
   _mm_setcsr(_mm_getcsr() | 0x8040);  // FTZ | DAZ
@@ -28,8 +30,6 @@ void flush_subnormals() {
   asm volatile("msr fpcr, %0" : : "r"(fpcr | (1ull << 24)));
 #endif
 }
-
-}  // namespace
 
 struct ThreadLimit::Impl {
   tbb::global_control control;

@@ -22,6 +22,10 @@ int parallel_workers();
 /// How many of them work at once.
 int parallel_threads();
 
+/// From now on subnormal numbers count as zero in this thread, as they do for good in every thread that has
+/// worked for the functions below.
+void flush_subnormals();
+
 /// Runs body(begin, end, worker) over pieces of 0 .. count, each at least `grain` long (the last may be
 /// shorter), and returns when all are done. Pieces must not depend on each other; who takes which is left to
 /// the moment, so a thread that the machine keeps waiting takes fewer. Subnormal numbers count as zero

@@ -157,8 +157,8 @@ Identity identity_of(const Scene<D>& scene) {
           {std::string(side ? "high" : "low") + " edge of " + axis_names<D>()[std::size_t(axis)],
            name_of(edges[axis][side])});
   identity.push_back({"model", digest_of(model), false});
-  identity.push_back({"sources or wavelet", digest_of(sources), false});
-  identity.push_back({"receivers", digest_of(receivers_m), false});
+  identity.push_back({"source or wavelet", digest_of(sources), false});
+  identity.push_back({"set of receivers", digest_of(receivers_m), false});
   return identity;
 }
 

@@ -138,7 +138,7 @@ std::string RunBook::description() const {
   if (settings_.shots > 1)
     words = std::to_string(finished_.size()) + " of " + std::to_string(settings_.shots) + " shots done";
   const auto add = [&](std::size_t shot, const ShotPlace& place) {
-    words += (words.empty() ? "" : ", ") + place_words(shot, place);
+    words += (words.empty() ? "" : ", ") + place_words(shot + settings_.first_shot - 1, place);
   };
   for (const auto& [shot, running] : running_)
     if (running.waits) add(shot, running.place);

@@ -29,6 +29,7 @@ class RunBook {
     std::string path;  // of the checkpoint; empty: there is none
     double every_s = 600;
     std::size_t shots = 1;
+    std::size_t first_shot = 1;  // what messages call the first one
     Identity identity;
     std::function<void(const std::string&)> say, warn;
   };

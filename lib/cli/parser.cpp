@@ -16,7 +16,8 @@ namespace {
 namespace po = boost::program_options;
 
 // Not part of the provenance: the bytes of the output do not depend on them.
-const std::set<std::string> without_effect = {"output", "threads", "quiet", "verbose"};
+const std::set<std::string> without_effect = {
+    "output", "threads", "quiet", "verbose", "checkpoint", "checkpoint-every", "shots-in-parallel"};
 // Only sensible on the command line.
 const std::set<std::string> not_in_config = {"help", "version", "config"};
 

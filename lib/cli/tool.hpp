@@ -63,7 +63,8 @@ class Options {
 /// What run() gets beside its settings.
 struct Context {
   /// Provenance: program name without path, arguments quoted as a shell needs them. What does not change the
-  /// bytes of the output is left out (-o, --threads, -q, -v), so they are the same wherever they are written.
+  /// bytes of the output is left out (-o, --threads, -q, -v, checkpoints), so they are the same wherever they
+  /// are written.
   std::string command_line;
   std::string tool;     // "sw-layers"
   std::string version;  // "slipwave 0.1.0"

@@ -1,0 +1,215 @@
+#include <sys/stat.h>
+
+#include <cstdlib>
+#include <random>
+#include <string>
+
+#include "shell.hpp"
+
+namespace {
+
+/// A run of about half a second with cracks, and what it gives when nobody disturbs it.
+class Checkpoint : public Shell {
+ protected:
+  Checkpoint() {
+    done(
+        "sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1600:2200:3 | "
+        "sw-fracture - --box 500:900,600:700 --dip 30 --friction 0.1 --viscosity 4e3 -o m.nc");
+  }
+  const std::string scene = "sw-shoot m.nc --source 700,50 --wavelet ricker:20 --receivers 0:1500:50,20 ";
+  const std::string shoot = scene + "--time 0.8 --threads 1 ";
+  const std::string two_shots = scene + "--time 0.4 --threads 1 --source 300,60 ";
+  const std::string often = "--checkpoint c --checkpoint-every 0.01 ";
+
+  const std::string seldom = "--checkpoint c --checkpoint-every 0.1 ";
+
+  /// Ends a line by a signal when its first checkpoint is there.
+  Ran ended_once_begun(const std::string& line, const std::string& signal) const {
+    // A shell's background children ignore INT unless they are jobs.
+    return run("set -m; " + line + "& tool=$!; until [ -e c ]; do sleep 0.01; done; kill -" + signal +
+               " $tool; wait $tool");
+  }
+  /// Ends a line by a signal after some seconds; its exit code, what it said in `said`.
+  int ended(const std::string& line, const std::string& signal, double after_s, std::string& said) const {
+    const Ran ran = run(line + "& tool=$!; sleep " + std::to_string(after_s) + "; kill -" + signal +
+                        " $tool 2> gone; wait $tool; code=$?; rm gone; exit $code");
+    said = ran.err;
+    return ran.code;
+  }
+  /// The step a run says it goes on at, 0 where it says nothing.
+  static long step_of(const std::string& said) {
+    const std::string before = "at step ";
+    const auto at = said.find(before);
+    return said.find("goes on from") == std::string::npos || at == std::string::npos
+               ? 0
+               : std::atol(said.c_str() + at + before.size());
+  }
+};
+
+bool long_form() {
+  const char* asked = std::getenv("SLIPWAVE_LONG");
+  return asked && *asked && std::string(asked) != "0";
+}
+
+}  // namespace
+
+TEST_F(Checkpoint, ARunThatIsKilledAnywhereGoesOnToTheSameOutputs) {
+  const std::string outputs = "--snapshots s.nc --every 0.05 -o out.sgy ";
+  done(shoot + outputs + "; mv out.sgy whole.sgy; mv s.nc whole.nc");
+  write("out.sgy", "older");
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> moment(0.02, 0.3);
+  const int wanted = long_form() ? 50 : 8;
+  int kills = 0, went_on = 0;
+  long step = 0;
+  for (int runs = 0; kills < wanted && runs < 4 * wanted; ++runs) {
+    std::string said;
+    const int code = ended("ulimit -c 0; " + shoot + outputs + often, "KILL", moment(engine), said);
+    if (code == 0) {  // done before that moment: from the beginning
+      done("cmp out.sgy whole.sgy && cmp s.nc whole.nc && echo older > out.sgy && rm s.nc");
+      EXPECT_EQ(files(), "m.nc out.sgy whole.nc whole.sgy");
+      step = 0;
+      continue;
+    }
+    ASSERT_EQ(code, 128 + 9) << said;
+    ++kills;
+    // Nothing is lost that a checkpoint knew of, and no output is half there.
+    if (const long at = step_of(said); at > 0) {
+      EXPECT_GE(at, step) << said;
+      step = at;
+      ++went_on;
+    }
+    const auto out = content("out.sgy");
+    EXPECT_TRUE(out.substr(0, 5) == "older" || out == content("whole.sgy")) << "after kill " << kills;
+    EXPECT_TRUE(!exists("s.nc") || content("s.nc") == content("whole.nc")) << "after kill " << kills;
+  }
+  EXPECT_EQ(kills, wanted);
+  EXPECT_GT(went_on, wanted / 4);
+  const Ran last = run(shoot + outputs + often);
+  EXPECT_EQ(last.code, 0) << last.err;
+  done("cmp out.sgy whole.sgy && cmp s.nc whole.nc");
+  EXPECT_EQ(files(), "m.nc out.sgy s.nc whole.nc whole.sgy");
+}
+
+TEST_F(Checkpoint, ASignalWritesOneAndShowsInTheExitStatus) {
+  done(shoot + "-o whole.sgy");
+  for (const auto& [name, number] : {std::pair("TERM", 15), std::pair("INT", 2), std::pair("HUP", 1)}) {
+    write("out.sgy", "older");
+    const std::string line = shoot + "-o out.sgy " + seldom;
+    const Ran ran = ended_once_begun(line, name);
+    EXPECT_EQ(ran.code, 128 + number);
+    EXPECT_NE(
+        ran.err.find("sw-shoot: ended by signal " + std::to_string(number) + "; c holds shot 1 at step "),
+        std::string::npos)
+        << ran.err;
+    EXPECT_EQ(files(), "c c.1 m.nc out.sgy whole.sgy");
+    EXPECT_EQ(content("out.sgy"), "older");
+    const Ran rest = run(line);
+    EXPECT_EQ(rest.code, 0);
+    EXPECT_GT(step_of(rest.err), 0) << rest.err;
+    EXPECT_EQ(rest.err.find('\n'), rest.err.size() - 1) << rest.err;
+    done("cmp out.sgy whole.sgy");
+    EXPECT_EQ(files(), "m.nc out.sgy whole.sgy");
+  }
+}
+
+TEST_F(Checkpoint, ASecondSignalEndsTheRunAtOnce) {
+  // Nobody reads what is written at the end, so the run hangs there.
+  const Ran ran =
+      run("mkfifo pipe; sleep 10 < pipe & sleeper=$!; sw-shoot m.nc --source 700,50 --wavelet ricker:20 "
+          "--receivers 0:1500:5,20 --time 0.05 --dt 0.0001 --checkpoint c > pipe & tool=$!; sleep 1.5; "
+          "kill -TERM $tool; sleep 0.3; kill -0 $tool && echo hangs; kill -TERM $tool; wait $tool; "
+          "code=$?; kill $sleeper; exit $code");
+  EXPECT_EQ(ran.out, "hangs\n");
+  EXPECT_EQ(ran.code, 128 + 15);
+}
+
+TEST_F(Checkpoint, WithoutOneASignalLeavesNothing) {
+  std::string said;
+  EXPECT_EQ(ended(shoot + "--snapshots s.nc --every 0.05 -o out.sgy ", "TERM", 0.2, said), 128 + 15);
+  EXPECT_EQ(said, "");
+  EXPECT_EQ(files(), "m.nc");
+}
+
+TEST_F(Checkpoint, NothingIsStreamedBeforeAllIsDone) {
+  done(shoot + "-o whole.sgy");
+  const std::string line = shoot + "-o - " + seldom;
+  const Ran ran = ended_once_begun(line + "> part", "TERM");
+  EXPECT_EQ(ran.code, 128 + 15);
+  EXPECT_EQ(content("part"), "");
+  EXPECT_EQ(run(line + "> rest").code, 0);
+  done("cmp rest whole.sgy");
+}
+
+TEST_F(Checkpoint, ShotsThatAreDoneAreNotShotAgain) {
+  const std::string shots = scene + "--time 0.4 --threads 3 --source 300,60 --source 900,70 ";
+  done(shots + "-o 'whole{shot}.sgy'");
+  for (const std::string parallel : {"1", "2", "3"}) {
+    const std::string line = shots + seldom + "--shots-in-parallel " + parallel + " -o 'out{shot}.sgy' ";
+    const std::string moment = parallel == "1" ? "until [ -e out1.sgy ]; do sleep 0.01; done; "
+                                               : "until [ -e c.1 ]; do sleep 0.01; done; ";
+    const Ran ran = run("(exec " + line + ") & " + moment + "kill -TERM $!; wait $!");
+    ASSERT_EQ(ran.code, 128 + 15) << ran.err;
+    const auto first = parallel == "1" ? done("stat -c '%i %y' out1.sgy") : "";
+    const Ran rest = run(line);
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_NE(rest.err.find(" of 3 shots done"), std::string::npos) << rest.err;
+    if (parallel == "1") {
+      EXPECT_NE(rest.err.find(" 1 of 3 shots done"), std::string::npos) << rest.err;
+      EXPECT_EQ(done("stat -c '%i %y' out1.sgy"), first);
+    }
+    for (const std::string shot : {"1", "2", "3"}) done("cmp out" + shot + ".sgy whole" + shot + ".sgy");
+    done("rm out?.sgy");
+    EXPECT_EQ(files(), "m.nc whole1.sgy whole2.sgy whole3.sgy");
+  }
+}
+
+TEST_F(Checkpoint, AFileOfAFinishedShotThatIsGoneIsMadeAgain) {
+  const std::string line = two_shots +
+                           "--snapshots 's{shot}.nc' --every 0.1 "
+                           "--checkpoint c --checkpoint-every 0.1 -o ";
+  done(two_shots +
+       "--snapshots 's{shot}.nc' --every 0.1 -o 'whole{shot}.sgy'; "
+       "mv s1.nc whole1.nc; mv s2.nc whole2.nc");
+  for (const std::string gone : {"out1.sgy", "s1.nc"}) {
+    const Ran ran =
+        run("(exec " + line +
+            "'out{shot}.sgy') 2> /dev/null & "
+            "while [ ! -e c.shot2 ]; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!; rm " +
+            gone);
+    const Ran rest = run(line + "'out{shot}.sgy'");
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    for (const std::string shot : {"1", "2"})
+      done("cmp out" + shot + ".sgy whole" + shot + ".sgy && cmp s" + shot + ".nc whole" + shot + ".nc");
+    done("rm out?.sgy s?.nc");
+    EXPECT_EQ(files(), "m.nc whole1.nc whole1.sgy whole2.nc whole2.sgy");
+  }
+}
+
+TEST_F(Checkpoint, TheOlderOneServesToo) {
+  done(shoot + "--snapshots s.nc --every 0.05 -o whole.sgy; mv s.nc whole.nc");
+  const std::string line = shoot + often + "--snapshots s.nc --every 0.05 -o out.sgy ";
+  for (const std::string loss : {"mv c.1 c", "rm c"}) {
+    EXPECT_EQ(
+        run("(exec " + line + ") & until [ -e c.1 ]; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!")
+            .code,
+        128 + 9);
+    const Ran rest = run(loss + "; " + line);
+    EXPECT_EQ(rest.code, 0) << rest.err;
+    EXPECT_GT(step_of(rest.err), 0) << rest.err;
+    done("cmp out.sgy whole.sgy && cmp s.nc whole.nc");
+    EXPECT_EQ(files(), "m.nc out.sgy s.nc whole.nc whole.sgy");
+  }
+}
+
+TEST_F(Checkpoint, ADiskWithoutRoomForOneIsSaidAndDoesNotEndTheRun) {
+  done(shoot + "-o whole.sgy");
+  const Ran ran =
+      run("(ulimit -f 1000; " + shoot + "-o out.sgy --checkpoint c --checkpoint-every 0.1 2>&1) | cat");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.out.find("sw-shoot: warning: c: File too large; the checkpoint was not written"), 0u)
+      << ran.out;
+  done("cmp out.sgy whole.sgy");
+  EXPECT_EQ(files(), "m.nc out.sgy whole.sgy");
+  expect_refused(shoot + "--checkpoint no/c -o out.sgy", 1, "sw-shoot: no/c: No such file or directory");
+}
