@@ -40,7 +40,7 @@ TEST(Identity, TellsEverythingThatMattersByName) {
     std::function<void(Scene<2>&)> make;
   };
   const std::vector<Change> changes = {
-      {"another model", [](auto& s) { s.model.medium.vp[119] += 1; }},
+      {"another model", [](auto& s) { s.model.medium.vp[119] -= 1; }},
       {"another model", [](auto& s) { s.model.medium.vs[3] += 1; }},
       {"another model", [](auto& s) { s.model.medium.rho[0] += 1; }},
       {"another model", [](auto& s) { s.model.fracture[8] = 1; }},
