@@ -126,14 +126,13 @@ TEST_F(CheckpointFile, IsRefusedWhicheverOfItsBytesIsDamaged) {
   leave_off(settings());
   const auto whole = content(path());
   ASSERT_GT(whole.size(), 200u);
-  for (std::size_t byte = 0; byte < whole.size(); ++byte)
-    for (const char damage : {'\x01', '\xff'}) {
-      auto damaged = whole;
-      damaged[byte] = char(damaged[byte] ^ damage);
-      write(path(), damaged);
-      const auto said = refusal([&] { RunBook book(settings()); });
-      EXPECT_EQ(said.find(path() + ": "), 0u) << "byte " << byte << ": '" << said << "'";
-    }
+  for (std::size_t byte = 0; byte < whole.size(); ++byte) {
+    auto damaged = whole;
+    damaged[byte] = char(damaged[byte] ^ (1 << byte % 8));
+    write(path(), damaged);
+    const auto said = refusal([&] { RunBook book(settings()); });
+    EXPECT_EQ(said.find(path() + ": "), 0u) << "byte " << byte << ": '" << said << "'";
+  }
   write(path(), whole);
   EXPECT_EQ(refusal([&] { RunBook book(settings()); }), "");
 }
@@ -197,9 +196,9 @@ TEST_F(CheckpointFile, KeepsOneOlderAndLeavesNothingWhenClosed) {
 TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
   // Three shots of different length in three threads, pausing all the time; each run ends with the first shot
   // that has gone its part of the way, and the next goes on from the newest moment of all.
-  const auto often = settings(1e-4);
+  const auto often = settings(1e-3);
   std::array<std::size_t, 3> before{};
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 4; ++round) {
     RunBook book(often);
     std::array<Counting, 3> shots;
     std::array<std::size_t, 3> begun{};
@@ -227,7 +226,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
     EXPECT_EQ(book.finished(3), false);
     before = {0, 0, begun[2]};
   }
-  EXPECT_GT(before[2], 80u);
+  EXPECT_GE(before[2], 240u);
   EXPECT_EQ(said, "");
 }
 
