@@ -62,9 +62,7 @@ std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& hi
           shown(source.wavelet.delay_s()) + " s",
       "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
           shown(time_step_s(scene)) + " s, grid " + shown(scene.model.grid()) +
-          (scene.slips() ? std::string(", slip of ") +
-                               (n.correction == SlipCorrection::first ? "first" : "second") + " order"
-                         : std::string(", no slip")),
+          (scene.slips() ? std::string(", slip: ") + name_of(n.correction) : std::string(", no slip")),
   };
   for (std::size_t begin = 0; begin < history.size();) {
     const auto end = std::min(history.find('\n', begin), history.size());
@@ -74,9 +72,18 @@ std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& hi
   return entries;
 }
 
+std::optional<SlipField> slip_field(const std::string& name) {
+  if (name == "slip") return SlipField::slip;
+  if (name == "slip_rate") return SlipField::slip_rate;
+  if (name == "dissipated") return SlipField::dissipated;
+  if (name == "opening") return SlipField::opening;
+  return std::nullopt;
+}
+
 Field<2> snapshot_of(const std::string& name, const FieldReader<2>& field) {
   if (name == "div") return divergence<2>({field(Component::vx), field(Component::vz)});
   if (name == "curl") return curl({field(Component::vx), field(Component::vz)});
+  if (const auto slip = slip_field(name)) return field(*slip);
   return field(component_named(name));
 }
 

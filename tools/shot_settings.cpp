@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
 
 namespace slipwave {
@@ -46,7 +47,8 @@ void ShotSettings::declare_scene(cli::Options& options) {
   options.add_choice("bottom", bottom, edges, "the bottom edge");
   options.add("edge-width", edge_width, "CELLS",
               "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
-  options.add_choice("without", without, {"slip"}, "switch an effect of the model off");
+  options.add("without", without, "LIST",
+              "effects of the model to switch off: slip, friction, viscosity, cohesion, opening, prestress");
   options.add_choice("precision", precision, {"float", "double"}, "of the computation");
   options.add("allow-auxetic", limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
 }
@@ -55,7 +57,8 @@ void ShotSettings::declare_numerics(cli::Options& options) {
   options.add_choice("order", order, {"1", "3", "5", "7"}, "order of the scheme in space");
   options.add_choice("time-order", time_order, {"2", "4"},
                      "order of the splitting in time; 4: six times the work a step, --cfl up to 2");
-  options.add_choice("correction", correction, {"first", "second"}, "order of the slip correction in time");
+  options.add_choice("correction", correction, {"first", "second", "exponential"},
+                     "slip in time: by rules of first or second order, or solved exactly");
   options.add("cfl", cfl, "C", "time step over h/vp_max");
   options.add("time-step", time_step_s, "S", "time step in s, instead of --cfl");
 }
@@ -73,16 +76,22 @@ Scene<2> ShotSettings::without_model() const {
   scene.numerics.cfl = cfl;
   scene.numerics.time_step_s = time_step_s;
   scene.numerics.zone_cells = edge_width;
-  scene.numerics.correction = correction == "first" ? SlipCorrection::first : SlipCorrection::second;
+  scene.numerics.correction = correction == "first"    ? SlipCorrection::first
+                              : correction == "second" ? SlipCorrection::second
+                                                       : SlipCorrection::exponential;
   scene.numerics.double_precision = precision == "double";
   scene.numerics.time_order = std::stoi(time_order);
-  scene.with_slip = without != "slip";
+  for (const auto& name : split(without, ',')) {
+    const auto effect = in_place("--without", [&] { return slip_effect_named(name); });
+    if (effect == SlipEffect::slip) scene.with_slip = false;
+  }
   return scene;
 }
 
 void ShotSettings::read_model_into(Scene<2>& scene) const {
   scene.model = read_model<2>(model);
   in_place(model == "-" ? "standard input" : model, [&] { check(scene.model, limits); });
+  for (const auto& name : split(without, ',')) remove_effect(scene.model, slip_effect_named(name));
   check(scene);
 }
 

@@ -67,7 +67,8 @@ int one_of(const char* option, double number, const std::vector<int>& choices) {
 SlipCorrection correction_of(const std::string& name) {
   if (name == "first") return SlipCorrection::first;
   if (name == "second") return SlipCorrection::second;
-  throw Error("--corrections: found " + name + ", expected first or second", ErrorKind::usage);
+  if (name == "exponential") return SlipCorrection::exponential;
+  throw Error("--corrections: found " + name + ", expected first, second or exponential", ErrorKind::usage);
 }
 
 /// All combinations, cheap ones first; without --steps the model's cells and cells of twice the size.

@@ -42,7 +42,9 @@ std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
                      (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
                      ", Courant " + shown(setting.cfl) + ", " + shown(setting.spacing_m, 4) + " m";
   if (scene.slips())
-    name += setting.correction == SlipCorrection::first ? ", first-order slip" : ", second-order slip";
+    name += setting.correction == SlipCorrection::first    ? ", first-order slip"
+            : setting.correction == SlipCorrection::second ? ", second-order slip"
+                                                           : ", exponential slip";
   return name;
 }
 
@@ -86,7 +88,7 @@ AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, cons
   row.time_order = setting.time_order;
   row.courant = setting.cfl;  // that of the plan differs by rounding
   row.spacing_m = setting.spacing_m;
-  if (scene.slips()) row.slip_order = setting.correction == SlipCorrection::first ? 1 : 2;
+  if (scene.slips()) row.slip_order = int(setting.correction) + 1;
   row.cells = expected.computed.size();
   row.steps = expected.steps;
   row.predicted_error = expected.error.overall();

@@ -17,7 +17,7 @@ struct AccuracyRow {
   int time_order = 2;      // of the splitting
   double courant = 0;      // vp_max dt/h
   double spacing_m = 0;    // cell size
-  int slip_order = 0;      // of the slip correction; 0: nothing slips
+  int slip_order = 0;      // of the slip correction, 3: exponential; 0: nothing slips
   std::int64_t cells = 0;  // computed ones, zones included
   std::int64_t steps = 0;
   double error = 0;            // relative L2 over all traces against the reference

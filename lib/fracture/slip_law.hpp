@@ -1,215 +1,127 @@
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstddef>
-#include <limits>
-#include <type_traits>
+#include "fracture/smooth.hpp"
 
-#include "grid/tensor.hpp"
-
-/// Coulomb slip with a small viscosity on planes of one orientation, and what it does to the stress of a cell
-/// after an elastic step (docs/theory.md, section 2; Nikitin & Golubev 2021, J. Sib. Fed. Univ. 14(6)).
+/// Coulomb slip with a small viscosity, and what it takes off the shear traction of a cell within a time step
+/// (docs/theory.md, section 2; Nikitin & Golubev 2021, J. Sib. Fed. Univ. 14(6)).
 ///
-///   s      stress, tension positive                        Pa
-///   n      unit normal of the slip planes                  1
-///   s_n    n.s.n, normal stress                            Pa   (S1)
-///   tau    s.n - s_n n, shear traction, D components       Pa   (S1)
+///   tau    shear traction on the planes                    Pa   (S1)
 ///   S      q max(-s_n, 0) + cohesion, strength             Pa   (S2)
-///   q      friction, cohesion: strength of an unloaded plane   1, Pa
-///   eta    viscosity of the planes                         s
 ///   g      slip strain rate, |tau| = S (1 + eta |g|) while slipping   1/s   (S3)
-///   mu     shear modulus of the rock between the planes    Pa
-///   d      eta/(mu dt)                                     1/Pa
 ///   tau_e  shear traction after the elastic step           Pa
-///   G      mu dt g, what a step of slip at rate g takes off the shear traction   Pa
+///   c      mu dt/eta, "creep": what slip takes off the traction in a step at |tau| = 2 S   Pa
+///   G      mu dt g = c (|tau|/S - 1)_+, what slip at rate g takes off in a step            Pa
 ///
-/// Everything here is meant for the inner loop over fracture cells: no allocation, nothing virtual, no
-/// division by a quantity that may be zero. Finite stress gives finite stress for every eta >= 0, mu >= 0,
-/// dt >= 0, q >= 0 and cohesion >= 0, zero and enormous values included.
+/// Magnitudes only: directions are the caller's (slip_kernels, joint_slip). Made for the inner loop: plain
+/// scalars, no branch, nothing from the standard library, no division by anything that may be zero. Finite
+/// stress gives finite stress for every c and S from 0 to 1e30, and c = 0 changes no bit of it: intact cells
+/// may stand among the others.
 namespace slipwave {
 
-template <int D, class Real>
-using Stress = SymmetricTensor<D, Real>;
-template <int D, class Real>
-using Traction = std::array<Real, std::size_t(D)>;
+/// Largest c: the reciprocal is still a normal float. Dry friction (eta = 0) has it.
+inline constexpr double most_creep_pa = 1e30;
 
-/// What of a slip system the strength needs; S = friction max(-s_n, 0) + cohesion_pa.
-template <class Real>
-struct SlipStrength {
-  Real friction = 0;
-  Real cohesion_pa = 0;
-};
-
-/// d S above this means: no slip. Its reciprocal is still a normal float.
-inline constexpr double slip_d_limit = 1e30;
-
-/// d = eta/(mu dt) in 1/Pa, for every slip system and cell (of that mu) once before the time loop. Computed
-/// in double and held within 0 .. 1e30, so that it is finite in Real whatever the arguments: dry friction
-/// (eta = 0) gives 0, mu = 0 or dt = 0 (nothing for slip to relax) the upper end.
-template <class Real>
-Real slip_d(double eta_s, double mu_pa, double dt_s) {
-  if (!(eta_s > 0)) return Real(0);
-  const double d = eta_s / mu_pa / dt_s;  // in this order: mu dt may underflow
-  return d < slip_d_limit ? Real(d) : Real(slip_d_limit);
-}
+/// Rule by which slip within a step is made up for (theory.md 2.1).
+enum class SlipCorrection { first, second, exponential };
 
 namespace slip {
 
-template <std::size_t N, class Real>
-Real dot(const std::array<Real, N>& a, const std::array<Real, N>& b) {
-  Real sum = 0;
-  for (std::size_t i = 0; i < N; ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-/// Length of a vector; its squares neither overflow nor vanish, whatever the unit its amplitude amounts to.
-template <std::size_t N, class Real>
-Real length(const std::array<Real, N>& a) {
-  Real largest = 0;
-  for (const Real component : a) largest = std::max(largest, std::abs(component));
-  if (!(largest > 0)) return largest;
-  Real sum = 0;
-  for (const Real component : a) sum += (component / largest) * (component / largest);
-  return largest * std::sqrt(sum);
-}
-
-/// The share of `magnitude` that is left when slip of the step's end, weighted by theta, has been taken off:
-/// |tau| + theta G = magnitude with G = (|tau|/S - 1)/d, that is |tau| = S (theta + d magnitude)/(theta + d
-/// S), in a form that takes S = 0, d = 0 and an overflowing d S. `excess` becomes |tau| - S, or 0 below S.
 template <class Real>
-Real share_left(Real magnitude, Real strength, Real ds, Real theta, Real& excess) {
-  excess = 0;
-  if (!(magnitude >= strength)) return Real(1);
-  // Both are zero where the plane has no strength and no load; then nothing is left of nothing.
-  const Real reciprocal = Real(1) / std::max(magnitude, std::numeric_limits<Real>::min());
-  excess = (magnitude - strength) * (ds / (ds + theta));
-  return std::min(Real(1), (strength + excess) * reciprocal);
+[[gnu::always_inline]] inline Real greater(Real a, Real b) {
+  return a > b ? a : b;
+}
+template <class Real>
+[[gnu::always_inline]] inline Real lesser(Real a, Real b) {
+  return a < b ? a : b;
+}
+/// In place of a divisor that is zero.
+template <class Real>
+constexpr Real least = sizeof(Real) == 4 ? Real(1e-37) : Real(1e-300);
+
+/// c of planes of that viscosity in rock of that shear modulus, computed in double and held within what the
+/// law takes: dry friction (eta = 0) has the most, mu = 0 none. Planes without strength slip however large eta.
+inline double creep_pa(double viscosity_s, double mu_pa, double dt_s) {
+  if (!(viscosity_s > 0)) return most_creep_pa;
+  if (!(mu_pa > 0) || !(dt_s > 0)) return 0;
+  return greater(1 / most_creep_pa, lesser(mu_pa / viscosity_s * dt_s, most_creep_pa));
 }
 
-/// d S, finite.
+/// |tau|/S - 1 where slip of the step's end, of weight theta, carries what is above the strength:
+/// |tau| + theta G = size.
 template <class Real>
-Real bounded_ds(Real d, Real strength) {
-  return std::min(d * strength, Real(slip_d_limit));
+[[gnu::always_inline]] inline Real overload(Real size, Real strength, Real weighted_creep) {
+  return (size - strength) / greater(strength + weighted_creep, least<Real>);
+}
+
+/// What slip of one system at the rates of both ends of a step makes of |tau_e| = size (S5), (S6).
+/// `weighted_creep` is theta c, `over` becomes |tau|/S - 1 or 0.
+template <class Real>
+[[gnu::always_inline]] inline Real relaxed(Real size, Real strength, Real weighted_creep, Real& over) {
+  const bool slips = weighted_creep > 0 && size > strength;
+  over = slips ? overload(size, strength, weighted_creep) : Real(0);
+  return slips ? lesser(strength + strength * over, size) : size;
+}
+
+/// The same of two systems that share a shear stress: |tau| + theta_a G_a + theta_b G_b = size. The left side
+/// grows with |tau| in straight pieces: up to the lower strength, up to the higher one, beyond.
+template <class Real>
+[[gnu::always_inline]] inline Real relaxed_by_two(Real size, Real strength_a, Real strength_b, Real creep_a,
+                                                  Real creep_b, Real& over_a, Real& over_b) {
+  const bool swap = strength_b < strength_a;
+  const Real s1 = swap ? strength_b : strength_a, s2 = swap ? strength_a : strength_b;
+  const Real c1 = swap ? creep_b : creep_a, c2 = swap ? creep_a : creep_b;
+  Real over1, over2;
+  const Real one = relaxed(size, s1, c1, over1);
+  // How much of a change of load the weaker system leaves to the stronger one.
+  const Real passed = c1 > 0 ? s1 / greater(s1 + c1, least<Real>) : Real(1);
+  const bool both = c2 > 0 && one > s2;
+  over2 = both ? (one - s2) / greater(s2 + c2 * passed, least<Real>) : Real(0);
+  const Real two = both ? lesser(s2 + s2 * over2, one) : one;
+  over1 = both && over1 > 0 ? two / greater(s1, least<Real>) - 1 : over1;
+  over_a = swap ? over2 : over1;
+  over_b = swap ? over1 : over2;
+  return two;
+}
+
+/// (1 - theta) c of a step that begins with strength S, and theta c = c - that (S7), where `sharing` systems
+/// take off the same stress.
+template <class Real>
+[[gnu::always_inline]] inline Real creep_of_beginning(Real creep, Real strength, int sharing) {
+  return lesser(creep * Real(0.5), strength * Real(2. / sharing));
+}
+
+/// What creeps off |tau| = size within a part of a step in which nothing loads it; `creep` is for that part.
+/// Exactly 0 where nothing slips.
+template <class Real>
+[[gnu::always_inline]] inline Real crept(Real size, Real strength, Real creep) {
+  const Real excess = greater(size - strength, Real(0));
+  // Written without a choice between results, for which compilers leave the vectors.
+  return excess * (1 - smooth::decay(creep / greater(strength, least<Real>)));
+}
+
+/// The law solved over a step in which load and strength grow steadily (S10): `before` is |tau| - S at its
+/// beginning (below zero: stuck), `grown` what load less strength add to it, `strength` the mean. Returns
+/// |tau| - S at the end, slip beginning or stopping on the way where it does.
+template <class Real>
+[[gnu::always_inline]] inline Real excess_after(Real before, Real grown, Real strength, Real creep) {
+  const Real x = lesser(creep / greater(strength, least<Real>), Real(most_creep_pa));
+  const Real elastic = before + grown;
+  // Stuck at the beginning: slip for the last part of the step only.
+  const bool begins = !(before > 0);
+  const Real part = begins ? lesser(elastic / greater(grown, least<Real>), Real(1)) : Real(1);
+  const Real slipping = greater(x * part, Real(0)), left = smooth::decay(slipping);
+  const Real near_zero = smooth::mean_decay_near_zero(lesser(slipping, Real(0.5)));
+  const Real mean = slipping < Real(0.5) ? near_zero : (1 - left) / slipping;
+  const Real end = (begins ? Real(0) : before * left) + grown * (part * mean);
+  // Slipping at the beginning, stuck at the end: e^(-x w) = rho/(before + rho) at the instant w, rho =
+  // -grown/x.
+  const Real until = smooth::logarithm_of_one_more(
+      lesser(greater(before, Real(0)) * (x / greater(-grown, least<Real>)), Real(most_creep_pa)));
+  const Real stopped = grown * (1 - lesser(until / greater(x, least<Real>), Real(1)));
+  const Real started = elastic > 0 ? end : elastic, went_on = grown < 0 ? (end > 0 ? end : stopped) : end;
+  return begins ? started : went_on;
 }
 
 }  // namespace slip
-
-/// A correction is a policy: the memory it keeps for a slip system in a cell (value-initialised before the
-/// first step), and the shear traction at the end of the step from that after the elastic step, the strength
-/// S at the end of the step and d. What slip at the rate of that instant takes off the shear traction before
-/// the next elastic step it leaves in `ahead` of its memory (begin() applies it); a correction without such a
-/// part has none.
-
-/// Implicit Euler, first order in time (theory.md (S5); Nikitin & Golubev 2021 eq. 15-17).
-struct FirstOrder {
-  static constexpr const char* name = "first";
-
-  template <int D, class Real>
-  struct Memory {};
-
-  template <int D, class Real>
-  static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>&) {
-    const Real magnitude = slip::length(tau_e);
-    Real excess;
-    const Real left = slip::share_left(magnitude, strength, slip::bounded_ds(d, strength), Real(1), excess);
-    for (auto& component : tau_e) component *= left;
-    return tau_e;
-  }
-};
-
-/// Trapezoidal rule, second order in time (theory.md (S6), (S7); Nikitin & Golubev 2021 eq. 40-49): half of
-/// the slip of a step goes at the rate of its beginning and is taken before the waves move, half at the rate
-/// of its end, after. Where a step is longer than four times the relaxation time d S dt the weight of the end
-/// grows to 1 - 2 d S: the plain rule rings there, this one does not, and at d = 0 it is dry friction
-/// exactly. Neither half ever raises |tau|.
-struct SecondOrder {
-  static constexpr const char* name = "second";
-
-  template <int D, class Real>
-  struct Memory {
-    Traction<D, Real> ahead{};  // what the beginning of the next step takes off tau: (1 - theta) G, Pa
-    Real theta = Real(0.5);     // weight of the end of that step
-  };
-
-  template <int D, class Real>
-  static Traction<D, Real> shear(Traction<D, Real> tau_e, Real strength, Real d, Memory<D, Real>& memory) {
-    const Real ds = slip::bounded_ds(d, strength);
-    const Real magnitude = slip::length(tau_e);
-    Real excess;
-    const Real left = slip::share_left(magnitude, strength, ds, memory.theta, excess);
-    memory.theta = std::max(Real(0.5), Real(1) - Real(2) * ds);
-    // G = (|tau|/S - 1)/d; where theta > 1/2 this is 2 (|tau| - S), so that no small d S divides.
-    const Real begin = memory.theta > Real(0.5) ? Real(2) * excess : Real(0.5) * excess / ds;
-    const Real share = begin / std::max(magnitude, std::numeric_limits<Real>::min());
-    for (std::size_t i = 0; i < D; ++i) {
-      memory.ahead[i] = share * tau_e[i];
-      tau_e[i] *= left;
-    }
-    return tau_e;
-  }
-};
-
-/// s_n of a plane (S1).
-template <int D, class Real>
-Real normal_stress(const std::type_identity_t<Traction<D, Real>>& normal, const Stress<D, Real>& s) {
-  Real sum = 0;
-  for (int i = 0; i < D; ++i) {
-    Real traction = 0;
-    for (int j = 0; j < D; ++j) traction += s(i, j) * normal[std::size_t(j)];
-    sum += normal[std::size_t(i)] * traction;
-  }
-  return sum;
-}
-
-/// s += change n + n change.
-template <int D, class Real>
-void add_shear(Stress<D, Real>& s, const std::type_identity_t<Traction<D, Real>>& change,
-               const std::type_identity_t<Traction<D, Real>>& normal) {
-  for (int i = 0; i < D; ++i)
-    for (int j = i; j < D; ++j)
-      s(i, j) +=
-          change[std::size_t(i)] * normal[std::size_t(j)] + change[std::size_t(j)] * normal[std::size_t(i)];
-}
-
-/// One slip system of one cell at the end of an elastic step: s (total stress, Pa) loses what slip on the
-/// planes relaxes, s += (tau - tau_e) n + n (tau - tau_e) (S4). s_n is untouched, and so is all of s that
-/// does not shear the planes. `d` is slip_d() of the cell, `memory` the correction's for this cell and
-/// system.
-template <class Correction, int D, class Real>
-void correct(const std::type_identity_t<SlipStrength<Real>>& law,
-             const std::type_identity_t<Traction<D, Real>>& normal, std::type_identity_t<Real> d,
-             Stress<D, Real>& s, typename Correction::template Memory<D, Real>& memory) {
-  Traction<D, Real> tau_e;
-  for (int i = 0; i < D; ++i) {
-    tau_e[std::size_t(i)] = 0;
-    for (int j = 0; j < D; ++j) tau_e[std::size_t(i)] += s(i, j) * normal[std::size_t(j)];
-  }
-  const Real s_n = slip::dot(normal, tau_e);
-  for (std::size_t i = 0; i < D; ++i) tau_e[i] -= s_n * normal[i];
-  // n is a unit vector to rounding only; without the second projection s_n would drift over many steps.
-  const Real residue = slip::dot(normal, tau_e);
-  for (std::size_t i = 0; i < D; ++i) tau_e[i] -= residue * normal[i];
-
-  const Real strength = law.friction * std::max(-s_n, Real(0)) + law.cohesion_pa;
-  const Traction<D, Real> tau = Correction::template shear<D, Real>(tau_e, strength, d, memory);
-
-  Traction<D, Real> change;
-  for (std::size_t i = 0; i < D; ++i) change[i] = tau[i] - tau_e[i];
-  add_shear(s, change, normal);
-}
-
-/// The slip that a step begins with, before the elastic step and after whoever wants the fields of this
-/// instant has seen them. Nothing in the first step, nothing for corrections that have no such part.
-template <class Correction, int D, class Real>
-void begin(const std::type_identity_t<Traction<D, Real>>& normal, Stress<D, Real>& s,
-           const typename Correction::template Memory<D, Real>& memory) {
-  if constexpr (requires { memory.ahead; }) {
-    Traction<D, Real> change;
-    for (std::size_t i = 0; i < D; ++i) change[i] = -memory.ahead[i];
-    add_shear(s, change, normal);
-  }
-}
 
 }  // namespace slipwave

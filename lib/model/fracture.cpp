@@ -40,6 +40,28 @@ Point<D> unit_normal(const Point<D>& direction) {
   return normal;
 }
 
+SlipEffect slip_effect_named(const std::string& name) {
+  const char* const names[] = {"slip", "friction", "viscosity", "cohesion", "opening", "prestress"};
+  std::string all;
+  for (int n = 0; n < 6; ++n) {
+    if (name == names[n]) return SlipEffect(n);
+    all += (n == 0 ? "" : n == 5 ? " or " : ", ") + std::string(names[n]);
+  }
+  throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
+}
+
+template <int D>
+void remove_effect(Model<D>& model, SlipEffect effect) {
+  if (effect == SlipEffect::prestress) model.prestress_pa.clear();
+  for (auto& set : model.fracture_sets)
+    for (auto& system : set.systems) {
+      if (effect == SlipEffect::friction) system.friction = 0;
+      if (effect == SlipEffect::viscosity) system.viscosity_s = 0;
+      if (effect == SlipEffect::cohesion) system.strength_pa = 0;
+      if (effect == SlipEffect::opening) system.opens = false;
+    }
+}
+
 template <int D>
 FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
                             const std::function<bool(const Point<D>&)>& inside) {
@@ -85,6 +107,8 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
 
 template Point<2> unit_normal<2>(const Point<2>&);
 template Point<3> unit_normal<3>(const Point<3>&);
+template void remove_effect(Model<2>&, SlipEffect);
+template void remove_effect(Model<3>&, SlipEffect);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

@@ -20,6 +20,17 @@ double dip_of_normal(const Point<2>& normal);
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);
 
+/// What slip of a model consists of: each can be left out of a run.
+enum class SlipEffect { slip, friction, viscosity, cohesion, opening, prestress };
+
+/// Throws a usage Error that lists the names.
+SlipEffect slip_effect_named(const std::string& name);
+
+/// Takes an effect out of a model: planes without friction (q = 0) or viscosity (eta = 0: dry), without
+/// cohesion, planes that carry tension, no static stress. `slip` leaves the model alone: Scene::with_slip.
+template <int D>
+void remove_effect(Model<D>& model, SlipEffect effect);
+
 /// How many cells a new fracture set took and did not take.
 struct FractureCount {
   std::int64_t marked = 0;  // solid cells now of the new set

@@ -27,6 +27,7 @@ struct SlipSystem {
   double friction = 0;     // q, dimensionless
   double viscosity_s = 0;  // eta, s
   double strength_pa = 0;  // cohesion added to q max(-s_n, 0)
+  bool opens = false;      // planes part under tension; otherwise they carry it
 };
 
 /// Cells that share slip systems: 1 to D systems.
@@ -42,6 +43,9 @@ struct Model {
   Medium<D> medium;
   Field<D, std::uint8_t> fracture;  // 0 = intact, k = fracture_sets[k - 1]; empty when the model has none
   std::vector<FractureSet<D>> fracture_sets;
+  /// Static stress, Pa, tension positive: its components in the order of SymmetricTensor; empty: none. The
+  /// waves come on top of it.
+  std::vector<Field<D>> prestress_pa;
   std::string title, source, history;
 
   const Grid<D>& grid() const { return medium.grid(); }
@@ -55,7 +59,8 @@ struct MediumLimits {
 /// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values, rho = 0 with
 /// vp or vs set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D,
 /// where the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip
-/// normal that is no unit vector, negative or non-finite slip constants.
+/// normal that is no unit vector, negative or non-finite slip constants, a static stress that is not finite
+/// or under which planes slip or part by themselves.
 template <int D>
 void check(const Model<D>& model, const MediumLimits& limits = {});
 

@@ -37,6 +37,10 @@ const std::vector<SnapshotField>& snapshot_fields<2>() {
       {"sxz", "shear stress", "Pa"},
       {"div", "divergence of particle velocity", "s-1"},
       {"curl", "curl of particle velocity, dvx/dz - dvz/dx", "s-1"},
+      {"slip", "accumulated slip on fracture planes, as a strain", "1"},
+      {"slip_rate", "slip strain rate in the last step", "s-1"},
+      {"dissipated", "energy dissipated by slip", "J m-3"},
+      {"opening", "strain by which fracture planes stand open", "1"},
   };
   return fields;
 }
@@ -58,6 +62,10 @@ const std::vector<SnapshotField>& snapshot_fields<3>() {
       {"curlx", "curl of particle velocity along x, dvz/dy - dvy/dz", "s-1"},
       {"curly", "curl of particle velocity along y, dvx/dz - dvz/dx", "s-1"},
       {"curlz", "curl of particle velocity along z, dvy/dx - dvx/dy", "s-1"},
+      {"slip", "accumulated slip on fracture planes, as a strain", "1"},
+      {"slip_rate", "slip strain rate in the last step", "s-1"},
+      {"dissipated", "energy dissipated by slip", "J m-3"},
+      {"opening", "strain by which fracture planes stand open", "1"},
   };
   return fields;
 }

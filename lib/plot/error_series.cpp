@@ -31,7 +31,9 @@ std::string name_of(const Method& method, const std::vector<Method>& methods) {
   std::string name = "order " + std::to_string(method.order);
   if (differ(&Method::time_order)) name += ", " + std::to_string(method.time_order) + " in time";
   if (differ(&Method::slip_order))
-    name += method.slip_order == 0 ? ", no slip" : ", slip order " + std::to_string(method.slip_order);
+    name += method.slip_order == 0   ? ", no slip"
+            : method.slip_order == 3 ? ", exponential slip"
+                                     : ", slip order " + std::to_string(method.slip_order);
   if (differ(&Method::courant)) name += ", Courant " + shown(method.courant);
   return name;
 }

@@ -156,6 +156,12 @@ std::int64_t Recording::samples() const {
   return std::int64_t(std::floor(duration_s / interval_s * (1 + 1e-12) + 1e-9)) + 1;
 }
 
+const char* name_of(SlipCorrection correction) {
+  return correction == SlipCorrection::first    ? "first order"
+         : correction == SlipCorrection::second ? "second order"
+                                                : "exponential";
+}
+
 template <int D>
 bool Scene<D>::slips() const {
   return with_slip &&

@@ -5,13 +5,19 @@
 #include <vector>
 
 #include "acquisition/survey.hpp"
+#include "fracture/slip_law.hpp"
 #include "gather/trace.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
 
 namespace slipwave {
 
-enum class SlipCorrection { first, second };
+/// "first order", "second order" or "exponential".
+const char* name_of(SlipCorrection correction);
+
+/// What slip has done in a cell: slip as a strain, its rate in the last step, 1/s, the energy that friction
+/// turned into heat, J/m3, and the strain by which planes stand open.
+enum class SlipField { slip, slip_rate, dissipated, opening };
 
 /// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
 struct Passage {
@@ -50,6 +56,7 @@ struct Scene {
   Recording recording;
   std::optional<double> snapshot_every_s;  // whole fields at the first step after each multiple of it
   bool with_slip = true;                   // false: fracture sets of the model stay intact
+  bool slip_diary = false;                 // keep slip and what it dissipates, cell by cell, and energies
 
   /// Whether slip happens anywhere.
   bool slips() const;

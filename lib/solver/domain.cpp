@@ -123,36 +123,40 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
 }
 
 template <int D, class Real>
-double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium) {
+double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
+                      Index<D> at) {
   using Rows = FieldRows<D>;
-  double total = 0;
-  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
-    const auto cell = std::size_t(n);
-    if (medium.is_void(cell)) continue;
-    Index<D> at = domain.computed_cell(domain.model_grid.index(n));
-    const auto x = at[0];
-    at[0] = 0;
-    const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
-    const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
-    const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
-    double kinetic = 0, squares = 0, trace = 0, shear = 0;
-    for (int axis = 0; axis < D; ++axis) {
-      kinetic += rho * value(Rows::velocity(axis)) * value(Rows::velocity(axis));
-      const double s = value(Rows::normal_stress(axis));
-      squares += s * s;
-      trace += s;
-      for (int other = axis + 1; other < D; ++other) {
-        const double t = value(Rows::shear_stress(axis, other));
-        shear += t * t;
-      }
+  const auto cell = std::size_t(medium.grid().flat(domain.model_cell(at)));
+  if (medium.is_void(cell)) return 0;
+  const auto x = at[0];
+  at[0] = 0;
+  const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
+  const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
+  const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
+  double kinetic = 0, squares = 0, trace = 0, shear = 0;
+  for (int axis = 0; axis < D; ++axis) {
+    kinetic += rho * value(Rows::velocity(axis)) * value(Rows::velocity(axis));
+    const double s = value(Rows::normal_stress(axis));
+    squares += s * s;
+    trace += s;
+    for (int other = axis + 1; other < D; ++other) {
+      const double t = value(Rows::shear_stress(axis, other));
+      shear += t * t;
     }
-    // s:C^-1:s; in plane strain C acts on the in-plane components alone.
-    const double elastic =
-        mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
-               : trace * trace / (D * D * lambda);
-    total += 0.5 * (kinetic + elastic);
   }
-  return total * std::pow(domain.grid.spacing_m, D);
+  // s:C^-1:s; in plane strain C acts on the in-plane components alone.
+  const double elastic =
+      mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
+             : trace * trace / (D * D * lambda);
+  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D);
+}
+
+template <int D, class Real>
+double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium) {
+  double total = 0;
+  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n)
+    total += energy_of_cell(state, domain, medium, domain.computed_cell(domain.model_grid.index(n)));
+  return total;
 }
 
 template struct Domain<2>;
@@ -160,6 +164,8 @@ template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int);
 template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
+template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
+template double energy_of_cell(const State<2, double>&, const Domain<2>&, const Medium<2>&, Index<2>);
 template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 

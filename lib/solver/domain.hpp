@@ -41,6 +41,11 @@ double fastest_wave(const Medium<D>& medium);
 template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s);
 
+/// Kinetic and elastic energy of a cell of the computed grid, J (2-D: J per metre).
+template <int D, class Real>
+double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
+                      Index<D> at);
+
 /// Kinetic and elastic energy of the model's cells, J (2-D: J per metre), zones left out: the sum over cells
 /// of h^D/2 (rho v.v + s:C^-1:s). Zero in void.
 template <int D, class Real>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/kernels.hpp"
+#include "solver/slip_tables.hpp"
 
 namespace slipwave::solver {
 
@@ -10,6 +11,7 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   StretchKernels<Real> stretch;
+  const SlipTables<Real>& (*slip)(Real);
 };
 
 }  // namespace slipwave::solver

@@ -60,6 +60,21 @@ const StretchKernels<Real>& stretch_kernels() {
   return best_tables<Real>().stretch;
 }
 
+template <class Real>
+SlipKernels<Real> slip_kernels(const SlipCase& of) {
+  return best_tables<Real>().slip(Real()).of(of);
+}
+
+template <class Real>
+GapKernel<Real> gap_kernel(int dimensions) {
+  const auto& tables = best_tables<Real>().slip(Real());
+  return dimensions == 2 ? tables.open_2d : tables.open_3d;
+}
+
+template SlipKernels<float> slip_kernels<float>(const SlipCase&);
+template SlipKernels<double> slip_kernels<double>(const SlipCase&);
+template GapKernel<float> gap_kernel<float>(int);
+template GapKernel<double> gap_kernel<double>(int);
 template const Kernels<float>& kernels<float>(int, bool);
 template const Kernels<double>& kernels<double>(int, bool);
 template const StretchKernels<float>& stretch_kernels<float>();

@@ -4,6 +4,11 @@
 #include "solver/reconstruction.hpp"
 
 namespace slipwave::solver {
+
+// Of the same level, in slip_level.cpp.
+const SlipTables<float>& SLIPWAVE_SLIP_LEVEL(float);
+const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
+
 namespace {
 
 /// Of a stretch of one material only the first cell is read.
@@ -159,8 +164,10 @@ const Kernels<Real>* of_order(int order) {
 }
 
 template <class Real>
-constexpr KernelTables<Real> tables = {
-    of_order<false, Real>, of_order<true, Real>, {stretch_along<Real>, stretch_across<Real>}};
+constexpr KernelTables<Real> tables = {of_order<false, Real>,
+                                       of_order<true, Real>,
+                                       {stretch_along<Real>, stretch_across<Real>},
+                                       SLIPWAVE_SLIP_LEVEL};
 
 }  // namespace
 

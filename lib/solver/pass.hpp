@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "base/archive.hpp"
 #include "solver/kernels.hpp"
@@ -14,6 +15,12 @@ struct StepTime {
   std::int64_t step = 0;
   double dt_s = 0;
   double end_s() const { return double(step + 1) * dt_s; }
+};
+
+/// What a pass does to how many cells, for --plan.
+struct PassEffect {
+  std::string name;
+  std::int64_t cells = 0;
 };
 
 /// One part of a time step: it exists only in scenes that call for it. It works line by line and on part of a
@@ -31,6 +38,8 @@ class Pass {
   virtual std::string name() const = 0;
   /// Cells it works on.
   virtual std::int64_t cells() const = 0;
+  /// The same, with the parts it consists of.
+  virtual std::vector<PassEffect> effects() const { return {{name(), cells()}}; }
   /// Lines whose fields it changes or needs whole at the end of a step, sweeps along x included. On all other
   /// lines the half sweeps along x of neighbouring steps are one. Only asked where acts() says so.
   virtual std::span<const std::int64_t> lines() const { return {}; }

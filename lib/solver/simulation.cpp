@@ -9,7 +9,7 @@ namespace {
 
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-                const SnapshotSink<D>& snapshots, Pauses* pauses) {
+                const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
   solver::Step<D, Real> step(scene, shot, snapshots);
   const Keep keep = [&step](Archive& archive) { step.keep(archive); };
   std::function<bool()> wanted;
@@ -19,18 +19,21 @@ Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progres
   }
   for (;;) {
     step.run_to(step.steps(), progress, wanted);
-    if (step.done() == step.steps()) return step.take_gather();
+    if (step.done() == step.steps()) break;
     pauses->pause(keep, {step.done(), step.steps()});
   }
+  if (report) *report = step.report();
+  return step.take_gather();
 }
 
 }  // namespace
 
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-             const SnapshotSink<D>& snapshots, Pauses* pauses) {
-  return scene.numerics.double_precision ? shoot_as<D, double>(scene, shot, progress, snapshots, pauses)
-                                         : shoot_as<D, float>(scene, shot, progress, snapshots, pauses);
+             const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
+  return scene.numerics.double_precision
+             ? shoot_as<D, double>(scene, shot, progress, snapshots, pauses, report)
+             : shoot_as<D, float>(scene, shot, progress, snapshots, pauses, report);
 }
 
 template <int D>
@@ -44,6 +47,7 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
 }
 
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
-template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*);
+template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*,
+                      ShotReport*);
 
 }  // namespace slipwave

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "base/progress.hpp"
@@ -10,20 +12,37 @@
 
 namespace slipwave {
 
-/// Hands out a component of the wave field of the model's cells.
+/// A component of the wave field, or what slip has done.
+using FieldKey = std::variant<Component, SlipField>;
+/// Hands it out for the model's cells.
 template <int D>
-using FieldReader = std::function<Field<D>(Component)>;
+using FieldReader = std::function<Field<D>(const FieldKey&)>;
 /// Takes whole fields while a shot runs.
 template <int D>
 using SnapshotSink = std::function<void(double time_s, const FieldReader<D>& field)>;
 
+/// What slip did, summed over cells (theory.md 2.4); energies in J, per metre in 2-D.
+struct SlipTotals {
+  std::int64_t cells = 0, slipped = 0;  // fractured ones, and those that slipped at any time
+  double dissipated = 0;                // turned into heat on the planes
+  double out_of_waves = 0;              // what of it the waves gave, the rest came of the static stress
+};
+
+/// What became of the energy of a shot, J (2-D: J per metre).
+struct ShotReport {
+  std::optional<SlipTotals> slip;
+  std::optional<double> source_work;  // of point sources
+  double energy_left = 0;             // kinetic and elastic, in the model at the end
+};
+
 /// Shoots one shot (1-based number) of a checked scene and returns its traces, component by component in the
 /// order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
 /// `pauses` (may be null) can interrupt it between passes through memory and take it up again; that changes
-/// no bit of what comes out. Throws an Error of kind unstable when the fields grow beyond all bounds.
+/// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws an Error of kind
+/// unstable when the fields grow beyond all bounds.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
-             const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr);
+             const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr);
 
 /// What the fields and the material of a shot take of memory at most, bytes.
 template <int D>

@@ -1,108 +1,177 @@
 #include "solver/slip_pass.hpp"
 
 #include <algorithm>
-
-#include "fracture/slip_law.hpp"
+#include <cmath>
 
 namespace slipwave::solver {
-namespace {
-
-template <int D, class Real, class Correction>
-class SlipPass : public Pass {
- public:
-  SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s)
-      : state_(state) {
-    const auto& model = scene.model;
-    for (std::size_t set = 0; set < model.fracture_sets.size(); ++set)
-      for (const auto& system : model.fracture_sets[set].systems) {
-        Group group;
-        for (std::size_t axis = 0; axis < D; ++axis) group.normal[axis] = Real(system.normal[axis]);
-        group.law = {Real(system.friction), Real(system.strength_pa)};
-        for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
-          if (model.fracture[cell] != set + 1) continue;
-          const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
-          const double mu = double(model.medium.rho[cell]) * model.medium.vs[cell] * model.medium.vs[cell];
-          const std::int64_t line = state.layout.line_number(at);
-          group.starts.resize(std::size_t(line) + 1, group.columns.size());
-          group.columns.push_back(at[0]);
-          group.d.push_back(slip_d<Real>(system.viscosity_s, mu, dt_s));
-        }
-        group.starts.resize(std::size_t(state.layout.lines()) + 1, group.columns.size());
-        group.memory.resize(group.columns.size());
-        cells_ += std::int64_t(group.columns.size());
-        if (!group.columns.empty()) groups_.push_back(std::move(group));
-      }
-    lines_ = fracture_lines(state.layout, domain, model);
-  }
-
-  void run(const StepTime&, std::int64_t line, const Columns& columns) override {
-    each_cell(line, columns, [](Group& group, std::size_t n, Stress<D, Real>& s) {
-      correct<Correction, D, Real>(group.law, group.normal, group.d[n], s, group.memory[n]);
-    });
-  }
-  void run_after(const StepTime&, std::int64_t line, const Columns& columns) override {
-    if constexpr (requires(typename Correction::template Memory<D, Real> memory) { memory.ahead; })
-      each_cell(line, columns, [](Group& group, std::size_t n, Stress<D, Real>& s) {
-        slipwave::begin<Correction, D, Real>(group.normal, s, group.memory[n]);
-      });
-  }
-  std::string name() const override { return "slip, " + std::string(Correction::name) + " order"; }
-  std::int64_t cells() const override { return cells_; }
-  std::span<const std::int64_t> lines() const override { return lines_; }
-  void keep(Archive& archive) override {
-    if constexpr (!std::is_empty_v<typename Correction::template Memory<D, Real>>)
-      for (auto& group : groups_) archive.fixed(group.memory);
-  }
-
- private:
-  struct Group {
-    Traction<D, Real> normal{};
-    SlipStrength<Real> law;
-    std::vector<std::int64_t> columns;  // of the cells, line after line
-    std::vector<std::size_t> starts;    // of each line in columns, and the end
-    std::vector<Real> d;
-    std::vector<typename Correction::template Memory<D, Real>> memory;
-  };
-  /// Runs change(group, number in the group, stress) on the stress of every cell of these columns, system
-  /// after system.
-  template <class Change>
-  void each_cell(std::int64_t line, const Columns& columns, const Change& change) {
-    using Rows = FieldRows<D>;
-    const std::int64_t pitch = state_.layout.row_pitch();
-    Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
-    for (auto& group : groups_) {
-      const auto begin = group.columns.begin() + std::ptrdiff_t(group.starts[std::size_t(line)]);
-      const auto end = group.columns.begin() + std::ptrdiff_t(group.starts[std::size_t(line) + 1]);
-      for (auto at = std::lower_bound(begin, end, columns.first); at != end && *at < columns.last; ++at) {
-        Real* const cell = fields + *at;
-        Stress<D, Real> s;
-        for (int i = 0; i < D; ++i) {
-          s(i, i) = cell[Rows::normal_stress(i) * pitch];
-          for (int j = i + 1; j < D; ++j) s(i, j) = cell[Rows::shear_stress(i, j) * pitch];
-        }
-        change(group, std::size_t(at - group.columns.begin()), s);
-        for (int i = 0; i < D; ++i) {
-          cell[Rows::normal_stress(i) * pitch] = s(i, i);
-          for (int j = i + 1; j < D; ++j) cell[Rows::shear_stress(i, j) * pitch] = s(i, j);
-        }
-      }
-    }
-  }
-
-  State<D, Real>& state_;
-  std::vector<Group> groups_;  // one a slip system
-  std::vector<std::int64_t> lines_;
-  std::int64_t cells_ = 0;
-};
-
-}  // namespace
 
 template <int D, class Real>
-std::unique_ptr<Pass> make_slip_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                     double dt_s) {
-  if (scene.numerics.correction == SlipCorrection::first)
-    return std::make_unique<SlipPass<D, Real, FirstOrder>>(state, domain, scene, dt_s);
-  return std::make_unique<SlipPass<D, Real, SecondOrder>>(state, domain, scene, dt_s);
+SlipPass<D, Real>::SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
+                            double dt_s)
+    : state_(state), domain_(domain), dt_s_(dt_s), correction_(scene.numerics.correction) {
+  for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
+    SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s);
+    if (group.cells() == 0) continue;
+    if (scene.slip_diary) diary_.emplace_back(std::size_t(group.kept_cells()));
+    groups_.push_back(std::move(group));
+  }
+  lines_ = fracture_lines(state.layout, domain, scene.model);
+}
+
+/// Runs change(group, stress, number of the first cell, cells) on all stretches of fracture cells that these
+/// columns hold. Columns end between two vectors or with the line.
+template <int D, class Real>
+template <class Change>
+void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns, bool at_end,
+                                     const Change& change) {
+  const std::int64_t pitch = state_.layout.row_pitch();
+  const std::int64_t end =
+      columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
+  Real* const stress = state_.field_row(state_.layout.line_index(line), FieldRows<D>::normal_stress(0));
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (const auto& stretch : groups_[g].stretches(line)) {
+      const std::int64_t first = std::max(stretch.first, columns.first), last = std::min(stretch.last, end);
+      if (first >= last) continue;
+      const auto place = stretch.place + std::size_t(first - stretch.first);
+      if (diary_.empty()) {
+        change(groups_[g], stress + first, place, last - first);
+        continue;
+      }
+      constexpr std::int64_t piece = 64;
+      Real before[SymmetricTensor<D, Real>::components * piece];
+      for (std::int64_t done = 0; done < last - first; done += piece) {
+        const std::int64_t n = std::min(piece, last - first - done);
+        Real* const now = stress + first + done;
+        for (int c = 0; c < SymmetricTensor<D, Real>::components; ++c)
+          std::copy(now + c * pitch, now + c * pitch + n, before + c * piece);
+        change(groups_[g], now, place + std::size_t(done), n);
+        note(g, place + std::size_t(done), n, before, now, pitch, at_end);
+      }
+    }
+}
+
+/// What slip took off the stress of n cells: G over mu is a strain, and stress times that an energy (S14).
+template <int D, class Real>
+void SlipPass<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, const Real* before,
+                             const Real* after, std::int64_t pitch, bool at_end) {
+  constexpr int components = SymmetricTensor<D, Real>::components;
+  const std::int64_t piece = 64;
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto at = place + std::size_t(i);
+    const double mu = groups_[group].shear_modulus(at);
+    if (!(mu > 0)) continue;
+    auto& entry = diary_[group][at];
+    const auto still = groups_[group].prestress(at);
+    double square = 0, mean = 0, of_still = 0;
+    for (int c = 0; c < components; ++c) {
+      const double twice = c < D ? 1 : 2;  // off-diagonal components stand for two
+      const double was = before[c * piece + i], is = after[c * pitch + i], off = was - is;
+      square += twice * off * off;
+      mean += twice * off * (was + is) / 2;
+      of_still += twice * off * still.values[std::size_t(c)];
+    }
+    const double strain = std::sqrt(square / 2) / mu;
+    if (at_end) entry.in_step = entry.ahead + strain;
+    entry.ahead = at_end ? 0 : strain;
+    entry.slip += strain;
+    entry.out_of_waves += mean / (2 * mu);
+    entry.heat += (mean + of_still) / (2 * mu);
+  }
+}
+
+template <int D, class Real>
+void SlipPass<D, Real>::run(const StepTime&, std::int64_t line, const Columns& columns) {
+  const std::int64_t pitch = state_.layout.row_pitch();
+  each_stretch(line, columns, true,
+               [pitch](SlipGroup<D, Real>& group, Real* stress, std::size_t place, std::int64_t n) {
+                 group.slip(stress, pitch, place, n);
+               });
+}
+
+template <int D, class Real>
+void SlipPass<D, Real>::run_after(const StepTime&, std::int64_t line, const Columns& columns) {
+  if (correction_ == SlipCorrection::first && diary_.empty()) return;
+  const std::int64_t pitch = state_.layout.row_pitch();
+  each_stretch(line, columns, false,
+               [pitch](SlipGroup<D, Real>& group, Real* stress, std::size_t place, std::int64_t n) {
+                 group.begin(stress, pitch, place, n);
+               });
+}
+
+template <int D, class Real>
+std::string SlipPass<D, Real>::name() const {
+  return std::string("slip, ") + name_of(correction_);
+}
+
+template <int D, class Real>
+std::int64_t SlipPass<D, Real>::cells() const {
+  std::int64_t sum = 0;
+  for (const auto& group : groups_) sum += group.cells();
+  return sum;
+}
+
+template <int D, class Real>
+std::vector<PassEffect> SlipPass<D, Real>::effects() const {
+  std::vector<PassEffect> all = {{name(), cells()}};
+  const auto add = [&](const std::string& what, const auto& has) {
+    std::int64_t sum = 0;
+    for (const auto& group : groups_) sum += has(group) ? group.cells() : 0;
+    if (sum > 0) all.push_back({what, sum});
+  };
+  const auto any = [](const auto& group, const auto& of_system) {
+    return std::any_of(group.set().systems.begin(), group.set().systems.end(), of_system);
+  };
+  add("  friction", [&](const auto& g) { return any(g, [](const auto& s) { return s.friction > 0; }); });
+  add("  viscosity", [&](const auto& g) { return any(g, [](const auto& s) { return s.viscosity_s > 0; }); });
+  add("  cohesion", [&](const auto& g) { return any(g, [](const auto& s) { return s.strength_pa > 0; }); });
+  add("  blocks", [](const auto& g) { return g.set().systems.size() > 1; });
+  add("  prestress", [](const auto& g) { return g.has_prestress(); });
+  add("  opening", [](const auto& g) { return g.opens(); });
+  if (!diary_.empty()) all.push_back({"  slip diary", cells()});
+  return all;
+}
+
+template <int D, class Real>
+void SlipPass<D, Real>::keep(Archive& archive) {
+  for (auto& group : groups_)
+    for (auto* const memory : group.memory()) archive.fixed(*memory);
+  for (auto& entries : diary_) archive.fixed(entries);
+}
+
+template <int D, class Real>
+Field<D> SlipPass<D, Real>::field(SlipField which) const {
+  Field<D> field(domain_.model_grid);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::int64_t line = 0; line < state_.layout.lines(); ++line)
+      for (const auto& stretch : groups_[g].stretches(line))
+        for (std::int64_t x = stretch.first; x < std::min(stretch.last, state_.layout.shape()[0]); ++x) {
+          const auto place = stretch.place + std::size_t(x - stretch.first);
+          if (!groups_[g].holds(place)) continue;
+          auto at = state_.layout.line_index(line);
+          at[0] = x;
+          const Entry none;
+          const auto& entry = diary_.empty() ? none : diary_[g][place];
+          field(domain_.model_cell(at)) =
+              float(which == SlipField::slip         ? entry.slip - entry.ahead
+                    : which == SlipField::slip_rate  ? entry.in_step / dt_s_
+                    : which == SlipField::dissipated ? entry.heat
+                                                     : double(groups_[g].gap(place)));
+        }
+  return field;
+}
+
+template <int D, class Real>
+SlipTotals SlipPass<D, Real>::totals() const {
+  SlipTotals totals;
+  totals.cells = cells();
+  const double volume = std::pow(domain_.grid.spacing_m, D);
+  for (const auto& entries : diary_)
+    for (const auto& entry : entries) {
+      totals.slipped += entry.slip > 0;
+      totals.dissipated += volume * entry.heat;
+      totals.out_of_waves += volume * entry.out_of_waves;
+    }
+  return totals;
 }
 
 template <int D>
@@ -118,7 +187,7 @@ std::vector<std::int64_t> fracture_lines(const Layout<D>& layout, const Domain<D
 }
 
 template std::vector<std::int64_t> fracture_lines(const Layout<2>&, const Domain<2>&, const Model<2>&);
-template std::unique_ptr<Pass> make_slip_pass(State<2, float>&, const Domain<2>&, const Scene<2>&, double);
-template std::unique_ptr<Pass> make_slip_pass(State<2, double>&, const Domain<2>&, const Scene<2>&, double);
+template class SlipPass<2, float>;
+template class SlipPass<2, double>;
 
 }  // namespace slipwave::solver

@@ -4,16 +4,50 @@
 #include <vector>
 
 #include "scene/scene.hpp"
-#include "solver/domain.hpp"
 #include "solver/pass.hpp"
+#include "solver/simulation.hpp"
+#include "solver/slip_group.hpp"
 
 namespace slipwave::solver {
 
 /// The slip correction of all fracture cells at the end of a step (theory.md (S4)), in the order the scene
-/// asks for. Cells of the absorbing zones do not slip. Keeps a reference to the state.
+/// asks for. Cells of the absorbing zones do not slip. Keeps references.
 template <int D, class Real>
-std::unique_ptr<Pass> make_slip_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                     double dt_s);
+class SlipPass : public Pass {
+ public:
+  SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s);
+
+  void run(const StepTime&, std::int64_t line, const Columns& columns) override;
+  void run_after(const StepTime&, std::int64_t line, const Columns& columns) override;
+  std::string name() const override;
+  std::int64_t cells() const override;
+  std::span<const std::int64_t> lines() const override { return lines_; }
+  std::vector<PassEffect> effects() const override;
+  void keep(Archive& archive) override;
+
+  /// A field of the diary on the model's grid: see SlipField. The scene must keep a diary, but for `opening`.
+  Field<D> field(SlipField which) const;
+  SlipTotals totals() const;
+
+ private:
+  /// What is kept of a cell for the diary.
+  struct Entry {
+    double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
+    double heat = 0, out_of_waves = 0;        // J/m3
+  };
+  template <class Change>
+  void each_stretch(std::int64_t line, const Columns& columns, bool at_end, const Change& change);
+  void note(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
+            std::int64_t pitch, bool at_end);
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  double dt_s_;
+  SlipCorrection correction_;
+  std::vector<SlipGroup<D, Real>> groups_;
+  std::vector<std::vector<Entry>> diary_;  // [group][cell], empty: none
+  std::vector<std::int64_t> lines_;
+};
 
 /// Numbers of the lines that hold fracture cells, ascending.
 template <int D>

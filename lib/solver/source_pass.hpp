@@ -1,17 +1,51 @@
 #pragma once
 
-#include <memory>
+#include <vector>
 
 #include "scene/scene.hpp"
 #include "solver/domain.hpp"
 #include "solver/pass.hpp"
+#include "solver/point_access.hpp"
 
 namespace slipwave::solver {
 
 /// What a point source puts in, half before and half after the recorder, so that the
-/// fields it sees lie in the middle (trapezoidal rule in time). Keeps a reference to the state.
+/// fields it sees lie in the middle (trapezoidal rule in time). Keeps references.
 template <int D, class Real>
-std::unique_ptr<Pass> make_source_pass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                       const Source<D>& source, double unit);
+class SourcePass : public Pass {
+ public:
+  SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
+             double unit);
+
+  void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
+  void run_after(const StepTime& time, std::int64_t line, const Columns& columns) override {
+    run(time, line, columns);
+  }
+  std::string name() const override { return "source"; }
+  std::int64_t cells() const override { return std::int64_t(values_.size()); }
+  std::span<const std::int64_t> lines() const override { return lines_; }
+  bool stirs(const StepTime& time, std::int64_t line) const override {
+    return acts(time) && line >= lines_.front() && line <= lines_.back();
+  }
+  void keep(Archive& archive) override { archive.fixed(work_); }
+  bool acts(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+
+  /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
+  double work() const;
+
+ private:
+  void add(const Source<D>& source, int row, int like, double strength);
+  void find_lines(const Index<D>& centre);
+  double energy_of(std::int64_t line, const Columns& columns) const;
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  const Medium<D>& medium_;
+  Wavelet wavelet_;
+  double unit_;
+  std::vector<ValueWeight> values_;
+  std::vector<std::int64_t> lines_;
+  std::vector<double> work_;  // by line; empty: not counted
+};
 
 }  // namespace slipwave::solver

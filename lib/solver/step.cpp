@@ -5,8 +5,6 @@
 
 #include "grid/locate.hpp"
 #include "solver/absorbing.hpp"
-#include "solver/slip_pass.hpp"
-#include "solver/source_pass.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -41,6 +39,7 @@ template <int D, class Real>
 Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
     : dt_s_(time_step_s(scene)),
       time_order_(scene.numerics.time_order),
+      medium_(&scene.model.medium),
       unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_)),
       domain_(
           make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
@@ -81,9 +80,15 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     }
   }
   if (point_injection(source)) {
-    add(make_source_pass(state_, domain_, scene, source, unit_));
+    auto pass = std::make_unique<SourcePass<D, Real>>(state_, domain_, scene, source, unit_);
+    source_ = pass.get();
+    add(std::move(pass));
   }
-  if (scene.slips()) add(make_slip_pass(state_, domain_, scene, dt_s_));
+  if (scene.slips()) {
+    auto slip = std::make_unique<SlipPass<D, Real>>(state_, domain_, scene, dt_s_);
+    slip_ = slip.get();
+    add(std::move(slip));
+  }
   recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot, unit_);
   // The same sweeps with and without slip: their difference must be the work of slip alone.
   fracture_lines_ = fracture_lines(state_.layout, domain_, scene.model);
@@ -134,8 +139,11 @@ void Step<D, Real>::take_snapshot(const StepTime& time) {
   const WholeLine<Real> line = [this](std::int64_t n) {
     return snapshot_.data() + state_.layout.line(state_.layout.line_index(n));
   };
-  snapshots_(time.end_s(),
-             [&](Component component) { return field_of(state_.layout, domain_, line, component, unit_); });
+  snapshots_(time.end_s(), [&](const FieldKey& key) {
+    if (const auto* slip = std::get_if<SlipField>(&key))
+      return slip_ ? slip_->field(*slip) : Field<D>(domain_.model_grid);
+    return field_of(state_.layout, domain_, line, std::get<Component>(key), unit_);
+  });
   snapshot_ = {};
 }
 
@@ -169,6 +177,15 @@ Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
   };
   const Box& read = recorder_->box();
   return {spread(read.rows, growth.rows), spread(read.columns, growth.columns)};
+}
+
+template <int D, class Real>
+ShotReport Step<D, Real>::report() const {
+  ShotReport report;
+  if (slip_) report.slip = slip_->totals();
+  if (source_) report.source_work = source_->work();
+  report.energy_left = energy(state_, domain_, *medium_) / (unit_ * unit_);
+  return report;
 }
 
 template <int D, class Real>
@@ -216,7 +233,8 @@ std::vector<PlannedPass> Step<D, Real>::planned() const {
                       1});
   if (layer_)
     passes.push_back({"matched layer", double(domain_.grid.size() - domain_.model_grid.size()) / all});
-  for (const auto& pass : passes_) passes.push_back({pass->name(), double(pass->cells()) / all});
+  for (const auto& pass : passes_)
+    for (const auto& effect : pass->effects()) passes.push_back({effect.name, double(effect.cells) / all});
   passes.push_back({"stability watch", 1. / Monitor<D, Real>::every});
   passes.push_back({"receivers", double(recorder_->cells()) / all});
   return passes;

@@ -10,6 +10,8 @@
 #include "solver/pipeline.hpp"
 #include "solver/recorder.hpp"
 #include "solver/simulation.hpp"
+#include "solver/slip_pass.hpp"
+#include "solver/source_pass.hpp"
 #include "solver/sweeps.hpp"
 
 namespace slipwave::solver {
@@ -30,6 +32,8 @@ class Step : private EndOfStep<Real> {
   void keep(Archive& archive);
   Gather take_gather() { return recorder_->take(); }
   std::vector<PlannedPass> planned() const;
+  /// What became of the energy; scenes that keep a diary.
+  ShotReport report() const;
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
   std::int64_t memory_bytes() const;
@@ -58,6 +62,7 @@ class Step : private EndOfStep<Real> {
 
   double dt_s_;
   int time_order_;
+  const Medium<D>* medium_;
   double unit_;
   Domain<D> domain_;
   State<D, Real> state_;
@@ -66,6 +71,8 @@ class Step : private EndOfStep<Real> {
   std::unique_ptr<Background<D, Real>> background_;
   std::unique_ptr<MatchedLayer<D, Real>> layer_;
   std::vector<std::unique_ptr<Pass>> passes_;  // at the end of a step, in order
+  SourcePass<D, Real>* source_ = nullptr;      // one of them, null: no point source
+  SlipPass<D, Real>* slip_ = nullptr;          // the one of them, null: nothing slips
   std::vector<std::vector<char>> whole_;  // [step under way][line]: its last sweep along x ends with the step
   std::vector<std::int64_t> fracture_lines_;
   Monitor<D, Real> monitor_;

@@ -53,7 +53,8 @@ Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) 
     passes_.push_back(
         std::make_unique<solver::AbsorbingZones<2, Real>>(state_, domain_, dt_s_, vp_max, nullptr));
   }
-  if (scene_.slips()) passes_.push_back(solver::make_slip_pass(state_, domain_, scene_, dt_s_));
+  if (scene_.slips())
+    passes_.push_back(std::make_unique<solver::SlipPass<2, Real>>(state_, domain_, scene_, dt_s_));
 
   std::mt19937 engine(setup.seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);

@@ -26,7 +26,7 @@ class InLayer {
         layer_(state_.layout, domain_, dt_s_, solver::fastest_wave(scene_.model.medium), 30) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);
     sweeps_.use(&layer_);
-    if (scene_.slips()) slip_ = solver::make_slip_pass(state_, domain_, scene_, dt_s_);
+    if (scene_.slips()) slip_ = std::make_unique<solver::SlipPass<2, double>>(state_, domain_, scene_, dt_s_);
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {

@@ -8,7 +8,7 @@
 #include <random>
 #include <type_traits>
 
-#include "fracture/slip_law.hpp"
+#include "fracture_slip_cell.hpp"
 
 namespace slipwave {
 
@@ -52,7 +52,7 @@ Stress<D, Real> random_stress(std::mt19937& random, double size = 1e5) {
 template <int D, class Real>
 double shear_magnitude(const std::type_identity_t<Traction<D, Real>>& n, const Stress<D, Real>& s) {
   double sum = 0;
-  const double s_n = normal_stress(n, s);
+  const double s_n = normal_stress<D, Real>(n, s);
   for (int i = 0; i < D; ++i) {
     double tau = -s_n * n[i];
     for (int j = 0; j < D; ++j) tau += double(s(i, j)) * n[j];
@@ -88,11 +88,11 @@ class SlipLaw : public testing::Test {
     for (int i = 0; i < D; ++i) n[i] = Real(row[i]);
     return n;
   }
-  static Cell after(Cell s, const SlipStrength<Real>& law, const Normal& n, Real d, Memory& memory) {
+  static Cell after(Cell s, const SlipStrength<Real>& law, const Normal& n, double d, Memory& memory) {
     correct<typename Case::Correction, D, Real>(law, n, d, s, memory);
     return s;
   }
-  static Cell after(const Cell& s, const SlipStrength<Real>& law, const Normal& n, Real d) {
+  static Cell after(const Cell& s, const SlipStrength<Real>& law, const Normal& n, double d) {
     Memory memory{};
     return after(s, law, n, d, memory);
   }
@@ -102,8 +102,9 @@ class SlipLaw : public testing::Test {
 };
 
 using SlipCases =
-    testing::Types<Case<FirstOrder, float, 2>, Case<SecondOrder, float, 2>, Case<FirstOrder, double, 2>,
-                   Case<SecondOrder, double, 2>, Case<FirstOrder, float, 3>, Case<SecondOrder, float, 3>,
-                   Case<FirstOrder, double, 3>, Case<SecondOrder, double, 3>>;
+    testing::Types<Case<FirstOrder, float, 2>, Case<SecondOrder, float, 2>, Case<Exponential, float, 2>,
+                   Case<FirstOrder, double, 2>, Case<SecondOrder, double, 2>, Case<Exponential, double, 2>,
+                   Case<FirstOrder, float, 3>, Case<SecondOrder, float, 3>, Case<Exponential, float, 3>,
+                   Case<FirstOrder, double, 3>, Case<SecondOrder, double, 3>, Case<Exponential, double, 3>>;
 
 }  // namespace slipwave

@@ -12,7 +12,7 @@ TYPED_TEST(SlipLimits, WithoutViscosityIsDryCoulombFriction) {
   using Real = typename TypeParam::Real;
   for (const double eta : {0., 1e-300}) {
     const auto n = this->any_normal();
-    const Real d = slip_d<Real>(eta, 1e10, 1e-3);
+    const double d = slip_d(eta, 1e10, 1e-3);
     typename TestFixture::Memory memory{};
     typename TestFixture::Cell s{};
     for (int step = 0; step < 200; ++step) {
@@ -31,16 +31,15 @@ TYPED_TEST(SlipLimits, UnderEndlessViscosityDoesNotSlip) {
   for (const double eta : {1e22, 1e300, 1.7e308}) {
     const auto n = this->any_normal();
     const auto s = this->any_stress();
-    this->expect_near(this->after(s, {Real(0.3), Real(1)}, n, slip_d<Real>(eta, 1e10, 1e-3)), s,
+    this->expect_near(this->after(s, {Real(0.3), Real(1)}, n, slip_d(eta, 1e10, 1e-3)), s,
                       8 * this->eps * 1e5);
   }
 }
 
 TYPED_TEST(SlipLimits, LeavesNoShearOnPlanesWithoutStrength) {
-  using Real = typename TypeParam::Real;
   for (const double eta : {0., 1e-300, 1., 1e300}) {
     const auto n = this->any_normal();
-    const auto s = this->after(this->any_stress(), {0, 0}, n, slip_d<Real>(eta, 1e10, 1e-3));
+    const auto s = this->after(this->any_stress(), {0, 0}, n, slip_d(eta, 1e10, 1e-3));
     EXPECT_LT(shear_magnitude(n, s), 10 * this->eps * 1e5) << eta;
   }
 }
@@ -71,8 +70,8 @@ TYPED_TEST(SlipLimits, KeepsAllNumbersFinite) {
       for (const double dt : {0., 1e-300, 1e-3})
         for (const double size : {0., 1e-42, 1e-25, 1., 1e5, 1e15})
           for (const double cohesion : {0., 1e-40, 1e-15, 1e5, 1e30}) {
-            const Real d = slip_d<Real>(eta, mu, dt);
-            ASSERT_TRUE(std::isfinite(d));
+            const double d = slip_d(eta, mu, dt);
+            ASSERT_TRUE(std::isfinite(slip::creep_pa(eta, mu, dt)));
             const auto n = this->any_normal();
             typename TestFixture::Memory memory{};
             auto s = this->any_stress(size);
@@ -84,12 +83,11 @@ TYPED_TEST(SlipLimits, KeepsAllNumbersFinite) {
           }
 }
 
-TEST(SlipD, IsViscosityOverShearModulusAndTimeStep) {
-  EXPECT_DOUBLE_EQ(slip_d<double>(3.8e3, 1.2656e10, 1e-3), 3.8e3 / 1.2656e7);
-  EXPECT_FLOAT_EQ(slip_d<float>(3.8e3, 1.2656e10, 1e-3), float(3.8e3 / 1.2656e7));
-  EXPECT_EQ(slip_d<float>(0, 0, 0), 0.f);
-  EXPECT_EQ(slip_d<float>(1, 0, 1e-3), 1e30f);
-  EXPECT_EQ(slip_d<float>(1e300, 1e-10, 1e-3), 1e30f);
+TEST(Creep, IsWhatAStepOfSlipTakesOffAtTwiceTheStrength) {
+  EXPECT_DOUBLE_EQ(slip::creep_pa(3.8e3, 1.2656e10, 1e-3), 1.2656e7 / 3.8e3);
+  EXPECT_EQ(slip::creep_pa(0, 0, 0), most_creep_pa);
+  EXPECT_EQ(slip::creep_pa(1, 0, 1e-3), 0);
+  EXPECT_EQ(slip::creep_pa(1e-300, 1e10, 1e-3), most_creep_pa);
 }
 
 TEST(SecondOrderSlip, DoesNotRingWhereTheStepIsMuchLongerThanTheRelaxation) {

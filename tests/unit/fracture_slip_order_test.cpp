@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "fracture/slip_law.hpp"
+#include "fracture_slip_cell.hpp"
 
 namespace slipwave {
 namespace {
@@ -63,7 +63,7 @@ template <class Correction, int D>
 double corrected(const Rock& rock, const Loading& loading, double end, int steps,
                  const Traction<D, double>& n, const Traction<D, double>& m) {
   const double dt = end / steps;
-  const double d = slip_d<double>(rock.eta, rock.mu, dt);
+  const double d = slip_d(rock.eta, rock.mu, dt);
   const SlipStrength<double> law{rock.friction, rock.cohesion};
   Stress<D, double> s;
   typename Correction::template Memory<D, double> memory{};
@@ -148,7 +148,7 @@ TEST(SecondOrderSlip, IsTheTrapezoidalRuleOfThePaperWhereItsStepResolvesTheRelax
   // |tau| = S (1 + 2 d |Sigma|)/(1 + 2 d S).
   const Rock rock;
   const int steps = 3000;
-  const double end = 0.4, d = slip_d<double>(rock.eta, rock.mu, end / steps);
+  const double end = 0.4, d = slip_d(rock.eta, rock.mu, end / steps);
   double tau = 0, b = 0;
   for (int n = 0; n < steps; ++n) {
     const double t = n * end / steps, after = t + end / steps;

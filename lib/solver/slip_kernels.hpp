@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+
+#include "fracture/slip_law.hpp"
+
+namespace slipwave::solver {
+
+/// Systems of slip planes that one kernel works on: one, or in 2-D two at right angles, which share their
+/// shear stress.
+template <class Real>
+struct SlipPlanes {
+  static constexpr int most_systems = 3, most_components = 6;
+  /// Stress components in the order of SymmetricTensor. s_n = sum of `normal` s; tau_k = sum of `shear` s,
+  /// diagonal ones halved; a change of tau_k changes s by `shear` times it (S4). One tangent in 2-D, two in
+  /// 3-D.
+  Real normal[most_systems][most_components];
+  Real shear[2][most_components];
+  Real friction[most_systems], cohesion_pa[most_systems];
+};
+
+/// Cells of a line side by side, from the first one on.
+template <class Real>
+struct SlipRows {
+  Real* stress;  // first component, the others `pitch` apart
+  std::int64_t pitch;
+  const Real* creep[2];  // mu dt/eta of each system, 0 in cells that do not slip
+  Real* kept;            // SlipKernels::kept_rows, `kept_pitch` apart
+  std::int64_t kept_pitch;
+  const Real* still;  // static stress: s_n of each system, then tau; null: none
+  std::int64_t still_pitch;
+  const Real* gap[2];  // of each system (open); null: none can open
+};
+
+/// Cells of a plane that may open.
+template <class Real>
+struct GapRows {
+  Real* stress;
+  std::int64_t pitch;
+  Real* gap;                     // strain by which planes stand open, n.e.n
+  const Real *lambda, *modulus;  // Lame's and lambda + 2 mu, Pa
+  const Real* still;             // static s_n; null: none
+};
+
+/// Inner loops of slip over n neighbouring cells of a line.
+template <class Real>
+struct SlipKernels {
+  /// What slip makes of the stress at the end of an elastic step (S5), (S6), (S10).
+  void (*slip)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
+  /// What the next step begins with.
+  void (*begin)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
+  /// Rows kept from step to step, zero before the first; the first ones are what begin() takes off tau.
+  int kept_rows;
+};
+
+/// Opens and closes the planes of system number `system` (S13).
+template <class Real>
+using GapKernel = void (*)(std::int64_t n, const SlipPlanes<Real>& planes, int system,
+                           const GapRows<Real>& rows);
+
+/// What a kernel is asked for.
+struct SlipCase {
+  int dimensions = 2, systems = 1;  // two systems in 2-D only
+  SlipCorrection correction = SlipCorrection::second;
+  bool still_or_gap = false;  // whether rows have them
+};
+
+/// Those for the best instruction set of this processor.
+template <class Real>
+SlipKernels<Real> slip_kernels(const SlipCase& of);
+template <class Real>
+GapKernel<Real> gap_kernel(int dimensions);
+
+}  // namespace slipwave::solver
