@@ -2,7 +2,6 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
-#include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
 
 namespace slipwave {
@@ -81,17 +80,24 @@ Scene<2> ShotSettings::without_model() const {
                                                        : SlipCorrection::exponential;
   scene.numerics.double_precision = precision == "double";
   scene.numerics.time_order = std::stoi(time_order);
-  for (const auto& name : split(without, ',')) {
-    const auto effect = in_place("--without", [&] { return slip_effect_named(name); });
-    if (effect == SlipEffect::slip) scene.with_slip = false;
-  }
+  for (const auto effect : effects_without()) scene.with_slip &= effect != SlipEffect::slip;
   return scene;
+}
+
+std::vector<SlipEffect> ShotSettings::effects_without() const {
+  std::vector<SlipEffect> effects;
+  if (without.empty()) return effects;
+  for (const auto& name : split(without, ','))
+    effects.push_back(in_place("--without", [&] { return slip_effect_named(name); }));
+  return effects;
 }
 
 void ShotSettings::read_model_into(Scene<2>& scene) const {
   scene.model = read_model<2>(model);
   in_place(model == "-" ? "standard input" : model, [&] { check(scene.model, limits); });
-  for (const auto& name : split(without, ',')) remove_effect(scene.model, slip_effect_named(name));
+  for (const auto effect : effects_without()) remove_effect(scene.model, effect);
+  // What is left must still hold together: planes without friction may slip under the static stress.
+  if (!without.empty()) in_place("--without " + without, [&] { check(scene.model, limits); });
   check(scene);
 }
 

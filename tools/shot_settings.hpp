@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cli/tool.hpp"
+#include "model/fracture.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
@@ -29,6 +30,9 @@ struct ShotSettings {
   Scene<2> without_model() const;
   /// Puts the model in and checks both.
   void read_model_into(Scene<2>& scene) const;
+
+ private:
+  std::vector<SlipEffect> effects_without() const;
 };
 
 }  // namespace slipwave

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "fracture/slip_law.hpp"
@@ -58,40 +58,38 @@ class JointSlip {
     Real friction, cohesion_pa;
   };
   static constexpr int most_rounds = 24;
+  static constexpr std::size_t most_systems = D;
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
       : correction_(correction), systems_(std::move(systems)) {}
   std::size_t systems() const { return systems_.size(); }
-  /// Numbers kept for a cell from step to step, zero before the first: what begin() takes off s first.
-  int kept() const {
-    const int components = Stress<D, Real>::components;
-    return correction_ == SlipCorrection::first         ? 0
-           : correction_ == SlipCorrection::exponential ? components
-                                                        : components + int(systems_.size());
-  }
   /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the static part, `creep`
-  /// and `open` (whether its planes stand apart) are by system; `kept` numbers stand `pitch` apart.
-  void slip(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open, Real* kept,
-            std::int64_t pitch) const {
+  /// and `open` (whether its planes stand apart) are by system.
+  void slip(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open) const {
     const Stress<D, Real> before = total;
-    Stress<D, Real> take{};
-    if (correction_ == SlipCorrection::exponential) {
+    if (correction_ == SlipCorrection::exponential)
       for (std::size_t n = systems_.size(); n-- > 0;) crept(n, creep[n], open[n], total);
-      Stress<D, Real> later = total;
-      for (std::size_t n = 0; n < systems_.size(); ++n) crept(n, creep[n], open[n], later);
-      for (std::size_t c = 0; c < take.values.size(); ++c) take.values[c] = total.values[c] - later.values[c];
-    } else {
-      relax(total, creep, open, kept + std::int64_t(take.values.size()) * pitch, pitch, take);
-    }
-    for (std::size_t c = 0; c < take.values.size(); ++c) {
-      s.values[c] += total.values[c] - before.values[c];
-      if (correction_ != SlipCorrection::first) kept[std::int64_t(c) * pitch] = take.values[c];
-    }
+    else
+      relax(total, creep, open);
+    add(s, before, total);
   }
   /// What the next step begins with.
-  void begin(Stress<D, Real>& s, const Real* kept, std::int64_t pitch) const {
+  void begin(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open) const {
     if (correction_ == SlipCorrection::first) return;
-    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] -= kept[std::int64_t(c) * pitch];
+    const Stress<D, Real> before = total;
+    if (correction_ == SlipCorrection::exponential) {
+      for (std::size_t n = 0; n < systems_.size(); ++n) crept(n, creep[n], open[n], total);
+    } else {
+      for (std::size_t n = 0; n < systems_.size(); ++n) {
+        Traction<D, Real> tau;
+        resolve<D, Real>(systems_[n].normal, before, tau);
+        const Real size = length<D, Real>(tau);
+        const Real off =
+            slip::taken_first(size, strength(n, open[n], before), creep[n], int(systems_.size()));
+        if (off > 0) add_shear<D, Real>(total, -off / size, tau, systems_[n].normal);
+      }
+    }
+    add(s, before, total);
   }
 
  private:
@@ -109,15 +107,15 @@ class JointSlip {
     const Real size = length<D, Real>(tau), off = slip::crept(size, strength_pa, creep * Real(0.5));
     if (off > 0) add_shear<D, Real>(s, -off / size, tau, systems_[n].normal);
   }
-  void relax(Stress<D, Real>& s, const Real* creep, const bool* open, Real* more, std::int64_t pitch,
-             Stress<D, Real>& take) const {
+  void relax(Stress<D, Real>& s, const Real* creep, const bool* open) const {
     const std::size_t count = systems_.size();
-    std::array<Real, most_systems> strengths{}, weighted{}, over{};
+    std::array<Real, most_systems> strengths{}, weighted{};
     std::array<Traction<D, Real>, most_systems> off{};
-    const bool second = correction_ == SlipCorrection::second;
     for (std::size_t n = 0; n < count; ++n) {
       strengths[n] = strength(n, open[n], s);
-      weighted[n] = second ? creep[n] * Real(0.5) + more[std::int64_t(n) * pitch] : creep[n];
+      weighted[n] = correction_ == SlipCorrection::first
+                        ? creep[n]
+                        : slip::creep_of_end(creep[n], strengths[n], int(count));
     }
     Real scale = 0;
     for (const Real value : s.values) scale = std::max(scale, std::abs(value));
@@ -129,7 +127,8 @@ class JointSlip {
         Traction<D, Real> tau;
         resolve<D, Real>(systems_[n].normal, s, tau);
         const Real size = length<D, Real>(tau);
-        const Real now = slip::relaxed(size, strengths[n], weighted[n], over[n]);
+        Real over;
+        const Real now = slip::relaxed(size, strengths[n], weighted[n], over);
         const Real share = now < size ? 1 - now / size : Real(0);
         for (std::size_t i = 0; i < D; ++i) {
           moved = std::max(moved, std::abs(share * tau[i] - off[n][i]));
@@ -139,15 +138,11 @@ class JointSlip {
       }
       if (!(moved > std::numeric_limits<Real>::epsilon() * scale)) break;
     }
-    for (std::size_t n = 0; second && n < count; ++n) {
-      const Real beginning = slip::creep_of_beginning(creep[n], strengths[n], int(count));
-      more[std::int64_t(n) * pitch] = creep[n] * Real(0.5) - beginning;
-      const Real size = length<D, Real>(off[n]);
-      if (size > 0) add_shear<D, Real>(take, beginning * over[n] / size, off[n], systems_[n].normal);
-    }
+  }
+  static void add(Stress<D, Real>& s, const Stress<D, Real>& before, const Stress<D, Real>& after) {
+    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += after.values[c] - before.values[c];
   }
 
-  static constexpr std::size_t most_systems = 8;
   SlipCorrection correction_;
   std::vector<System> systems_;
 };

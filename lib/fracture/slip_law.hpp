@@ -39,7 +39,8 @@ template <class Real>
 constexpr Real least = sizeof(Real) == 4 ? Real(1e-37) : Real(1e-300);
 
 /// c of planes of that viscosity in rock of that shear modulus, computed in double and held within what the
-/// law takes: dry friction (eta = 0) has the most, mu = 0 none. Planes without strength slip however large eta.
+/// law takes: dry friction (eta = 0) has the most, mu = 0 none. Planes without strength slip however large
+/// eta.
 inline double creep_pa(double viscosity_s, double mu_pa, double dt_s) {
   if (!(viscosity_s > 0)) return most_creep_pa;
   if (!(mu_pa > 0) || !(dt_s > 0)) return 0;
@@ -66,7 +67,7 @@ template <class Real>
 /// grows with |tau| in straight pieces: up to the lower strength, up to the higher one, beyond.
 template <class Real>
 [[gnu::always_inline]] inline Real relaxed_by_two(Real size, Real strength_a, Real strength_b, Real creep_a,
-                                                  Real creep_b, Real& over_a, Real& over_b) {
+                                                  Real creep_b) {
   const bool swap = strength_b < strength_a;
   const Real s1 = swap ? strength_b : strength_a, s2 = swap ? strength_a : strength_b;
   const Real c1 = swap ? creep_b : creep_a, c2 = swap ? creep_a : creep_b;
@@ -74,20 +75,20 @@ template <class Real>
   const Real one = relaxed(size, s1, c1, over1);
   // How much of a change of load the weaker system leaves to the stronger one.
   const Real passed = c1 > 0 ? s1 / greater(s1 + c1, least<Real>) : Real(1);
-  const bool both = c2 > 0 && one > s2;
-  over2 = both ? (one - s2) / greater(s2 + c2 * passed, least<Real>) : Real(0);
-  const Real two = both ? lesser(s2 + s2 * over2, one) : one;
-  over1 = both && over1 > 0 ? two / greater(s1, least<Real>) - 1 : over1;
-  over_a = swap ? over2 : over1;
-  over_b = swap ? over1 : over2;
-  return two;
+  return relaxed(one, s2, c2 * passed, over2);
 }
 
-/// (1 - theta) c of a step that begins with strength S, and theta c = c - that (S7), where `sharing` systems
-/// take off the same stress.
+/// theta c at strength S (S7), where `sharing` systems take off the same stress.
 template <class Real>
-[[gnu::always_inline]] inline Real creep_of_beginning(Real creep, Real strength, int sharing) {
-  return lesser(creep * Real(0.5), strength * Real(2. / sharing));
+[[gnu::always_inline]] inline Real creep_of_end(Real creep, Real strength, int sharing) {
+  return greater(creep * Real(0.5), creep - strength * Real(2. / sharing));
+}
+
+/// (1 - theta) G, what a step that begins with |tau| = size takes off first (S6).
+template <class Real>
+[[gnu::always_inline]] inline Real taken_first(Real size, Real strength, Real creep, int sharing) {
+  const Real share = lesser(creep * Real(0.5) / greater(strength, least<Real>), Real(2. / sharing));
+  return share * greater(size - strength, Real(0));
 }
 
 /// What creeps off |tau| = size within a part of a step in which nothing loads it; `creep` is for that part.

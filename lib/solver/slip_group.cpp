@@ -120,7 +120,6 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
       for (std::size_t i = 0; i < D; ++i) all.back().normal[i] = Real(n[i]);
     }
     joint_.emplace(correction, std::move(all));
-    kept_.assign(count_ * std::size_t(joint_->kept()), 0);
   }
   resolved_ = std::move(resolved);
 }
@@ -178,7 +177,7 @@ template <int D, class Real>
 void SlipGroup<D, Real>::slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
   if (part_) part(stress, pitch, place, n);
   if (joint_)
-    slip_jointly(stress, pitch, place, n);
+    slip_jointly(stress, pitch, place, n, false);
   else
     kernels_.slip(n, planes_, rows(stress, pitch, place));
 }
@@ -198,9 +197,10 @@ void SlipGroup<D, Real>::part(Real* stress, std::int64_t pitch, std::size_t plac
 }
 
 template <int D, class Real>
-void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
-  std::array<Real, 8> creep{};
-  std::array<bool, 8> open{};
+void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n,
+                                      bool begins) {
+  std::array<Real, JointSlip<D, Real>::most_systems> creep{};
+  std::array<bool, JointSlip<D, Real>::most_systems> open{};
   for (std::int64_t i = 0; i < n; ++i) {
     const auto at = place + std::size_t(i);
     if (!holds(at)) continue;
@@ -213,20 +213,20 @@ void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::siz
       creep[k] = creep_[k][at];
       open[k] = !gaps_[k].empty() && gaps_[k][at] > 0;
     }
-    joint_->slip(s, total, creep.data(), open.data(), kept_.data() + at, std::int64_t(count_));
+    if (begins)
+      joint_->begin(s, total, creep.data(), open.data());
+    else
+      joint_->slip(s, total, creep.data(), open.data());
     for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
   }
 }
 
 template <int D, class Real>
 void SlipGroup<D, Real>::begin(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
-  if (!joint_) return kernels_.begin(n, planes_, rows(stress, pitch, place));
-  for (std::int64_t i = 0; i < n; ++i) {
-    SymmetricTensor<D, Real> s;
-    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] = stress[std::int64_t(c) * pitch + i];
-    joint_->begin(s, kept_.data() + place + i, std::int64_t(count_));
-    for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
-  }
+  if (joint_)
+    slip_jointly(stress, pitch, place, n, true);
+  else
+    kernels_.begin(n, planes_, rows(stress, pitch, place));
 }
 
 template class SlipGroup<2, float>;

@@ -58,7 +58,7 @@ class SlipGroup {
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
   void part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+  void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool begins);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
 
   const FractureSet<D>* set_;

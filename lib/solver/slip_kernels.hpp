@@ -49,7 +49,7 @@ struct SlipKernels {
   void (*slip)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
   /// What the next step begins with.
   void (*begin)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
-  /// Rows kept from step to step, zero before the first; the first ones are what begin() takes off tau.
+  /// Rows kept from step to step, zero before the first.
   int kept_rows;
 };
 

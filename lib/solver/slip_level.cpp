@@ -32,20 +32,24 @@ template <class Real>
   return large * __builtin_sqrtf(1 + ratio * ratio);
 }
 
-template <int D, SlipCorrection Correction, bool Extended, class Real>
+/// Which half of the work: the end of a step or what the next one begins with.
+enum class Half { end, beginning };
+
+/// What one system makes of the stress.
+template <int D, SlipCorrection Correction, bool Extended, Half Now, class Real>
 void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   constexpr int tangents = D - 1, last = D == 2 ? 2 : 5;
+  constexpr bool exponential = Correction == SlipCorrection::exponential;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
   Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
   Real* __restrict const r4 = D == 2 ? r2 : r3 + rows.pitch, * __restrict const r5 =
                                                                  D == 2 ? r2 : r4 + rows.pitch;
   const Real* __restrict const creeps = rows.creep[0];
-  Real* __restrict const ahead1 = rows.kept, * __restrict const ahead2 =
-                                                 rows.kept + (tangents - 1) * rows.kept_pitch;
-  // Second order: theta c less c/2. Exponential: tau and S that the step began with.
-  Real* __restrict const more = rows.kept + tangents * rows.kept_pitch;
-  Real* __restrict const more2 = more + (tangents - 1) * rows.kept_pitch;
-  Real* __restrict const began = more + tangents * rows.kept_pitch;
+  // What the step began with: tau, S and what was taken off tau.
+  Real* __restrict const tau1 = rows.kept, * __restrict const tau2 =
+                                               rows.kept + (tangents - 1) * rows.kept_pitch;
+  Real* __restrict const strengths = rows.kept + tangents * rows.kept_pitch;
+  Real* __restrict const offs = strengths + rows.kept_pitch;
   const Real* __restrict const still_n = rows.still, * __restrict const still1 =
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still2 = rows.still + tangents * rows.still_pitch;
@@ -74,44 +78,39 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
     Real strength = friction * greater(-s_n, Real(0)) + cohesion;
     if constexpr (Extended) strength = has_gap && gaps[has_gap ? i : 0] > 0 ? Real(0) : strength;
     const Real size = D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
-    const Real reciprocal = 1 / greater(size, slip::least<Real>);
-    Real now = size, take = 0, kept_more = 0;
-    if constexpr (Correction == SlipCorrection::first) {
-      Real over;
-      now = slip::relaxed(size, strength, creep, over);
-    } else if constexpr (Correction == SlipCorrection::second) {
-      Real over;
-      now = slip::relaxed(size, strength, creep * Real(0.5) + more[i], over);
-      const Real beginning = slip::creep_of_beginning(creep, strength, 1);
-      kept_more = creep * Real(0.5) - beginning;
-      take = beginning * over;
-    } else {
-      const Real u1 = t1 * reciprocal, u2 = t2 * reciprocal, old = began[i];
-      Real start = u1 * more[i], from = u1 * (more[i] - ahead1[i]);
-      if constexpr (D == 3) {
-        start += u2 * more2[i];
-        from += u2 * (more2[i] - ahead2[i]);
+    // Unit vector along tau.
+    const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
+    const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
+               u2 = D == 2 ? Real(0) : t2 * reciprocal;
+    Real now = size;
+    if constexpr (Now == Half::beginning) {
+      if constexpr (exponential) {
+        const Real off = slip::crept(size, strength, creep * Real(0.5));
+        now = size - off;
+        tau1[i] = t1;
+        if constexpr (D == 3) tau2[i] = t2;
+        offs[i] = off;
+        strengths[i] = strength;
+      } else {
+        now = size - slip::taken_first(size, strength, creep, 1);
       }
-      const bool stuck = !(start > old);
-      const Real before = (stuck ? from : start) - old;
+    } else if constexpr (exponential) {
+      // Along the traction of the end: where it began, and with what the beginning took off.
+      const Real old = strengths[i], b1 = tau1[i], b2 = D == 3 ? tau2[i] : Real(0);
+      const Real start = u1 * b1 + u2 * b2;
+      const Real from = D == 2 ? start - (start < 0 ? -offs[i] : offs[i])
+                               : start * (1 - offs[i] / greater(length(b1, b2), slip::least<Real>));
+      const Real before = (start > old ? start : from) - old;
       const Real excess =
           slip::excess_after(before, (size - from) - (strength - old), Real(0.5) * (strength + old), creep);
       now = creep > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
-      take = slip::crept(now, strength, creep * Real(0.5));
+    } else {
+      Real over;
+      now = slip::relaxed(
+          size, strength,
+          Correction == SlipCorrection::first ? creep : slip::creep_of_end(creep, strength, 1), over);
     }
-    const bool slips = now < size;
-    const Real left = slips ? now * reciprocal : Real(1);
-    const Real d1 = t1 * left - t1, d2 = D == 3 ? t2 * left - t2 : Real(0);
-    if constexpr (Correction != SlipCorrection::first) {
-      ahead1[i] = take * (t1 * reciprocal);
-      if constexpr (D == 3) ahead2[i] = take * (t2 * reciprocal);
-    }
-    if constexpr (Correction == SlipCorrection::second) more[i] = kept_more;
-    if constexpr (Correction == SlipCorrection::exponential) {
-      more[i] = t1 + d1;
-      if constexpr (D == 3) more2[i] = t2 + d2;
-      began[i] = strength;
-    }
+    const Real d1 = u1 * (now - size), d2 = u2 * (now - size);
     r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
     r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
     r2[i] = s2 + (m1[2] * d1 + (D == 3 ? m2[2] * d2 : Real(0)));
@@ -124,12 +123,10 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
 }
 
 /// Two systems at right angles in 2-D: one shear stress, two strengths.
-template <SlipCorrection Correction, bool Extended, class Real>
+template <SlipCorrection Correction, bool Extended, Half Now, class Real>
 void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch, * __restrict const r2 = r1 + rows.pitch;
   const Real* __restrict const creeps_a = rows.creep[0], * __restrict const creeps_b = rows.creep[1];
-  Real* __restrict const ahead = rows.kept, * __restrict const more_a = rows.kept + rows.kept_pitch;
-  Real* __restrict const more_b = more_a + rows.kept_pitch;
   const Real* __restrict const still_a = rows.still, * __restrict const still_b =
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still_t = rows.still + 2 * rows.still_pitch;
@@ -155,55 +152,30 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
       strength_a = has_a && gaps_a[has_a ? i : 0] > 0 ? Real(0) : strength_a;
       strength_b = has_b && gaps_b[has_b ? i : 0] > 0 ? Real(0) : strength_b;
     }
-    const Real size = t < 0 ? -t : t, reciprocal = 1 / greater(size, slip::least<Real>);
-    Real now, take = 0;
-    if constexpr (Correction == SlipCorrection::first) {
-      Real over_a, over_b;
-      now = slip::relaxed_by_two(size, strength_a, strength_b, creep_a, creep_b, over_a, over_b);
-    } else if constexpr (Correction == SlipCorrection::second) {
-      Real over_a, over_b;
-      now = slip::relaxed_by_two(size, strength_a, strength_b, creep_a * Real(0.5) + more_a[i],
-                                 creep_b * Real(0.5) + more_b[i], over_a, over_b);
-      const Real begin_a = slip::creep_of_beginning(creep_a, strength_a, 2);
-      const Real begin_b = slip::creep_of_beginning(creep_b, strength_b, 2);
-      more_a[i] = creep_a * Real(0.5) - begin_a;
-      more_b[i] = creep_b * Real(0.5) - begin_b;
-      take = begin_a * over_a + begin_b * over_b;
-    } else {
+    const Real size = t < 0 ? -t : t;
+    Real now;
+    if constexpr (Correction == SlipCorrection::exponential) {
+      // One system after the other, in opposite orders at both ends.
       const Real half_a = creep_a * Real(0.5), half_b = creep_b * Real(0.5);
-      const Real left = size - slip::crept(size, strength_b, half_b);
-      now = left - slip::crept(left, strength_a, half_a);
-      const Real rest = now - slip::crept(now, strength_a, half_a);
-      take = now - (rest - slip::crept(rest, strength_b, half_b));
+      constexpr bool a_first = Now == Half::beginning;
+      const Real first = a_first ? half_a : half_b, second = a_first ? half_b : half_a;
+      const Real strength_1 = a_first ? strength_a : strength_b,
+                 strength_2 = a_first ? strength_b : strength_a;
+      const Real rest = size - slip::crept(size, strength_1, first);
+      now = rest - slip::crept(rest, strength_2, second);
+    } else if constexpr (Now == Half::beginning) {
+      now = size - slip::taken_first(size, strength_a, creep_a, 2) -
+            slip::taken_first(size, strength_b, creep_b, 2);
+    } else {
+      constexpr bool first = Correction == SlipCorrection::first;
+      now = slip::relaxed_by_two(size, strength_a, strength_b,
+                                 first ? creep_a : slip::creep_of_end(creep_a, strength_a, 2),
+                                 first ? creep_b : slip::creep_of_end(creep_b, strength_b, 2));
     }
-    const Real d = now < size ? t * (now * reciprocal) - t : Real(0);
-    if constexpr (Correction != SlipCorrection::first) ahead[i] = take * (t * reciprocal);
+    const Real d = t < 0 ? size - now : now - size;
     r0[i] = s0 + m0 * d;
     r1[i] = s1 + m1 * d;
     r2[i] = s2 + m2 * d;
-  }
-}
-
-template <int D, class Real>
-void begin(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
-  Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
-  Real* __restrict const r4 = D == 2 ? r2 : r3 + rows.pitch, * __restrict const r5 =
-                                                                 D == 2 ? r2 : r4 + rows.pitch;
-  const Real* __restrict const ahead1 = rows.kept, * __restrict const ahead2 =
-                                                       D == 2 ? rows.kept : rows.kept + rows.kept_pitch;
-  const Real *m1 = planes.shear[0], *m2 = planes.shear[D - 2];
-#pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    const Real a = ahead1[i], b = D == 2 ? Real(0) : ahead2[i];
-    r0[i] -= m1[0] * a + (D == 3 ? m2[0] * b : Real(0));
-    r1[i] -= m1[1] * a + (D == 3 ? m2[1] * b : Real(0));
-    r2[i] -= m1[2] * a + (D == 3 ? m2[2] * b : Real(0));
-    if constexpr (D == 3) {
-      r3[i] -= m1[3] * a + m2[3] * b;
-      r4[i] -= m1[4] * a + m2[4] * b;
-      r5[i] -= m1[5] * a + m2[5] * b;
-    }
   }
 }
 
@@ -250,17 +222,20 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
 
 template <int D, SlipCorrection Correction, bool Extended, class Real>
 SlipKernels<Real> one() {
-  const int rows = Correction == SlipCorrection::first    ? 0
-                   : Correction == SlipCorrection::second ? D
-                                                          : 2 * (D - 1) + 1;
-  return {slip_one<D, Correction, Extended, Real>,
-          Correction == SlipCorrection::first ? nothing<Real> : begin<D, Real>, rows};
+  if constexpr (Correction == SlipCorrection::first)
+    return {slip_one<D, Correction, Extended, Half::end, Real>, nothing<Real>, 0};
+  else
+    return {slip_one<D, Correction, Extended, Half::end, Real>,
+            slip_one<D, Correction, Extended, Half::beginning, Real>,
+            Correction == SlipCorrection::exponential ? D + 1 : 0};
 }
 template <SlipCorrection Correction, bool Extended, class Real>
 SlipKernels<Real> two() {
-  const int rows = Correction == SlipCorrection::first ? 0 : Correction == SlipCorrection::second ? 3 : 1;
-  return {slip_two<Correction, Extended, Real>,
-          Correction == SlipCorrection::first ? nothing<Real> : begin<2, Real>, rows};
+  if constexpr (Correction == SlipCorrection::first)
+    return {slip_two<Correction, Extended, Half::end, Real>, nothing<Real>, 0};
+  else
+    return {slip_two<Correction, Extended, Half::end, Real>,
+            slip_two<Correction, Extended, Half::beginning, Real>, 0};
 }
 
 template <SlipCorrection Correction, bool Extended, class Real>

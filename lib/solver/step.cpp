@@ -214,7 +214,8 @@ void Step<D, Real>::run(const StepTime& time, std::int64_t line, const Columns& 
 
 template <int D, class Real>
 void Step<D, Real>::run_after(const StepTime& time, std::int64_t line, const Columns& columns) {
-  for (const auto& pass : passes_) pass->run_after(time, line, columns);
+  // The other way round: what came last before looking comes first after it.
+  for (auto pass = passes_.rbegin(); pass != passes_.rend(); ++pass) (*pass)->run_after(time, line, columns);
 }
 
 template <int D, class Real>

@@ -67,9 +67,10 @@ void correct(const std::type_identity_t<SlipStrength<Real>>& law,
 
 /// What the next step begins with.
 template <class Correction, int D, class Real>
-void begin(const std::type_identity_t<Traction<D, Real>>& normal, Stress<D, Real>& s,
+void begin(const std::type_identity_t<SlipStrength<Real>>& law,
+           const std::type_identity_t<Traction<D, Real>>& normal, double d, Stress<D, Real>& s,
            std::array<Real, 8>& memory) {
-  auto call = slip_cell::call<Correction, D, Real>(SlipStrength<Real>(), normal, Real(1));
+  auto call = slip_cell::call<Correction, D, Real>(law, normal, Real(creep_of_d(d)));
   call.rows = {s.values.data(), 1, {&call.creep, nullptr}, memory.data(), 1, nullptr, 0, {nullptr, nullptr}};
   call.kernels.begin(1, call.planes, call.rows);
 }

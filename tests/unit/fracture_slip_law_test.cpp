@@ -147,7 +147,7 @@ TYPED_TEST(SlipLaw, NeverAddsEnergy) {
       const double after = shear_magnitude(n, s);
       ASSERT_LE(after, before + 20 * this->eps * 1e5);
       slipped += after < before;
-      begin<typename TypeParam::Correction, TypeParam::D, Real>(n, s, memory);
+      begin<typename TypeParam::Correction, TypeParam::D, Real>({Real(0.3), Real(1e3)}, n, d, s, memory);
       ASSERT_LE(shear_magnitude(n, s), after + 20 * this->eps * 1e5);
     }
     EXPECT_GT(slipped, 300);

@@ -98,7 +98,7 @@ TEST(SecondOrderSlip, DoesNotRingWhereTheStepIsMuchLongerThanTheRelaxation) {
   Stress<2, double> s;
   SecondOrder::Memory<2, double> memory{};
   for (int step = 0; step < 50; ++step) {
-    begin<SecondOrder, 2, double>({1, 0}, s, memory);
+    begin<SecondOrder, 2, double>(law, {1, 0}, d, s, memory);
     s(0, 1) += load;
     correct<SecondOrder, 2, double>(law, {1, 0}, d, s, memory);
     if (step > 3) {

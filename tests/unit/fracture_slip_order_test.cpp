@@ -74,7 +74,7 @@ double corrected(const Rock& rock, const Loading& loading, double end, int steps
   add(0, loading.normal(0));
   for (int step = 0; step < steps; ++step) {
     const double t = step * dt;
-    begin<Correction, D, double>(n, s, memory);
+    begin<Correction, D, double>(law, n, d, s, memory);
     add(loading.shear(t + dt) - loading.shear(t), loading.normal(t + dt) - loading.normal(t));
     correct<Correction, D, double>(law, n, d, s, memory);
   }
