@@ -138,6 +138,16 @@ class JointSlip {
       }
       if (!(moved > std::numeric_limits<Real>::epsilon() * scale)) break;
     }
+    // Rounds that end early leave some planes with more than their slip carries: dry ones hold S to the bit.
+    for (std::size_t n = 0; n < count; ++n) {
+      Traction<D, Real> tau;
+      resolve<D, Real>(systems_[n].normal, s, tau);
+      const Real size = length<D, Real>(tau);
+      const Real carried =
+          strengths[n] * (1 + length<D, Real>(off[n]) / std::max(weighted[n], slip::least<Real>));
+      if (creep[n] > 0 && size > carried)
+        add_shear<D, Real>(s, -(size - carried) / size, tau, systems_[n].normal);
+    }
   }
   static void add(Stress<D, Real>& s, const Stress<D, Real>& before, const Stress<D, Real>& after) {
     for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += after.values[c] - before.values[c];

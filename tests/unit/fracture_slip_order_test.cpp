@@ -137,6 +137,55 @@ TEST(SecondOrderSlip, ConvergesWithOrderTwoForAnyNormal) {
   }
 }
 
+TEST(ExponentialSlip, ConvergesWithOrderTwoForAnyNormal) {
+  for (const double degrees : {0., 90., 45., 30., -72.5}) {
+    const auto pulled = errors<Exponential>(pulling, degrees, 400, 4);
+    EXPECT_NEAR(order(pulled), 2, 0.1) << degrees;
+    EXPECT_LT(pulled.back(), 2e-6) << degrees;
+    EXPECT_NEAR(order(errors<Exponential>(shaking, degrees, 400, 5)), 2, 0.3) << degrees;
+  }
+}
+
+TEST(ExponentialSlip, IsExactUnderAConstantLoadingRateHoweverLongTheStep) {
+  const Rock rock;
+  const double s = rock.strength(-2e5), rate = 1e6, relaxation = rock.eta * s / rock.mu;
+  const Loading ramp{[&](double t) { return rate * t; }, [](double) { return -2e5; }};
+  for (const double lasts : {0.3, 1.7, 30.}) {
+    const double start = s / rate, end = start + lasts * relaxation;
+    const double exact = s + rate * relaxation * (1 - std::exp(-lasts));
+    const auto [n, m] = plane(-20);
+    for (const int steps : {1, 7, 50})
+      EXPECT_NEAR((corrected<Exponential, 2>(rock, ramp, end, steps, n, m)), exact, 1e-9 * exact) << steps;
+  }
+}
+
+TEST(ExponentialSlip, StopsInTheMiddleOfAStepWhereTheLawDoes) {
+  // Loaded to slip, then unloaded in one step: from the instant at which tau falls to S the plane is stuck.
+  const Rock rock;
+  const double s = rock.strength(-2e5), relaxation = rock.eta * s / rock.mu, rate = -4 * s / relaxation;
+  const double dt = 0.2 * relaxation, d = slip_d(rock.eta, rock.mu, dt), before = 0.2 * s;
+  const auto [n, m] = plane(30);
+  const double until = relaxation * std::log(1 + before / (-rate * relaxation));
+  ASSERT_LT(until, dt);
+  double tau = s + before;
+  Stress<2, double> stress;
+  for (int i = 0; i < 2; ++i)
+    for (int j = i; j < 2; ++j) stress(i, j) = -2e5 * n[i] * n[j] + tau * (n[i] * m[j] + m[i] * n[j]);
+  std::array<double, 8> memory{};
+  const SlipStrength<double> law{rock.friction, rock.cohesion};
+  begin<Exponential, 2, double>(law, n, d, stress, memory);
+  for (int i = 0; i < 2; ++i)
+    for (int j = i; j < 2; ++j) stress(i, j) += rate * dt * (n[i] * m[j] + m[i] * n[j]);
+  correct<Exponential, 2, double>(law, n, d, stress, memory);
+  tau = 0;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) tau += m[i] * stress(i, j) * n[j];
+  // The half of the slip that was taken first may have been too much: never more than that.
+  const double exact = s + rate * (dt - until), taken = before * (1 - std::exp(-dt / relaxation / 2));
+  EXPECT_LE(tau, exact + 1e-9 * s);
+  EXPECT_GT(tau, exact - taken);
+}
+
 TEST(SecondOrderSlip, KeepsItsOrderWherePlanesOpenAndClose) {
   const auto found = errors<SecondOrder>(gaping, 30, 400, 4);
   EXPECT_NEAR(order(found), 2, 0.2);

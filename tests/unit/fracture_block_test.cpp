@@ -1,0 +1,177 @@
+// Several slip systems in one cell, planes that part, and the functions slip is solved with.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fracture_slip_cell.hpp"
+
+namespace slipwave {
+namespace {
+
+template <class Real>
+class Smooth : public testing::Test {};
+using Reals = testing::Types<float, double>;
+TYPED_TEST_SUITE(Smooth, Reals);
+
+TYPED_TEST(Smooth, DecayAndLogarithmAreThoseOfTheLibrary) {
+  const double eps = std::numeric_limits<TypeParam>::epsilon();
+  for (double x = 1e-12; x < 80; x *= 1.01) {
+    const auto rounded = TypeParam(x);
+    const double exact = std::exp(-double(rounded));
+    EXPECT_NEAR(smooth::decay(rounded), exact, 4 * eps * exact) << x;
+    const double logarithm = std::log1p(double(rounded));
+    EXPECT_NEAR(smooth::logarithm_of_one_more(rounded), logarithm, 4 * eps * logarithm) << x;
+    if (x > 0.5) continue;
+    const double mean = -std::expm1(-double(rounded)) / double(rounded);
+    EXPECT_NEAR(smooth::mean_decay_near_zero(rounded), mean, 4 * eps * mean) << x;
+  }
+  EXPECT_EQ(smooth::decay(TypeParam(0)), 1);
+  EXPECT_LT(smooth::decay(TypeParam(1e30)), 1e-37);
+}
+
+TEST(Block, TwoSystemsShareTheLoadAsTheirRuleSays) {
+  // |tau| + c_a (|tau|/S_a - 1)_+ + c_b (|tau|/S_b - 1)_+ = |tau_e|, whatever the strengths.
+  std::mt19937 random(3);
+  const auto any = [&](double low, double high) {
+    return std::exp(std::uniform_real_distribution<>(std::log(low), std::log(high))(random));
+  };
+  for (int trial = 0; trial < 10000; ++trial) {
+    const double size = any(1, 1e6), a = any(1, 1e6), b = any(1, 1e6), c_a = any(1e-2, 1e8),
+                 c_b = any(1e-2, 1e8);
+    const double tau = slip::relaxed_by_two(size, a, b, c_a, c_b);
+    const double sum = tau + c_a * std::max(tau / a - 1, 0.) + c_b * std::max(tau / b - 1, 0.);
+    // What rounding of tau does to the sum.
+    const double rounding = tau * 1e-15 * (1 + c_a / a + c_b / b);
+    EXPECT_NEAR(sum, size, 1e-12 * size + 10 * rounding);
+  }
+  EXPECT_EQ(slip::relaxed_by_two(5., 0., 3., 1., 1.), 0);
+  EXPECT_EQ(slip::relaxed_by_two(5., 3., 2., most_creep_pa, most_creep_pa), 2);
+  EXPECT_EQ(slip::relaxed_by_two(5., 7., 6., 1., 1.), 5);
+}
+
+template <int D>
+JointSlip<D, double> blocks(SlipCorrection correction, const std::vector<double>& strengths) {
+  std::vector<typename JointSlip<D, double>::System> systems;
+  for (std::size_t n = 0; n < strengths.size(); ++n) {
+    systems.push_back({{}, 0, strengths[n]});
+    systems.back().normal[n] = 1;
+  }
+  return {correction, systems};
+}
+
+TEST(JointSlip, OfTwoSystemsIsTheClosedForm) {
+  const auto pair = blocks<2>(SlipCorrection::first, {300, 700});
+  const bool shut[2] = {};
+  for (const double creep : {10., 1e3, 1e5}) {
+    const double creeps[2] = {creep, 2 * creep};
+    Stress<2, double> s;
+    s(0, 1) = 2000;
+    pair.slip(s, s, creeps, shut);
+    EXPECT_NEAR(s(0, 1), slip::relaxed_by_two(2000., 300., 700., creep, 2 * creep), 2) << creep;
+  }
+}
+
+TEST(JointSlip, OfThreeSystemsInSpaceSolvesTheImplicitRule) {
+  // s_ij + sum over the systems k = i, j of s_ij G_k/|tau_k| = the elastic s_ij, G_k = c_k (|tau_k|/S_k -
+  // 1)_+.
+  const double strengths[] = {300, 500, 800}, creeps[] = {200, 400, 300};
+  const bool shut[3] = {};
+  const auto joint = blocks<3>(SlipCorrection::first, {300, 500, 800});
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 100; ++trial) {
+    Stress<3, double> s;
+    for (auto& value : s.values) value = std::uniform_real_distribution<>(-2000, 2000)(random);
+    const auto elastic = s;
+    joint.slip(s, s, creeps, shut);
+    double rate[3];
+    for (int k = 0; k < 3; ++k) {
+      const double tau = std::hypot(s(k, (k + 1) % 3), s(k, (k + 2) % 3));
+      rate[k] = creeps[k] * std::max(tau / strengths[k] - 1, 0.) / tau;
+    }
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(s(i, i), elastic(i, i));
+      for (int j = i + 1; j < 3; ++j)
+        EXPECT_NEAR(s(i, j) * (1 + rate[i] + rate[j]), elastic(i, j), 1e-3 * std::abs(elastic(i, j)) + 1);
+    }
+  }
+}
+
+double size_of(const Stress<3, double>& s) {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) sum += s(i, j) * s(i, j);
+  return sum;
+}
+
+TEST(JointSlip, NeverAddsEnergyAndObeysDryFriction) {
+  const bool shut[3] = {};
+  std::mt19937 random(9);
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential})
+    for (const double creep : {1e-3, 10., 1e3, 1e6, most_creep_pa}) {
+      const auto joint = blocks<3>(correction, {300, 500, 800});
+      const double creeps[] = {creep, creep, creep};
+      Stress<3, double> s;
+      for (int step = 0; step < 300; ++step) {
+        for (auto& value : s.values)
+          value = 0.8 * value + std::uniform_real_distribution<>(-900, 900)(random);
+        const double before = size_of(s);
+        joint.slip(s, s, creeps, shut);
+        const double after = size_of(s);
+        ASSERT_LE(after, before * (1 + 1e-14));
+        for (int k = 0; k < 3 && creep == most_creep_pa; ++k) {
+          const double strength = k == 0 ? 300 : k == 1 ? 500 : 800;
+          ASSERT_LE(std::hypot(s(k, (k + 1) % 3), s(k, (k + 2) % 3)), strength * (1 + 1e-12));
+        }
+        joint.begin(s, s, creeps, shut);
+        ASSERT_LE(size_of(s), after * (1 + 1e-14));
+      }
+    }
+}
+
+TEST(PairKernel, IsTheSameForEitherOrderOfItsSystems) {
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second}) {
+    const std::vector<SlipSystem<2>> one = {{{0.6, 0.8}, 0.3, 0, 10}, {{-0.8, 0.6}, 0.1, 0, 50}};
+    const std::vector<SlipSystem<2>> other = {one[1], one[0]};
+    const auto kernels = solver::slip_kernels<double>({2, 2, correction, false});
+    const auto run = [&](const std::vector<SlipSystem<2>>& systems, double creep_a, double creep_b) {
+      Stress<2, double> s{{-500, -900, 400}};
+      const auto planes = solver::planes_of<2, double>(systems);
+      const solver::SlipRows<double> rows = {s.values.data(), 1, {&creep_a, &creep_b}, nullptr, 0,
+                                             nullptr,         0, {nullptr, nullptr}};
+      kernels.slip(1, planes, rows);
+      kernels.begin(1, planes, rows);
+      return s;
+    };
+    const auto a = run(one, 100, 300), b = run(other, 300, 100);
+    EXPECT_LT(a(0, 1), 400);
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(a.values[c], b.values[c], 1e-10);
+  }
+}
+
+TEST(Gap, PartsPlanesUnderTensionAndRemembersHowFar) {
+  // n along x: pulled by a strain of 2e-6, then pushed back by 5e-6.
+  const double lambda = 1e10, modulus = 3e10;
+  const auto planes = solver::planes_of<2, double>({{{1, 0}, 0.5, 0, 0}});
+  const auto open = solver::gap_kernel<double>(2);
+  Stress<2, double> s;
+  double gap = 0;
+  const auto strain = [&](double e) {
+    s(0, 0) += modulus * e;
+    s(1, 1) += lambda * e;
+    open(1, planes, 0, {s.values.data(), 1, &gap, &lambda, &modulus, nullptr});
+  };
+  strain(2e-6);
+  EXPECT_NEAR(s(0, 0), 0, 1e-9);
+  EXPECT_NEAR(s(1, 1), 0, 1e-9);
+  EXPECT_NEAR(gap, 2e-6, 1e-18);
+  strain(-1e-6);
+  EXPECT_NEAR(s(0, 0), 0, 1e-9);
+  EXPECT_NEAR(gap, 1e-6, 1e-18);
+  strain(-4e-6);
+  EXPECT_EQ(gap, 0);
+  EXPECT_NEAR(s(0, 0), -modulus * 3e-6, 1e-6);
+  EXPECT_NEAR(s(1, 1), -lambda * 3e-6, 1e-6);
+}
+
+}  // namespace
+}  // namespace slipwave
