@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
+#include "base/parse.hpp"
 #include "base/temporary.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "output/derivatives.hpp"
@@ -129,6 +130,12 @@ class Snapshots {
 };
 
 }  // namespace
+
+bool ShotOutput::wants_slip() const {
+  const auto names = split(snapshot_fields, ',');
+  return std::any_of(names.begin(), names.end(),
+                     [](const auto& name) { return slip_field(name).has_value(); });
+}
 
 void ShotOutput::check(std::size_t shots) const {
   check_marks(traces);

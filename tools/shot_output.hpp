@@ -20,6 +20,8 @@ struct ShotOutput {
   std::optional<double> checkpoint_every_s;
   int shots_in_parallel = 0;  // 0: as many as there are threads, in most_together_bytes of memory
 
+  /// Whether snapshots hold what slip has done.
+  bool wants_slip() const;
   /// Throws a usage Error when the names can not hold all shots.
   void check(std::size_t shots) const;
   static constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;

@@ -44,8 +44,9 @@ class Digest {
   }
   template <int D>
   void add(const SlipSystem<D>& system) {
-    const auto& [normal, friction, viscosity_s, strength_pa] = system;
+    const auto& [normal, friction, viscosity_s, strength_pa, opens] = system;
     add(normal);
+    add(opens);
     for (const double constant : {friction, viscosity_s, strength_pa}) add(constant);
   }
   template <int D>
@@ -56,11 +57,12 @@ class Digest {
   }
   template <int D>
   void add(const Model<D>& model) {
-    const auto& [medium, fracture, sets, title, source, history] = model;
+    const auto& [medium, fracture, sets, prestress_pa, title, source, history] = model;
     const auto& [vp, vs, rho] = medium;
     add(vp), add(vs), add(rho);
     add(fracture);
     add(sets);
+    add(prestress_pa);
     add(title), add(source), add(history);
   }
   void add(const Wavelet& wavelet) {
@@ -125,7 +127,7 @@ const char* name_of(EdgeLaw law) {
 
 template <int D>
 Identity identity_of(const Scene<D>& scene) {
-  const auto& [model, survey, edges, numerics, recording, snapshot_every_s, with_slip] = scene;
+  const auto& [model, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary] = scene;
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, passage] = numerics;
   const auto& [components, duration_s, interval_s] = recording;
   const auto& [sources, receivers_m] = survey;
@@ -141,8 +143,9 @@ Identity identity_of(const Scene<D>& scene) {
       {"time step", shown(step_s) + " s"},
       {"cfl", shown(cfl)},
       {"precision", double_precision ? "double" : "float"},
-      {"slip correction", correction == SlipCorrection::first ? "first" : "second"},
+      {"slip correction", name_of(correction)},
       {"slip", with_slip ? "on" : "off"},
+      {"diary of slip", slip_diary ? "kept" : "not kept"},
       {"edge width", std::to_string(zones)},
       {"length of the traces", shown(duration_s) + " s"},
       {"sampling interval", shown(interval_s) + " s"},

@@ -21,7 +21,7 @@ using FieldReader = std::function<Field<D>(const FieldKey&)>;
 template <int D>
 using SnapshotSink = std::function<void(double time_s, const FieldReader<D>& field)>;
 
-/// What slip did, summed over cells (theory.md 2.4); energies in J, per metre in 2-D.
+/// What slip did, summed over cells (theory.md 2.3); energies in J, per metre in 2-D.
 struct SlipTotals {
   std::int64_t cells = 0, slipped = 0;  // fractured ones, and those that slipped at any time
   double dissipated = 0;                // turned into heat on the planes

@@ -1,0 +1,57 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "lab.hpp"
+#include "solver/slip_pass.hpp"
+#include "whole_pass.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(20, 20, 5, {4500, 2250, 2500});
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+  for (std::int64_t k = 3; k < 17; ++k)
+    for (std::int64_t i = 2; i < 19; i += 1 + k % 2) scene.model.fracture({i, k}) = 1;
+  scene.model.fracture_sets = {
+      {"crossing", {{{0.6, 0.8}, 0.2, 2e3, 1e3}, {{std::sqrt(0.5), std::sqrt(0.5)}, 0.1, 2e3, 0}}}};
+  scene.slip_diary = true;
+  const double dt_s = 0.9 * 5 / 4500;
+  for (const bool crossing : {true, false}) {
+    if (!crossing) scene.model.fracture_sets[0].systems.pop_back();
+    for (const auto correction :
+         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+      scene.numerics.correction = correction;
+      using L = Lab<double>;
+      L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
+      SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+      std::mt19937 random(2);
+      double lost = 0;
+      const auto energy_now = [&] { return energy(lab.state(), lab.domain(), scene.model.medium); };
+      for (std::int64_t step = 0; step < 5; ++step) {
+        for (std::int64_t k = 0; k < 20; ++k)
+          for (std::int64_t i = 0; i < 20; ++i)
+            for (const int row : {L::sxx, L::szz, L::sxz})
+              lab(row, i, k) += std::uniform_real_distribution<>(-1e5, 1e5)(random);
+        const double before = energy_now();
+        run_everywhere(slip, {step, dt_s}, lab.state().layout);
+        run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+        lost += before - energy_now();
+      }
+      const auto totals = slip.totals();
+      EXPECT_GT(totals.dissipated, 0);
+      EXPECT_NEAR(totals.dissipated, lost, 1e-9 * lost) << name_of(correction);
+      EXPECT_EQ(totals.out_of_waves, totals.dissipated);
+      EXPECT_GT(totals.slipped, totals.cells / 2);
+      EXPECT_LE(totals.slipped, totals.cells);
+      const auto field = slip.field(SlipField::slip);
+      for (std::size_t cell = 0; cell < field.size(); ++cell)
+        EXPECT_TRUE(field[cell] == 0 || scene.model.fracture[cell] != 0) << cell;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace slipwave::solver
