@@ -77,7 +77,6 @@ std::optional<SlipField> slip_field(const std::string& name) {
   if (name == "slip") return SlipField::slip;
   if (name == "slip_rate") return SlipField::slip_rate;
   if (name == "dissipated") return SlipField::dissipated;
-  if (name == "opening") return SlipField::opening;
   return std::nullopt;
 }
 

@@ -17,8 +17,7 @@ struct SnapshotField {
 };
 
 /// All of them. 2-D: vx vz p sxx szz sxz div curl (div and curl of the velocity, curl = dvx/dz - dvz/dx).
-/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz. In both also slip slip_rate dissipated
-/// opening.
+/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz. In both also slip slip_rate dissipated.
 template <int D>
 const std::vector<SnapshotField>& snapshot_fields();
 

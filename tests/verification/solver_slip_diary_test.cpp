@@ -33,7 +33,7 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
       for (std::int64_t step = 0; step < 5; ++step) {
         for (std::int64_t k = 0; k < 20; ++k)
           for (std::int64_t i = 0; i < 20; ++i)
-            for (const int row : {L::sxx, L::szz, L::sxz})
+            for (const auto row : {L::sxx, L::szz, L::sxz})
               lab(row, i, k) += std::uniform_real_distribution<>(-1e5, 1e5)(random);
         const double before = energy_now();
         run_everywhere(slip, {step, dt_s}, lab.state().layout);
