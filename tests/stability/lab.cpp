@@ -32,11 +32,13 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 }
 
 template <class Real>
-Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) {
+Lab<Real>::Lab(const Setup& setup)
+    : along_z_only_(setup.along_z_only), splitting_(splitting(2, setup.time_order)) {
   auto& model = scene_.model;
   model.medium = setup.medium;
   model.fracture = setup.fracture;
   model.fracture_sets = setup.fracture_sets;
+  model.prestress_pa = setup.prestress_pa;
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells);
   dt_s_ = setup.cfl * model.grid().spacing_m / solver::fastest_wave(model.medium);
@@ -53,8 +55,7 @@ Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) 
     passes_.push_back(
         std::make_unique<solver::AbsorbingZones<2, Real>>(state_, domain_, dt_s_, vp_max, nullptr));
   }
-  if (scene_.slips())
-    passes_.push_back(std::make_unique<solver::SlipPass<2, Real>>(state_, domain_, scene_, dt_s_));
+  if (scene_.slips()) slip_ = std::make_unique<solver::SlipPass<2, Real>>(state_, domain_, scene_, dt_s_);
 
   std::mt19937 engine(setup.seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -67,6 +68,11 @@ Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) 
     const auto set = [&](int row, double value) {
       state_.field_row({0, at[1]}, row)[at[0]] = Real(setup.amplitude * value);
     };
+    if (setup.fields) {
+      const auto fields = setup.fields(int(at[0]), int(at[1]));
+      for (int row = 0; row < 5; ++row) set(row, fields[std::size_t(row)]);
+      continue;
+    }
     const double z = double(model.medium.rho[cell]) * model.medium.vp[cell];
     const double pressure = z * uniform(engine);
     set(0, uniform(engine));
@@ -79,16 +85,52 @@ Lab<Real>::Lab(const Setup& setup) : splitting_(splitting(2, setup.time_order)) 
 
 template <class Real>
 void Lab<Real>::step() {
-  for (const auto& sweep : splitting_) sweeps_->along(sweep.axis, Real(sweep.part));
+  for (const auto& sweep : splitting_)
+    if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.part));
   const solver::StepTime time{steps_, dt_s_};
   for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_.layout);
+  if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_.layout); });
   for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_.layout);
+  if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_.layout); });
   ++steps_;
 }
 
+/// What slip and opening take off the stress of a cell is the elastic stress of a strain, on which the static
+/// stress does work: their product, of both stresses by Hooke's law.
 template <class Real>
-double Lab<Real>::energy() const {
+template <class Act>
+void Lab<Real>::slip(const Act& act) {
+  const auto& model = scene_.model;
+  if (model.prestress_pa.empty()) return act();
+  const auto stress = [&](std::size_t cell, int row) {
+    const auto at = domain_.computed_cell(model.grid().index(std::int64_t(cell)));
+    return double(state_.field_row({0, at[1]}, 2 + row)[at[0]]);
+  };
+  std::vector<std::array<double, 3>> before(model.fracture.size());
+  for (std::size_t cell = 0; cell < before.size(); ++cell)
+    if (model.fracture[cell])
+      for (int row = 0; row < 3; ++row) before[cell][std::size_t(row)] = stress(cell, row);
+  act();
+  const double h = domain_.grid.spacing_m;
+  for (std::size_t cell = 0; cell < before.size(); ++cell) {
+    if (!model.fracture[cell]) continue;
+    const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
+    const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
+    double off[3], still[3];
+    for (int row = 0; row < 3; ++row) {
+      off[row] = before[cell][std::size_t(row)] - stress(cell, row);
+      still[row] = model.prestress_pa[std::size_t(row)][cell];
+    }
+    const double even = (off[0] + off[1]) * (still[0] + still[1]) / (4 * (lambda + mu));
+    const double shear = (off[0] - off[1]) * (still[0] - still[1]) / (4 * mu) + off[2] * still[2] / mu;
+    work_of_prestress_ += h * h * (even + shear);
+  }
+}
+
+template <class Real>
+double Lab<Real>::sum(Stress which) const {
   const auto& medium = scene_.model.medium;
+  const auto& still = scene_.model.prestress_pa;
   const double h = domain_.grid.spacing_m;
   double total = 0;
   for (std::int64_t k = 0; k < domain_.grid.shape[1]; ++k) {
@@ -96,12 +138,27 @@ double Lab<Real>::energy() const {
     for (int field = 0; field < 5; ++field) row[field] = state_.field_row({0, k}, field);
     for (std::int64_t i = 0; i < domain_.grid.shape[0]; ++i) {
       const auto cell = std::size_t(medium.grid().flat(domain_.model_cell({i, k})));
+      double s[3];
+      for (int c = 0; c < 3; ++c) {
+        s[c] = double(row[2 + c][i]);
+        if (which == Stress::all && !still.empty()) s[c] += still[std::size_t(c)][cell];
+      }
       total += h * h *
                energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
-                              double(row[1][i]), double(row[2][i]), double(row[3][i]), double(row[4][i]));
+                              double(row[1][i]), s[0], s[1], s[2]);
     }
   }
   return total;
+}
+
+template <class Real>
+double Lab<Real>::energy() const {
+  return sum(Stress::of_waves);
+}
+
+template <class Real>
+double Lab<Real>::energy_with_prestress() const {
+  return sum(Stress::all);
 }
 
 template <class Real>

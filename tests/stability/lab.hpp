@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +29,9 @@ EdgeLaws<2> all_edges(EdgeLaw law);
 double energy_density(double vp, double vs, double rho, double vx, double vz, double sxx, double szz,
                       double sxz);
 
+/// vx, vz, sxx, szz and sxz of a cell.
+using CellFields = std::array<double, 5>;
+
 /// A wave field of random values in every cell, let loose: sweeps, absorbing zones or layers and slip as a
 /// shot has them, without a source. Fields in damped zones start random too, in matched layers at rest.
 template <class Real>
@@ -44,6 +49,10 @@ class Lab {
     std::vector<FractureSet<2>> fracture_sets;
     Field<2, std::uint8_t> fracture;
     SlipCorrection correction = SlipCorrection::second;
+    std::vector<Field<2>> prestress_pa;  // as in a Model
+    /// In place of random values, before `amplitude` is put on them.
+    std::function<CellFields(int i, int k)> fields;
+    bool along_z_only = false;  // no sweeps along x
     unsigned seed = 1;
   };
   explicit Lab(const Setup& setup);
@@ -51,12 +60,22 @@ class Lab {
   void step();
   /// Of the whole computed grid, zones included, J per metre; NaN where a field is.
   double energy() const;
+  /// The same with the static stress on top of that of the waves.
+  double energy_with_prestress() const;
+  /// energy() less the work that the static stress has done by slip and opening: the potential energy of all
+  /// stress under loads that stay, up to a constant.
+  double potential() const { return energy() - work_of_prestress_; }
   double time_step_s() const { return dt_s_; }
   /// Runs and expects that the energy never rises above the lowest value so far by more than `rounding` of
   /// it, and ends finite. Energies below `floor` are rounding itself.
   void expect_no_growth(int steps, double rounding, double floor = 0);
 
  private:
+  enum class Stress { of_waves, all };
+  double sum(Stress which) const;
+  template <class Act>
+  void slip(const Act& act);
+
   Scene<2> scene_;
   solver::Domain<2> domain_;
   double dt_s_;
@@ -64,6 +83,9 @@ class Lab {
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
   std::unique_ptr<solver::MatchedLayer<2, Real>> layer_;
   std::vector<std::unique_ptr<solver::Pass>> passes_;
+  std::unique_ptr<solver::Pass> slip_;
+  bool along_z_only_;
+  double work_of_prestress_ = 0;
   std::vector<SweepPart> splitting_;
   std::int64_t steps_ = 0;
 };

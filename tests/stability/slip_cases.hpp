@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "lab.hpp"
+
+namespace slipwave {
+
+/// Which cells (i, k) of a square of n slip, and in what medium that is hard.
+struct Cluster {
+  const char* name;
+  std::function<bool(int i, int k, int n)> holds;
+  const char* medium;
+};
+const std::vector<Cluster>& clusters();
+const Cluster& cluster_named(const std::string& name);
+
+/// What stands in a fracture set: angles of the planes and what goes beyond the simplest.
+struct Planes {
+  const char* name;
+  std::vector<double> angles_deg;
+  bool equal;  // strengths of all systems
+  bool open;   // planes part under tension
+};
+const std::vector<Planes>& kinds_of_planes();
+
+/// Friction and viscosity, s.
+struct Law {
+  double friction, viscosity_s;
+};
+/// None, little and enormous of both: from planes without strength through dry friction to what never slips.
+const std::vector<Law>& laws();
+
+const std::vector<SlipCorrection>& corrections();
+inline const std::vector<int> orders = {1, 3, 5, 7};
+
+/// n = (sin angle, -cos angle).
+SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa = 0, bool opens = false);
+/// Where the strengths differ, the second system has four times the friction and a cohesion.
+FractureSet<2> set_of(const Planes& planes, const Law& law, double strength_pa = 0);
+
+/// A scene of the laboratory whose solid cells in `cluster` slip.
+template <class Real>
+typename Lab<Real>::Setup fractured(const Medium<2>& medium, const Cluster& cluster,
+                                    const FractureSet<2>& set);
+
+/// Numbers the cases of a test and says what else they have: so that few runs meet all orders of space and
+/// time, edges and Courant numbers with everything.
+class Rotation {
+ public:
+  void next() { ++number_; }
+  int order() const { return orders[number_ % 4]; }
+  /// Numbers that share no factor meet in all pairs.
+  int time_order() const { return number_ % 5 == 1 ? 4 : 2; }
+  double cfl() const { return time_order() == 4 ? 1.9 : number_ % 3 == 0 ? 0.9 : 1; }
+  EdgeLaw edge() const {
+    return std::vector{EdgeLaw::free,      EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::free,
+                       EdgeLaw::absorbing, EdgeLaw::rigid, EdgeLaw::mirror}[number_ % 7];
+  }
+  bool in_double() const { return number_ % 11 % 2 == 0; }
+  /// Puts all of that in, but for the precision.
+  template <class Setup>
+  void into(Setup& setup) const {
+    setup.order = order();
+    setup.time_order = time_order();
+    setup.cfl = cfl();
+    setup.edges = all_edges(edge());
+  }
+  std::string shown() const;
+
+ private:
+  unsigned number_ = 0;
+};
+
+}  // namespace slipwave
