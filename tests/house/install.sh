@@ -1,5 +1,5 @@
 #!/bin/sh
-# install.sh ROOT BUILD TOOL...: `cmake --install` brings every tool and its man page, and nothing else.
+# install.sh ROOT BUILD TOOL...: `cmake --install` brings every tool, its man page and its completion, and nothing else.
 set -eu
 root=$1
 build=$2
@@ -16,10 +16,12 @@ for tool in "$@"; do
   esac
   cmp -s "$root/docs/man/$tool.1" "$prefix/share/man/man1/$tool.1" ||
     { echo "the man page of $tool is not installed"; status=1; }
+  [ -s "$prefix/share/bash-completion/completions/$tool" ] ||
+    { echo "the completion of $tool is not installed"; status=1; }
 done
 files=$(find "$prefix" -type f | wc -l)
-if [ "$files" -ne $(($# * 2)) ]; then
-  echo "installed $files files, expected a tool and a man page for each of: $*"
+if [ "$files" -ne $(($# * 3)) ]; then
+  echo "installed $files files, expected a tool, a man page and a completion for each of: $*"
   find "$prefix" -type f
   status=1
 fi

@@ -1,0 +1,81 @@
+#!/bin/sh
+# completion.sh BUILD TOOL...: what bash offers behind the tools, typed with tabs into a bash on a terminal of its own.
+set -eu
+completions=$1/completions
+bin=$1/bin
+shift
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+status=0
+broken() {
+  echo "$1"
+  status=1
+}
+
+# Every option is offered, and no other.
+for tool in "$@"; do
+  [ -s "$completions/$tool" ] || { broken "there is no completion of $tool"; continue; }
+  bash -c 'compopt() { :; }
+    . "$1" && COMP_WORDS=("$2" --) COMP_CWORD=1 && "_${2//-/_}" "$2" -- "$2" && printf "%s\n" "${COMPREPLY[@]}"' \
+    - "$completions/$tool" "$tool" | sort > "$work/offered"
+  "$bin/$tool" --help | sed -nE 's/^  (-., )?(--[a-z0-9-]+).*/\2/p' | sort > "$work/options"
+  diff "$work/options" "$work/offered" || broken "$tool: --help lists the first, bash offers the second"
+done
+[ "$status" = 0 ] || exit 1
+
+cd "$work"
+echo > model.nc
+echo > shots.sgy
+python3 - "$completions" <<'END' || status=1
+import os, pty, re, select, sys, time
+
+typed_and_wanted = [
+    ("sw-shoot --prec\tfl\t", "<--precision><float>"),
+    ("sw-shoot mo\t--top=mi\t", "<model.nc><--top=mirror>"),
+    ("sw-shoot --record vx,sz\t", "<--record><vx,szz>"),
+    ("sw-shoot --fields=vx,slip_\t,cu\t", "<--fields=vx,slip_rate,curl>"),
+    ("sw-shoot --without co\t", "<--without><cohesion>"),
+    ("sw-shoot -o sho\t", "<-o><shots.sgy>"),
+    ("sw-shoot --output=sho\t", "<--output=shots.sgy>"),
+    ("sw-shoot --time mod\t", "<--time><mod>"),
+    ("sw-shoot --snap\tmod\t", "<--snapshots><model.nc>"),
+    ("sw-plot --map red\t", "<--map><red-blue>"),
+    ("sw-plot --overl\tmod\t", "<--overlay><model.nc>"),
+    ("sw-spectrum --window=ha\tn\t", "<--window=hann>"),
+    ("sw-info mod\t", "<model.nc>"),
+]
+child, terminal = pty.fork()
+if child == 0:
+    os.environ.update(PS1="", INPUTRC="/dev/null", TERM="dumb", HISTFILE="/dev/null")
+    os.execvp("bash", ["bash", "--norc", "--noprofile", "-i"])
+
+
+def read_until(mark):
+    said, end = "", time.monotonic() + 20
+    while not re.search(mark, said) and time.monotonic() < end:
+        if select.select([terminal], [], [], 0.5)[0]:
+            said += os.read(terminal, 65536).decode()
+    return said
+
+
+def type_in(text):
+    os.write(terminal, text.encode())
+
+
+type_in("bind 'set bell-style none'; bind 'set enable-bracketed-paste off'; stty -echo\n")
+for tool in sorted({typed.split()[0] for typed, _ in typed_and_wanted}):
+    type_in(f". '{sys.argv[1]}/{tool}'; {tool}() {{ printf '<%s>' \"$@\"; echo; }}\n")
+type_in("echo rea''dy\n")
+read_until("ready")
+failed = False
+for typed, wanted in typed_and_wanted:
+    type_in(typed + "\necho do''ne\n")
+    said = read_until("done")
+    found = re.findall(r"^(<.*>)\r?$", said, re.MULTILINE)
+    if found != [wanted]:
+        print(f"{typed!r} becomes {found}, expected {wanted}; bash said {said!r}")
+        failed = True
+type_in("exit\n")
+sys.exit(failed)
+END
+exit "$status"
