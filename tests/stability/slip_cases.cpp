@@ -56,6 +56,12 @@ const std::vector<SlipCorrection>& corrections() {
   return all;
 }
 
+std::string name_of_case(const Planes& planes, SlipCorrection correction) {
+  return planes.name + std::string(correction == SlipCorrection::first    ? "First"
+                                   : correction == SlipCorrection::second ? "Second"
+                                                                          : "Exponential");
+}
+
 SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa, bool opens) {
   const double angle = angle_deg * std::acos(-1.0) / 180;
   return {{std::sin(angle), -std::cos(angle)}, law.friction, law.viscosity_s, strength_pa, opens};

@@ -34,6 +34,8 @@ struct Law {
 const std::vector<Law>& laws();
 
 const std::vector<SlipCorrection>& corrections();
+/// "OneThatOpensFirst"
+std::string name_of_case(const Planes& planes, SlipCorrection correction);
 inline const std::vector<int> orders = {1, 3, 5, 7};
 
 /// n = (sin angle, -cos angle).
