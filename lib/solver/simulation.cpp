@@ -2,10 +2,46 @@
 
 #include <algorithm>
 
+#include "solver/instability.hpp"
 #include "solver/step.hpp"
 
 namespace slipwave {
 namespace {
+
+/// What the recorder had when the fields were sound after that many steps, zeros after it.
+Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps, double dt_s) {
+  std::int64_t sound = gather.axis.count;
+  for (Recording shorter = recording; sound > 0; --sound) {
+    shorter.duration_s = double(sound - 1) * recording.interval_s;
+    if (solver::Recorder<2, float>::steps_needed(shorter, dt_s) <= steps) break;
+  }
+  for (auto& trace : gather.traces) {
+    trace.samples.resize(std::min(trace.samples.size(), std::size_t(sound)));
+    trace.samples.resize(std::size_t(gather.axis.count), 0);
+  }
+  return gather;
+}
+
+/// Says what became of a shot as exactly as it can be found out.
+template <int D, class Real>
+Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>& step,
+                  const solver::UnsoundFields<D>& seen, bool snapshots) {
+  const auto again = solver::first_unsound<D, Real>(scene, shot, seen.first(), snapshots);
+  const auto& found = again ? *again : seen;
+  const auto& first = found.first();
+  const auto looked = solver::Monitor<D, Real>::last_before(first.time.step + 1);
+  std::string what =
+      std::string(found.what()) + "; " + solver::surroundings(scene, step.domain(), shot, first.at);
+  // Between two looks it may have begun elsewhere.
+  if (!again && first.box[0] != first.box[1])
+    what += "; seen first in a box from " +
+            place_of(step.domain().grid, step.domain().grid.flat(first.box[0])) + " to " +
+            place_of(step.domain().grid, step.domain().grid.flat(first.box[1])) + ", sound " +
+            std::to_string(first.time.step + 1 - looked) + " steps before";
+  const auto sound = again ? first.time.step : looked;
+  return Unstable(what, sound_part(step.take_gather(), scene.recording, sound, first.time.dt_s),
+                  double(sound) * first.time.dt_s);
+}
 
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
@@ -17,10 +53,14 @@ Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progres
     pauses->begin(keep);
     wanted = [pauses] { return pauses->wanted(); };
   }
-  for (;;) {
-    step.run_to(step.steps(), progress, wanted);
-    if (step.done() == step.steps()) break;
-    pauses->pause(keep, {step.done(), step.steps()});
+  try {
+    for (;;) {
+      step.run_to(step.steps(), progress, wanted);
+      if (step.done() == step.steps()) break;
+      pauses->pause(keep, {step.done(), step.steps()});
+    }
+  } catch (const solver::UnsoundFields<D>& seen) {
+    throw unstable(scene, shot, step, seen, bool(snapshots));
   }
   if (report) *report = step.report();
   return step.take_gather();

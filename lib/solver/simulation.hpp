@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/error.hpp"
 #include "base/progress.hpp"
 #include "scene/scene.hpp"
 #include "solver/pauses.hpp"
@@ -35,11 +36,25 @@ struct ShotReport {
   double energy_left = 0;             // kinetic and elastic, in the model at the end
 };
 
+/// A shot whose fields have grown beyond all that its energy could make. What it had recorded before is in
+/// `gather`: samples up to the last moment at which the fields are known to have been sound, zeros after it.
+class Unstable : public Error {
+ public:
+  Unstable(const std::string& what, Gather gather, double sound_until_s)
+      : Error(what, ErrorKind::unstable), gather_(std::move(gather)), sound_until_s_(sound_until_s) {}
+  const Gather& gather() const { return gather_; }
+  double sound_until_s() const { return sound_until_s_; }
+
+ private:
+  Gather gather_;
+  double sound_until_s_;
+};
+
 /// Shoots one shot (1-based number) of a checked scene and returns its traces, component by component in the
 /// order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
 /// `pauses` (may be null) can interrupt it between passes through memory and take it up again; that changes
-/// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws an Error of kind
-/// unstable when the fields grow beyond all bounds.
+/// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws Unstable, which
+/// says where, when, in what medium and near which effect the fields were first seen to be so.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr);

@@ -47,7 +47,7 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
       sweeps_(state_, domain_, scene.numerics.order),
       pipeline_(sweeps_, state_, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
       whole_(std::size_t(Pass::most_steps_under_way)),
-      monitor_(state_, domain_, unit_),
+      monitor_(state_, domain_, unit_, largest_velocity(scene, shot)),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
       duration_s_(scene.recording.duration_s),
       snapshots_(snapshots),
@@ -120,7 +120,7 @@ void Step<D, Real>::run_to(std::int64_t last, const Progress& progress, const st
     done_ = pipeline_.run(done_, until, pause);
     const StepTime time{done_ - 1, dt_s_};
     if (snapshot && done_ == until) take_snapshot(time);
-    if (Monitor<D, Real>::next_after(done_ - 2) == done_ - 1) monitor_.look(time);
+    if (done_ % Monitor<D, Real>::every == 0 || done_ == steps_) look();
   }
 }
 

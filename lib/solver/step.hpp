@@ -28,6 +28,8 @@ class Step : private EndOfStep<Real> {
   std::int64_t steps() const { return steps_; }
   /// Steps that have been made.
   std::int64_t done() const { return done_; }
+  /// Throws UnsoundFields where they are; between two calls of run_to(), which looks now and then itself.
+  void look() const { monitor_.look({done_ - 1, dt_s_}); }
   /// Hands over all that the steps to come depend on; between two calls of run_to().
   void keep(Archive& archive);
   Gather take_gather() { return recorder_->take(); }

@@ -5,6 +5,7 @@
 
 #include "base/parallel.hpp"
 #include "lab.hpp"
+#include "memory_archive.hpp"
 #include "solver/simulation.hpp"
 
 // A shot that is left off and taken up again by another one is the shot that was never interrupted, to the
@@ -13,42 +14,6 @@ namespace slipwave::solver {
 namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
-
-class ToMemory : public Archive {
- public:
-  explicit ToMemory(std::vector<char>& kept) : kept_(kept) {}
-  void bytes(void* first, std::size_t count) override {
-    const char* from = static_cast<const char*>(first);
-    kept_.insert(kept_.end(), from, from + count);
-  }
-  std::size_t count(std::size_t now, std::size_t) override {
-    bytes(&now, sizeof now);
-    return now;
-  }
-
- private:
-  std::vector<char>& kept_;
-};
-
-class FromMemory : public Archive {
- public:
-  explicit FromMemory(const std::vector<char>& kept) : kept_(kept) {}
-  void bytes(void* first, std::size_t count) override {
-    ASSERT_LE(used_ + count, kept_.size());
-    std::memcpy(first, kept_.data() + used_, count);
-    used_ += count;
-  }
-  std::size_t count(std::size_t, std::size_t) override {
-    std::size_t number = 0;
-    bytes(&number, sizeof number);
-    return number;
-  }
-  bool all_used() const { return used_ == kept_.size(); }
-
- private:
-  const std::vector<char>& kept_;
-  std::size_t used_ = 0;
-};
 
 struct LeftOff {};
 
