@@ -77,6 +77,43 @@ FractureSet<2> set_of(const Planes& planes, const Law& law, double strength_pa) 
   return set;
 }
 
+namespace {
+
+bool sticks(const SlipSystem<2>& system, const PlaneStress& s) {
+  const double nx = system.normal[0], nz = system.normal[1];
+  const double tx = s.xx * nx + s.xz * nz, tz = s.xz * nx + s.zz * nz, s_n = nx * tx + nz * tz;
+  return std::abs(nx * tz - nz * tx) <= system.friction * std::max(-s_n, 0.) + system.strength_pa &&
+         !(system.opens && s_n > 0);
+}
+
+}  // namespace
+
+PlaneStress at_the_verge(const std::vector<FractureSet<2>>& sets, double pressure_pa, double share) {
+  const auto& n = sets.front().systems.front().normal;
+  const auto with_shear = [&](double shear_pa) {
+    const double across = 2 * n[0] * n[1] * shear_pa;
+    return PlaneStress{across - pressure_pa, -across - pressure_pa, (n[1] * n[1] - n[0] * n[0]) * shear_pa};
+  };
+  const auto holds = [&](double shear_pa) {
+    for (const auto& set : sets)
+      for (const auto& system : set.systems)
+        if (!sticks(system, with_shear(shear_pa))) return false;
+    return true;
+  };
+  double low = 0, high = 1e12;
+  for (int halved = 0; halved < 200; ++halved) {
+    const double middle = (low + high) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  return with_shear(share * low);
+}
+
+std::vector<Field<2>> uniform_stress(const Grid<2>& grid, const PlaneStress& stress) {
+  std::vector<Field<2>> fields;
+  for (const double value : {stress.xx, stress.zz, stress.xz}) fields.emplace_back(grid, float(value));
+  return fields;
+}
+
 template <class Real>
 typename Lab<Real>::Setup fractured(const Medium<2>& medium, const Cluster& cluster,
                                     const FractureSet<2>& set) {

@@ -43,6 +43,15 @@ SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa = 0
 /// Where the strengths differ, the second system has four times the friction and a cohesion.
 FractureSet<2> set_of(const Planes& planes, const Law& law, double strength_pa = 0);
 
+struct PlaneStress {
+  double xx, zz, xz;
+};
+/// Pressure, and of the shear along the first system that all systems of all sets just bear a share: with all
+/// of it one system is at the verge of slip.
+PlaneStress at_the_verge(const std::vector<FractureSet<2>>& sets, double pressure_pa, double share = 1);
+/// The same in every cell, as Model::prestress_pa has it.
+std::vector<Field<2>> uniform_stress(const Grid<2>& grid, const PlaneStress& stress);
+
 /// A scene of the laboratory whose solid cells in `cluster` slip.
 template <class Real>
 typename Lab<Real>::Setup fractured(const Medium<2>& medium, const Cluster& cluster,

@@ -18,44 +18,6 @@
 namespace slipwave {
 namespace {
 
-struct Stress {
-  double xx, zz, xz;
-};
-
-/// Resolved on the planes of a system: s_n and |tau|.
-std::pair<double, double> on_planes(const SlipSystem<2>& system, const Stress& s) {
-  const double nx = system.normal[0], nz = system.normal[1];
-  const double tx = s.xx * nx + s.xz * nz, tz = s.xz * nx + s.zz * nz, s_n = nx * tx + nz * tz;
-  return {s_n, std::abs(nx * tz - nz * tx)};
-}
-
-/// Pressure, and of the shear along the first system that all systems just bear a share: with all of it one
-/// system is at the verge of slip.
-Stress at_the_verge(const FractureSet<2>& set, double pressure_pa, double share = 1) {
-  const auto& n = set.systems.front().normal;
-  const auto with_shear = [&](double shear_pa) {
-    return Stress{-pressure_pa - 2 * n[0] * n[1] * shear_pa, -pressure_pa + 2 * n[0] * n[1] * shear_pa,
-                  (n[0] * n[0] - n[1] * n[1]) * shear_pa};
-  };
-  const auto holds = [&](double shear_pa) {
-    for (const auto& system : set.systems) {
-      const auto [s_n, tau] = on_planes(system, with_shear(shear_pa));
-      if (s_n > 0 && system.opens) return false;
-      if (tau > system.friction * std::max(-s_n, 0.) + system.strength_pa) return false;
-    }
-    return true;
-  };
-  double low = 0, high = 1e12;
-  for (int n_th = 0; n_th < 200; ++n_th) (holds((low + high) / 2) ? low : high) = (low + high) / 2;
-  return with_shear(share * low);
-}
-
-std::vector<Field<2>> uniform(const Medium<2>& medium, const Stress& s) {
-  std::vector<Field<2>> fields;
-  for (const double value : {s.xx, s.zz, s.xz}) fields.emplace_back(medium.grid(), float(value));
-  return fields;
-}
-
 int cells() { return long_form() ? 32 : 16; }
 int steps() { return long_form() ? 3000 : 100; }
 
@@ -122,7 +84,7 @@ TEST_P(SlipUnderStress, AtTheVergeNeverAddsEnergyToAllStressBetweenWalls) {
                    setup.edges = all_edges(EdgeLaw::rigid);
                    setup.correction = correction();
                    setup.amplitude = amplitude;
-                   setup.prestress_pa = uniform(medium, at_the_verge(set, 1e7));
+                   setup.prestress_pa = uniform_stress(medium.grid(), at_the_verge({set}, 1e7));
                    Lab<Real> lab(setup);
                    expect_fall(
                        lab, [](const Lab<Real>& of) { return of.energy_with_prestress(); }, 1e7);
@@ -143,8 +105,7 @@ TEST_P(SlipUnderStress, OfAnyKindNeverAddsEnergyButForTheWorkOfThatStress) {
       rotation_.into(setup);
       setup.correction = correction();
       setup.amplitude = amplitude;
-      const Stress verge = at_the_verge(set, 1e7);
-      setup.prestress_pa = uniform(medium, verge);
+      setup.prestress_pa = uniform_stress(medium.grid(), at_the_verge({set}, 1e7));
       for (std::size_t cell = 0; cell < medium.vs.size(); ++cell)
         for (std::size_t c = 0; c < 3; ++c)
           setup.prestress_pa[c][cell] *= float(1 + 0.5 * std::sin(double(7 * cell + 3 * c)));
@@ -171,7 +132,7 @@ TEST(StaticStress, DoesWorkOnSlipThatTheWavesKeep) {
     setup.correction = correction;
     setup.edges = all_edges(EdgeLaw::rigid);
     setup.fields = [](int, int) { return CellFields{0, 0, 0, 1e5, 0}; };
-    setup.prestress_pa = uniform(setup.medium, {-1e7, -1e7, 7e6 * (1 - 1e-7)});
+    setup.prestress_pa = uniform_stress(setup.medium.grid(), {-1e7, -1e7, 7e6 * (1 - 1e-7)});
     Lab<double> lab(setup);
     const double before = lab.energy(), all = lab.energy_with_prestress();
     for (int n = 0; n < 50; ++n) {
@@ -193,7 +154,7 @@ TEST(StaticStress, AtTheVergeLeavesRockAtRestAlone) {
         setup.correction = correction;
         setup.fields = [](int, int) { return CellFields{}; };
         // Values of a model are floats.
-        setup.prestress_pa = uniform(setup.medium, at_the_verge(set, 1e7, 1 - 1e-5));
+        setup.prestress_pa = uniform_stress(setup.medium.grid(), at_the_verge({set}, 1e7, 1 - 1e-5));
         Lab<double> lab(setup);
         for (int n = 0; n < 5; ++n) lab.step();
         EXPECT_EQ(lab.energy(), 0) << planes.name << ", friction " << law.friction;
