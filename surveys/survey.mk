@@ -8,8 +8,15 @@
 # Make can trust every file it finds: the tools write whole files or none, and what a failed command left is deleted.
 
 SURVEYS := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
+ifneq ($(wildcard $(SURVEYS)/run),)
 BUILD = $(SURVEYS)/../build/release# where the tools are built
 BIN = $(abspath $(BUILD))/bin# where they stand
+TOOLS := $(patsubst $(SURVEYS)/../tools/sw_%.cpp,$(BIN)/sw-%,$(wildcard $(SURVEYS)/../tools/sw_*.cpp))
+else # installed, as PREFIX/share/slipwave/surveys
+BUILD = $(abspath $(SURVEYS)/../../..)
+BIN = $(BUILD)/bin
+TOOLS :=
+endif
 OUT = out# where the results go
 THREADS = $(if $(filter -j%,$(MAKEFLAGS)),1,$(shell nproc))# threads of one simulation
 PLOT = $(BIN)/sw-plot# with options for all pictures, --dpi 300
@@ -20,11 +27,11 @@ MAKEFLAGS += --no-builtin-rules
 .DEFAULT_GOAL := all
 .PHONY: all clean help slurm
 
-TOOLS := $(patsubst $(SURVEYS)/../tools/sw_%.cpp,$(BIN)/sw-%,$(wildcard $(SURVEYS)/../tools/sw_*.cpp))
-
+ifneq ($(TOOLS),)
 # Tools that are not there are built; those that are there are left as they are.
 $(TOOLS) &:
 	SLIPWAVE_BUILD='$(abspath $(BUILD))' '$(SURVEYS)/run' --build
+endif
 
 $(OUT):
 	mkdir -p '$@'

@@ -12,6 +12,7 @@
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
 #include "cli/parser.hpp"
+#include "cli/version.hpp"
 
 namespace slipwave::cli {
 namespace {
@@ -56,7 +57,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
              const std::function<void(const Context&)>& run) {
   occupy_closed_streams();
   remove_temporaries_on_signals();
-  const std::string version = "slipwave " SLIPWAVE_VERSION;
+  const std::string version = std::string("slipwave ") + cli::version();
   try {
     Parser parser(info);
     declare(parser.options());

@@ -67,7 +67,7 @@ struct Context {
   /// are written.
   std::string command_line;
   std::string tool;     // "sw-layers"
-  std::string version;  // "slipwave 0.1.0"
+  std::string version;  // "slipwave 0.2.0"
   bool quiet = false;
   bool verbose = false;
   int threads = 0;  // 0: not given

@@ -1,12 +1,13 @@
 #!/bin/sh
-# install.sh ROOT BUILD TOOL...: `cmake --install` brings every tool, its man page and its completion, and nothing else.
+# install.sh ROOT BUILD TOOL...: `cmake --install` brings every tool, its man page and its completion, pages and surveys, and nothing else.
 set -eu
 root=$1
 build=$2
 shift 2
 prefix=$(mktemp -d)
-trap 'rm -rf "$prefix"' EXIT
-cmake --install "$build" --prefix "$prefix" >/dev/null
+made=$(mktemp -d)
+trap 'rm -rf "$prefix" "$made"' EXIT
+cmake --install "$build" --prefix "$prefix" --component tools >/dev/null
 status=0
 for tool in "$@"; do
   said=$("$prefix/bin/$tool" --version) || { echo "$tool does not run where it is installed"; status=1; }
@@ -19,10 +20,20 @@ for tool in "$@"; do
   [ -s "$prefix/share/bash-completion/completions/$tool" ] ||
     { echo "the completion of $tool is not installed"; status=1; }
 done
-files=$(find "$prefix" -type f | wc -l)
-if [ "$files" -ne $(($# * 3)) ]; then
-  echo "installed $files files, expected a tool, a man page and a completion for each of: $*"
-  find "$prefix" -type f
-  status=1
-fi
+others=$(find "$prefix" -type f ! -path "$prefix/bin/sw-*" ! -path "$prefix/share/man/man1/sw-*.1" \
+  ! -path "$prefix/share/bash-completion/completions/sw-*" ! -path "$prefix/share/slipwave/*")
+[ -z "$others" ] || { printf 'installed beside what is expected: %s\n' "$others"; status=1; }
+tools=$(find "$prefix/bin" "$prefix/share/man" "$prefix/share/bash-completion" -type f | wc -l)
+[ "$tools" -eq $(($# * 3)) ] || { echo "installed $tools files, expected tool, man page and completion for each of: $*"; status=1; }
+
+sh "$root/tests/house/links.sh" "$prefix/share/slipwave" || { echo 'links of the installed pages lead nowhere'; status=1; }
+
+# Surveys run where they are installed, and write nothing there.
+unset MAKEFLAGS MAKELEVEL
+find "$prefix" | sort > "$made/before"
+make -C "$prefix/share/slipwave/surveys/quickstart" STEP=20 OUT="$made/out" >"$made/said" 2>&1 ||
+  { cat "$made/said"; echo 'the installed survey fails'; status=1; }
+grep -q "^$prefix/bin/sw-shoot " "$made/said" || { cat "$made/said"; echo 'the installed survey takes other tools'; status=1; }
+[ -s "$made/out/traces.png" ] || { echo 'the installed survey draws nothing'; status=1; }
+find "$prefix" | sort | diff "$made/before" - || { echo 'the survey changed what is installed'; status=1; }
 exit "$status"

@@ -1,0 +1,9 @@
+#include "cli/version.hpp"
+
+#include "cli/version_text.hpp"
+
+namespace slipwave::cli {
+
+const char* version() { return version_text; }
+
+}  // namespace slipwave::cli
