@@ -11,7 +11,8 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdint>
+#include <fstream>
+#include <functional>
 #include <numeric>
 #include <vector>
 
@@ -20,9 +21,8 @@
 namespace slipwave {
 namespace {
 
-// Far more than reading what is below takes, on any machine.
-constexpr rlim_t most_seconds = 20;
-constexpr double most_values = double(1 << 24);
+constexpr double most_bytes = double(1 << 24);
+constexpr double most_piece_bytes = double(1 << 26);
 constexpr std::size_t most_attribute_bytes = std::size_t(1) << 24;
 
 void look_at_attributes(int file, int variable, int count) {
@@ -40,10 +40,20 @@ void look_at_attributes(int file, int variable, int count) {
   }
 }
 
+/// Bytes of the pieces a variable is stored in, which the library reads whole.
+double piece_bytes(int file, int variable, std::size_t width, std::size_t rank) {
+  std::vector<std::size_t> cells(std::max(rank, std::size_t(1)), 1);
+  int storage = NC_CONTIGUOUS;
+  if (nc_inq_var_chunking(file, variable, &storage, cells.data()) != NC_NOERR) return 0;
+  if (storage != NC_CHUNKED) return 0;
+  return std::accumulate(cells.begin(), cells.end(), double(width), std::multiplies<double>());
+}
+
 /// All values where they are few, else the last one: it needs the index of the pieces.
 void look_at_values(int file, int variable, nc_type type, const std::vector<int>& dimensions) {
   std::size_t width = 0;
   if (nc_inq_type(file, type, nullptr, &width) != NC_NOERR || width == 0) return;
+  if (piece_bytes(file, variable, width, dimensions.size()) > most_piece_bytes) return;
   std::vector<std::size_t> start(dimensions.size(), 0), count;
   double values = 1;
   for (const int dimension : dimensions) {
@@ -52,7 +62,7 @@ void look_at_values(int file, int variable, nc_type type, const std::vector<int>
     count.push_back(length);
     values *= double(length);
   }
-  if (values * double(width) > most_values) {
+  if (values * double(width) > most_bytes) {
     for (std::size_t axis = 0; axis < count.size(); ++axis) start[axis] = count[axis] - 1, count[axis] = 1;
     values = 1;
   }
@@ -77,33 +87,66 @@ void look_through(int file) {
   }
 }
 
+/// Bytes of address space that are in use, 0 where the system does not tell.
+rlim_t bytes_in_use() {
+  std::ifstream pages("/proc/self/statm");
+  rlim_t count = 0;
+  pages >> count;
+  return count * rlim_t(sysconf(_SC_PAGESIZE));
+}
+
+void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
+  rlimit now{};
+  if (getrlimit(what, &now) != 0) return;
+  now.rlim_cur = std::min(now.rlim_cur, most);
+  setrlimit(what, &now);
+}
+
 /// Signals do here what they do by default: the handlers would remove the parent's temporaries.
-[[noreturn]] void be_the_child(const std::function<int()>& open_file) {
+[[noreturn]] void be_the_child(const std::function<int()>& open_file, const ProbeLimits& limits) {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGXCPU})
     std::signal(number, SIG_DFL);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  const rlimit seconds{most_seconds, most_seconds + 1}, no_core{0, 0};
-  setrlimit(RLIMIT_CPU, &seconds);
-  setrlimit(RLIMIT_CORE, &no_core);
-  const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
-  if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
   try {
+    limit(RLIMIT_CPU, limits.processor_s);
+    limit(RLIMIT_CORE, 0);
+    if (const rlim_t used = bytes_in_use(); used > 0) limit(RLIMIT_AS, used + limits.bytes);
+    const int nowhere = open("/dev/null", O_RDWR | O_CLOEXEC);
+    if (nowhere >= 0) dup2(nowhere, STDERR_FILENO);
     if (const int file = open_file(); file >= 0) look_through(file);
   } catch (...) {  // too little memory: the parent finds out by itself
   }
   _exit(0);
 }
 
+/// While it lives, the end of a child is told, also to a process that was started to ignore such news.
+class ChildrenHeard {
+ public:
+  ChildrenHeard() {
+    struct sigaction standard {};
+    standard.sa_handler = SIG_DFL;
+    sigaction(SIGCHLD, &standard, &before_);
+  }
+  ChildrenHeard(const ChildrenHeard&) = delete;
+  ChildrenHeard& operator=(const ChildrenHeard&) = delete;
+  ~ChildrenHeard() { sigaction(SIGCHLD, &before_, nullptr); }
+
+ private:
+  struct sigaction before_ {};
+};
+
 }  // namespace
 
-void probe_netcdf(const std::function<int()>& open_file) {
+void probe_netcdf(const std::function<int()>& open_file, const ProbeLimits& limits) {
+  const ChildrenHeard heard;
   const pid_t child = fork();
   if (child < 0) return;  // no room for a second process: then without
-  if (child == 0) be_the_child(open_file);
+  if (child == 0) be_the_child(open_file, limits);
   int status = 0;
   while (waitpid(child, &status, 0) < 0) {
     if (errno != EINTR) return;
   }
+  // KILL comes from outside.
   if (WIFSIGNALED(status) && WTERMSIG(status) != SIGKILL)
     throw Error("damaged: the HDF5 library cannot read it");
 }
