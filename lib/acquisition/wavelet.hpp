@@ -107,7 +107,8 @@ Wavelet parse_wavelet(const std::string& text);
 
 /// Reads samples: two columns, time in s and value, or one column of values with a line "# dt=SECONDS"
 /// somewhere before the first (the first value is at t = 0). Columns are separated by blanks, tabs or a
-/// comma; empty lines and lines that begin with # are skipped. Times must grow. A file that begins before 0
+/// comma; empty lines and lines that begin with # are skipped. Times must grow, by 1e-15 s and 1e-12 of the
+/// whole at least, and lie within 1e9 s of 0; values are at most 1e100. A file that begins before 0
 /// is shifted to begin at 0. A first or last sample that is not zero is led from and to zero over one sample
 /// interval.
 shape::Sampled read_wavelet(const std::string& path);

@@ -84,6 +84,19 @@ TEST_F(WaveletFile, GoesThroughItsSamplesAtUnevenTimes) {
   EXPECT_NEAR((w(0.004) - w(0.004 - 1e-9)) / 1e-9, (w(0.004 + 1e-9) - w(0.004)) / 1e-9, 1e-2);
 }
 
+TEST_F(WaveletFile, ThatNoSplineCanPassThroughIsRefused) {
+  // Each of these would give NaN somewhere between its samples.
+  EXPECT_NE(
+      refusal("# dt=1e-300\n0\n1\n-1\n0\n").find("found samples 1e-300 s apart, expected at least 1e-15 s"),
+      std::string::npos);
+  EXPECT_NE(refusal("0 0\n1 1\n1.00000000000001 2\n1e6 0\n").find("expected at least 1e-06 s"),
+            std::string::npos);
+  EXPECT_NE(
+      refusal("0 1e308\n1 -1e308\n2 0\n").find("line 1: found 1e+308 at 0 s, expected values up to 1e+100"),
+      std::string::npos);
+  EXPECT_NE(refusal("-1e300 0\n0 1\n").find("times up to 1e+09 s"), std::string::npos);
+}
+
 TEST_F(WaveletFile, MayHaveOneColumnAndAnInterval) {
   const auto w = read("# made by hand\r\n# dt=0.002\r\n\r\n0\r\n1\r\n-2e-1\r\n0\r\n");
   EXPECT_NEAR(w(0.002), 1, 1e-14);
