@@ -54,6 +54,7 @@ TASKS_NEED =
 CPUS = 1# processors of a task
 SLURM = $(OUT)/$(notdir $(CURDIR)).slurm
 slurm: $(TASKS_NEED) $(TOOLS) | $(OUT)## an array job for a cluster, a task for each simulation
+	@$(if $(TASKS),,echo 'this survey is no set of tasks' >&2; exit 2)
 	@{ echo '#!/bin/sh'; \
 	  echo '#SBATCH --job-name=$(notdir $(CURDIR))'; \
 	  echo '#SBATCH --array=1-$(words $(TASKS))'; \
@@ -74,10 +75,11 @@ slurm: $(TASKS_NEED) $(TOOLS) | $(OUT)## an array job for a cluster, a task for 
 	@echo '$(SLURM): $(words $(TASKS)) tasks; submit with'
 	@sed -n 's|^#   sbatch|  sbatch|p' $(SLURM)
 
-# A rule's comment, with the names that it makes and $(OUT) put in.
+# A rule's comment, with the names that it makes and $(OUT) put in; a setting's comment, with its value.
 help:
 	@echo 'make TARGET [SETTING=VALUE]; targets:'
 	@cat $(MAKEFILE_LIST) | sed -n 's|$$(OUT)|$(OUT)|g; s|^\([^#:	][^:]*[^:& ]\) *&*:.*##|\1\t|p' | \
 	  awk -F '\t *' '{ printf "  %-38s %s\n", $$1, $$2 }'
 	@echo 'settings:'
-	@echo '  OUT=$(OUT)  THREADS=$(THREADS)  BUILD=$(abspath $(BUILD))'
+	@$(foreach name,$(shell sed -n 's/^\([A-Z_]*\) = *[^#]*#[^#].*/\1/p' $(MAKEFILE_LIST) | awk '!seen[$$0]++'), \
+	  printf '  %-38s %s\n' '$(name)=$($(name))' "$$(sed -n 's/^$(name) = *[^#]*# *//p' $(MAKEFILE_LIST) | head -n 1)";)

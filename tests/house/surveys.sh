@@ -26,6 +26,12 @@ for makefile in "$root"/surveys/*/Makefile; do
       *) broken "surveys/$name: make help does not tell of $target" ;;
     esac
   done
+  for setting in "OUT=$out" $(sed -n 's/^\([A-Z]*\) = *\([^ #]*\)# .*/\1=\2/p' "$makefile"); do
+    case $help in
+      *" $setting "*) ;;
+      *) broken "surveys/$name: make help does not tell of the setting $setting" ;;
+    esac
+  done
   said=$("$root/surveys/run" 2>&1) && broken "surveys/run without a name ends with status 0"
   case $said in
     *" $name"*) ;;
@@ -41,6 +47,10 @@ for tool in sw-layers sw-fracture sw-shoot sw-diff sw-spectrum sw-compare sw-inf
     *) broken "quickstart: make -n does not tell of $tool" ;;
   esac
 done
+
+if make -s -C "$root/surveys/gallery" BUILD="$2" OUT="$out" slurm >/dev/null 2>&1; then
+  broken 'gallery: make slurm writes a job without tasks'
+fi
 
 for target in paper-marmousi 'accuracy marmousi2-model.nc'; do
   # shellcheck disable=SC2086
