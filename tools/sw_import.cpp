@@ -76,7 +76,9 @@ Field<2> read_raw(const Settings& settings, const std::string& path) {
   const auto grid = in_place("--shape", [&] {
     return grid_of_size<2>({double(shape[0]) * step, double(shape[1]) * step}, step);
   });
-  const auto bytes = read_all(path);
+  // A file's size is told as it is; a stream may have no end.
+  const auto most = is_regular_input(path) ? 0 : std::size_t(grid.size()) * sizeof(float);
+  const auto bytes = read_all(path, {}, most);
   const auto fast = settings.order == "z-fast" ? FastAxis::z : FastAxis::x;
   return in_place(shown_input(path), [&] { return field_from_raw(bytes, grid, fast); });
 }

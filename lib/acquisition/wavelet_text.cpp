@@ -61,6 +61,9 @@ std::optional<double> interval_in(std::string_view comment) {
   return interval;
 }
 
+// What splines and spectra can be made of in doubles, far beyond all that sources do.
+constexpr double most_seconds = 1e9, largest_value = 1e100, shortest_step_s = 1e-15, finest_step = 1e-12;
+
 /// Samples as they stand in a file, line by line.
 class SampleReader {
  public:
@@ -85,8 +88,12 @@ class SampleReader {
     if (!times_.empty() && !(time > times_.back()))
       throw Error("found time " + shown(time) + " s after " + shown(times_.back()) +
                   " s, expected growing times");
+    const double value = parse_number(columns.back());
+    if (std::abs(time) > most_seconds || std::abs(value) > largest_value)
+      throw Error("found " + shown(value) + " at " + shown(time) + " s, expected values up to " +
+                  shown(largest_value) + " and times up to " + shown(most_seconds) + " s");
     times_.push_back(time);
-    values_.push_back(parse_number(columns.back()));
+    values_.push_back(value);
   }
 
   shape::Sampled finish() && {
@@ -105,6 +112,11 @@ class SampleReader {
     }
     const double delay = std::max(0., -times_.front());
     for (auto& time : times_) time += delay;
+    const double shortest = std::max(shortest_step_s, finest_step * (times_.back() - times_.front()));
+    for (std::size_t n = 1; n < times_.size(); ++n)
+      if (!(times_[n] - times_[n - 1] >= shortest))
+        throw Error("found samples " + shown(times_[n] - times_[n - 1]) + " s apart, expected at least " +
+                    shown(shortest) + " s in a wavelet of " + shown(times_.back() - times_.front()) + " s");
     return shape::Sampled(std::move(times_), std::move(values_), delay);
   }
 
@@ -116,9 +128,9 @@ class SampleReader {
 }  // namespace
 
 shape::Sampled read_wavelet(const std::string& path) {
-  const auto bytes = read_all(path);
+  const auto text = read_text(path);
   SampleReader reader;
-  std::string_view rest(bytes.data(), bytes.size());
+  std::string_view rest(text);
   for (int number = 1; !rest.empty(); ++number) {
     const auto end = rest.find('\n');
     try {

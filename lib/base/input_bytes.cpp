@@ -49,16 +49,20 @@ bool is_regular_input(const std::string& path) {
   return S_ISREG(status.st_mode);
 }
 
-std::vector<char> read_all(const std::string& path, std::vector<char> already_read) {
+std::vector<char> read_all(const std::string& path, std::vector<char> already_read, std::size_t most) {
+  if (most == 0) most = std::size_t(sysconf(_SC_PHYS_PAGES)) / 2 * std::size_t(sysconf(_SC_PAGESIZE));
   const bool regular = is_regular_input(path);
   const std::string name = shown_input(path);
   const Descriptor from = opened(path);
   std::vector<char> bytes = std::move(already_read);
   struct stat status {};
-  if (regular && fstat(from.number, &status) == 0) bytes.reserve(std::size_t(status.st_size) + 1);
+  if (regular && fstat(from.number, &status) == 0)
+    bytes.reserve(std::min(std::size_t(status.st_size), most) + 1);
   constexpr std::size_t block = std::size_t(1) << 18;
   for (;;) {
     const std::size_t before = bytes.size();
+    if (before > most)
+      throw Error(name + ": found more than " + std::to_string(most) + " bytes, expected no more");
     if (bytes.capacity() - before < 1) bytes.reserve(before + std::max(block, before / 2));
     bytes.resize(std::min(bytes.capacity(), before + std::max(block, before / 2)));
     const ssize_t count = ::read(from.number, bytes.data() + before, bytes.size() - before);
@@ -68,6 +72,12 @@ std::vector<char> read_all(const std::string& path, std::vector<char> already_re
     if (count < 0) throw Error(name + ": " + cause_of(error_number));
     if (count == 0) return bytes;
   }
+}
+
+std::string read_text(const std::string& path) {
+  constexpr std::size_t most = std::size_t(1) << 26;
+  const auto bytes = read_all(path, {}, most);
+  return {bytes.begin(), bytes.end()};
 }
 
 InputFile::InputFile(const std::string& path) {

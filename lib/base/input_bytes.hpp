@@ -12,8 +12,13 @@ std::string shown_input(const std::string& path);
 
 /// All bytes of a file, fifo or ("-") standard input. Throws Error naming it: missing, a directory,
 /// unreadable, standard input that is a terminal. `already_read` bytes were taken from it before and come
-/// first.
-std::vector<char> read_all(const std::string& path, std::vector<char> already_read = {});
+/// first. More than `most` bytes are refused (0: half of the memory of this machine), so that an input
+/// without end comes to one.
+std::vector<char> read_all(const std::string& path, std::vector<char> already_read = {},
+                           std::size_t most = 0);
+
+/// As read_all, for what people write: 64 MiB at most.
+std::string read_text(const std::string& path);
 
 /// Is `path` a regular file? Throws Error naming it when it is missing or a directory. "-" is none.
 bool is_regular_input(const std::string& path);

@@ -17,7 +17,8 @@ namespace po = boost::program_options;
 
 // Not part of the provenance: the bytes of the output do not depend on them.
 const std::set<std::string> without_effect = {
-    "output", "threads", "quiet", "verbose", "checkpoint", "checkpoint-every", "shots-in-parallel"};
+    "output",           "threads",           "quiet",        "verbose", "checkpoint",
+    "checkpoint-every", "shots-in-parallel", "keep-unstable"};
 // Only sensible on the command line.
 const std::set<std::string> not_in_config = {"help", "version", "config"};
 
@@ -138,8 +139,7 @@ void Parser::refuse_without_value(const std::string& name) const {
 void Parser::read_config() {
   const std::string& path = common_.config;
   if (path.empty()) refuse("--config: found no name, expected a file");
-  const auto bytes = read_all(path);
-  std::istringstream file(std::string(bytes.begin(), bytes.end()));
+  std::istringstream file(read_text(path));
   po::options_description known;
   for (const auto& option : options_.options_) {
     if (!not_in_config.count(option.name))

@@ -12,8 +12,8 @@
 namespace slipwave {
 
 std::vector<NumberedPoint> read_points(const std::string& path) {
-  const auto bytes = read_all(path);
-  const std::string_view all(bytes.data(), bytes.size());
+  const auto whole = read_text(path);
+  const std::string_view all(whole);
   // Some editors begin a text with this mark.
   constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
   std::istringstream text(std::string(all.substr(all.starts_with(byte_order_mark) ? 3 : 0)));
