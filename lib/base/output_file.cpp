@@ -79,7 +79,7 @@ struct OutputFile::Impl {
     struct stat status {};
     if (stat(target.c_str(), &status) == 0) {
       if (access(target.c_str(), W_OK) != 0) fail(errno);
-      mode = status.st_mode & 07777;
+      mode = status.st_mode & 0777;
     } else {
       mode = mode_of_new_files();
     }
@@ -172,6 +172,14 @@ void OutputFile::commit() {
   if (!self.through_library) self.flush();
   if (chmod(self.whole->path().c_str(), self.mode) != 0) self.fail(errno);
   in_place(self.shown_name, [&] { self.whole->rename_to(self.target); });
+}
+
+void OutputFile::commit_as(const std::string& path) {
+  if (impl_->stream < 0) {
+    impl_->shown_name = path;
+    impl_->target = resolved(path);
+  }
+  commit();
 }
 
 const std::string& OutputFile::shown_name() const { return impl_->shown_name; }

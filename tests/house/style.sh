@@ -34,6 +34,8 @@ sources() { find "$@" -name '*.?pp' | sort; }
   forbid '(^|[^[:alnum:]_])(std::)?(exit|abort|quick_exit|terminate) *\(' 'nothing below main exits' $below_main
   forbid '^ *# *define ' 'no macros' $(sources lib tools)
   forbid 'shared_ptr' 'no shared ownership' $(sources lib tools)
+  forbid '(^|[^[:alnum:]_.>])(std::|::)?(system|popen|wordexp|posix_spawnp?|exec(l|le|lp|v|ve|vp|vpe))\(' \
+    'no shell and no other program is started' $(sources lib tools)
   forbid 'using namespace std' 'names of std keep their std::' $(sources lib tools tests)
 }
 exit "$status"

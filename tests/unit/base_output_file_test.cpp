@@ -96,6 +96,35 @@ TEST_F(OutputFileTest, KeepsItsTemporaryPrivateUntilCommit) {
   EXPECT_EQ(status.st_mode & 0777, 0600u);
 }
 
+TEST_F(OutputFileTest, HasAPrivateTemporaryWhateverTheUmaskAndThenTheModeTheUmaskAsksFor) {
+  const auto mode_of = [](const std::string& path) {
+    struct stat status {};
+    return stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
+  };
+  for (const mode_t mask : {0000, 0022, 0027, 0077}) {
+    const mode_t before = umask(mask);
+    OutputFile out(path("a"), OutputFile::Content::binary);
+    EXPECT_EQ(mode_of(out.path_for_libraries()), 0600u) << std::oct << mask;
+    out.commit();
+    umask(before);
+    EXPECT_EQ(mode_of(path("a")), 0666u & ~mask) << std::oct << mask;
+    fs::remove(path("a"));
+  }
+}
+
+TEST_F(OutputFileTest, KeepsTheModeOfAnOlderFileButForSpecialBits) {
+  for (const mode_t mode : {0600, 0644, 0660, 04755}) {
+    std::ofstream(path("a")) << "older";
+    ASSERT_EQ(chmod(path("a").c_str(), mode), 0);
+    OutputFile out(path("a"), OutputFile::Content::text);
+    out.write("1", 1);
+    out.commit();
+    struct stat status {};
+    ASSERT_EQ(stat(path("a").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777, mode & 0777);
+  }
+}
+
 TEST_F(OutputFileTest, NamesTheFileWhenItCannotBeWritten) {
   const auto sentence_of = [](const std::string& name) -> std::string {
     try {
