@@ -22,57 +22,6 @@
 namespace slipwave {
 namespace {
 
-bool replace(std::string& text, const std::string& mark, const std::string& by) {
-  bool found = false;
-  for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + by.size())) {
-    text.replace(at, mark.size(), by);
-    found = true;
-  }
-  return found;
-}
-
-std::string name_for(std::string pattern, std::size_t shot, const std::string& component) {
-  replace(pattern, "{shot}", std::to_string(shot));
-  replace(pattern, "{component}", component);
-  return pattern;
-}
-
-/// A misspelt mark would make a file of that name.
-void check_marks(const std::string& pattern) {
-  for (auto at = pattern.find('{'); at != std::string::npos; at = pattern.find('{', at + 1)) {
-    const auto end = pattern.find('}', at);
-    if (end == std::string::npos) return;
-    const std::string mark = pattern.substr(at, end - at + 1);
-    if (mark != "{shot}" && mark != "{component}")
-      throw Error("found " + mark + " in the name " + pattern + ", expected {shot} or {component}",
-                  ErrorKind::usage);
-  }
-}
-
-bool holds(std::string pattern, const std::string& mark) { return replace(pattern, mark, ""); }
-
-/// What the textual header says of a run.
-std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& history,
-                                    const std::string& version) {
-  const auto& source = scene.survey.sources.front();
-  const auto& n = scene.numerics;
-  std::vector<std::string> entries = {
-      version + ": synthetic seismograms",
-      "source: " + std::string(name_of<2>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
-          ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
-          shown(source.wavelet.delay_s()) + " s",
-      "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
-          shown(time_step_s(scene)) + " s, grid " + shown(scene.model.grid()) +
-          (scene.slips() ? std::string(", slip: ") + name_of(n.correction) : std::string(", no slip")),
-  };
-  for (std::size_t begin = 0; begin < history.size();) {
-    const auto end = std::min(history.find('\n', begin), history.size());
-    if (end > begin) entries.push_back(history.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return entries;
-}
-
 std::optional<SlipField> slip_field(const std::string& name) {
   if (name == "slip") return SlipField::slip;
   if (name == "slip_rate") return SlipField::slip_rate;
@@ -122,6 +71,7 @@ class Snapshots {
     return [this] { return log_->synchronized(); };
   }
   void commit() { writer_.commit(); }
+  void commit_as(const std::string& path) { writer_.commit_as(path); }
 
  private:
   SnapshotWriter<2> writer_;
@@ -134,40 +84,6 @@ bool ShotOutput::wants_slip() const {
   const auto names = split(snapshot_fields, ',');
   return std::any_of(names.begin(), names.end(),
                      [](const auto& name) { return slip_field(name).has_value(); });
-}
-
-void ShotOutput::check(std::size_t shots) const {
-  check_marks(traces);
-  check_marks(snapshots);
-  if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<2>(snapshot_fields); });
-  if (first_shot < 1)
-    throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
-                ErrorKind::usage);
-  if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
-    throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
-                    ", expected {shot} in the name",
-                ErrorKind::usage);
-  if (!snapshots.empty() && holds(snapshots, "{component}"))
-    throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
-                ErrorKind::usage);
-  if (checkpoint_every_s && checkpoint.empty())
-    throw Error("found --checkpoint-every without --checkpoint, expected where to write it",
-                ErrorKind::usage);
-  if (checkpoint_every_s && !(*checkpoint_every_s > 0))
-    throw Error("--checkpoint-every: found " + shown(*checkpoint_every_s) + ", expected it above 0",
-                ErrorKind::usage);
-  if (checkpoint == "-") throw Error("--checkpoint: found -, expected the name of a file", ErrorKind::usage);
-  for (const auto& output : {traces, snapshots})
-    if (!checkpoint.empty() && checkpoint == output)
-      throw Error("found " + checkpoint + " for both --checkpoint and an output, expected two places",
-                  ErrorKind::usage);
-  if (shots_in_parallel < 0)
-    throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
-                ErrorKind::usage);
-  if (!snapshots.empty() && shots_in_parallel > 1)
-    throw Error("found --snapshots with " + std::to_string(shots_in_parallel) +
-                    " for --shots-in-parallel, expected 1: snapshots are written one after the other",
-                ErrorKind::usage);
 }
 
 std::size_t ShotOutput::shots_at_once(const Scene<2>& scene) const {
@@ -209,22 +125,104 @@ bool ShotOutput::in_place_still(const Scene<2>& scene, RunBook& book, std::size_
   return all;
 }
 
+/// What a run works on.
+struct ShotOutput::Underway {
+  std::vector<std::string> entries;  // of the textual headers
+  RunBook book;
+  TraceFiles files;
+  std::optional<Snapshots> kept;
+};
+
 void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
                            const cli::Context& context) const {
-  const auto entries = entries_of(scene, history, context.version);
-  const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
+  const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
   if (any_trace && !snapshots.empty() && snapshots == traces)
     throw Error("found " + traces + " for both --output and --snapshots, expected two places",
                 ErrorKind::usage);
+  if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
+    throw Error("found --keep-unstable and an output to standard output, expected the name of a file",
+                ErrorKind::usage);
+  // Samples are written alike whether anything was computed before, or all came from a checkpoint.
+  flush_subnormals();
+  Underway run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
+  try {
+    shoot_rest(scene, history, context, run);
+  } catch (const Unstable& error) {
+    const auto number = std::to_string(error.shot() + std::size_t(first_shot - 1));
+    const auto kept = keep(scene, error, context, run);
+    throw Error((scene.survey.sources.size() > 1 ? "shot " + number + ": " : "") + error.what() +
+                    (kept.empty() ? ""
+                                  : "; what it recorded until t=" + shown(error.sound_until_s(), 6) +
+                                        " s is in " + kept),
+                ErrorKind::unstable);
+  }
+}
+
+/// The traces of all shots that are in the book, taken out of it, by the names of their files.
+std::map<std::string, Gather> ShotOutput::gathers_by_file(RunBook& book, std::size_t shots) const {
+  std::map<std::string, Gather> gathers;
+  for (std::size_t shot = 1; shot <= shots; ++shot) {
+    Gather* const gather = book.gather(shot);
+    if (!gather) continue;
+    for (auto& trace : gather->traces) {
+      trace.header.shot += first_shot - 1;
+      auto& collected =
+          gathers[name_for(traces, shot + std::size_t(first_shot - 1), name_of(trace.header.component))];
+      collected.axis = gather->axis;
+      collected.traces.push_back(std::move(trace));
+    }
+  }
+  return gathers;
+}
+
+/// What there is when a shot has become unstable: files of other shots that are whole are put in place, all
+/// the rest under other names where that is wanted. These names; what can not be written is a warning.
+std::string ShotOutput::keep(const Scene<2>& scene, const Unstable& error, const cli::Context& context,
+                             Underway& run) const {
+  const auto shots = scene.survey.sources.size();
+  std::string kept;
+  try {
+    if (holds(traces, "{shot}"))
+      for (const auto& [name, gather] : gathers_by_file(run.book, shots)) {
+        segy::write_gather(run.files.at(name), gather, {}, run.entries);
+        run.files.at(name).commit();
+      }
+    if (!keep_unstable) return "";
+    auto entries = run.entries;
+    entries.push_back("shot " + std::to_string(error.shot() + std::size_t(first_shot - 1)) +
+                      " became unstable: its samples after " + shown(error.sound_until_s(), 6) +
+                      " s are zero");
+    for (std::size_t shot = 1; holds(traces, "{shot}") && shot <= shots; ++shot) run.book.forget(shot);
+    run.book.finish(error.shot(), error.gather());
+    for (const auto& [name, gather] : gathers_by_file(run.book, shots)) {
+      OutputFile file(unstable_name(name), OutputFile::Content::binary);
+      segy::write_gather(file, gather, {}, entries);
+      file.commit();
+      kept += (kept.empty() ? "" : ", ") + unstable_name(name);
+    }
+    if (!run.kept) return kept;
+    const auto name = unstable_name(name_for(snapshots, error.shot() + std::size_t(first_shot - 1), ""));
+    run.kept->commit_as(name);
+    kept += (kept.empty() ? "" : ", ") + name;
+  } catch (const Error& other) {
+    context.warn(other.what());
+  }
+  return kept;
+}
+
+void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, const cli::Context& context,
+                            Underway& run) const {
+  const auto& entries = run.entries;
+  auto& book = run.book;
+  auto& files = run.files;
+  auto& kept = run.kept;
+  const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
   const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
   const auto number_of = [&](std::size_t shot) { return shot + std::size_t(first_shot - 1); };
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };
-  // Samples are written alike whether anything was computed before, or all came from a checkpoint.
-  flush_subnormals();
-  RunBook book = open_book(scene, history, context);
   const bool goes_on = !book.goes_on_at().empty();
   if (goes_on) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
   std::vector<std::size_t> open;
@@ -233,7 +231,6 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
     if (!book.finished(shot)) open.push_back(shot);
     if (goes_on && !snapshots.empty()) remove_strays(name_for(snapshots, number_of(shot), ""));
   }
-  TraceFiles files;
   const auto open_files = [&](std::size_t shot) {
     for (const Component component : scene.recording.components) {
       const auto name = name_of_file(shot, component);
@@ -244,18 +241,9 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
   };
   // Writes the files that all shots have been shot for; each trace goes once.
   const auto write_files = [&] {
-    std::map<std::string, Gather> gathers;
-    for (std::size_t shot = 1; shot <= shots; ++shot) {
-      Gather* const gather = book.gather(shot);
-      if (!gather) continue;
-      open_files(shot);
-      for (auto& trace : gather->traces) {
-        trace.header.shot += first_shot - 1;
-        auto& collected = gathers[name_of_file(shot, trace.header.component)];
-        collected.axis = gather->axis;
-        collected.traces.push_back(std::move(trace));
-      }
-    }
+    for (std::size_t shot = 1; shot <= shots; ++shot)
+      if (book.gather(shot)) open_files(shot);
+    auto gathers = gathers_by_file(book, shots);
     for (auto& [name, file] : files) {
       segy::write_gather(file, gathers[name], {}, entries);
       file.commit();
@@ -268,7 +256,7 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
   for (std::size_t first = 0; first < open.size(); first += at_once) {
     const std::span<const std::size_t> group(open.data() + first, std::min(at_once, open.size() - first));
     for (const auto shot : group) open_files(shot);
-    std::optional<Snapshots> kept;
+    kept.reset();
     if (!snapshots.empty())
       kept.emplace(name_for(snapshots, number_of(group[0]), ""), scene.model.grid(),
                    parse_snapshot_fields<2>(snapshot_fields),

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "checkpoint/run_book.hpp"
 #include "cli/tool.hpp"
 #include "scene/scene.hpp"
+#include "solver/simulation.hpp"
 
 namespace slipwave {
 
@@ -18,6 +21,7 @@ struct ShotOutput {
   int first_shot = 1;      // number of the first source
   std::string checkpoint;  // empty: none
   std::optional<double> checkpoint_every_s;
+  bool keep_unstable = false;
   int shots_in_parallel = 0;  // 0: as many as there are threads, in most_together_bytes of memory
 
   /// Whether snapshots hold what slip has done.
@@ -28,13 +32,32 @@ struct ShotOutput {
   static constexpr double usual_checkpoint_every_s = 600;
   /// Shoots every shot of a checked scene and writes what it recorded. Outputs are opened before the run they
   /// belong to, so that a name that can not be written costs no computing. With a checkpoint it goes on where
-  /// that was written.
+  /// that was written. Where a shot becomes unstable it throws the Error that says so, after it has put what
+  /// there is under other names if `keep_unstable`.
   void shoot_all(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
 
  private:
+  struct Underway;
+  void shoot_rest(const Scene<2>& scene, const std::string& history, const cli::Context& context,
+                  Underway& run) const;
+  std::map<std::string, Gather> gathers_by_file(RunBook& book, std::size_t shots) const;
+  std::string keep(const Scene<2>& scene, const Unstable& error, const cli::Context& context,
+                   Underway& run) const;
   std::size_t shots_at_once(const Scene<2>& scene) const;
   RunBook open_book(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
   bool in_place_still(const Scene<2>& scene, RunBook& book, std::size_t shot) const;
 };
+
+/// A name for a shot (as messages number it) and a component.
+std::string name_for(std::string pattern, std::size_t shot, const std::string& component);
+/// Throws a usage Error on a misspelt mark, which would make a file of that name.
+void check_marks(const std::string& pattern);
+bool holds(std::string pattern, const std::string& mark);
+/// Where what an unstable run recorded is kept: "dir/unstable-out.sgy" for "dir/out.sgy".
+std::string unstable_name(std::string pattern);
+
+/// What the textual header says of a run.
+std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& history,
+                                    const std::string& version);
 
 }  // namespace slipwave

@@ -34,6 +34,8 @@ void declare(cli::Options& options, Settings& s) {
               "keep the state of the run here, and go on from it where there is one");
   options.add("checkpoint-every", s.output.checkpoint_every_s, "S",
               "wall-clock time between checkpoints, s [600]");
+  options.add("keep-unstable", s.output.keep_unstable,
+              "keep what a run recorded before it became unstable, in files unstable-NAME");
   options.add("error", s.wanted_error, "SHARE",
               "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
   options.add("plan", s.plan, "print what would be computed, and stop");
@@ -52,7 +54,10 @@ Scene<2> make_scene(const Settings& s) {
     scene.slip_diary = s.output.wants_slip();
   }
   s.output.check(scene.survey.sources.size());
-  for (const auto& output : {s.output.traces, s.output.snapshots}) expect_other_files(output, {s.shot.model});
+  for (const auto& output : {s.output.traces, s.output.snapshots}) {
+    expect_other_files(output, {s.shot.model});
+    if (s.output.keep_unstable && !output.empty()) expect_other_files(unstable_name(output), {s.shot.model});
+  }
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
     throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
   s.shot.read_model_into(scene);

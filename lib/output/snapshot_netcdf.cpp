@@ -136,7 +136,7 @@ void SnapshotWriter<D>::write(double time_s, std::span<const Field<D>> fields) {
 }
 
 template <int D>
-void SnapshotWriter<D>::commit() {
+void SnapshotWriter<D>::finish() {
   if (times_ > 0) {
     file_.put_attribute("time", "actual_range", std::vector<double>{first_s_, last_s_});
     for (std::size_t n = 0; n < fields_.size(); ++n)
@@ -144,7 +144,18 @@ void SnapshotWriter<D>::commit() {
         file_.put_attribute(fields_[n], "actual_range", std::vector<float>{low_[n], high_[n]});
   }
   file_.close();
+}
+
+template <int D>
+void SnapshotWriter<D>::commit() {
+  finish();
   out_.commit();
+}
+
+template <int D>
+void SnapshotWriter<D>::commit_as(const std::string& path) {
+  finish();
+  out_.commit_as(path);
 }
 
 template std::vector<std::string> parse_snapshot_fields<2>(const std::string&);

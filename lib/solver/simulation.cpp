@@ -39,7 +39,7 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>
             place_of(step.domain().grid, step.domain().grid.flat(first.box[1])) + ", sound " +
             std::to_string(first.time.step + 1 - looked) + " steps before";
   const auto sound = again ? first.time.step : looked;
-  return Unstable(what, sound_part(step.take_gather(), scene.recording, sound, first.time.dt_s),
+  return Unstable(what, shot, sound_part(step.take_gather(), scene.recording, sound, first.time.dt_s),
                   double(sound) * first.time.dt_s);
 }
 

@@ -40,12 +40,17 @@ struct ShotReport {
 /// `gather`: samples up to the last moment at which the fields are known to have been sound, zeros after it.
 class Unstable : public Error {
  public:
-  Unstable(const std::string& what, Gather gather, double sound_until_s)
-      : Error(what, ErrorKind::unstable), gather_(std::move(gather)), sound_until_s_(sound_until_s) {}
+  Unstable(const std::string& what, std::size_t shot, Gather gather, double sound_until_s)
+      : Error(what, ErrorKind::unstable),
+        shot_(shot),
+        gather_(std::move(gather)),
+        sound_until_s_(sound_until_s) {}
+  std::size_t shot() const { return shot_; }
   const Gather& gather() const { return gather_; }
   double sound_until_s() const { return sound_until_s_; }
 
  private:
+  std::size_t shot_;
   Gather gather_;
   double sound_until_s_;
 };
