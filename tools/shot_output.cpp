@@ -17,6 +17,7 @@
 #include "output/snapshot_netcdf.hpp"
 #include "segy/writer.hpp"
 #include "segy/writer_headers.hpp"
+#include "shot_balance.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
@@ -26,6 +27,7 @@ std::optional<SlipField> slip_field(const std::string& name) {
   if (name == "slip") return SlipField::slip;
   if (name == "slip_rate") return SlipField::slip_rate;
   if (name == "dissipated") return SlipField::dissipated;
+  if (name == "opening") return SlipField::opening;
   return std::nullopt;
 }
 
@@ -266,13 +268,17 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
     const auto progress =
         context.progress("shot " + std::to_string(number_of(group.front())) +
                          (group.size() > 1 ? " to " + std::to_string(number_of(group.back())) : ""));
+    std::vector<ShotReport> reports(group.size());
     parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
       const auto shot = group[std::size_t(n)];
       const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
       // The first of those that run together speaks for all.
-      book.finish(shot, shoot(scene, shot, n == 0 ? progress : Progress(),
-                              kept ? kept->sink() : SnapshotSink<2>(), pauses.get()));
+      book.finish(shot,
+                  shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<2>(),
+                        pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
     });
+    for (std::size_t n = 0; scene.slip_diary && n < group.size(); ++n)
+      context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n]));
     if (kept) kept->commit();
     if (a_file_a_shot) write_files();
     if (group.back() != open.back()) book.turn_page();

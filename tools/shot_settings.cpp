@@ -46,8 +46,9 @@ void ShotSettings::declare_scene(cli::Options& options) {
   options.add_choice("bottom", bottom, edges, "the bottom edge");
   options.add("edge-width", edge_width, "CELLS",
               "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
-  options.add("without", without, "LIST",
-              "effects of the model to switch off: of slip, friction, viscosity, cohesion");
+  options.add(
+      "without", without, "LIST",
+      "effects of the model to switch off: of slip, friction, viscosity, cohesion, opening, prestress");
   options.add_choice("precision", precision, {"float", "double"}, "of the computation");
   options.add("allow-auxetic", limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
 }

@@ -6,6 +6,7 @@
 #include "cli/tool.hpp"
 #include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/prestress.hpp"
 #include "model/region.hpp"
 
 using namespace slipwave;
@@ -19,6 +20,8 @@ struct Settings {
   std::string body;
   std::vector<std::string> dips, normals;
   double friction = 0, viscosity_s = 0, strength_pa = 0;
+  bool block = false, opening = false;
+  std::string prestress;
   std::string name;
   std::string output = "-";
 };
@@ -42,6 +45,11 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("friction", settings.friction, "Q", "coefficient of friction");
   options.add("viscosity", settings.viscosity_s, "ETA", "viscosity of slip, s");
   options.add("strength", settings.strength_pa, "PA", "cohesion, Pa");
+  options.add("block", settings.block, "blocks: planes across those of --dip or --normal, too");
+  options.add("opening", settings.opening, "planes part under tension, which they carry otherwise");
+  options.add("prestress", settings.prestress, "STRESS",
+              "static stress of these cells, Pa: none, lithostatic[:K0] (the weight above; sideways K0 times "
+              "that [lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, tension positive");
   options.add("name", settings.name, "S", "name of the set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file, - is standard output");
   for (const char* name : {"friction", "viscosity"}) options.require(name);
@@ -55,6 +63,12 @@ std::vector<Point<2>> normals_of(const Settings& settings) {
   for (const auto& text : settings.normals) {
     normals.push_back(in_place("--normal", [&] { return unit_normal<2>(parse_point<2>(text)); }));
   }
+  if (settings.block && normals.size() != 1) {
+    throw Error("found --block and " + std::to_string(normals.size()) +
+                    " of --dip and --normal, expected one of them with --block",
+                ErrorKind::usage);
+  }
+  if (settings.block) normals.push_back({-normals[0][1], normals[0][0]});
   if (normals.empty() || normals.size() > 2) {
     throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected one or two",
                 ErrorKind::usage);
@@ -101,8 +115,12 @@ Region bodies_of(const Settings& settings, const Region& region, double dip_deg)
 void run(const Settings& settings, const cli::Context& context) {
   FractureSet<2> set;
   for (const auto& normal : normals_of(settings)) {
-    set.systems.push_back({normal, settings.friction, settings.viscosity_s, settings.strength_pa});
+    set.systems.push_back(
+        {normal, settings.friction, settings.viscosity_s, settings.strength_pa, settings.opening});
   }
+  const auto prestress = in_place("--prestress", [&] {
+    return parse_prestress<2>(settings.prestress.empty() ? "none" : settings.prestress);
+  });
   const auto region = bodies_of(settings, region_of(settings), dip_of_normal(set.systems[0].normal));
   OutputFile out(settings.output, OutputFile::Content::binary);
   auto model = read_model<2>(settings.model);
@@ -112,6 +130,7 @@ void run(const Settings& settings, const cli::Context& context) {
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true}); });
   const auto count = add_fractures<2>(model, set, region.contains);
+  if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
   check(model, {.allow_auxetic = true});
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +

@@ -16,7 +16,7 @@ namespace {
 struct Settings {
   ShotSettings shot;
   std::optional<double> every_s, wanted_error;
-  bool plan = false;
+  bool plan = false, balance = false;
   ShotOutput output;
 };
 
@@ -26,7 +26,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
   options.add("every", s.every_s, "S", "time between snapshots, s");
   options.add("fields", s.output.snapshot_fields, "LIST",
-              "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated");
+              "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening");
+  options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
               "shots shot at once; 0: one a thread as long as 1 GiB holds them");
   options.add("first-shot", s.output.first_shot, "N", "number of the first source, the others follow");
@@ -51,8 +52,8 @@ Scene<2> make_scene(const Settings& s) {
     if (!s.every_s)
       throw Error("found --snapshots without --every, expected the time between them", ErrorKind::usage);
     scene.snapshot_every_s = s.every_s;
-    scene.slip_diary = s.output.wants_slip();
   }
+  scene.slip_diary = s.balance || (!s.output.snapshots.empty() && s.output.wants_slip());
   s.output.check(scene.survey.sources.size());
   for (const auto& output : {s.output.traces, s.output.snapshots}) {
     expect_other_files(output, {s.shot.model});

@@ -38,8 +38,11 @@ std::string shown(double value) {
 
 std::string shown(double value, int digits) {
   if (value == 0 || !std::isfinite(value)) return shown(value);
-  const double unit = std::pow(10, digits - 1 - std::floor(std::log10(std::abs(value))));
-  return shown(std::round(value * unit) / unit);
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::scientific, digits - 1);
+  double rounded = 0;
+  std::from_chars(text, end.ptr, rounded);
+  return shown(rounded);
 }
 
 }  // namespace slipwave

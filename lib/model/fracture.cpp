@@ -41,22 +41,24 @@ Point<D> unit_normal(const Point<D>& direction) {
 }
 
 SlipEffect slip_effect_named(const std::string& name) {
-  const char* const names[] = {"slip", "friction", "viscosity", "cohesion"};
+  const char* const names[] = {"slip", "friction", "viscosity", "cohesion", "opening", "prestress"};
   std::string all;
-  for (int n = 0; n < 4; ++n) {
+  for (int n = 0; n < 6; ++n) {
     if (name == names[n]) return SlipEffect(n);
-    all += (n == 0 ? "" : n == 3 ? " or " : ", ") + std::string(names[n]);
+    all += (n == 0 ? "" : n == 5 ? " or " : ", ") + std::string(names[n]);
   }
   throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
 }
 
 template <int D>
 void remove_effect(Model<D>& model, SlipEffect effect) {
+  if (effect == SlipEffect::prestress) model.prestress_pa.clear();
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
       if (effect == SlipEffect::friction) system.friction = 0;
       if (effect == SlipEffect::viscosity) system.viscosity_s = 0;
       if (effect == SlipEffect::cohesion) system.strength_pa = 0;
+      if (effect == SlipEffect::opening) system.opens = false;
     }
 }
 

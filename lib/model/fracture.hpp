@@ -21,13 +21,13 @@ template <int D>
 Point<D> unit_normal(const Point<D>& direction);
 
 /// What slip of a model consists of: each can be left out of a run.
-enum class SlipEffect { slip, friction, viscosity, cohesion };
+enum class SlipEffect { slip, friction, viscosity, cohesion, opening, prestress };
 
 /// Throws a usage Error that lists the names.
 SlipEffect slip_effect_named(const std::string& name);
 
-/// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion.
-/// `slip` leaves the model alone: Scene::with_slip.
+/// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
+/// planes that carry tension, no static stress. `slip` leaves the model alone: Scene::with_slip.
 template <int D>
 void remove_effect(Model<D>& model, SlipEffect effect);
 

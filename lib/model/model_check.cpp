@@ -3,6 +3,7 @@
 
 #include "base/error.hpp"
 #include "model/model.hpp"
+#include "model/prestress.hpp"
 
 namespace slipwave {
 namespace {
@@ -116,6 +117,7 @@ void check(const Model<D>& model, const MediumLimits& limits) {
                  ", expected it in solid cells only");
     }
   }
+  check_prestress(model);
 }
 
 template void check(const Model<2>&, const MediumLimits&);

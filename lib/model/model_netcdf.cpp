@@ -7,6 +7,7 @@
 #include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "model/prestress.hpp"
 
 namespace slipwave {
 namespace {
@@ -62,6 +63,14 @@ void define_property(NetcdfFile& file, const Field<D>& field, const std::string&
 }
 
 template <int D>
+bool any_opens(const std::vector<FractureSet<D>>& sets) {
+  for (const auto& set : sets)
+    for (const auto& system : set.systems)
+      if (system.opens) return true;
+  return false;
+}
+
+template <int D>
 void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   std::size_t systems = 0;
   for (const auto& set : sets) systems += set.systems.size();
@@ -86,6 +95,7 @@ void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   define("slip_friction", Type::f64, "coefficient of friction", "1");
   define("slip_viscosity", Type::f64, "viscosity of slip", "s");
   define("slip_strength", Type::f64, "cohesion", "Pa");
+  if (any_opens(sets)) define("slip_opening", Type::u8, "1: the planes part under tension", "");
 }
 
 template <int D>
@@ -94,6 +104,7 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   std::vector<std::string> names;
   std::vector<int> owner;
   std::vector<double> normal, friction, viscosity, strength;
+  std::vector<std::uint8_t> opening;
   for (const auto& set : model.fracture_sets) {
     for (const auto& system : set.systems) {
       owner.push_back(int(names.size()));
@@ -101,6 +112,7 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
       friction.push_back(system.friction);
       viscosity.push_back(system.viscosity_s);
       strength.push_back(system.strength_pa);
+      opening.push_back(system.opens ? 1 : 0);
     }
     names.push_back(set.name);
   }
@@ -110,6 +122,20 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   file.put("slip_friction", friction.data());
   file.put("slip_viscosity", viscosity.data());
   file.put("slip_strength", strength.data());
+  if (any_opens(model.fracture_sets)) file.put("slip_opening", opening.data());
+}
+
+std::string prestress_variable(const std::string& component) { return "prestress_" + component; }
+
+/// All components or none.
+template <int D>
+std::vector<Field<D>> read_prestress(const NetcdfFile& file, const Grid<D>& grid) {
+  const auto& names = stress_names<D>();
+  const auto is_there = [&](const auto& name) { return file.has_variable(prestress_variable(name)); };
+  std::vector<Field<D>> stress;
+  if (std::none_of(names.begin(), names.end(), is_there)) return stress;
+  for (const auto& name : names) stress.push_back(read_field(file, grid, prestress_variable(name)));
+  return stress;
 }
 
 }  // namespace
@@ -123,6 +149,8 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
   const auto friction = read_column(file, "slip_friction", owner.size());
   const auto viscosity = read_column(file, "slip_viscosity", owner.size());
   const auto strength = read_column(file, "slip_strength", owner.size());
+  const auto opening = file.has_variable("slip_opening") ? read_column(file, "slip_opening", owner.size())
+                                                         : std::vector<double>(owner.size(), 0);
   for (std::size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
       throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +
@@ -133,6 +161,9 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
     system.friction = friction[i];
     system.viscosity_s = viscosity[i];
     system.strength_pa = strength[i];
+    if (opening[i] != 0 && opening[i] != 1)
+      throw Error(file.shown_name() + ": slip_opening: found " + shown(opening[i]) + ", expected 0 or 1");
+    system.opens = opening[i] == 1;
     sets[std::size_t(owner[i])].systems.push_back(system);
   }
   return sets;
@@ -152,6 +183,7 @@ Model<D> read_model(const NetcdfFile& file) {
     model.fracture = Field<D, std::uint8_t>(grid);
     std::copy(codes.begin(), codes.end(), model.fracture.begin());
     model.fracture_sets = read_fracture_sets<D>(file);
+    model.prestress_pa = read_prestress(file, grid);
   }
   model.title = file.text_attribute("", "title").value_or("");
   model.source = file.text_attribute("", "source").value_or("");
@@ -177,11 +209,18 @@ void write_model(const Model<D>& model, OutputFile& out) {
   define_property(file, model.medium.vs, "vs", "S-wave speed, 0 = fluid", "m s-1");
   define_property(file, model.medium.rho, "rho", "density, 0 = void", "kg m-3");
   if (fractured) define_sets(file, model.fracture_sets);
+  for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c) {
+    const auto& name = stress_names<D>()[c];
+    define_property(file, model.prestress_pa[c], prestress_variable(name),
+                    "static stress " + name + ", tension positive", "Pa");
+  }
   put_grid(file, model.grid());
   file.put("vp", model.medium.vp.data());
   file.put("vs", model.medium.vs.data());
   file.put("rho", model.medium.rho.data());
   if (fractured) put_sets(file, model);
+  for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c)
+    file.put(prestress_variable(stress_names<D>()[c]), model.prestress_pa[c].data());
   file.close();
   out.commit();
 }

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "base/netcdf_file.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "model/prestress.hpp"
 
 namespace slipwave {
 namespace {
@@ -62,6 +63,7 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
     systems.back().number("friction", system.friction, "");
     systems.back().number("viscosity", system.viscosity_s, "s");
     systems.back().number("strength", system.strength_pa, "Pa");
+    if (system.opens) systems.back().text("opens", "under tension");
   }
   of_set.list("slip", systems);
   return of_set;
@@ -123,6 +125,12 @@ Report report_of(const Model<D>& model) {
     sets.push_back(report_of_set(model.fracture_sets[k], cells[k + 1]));
   }
   of_model.list("fractures", sets);
+  for (std::size_t c = 0; c < model.prestress_pa.size(); ++c) {
+    Range range;  // elsewhere it does nothing
+    for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
+      if (model.fracture[cell] != 0) range.see(double(model.prestress_pa[c][cell]));
+    report(of_model, "prestress " + stress_names<D>()[c], range, "Pa");
+  }
   if (!model.title.empty()) of_model.text("title", model.title);
   if (!model.source.empty()) of_model.text("source", model.source);
   if (!model.history.empty()) of_model.text("history", model.history);

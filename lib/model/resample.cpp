@@ -96,9 +96,11 @@ struct Regridding {
     model.fracture_sets = from.fracture_sets;
     model.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
     if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
+    model.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
   }
 
-  /// Calls fill(new cell, its index, the old cell its centre lies in) and takes over the fractures.
+  /// Calls fill(new cell, its index, the old cell its centre lies in) and takes over the fractures and their
+  /// static stress.
   template <class Fill>
   Model<D> filled(const Model<D>& from, Fill&& fill) {
     for (std::int64_t n = 0; n < model.grid().size(); ++n) {
@@ -108,6 +110,8 @@ struct Regridding {
       const auto source = std::size_t(from.grid().flat(nearest)), cell = std::size_t(n);
       fill(cell, at, source);
       if (!from.fracture.empty()) model.fracture[cell] = from.fracture[source];
+      for (std::size_t c = 0; c < from.prestress_pa.size(); ++c)
+        model.prestress_pa[c][cell] = from.prestress_pa[c][source];
     }
     return std::move(model);
   }
@@ -204,6 +208,7 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   Model<D> result = model;
   result.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
   if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
+  result.prestress_pa.assign(model.prestress_pa.size(), Field<D>(grid));
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     auto at = grid.index(n);
     for (std::size_t axis = 0; axis < D; ++axis) at[axis] += first[axis];
@@ -212,6 +217,8 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
     result.medium.vs[cell] = model.medium.vs[source];
     result.medium.rho[cell] = model.medium.rho[source];
     if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
+    for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
+      result.prestress_pa[c][cell] = model.prestress_pa[c][source];
   }
   return result;
 }

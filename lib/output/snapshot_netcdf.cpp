@@ -40,6 +40,7 @@ const std::vector<SnapshotField>& snapshot_fields<2>() {
       {"slip", "accumulated slip on fracture planes, as a strain", "1"},
       {"slip_rate", "slip strain rate in the last step", "s-1"},
       {"dissipated", "energy dissipated by slip", "J m-3"},
+      {"opening", "strain by which fracture planes stand open", "1"},
   };
   return fields;
 }
@@ -64,6 +65,7 @@ const std::vector<SnapshotField>& snapshot_fields<3>() {
       {"slip", "accumulated slip on fracture planes, as a strain", "1"},
       {"slip_rate", "slip strain rate in the last step", "s-1"},
       {"dissipated", "energy dissipated by slip", "J m-3"},
+      {"opening", "strain by which fracture planes stand open", "1"},
   };
   return fields;
 }

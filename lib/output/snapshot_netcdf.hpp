@@ -17,7 +17,8 @@ struct SnapshotField {
 };
 
 /// All of them. 2-D: vx vz p sxx szz sxz div curl (div and curl of the velocity, curl = dvx/dz - dvz/dx).
-/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz. In both also slip slip_rate dissipated.
+/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz. In both also slip slip_rate dissipated
+/// opening.
 template <int D>
 const std::vector<SnapshotField>& snapshot_fields();
 

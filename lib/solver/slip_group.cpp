@@ -174,8 +174,15 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
 }
 
 template <int D, class Real>
-void SlipGroup<D, Real>::slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
+void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
+                             std::int64_t n) {
+  if (act == SlipAct::slip) return slip(stress, pitch, place, n);
+  if (act == SlipAct::begin) return begin(stress, pitch, place, n);
   if (part_) part(stress, pitch, place, n);
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
   if (joint_)
     slip_jointly(stress, pitch, place, n, false);
   else

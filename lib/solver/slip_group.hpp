@@ -12,6 +12,10 @@
 
 namespace slipwave::solver {
 
+/// What a pass does to cells: planes part or come together, slip to the end of a step, take off what the next
+/// step begins with.
+enum class SlipAct { part, slip, begin };
+
 /// The cells of one fracture set: where they are, what slip needs to know of them and keeps of them. Cells of
 /// a line form stretches of whole vectors; cells of other sets or none among them have c = 0 and do not slip.
 template <int D, class Real>
@@ -31,11 +35,9 @@ class SlipGroup {
     return {stretches_.data() + starts_[std::size_t(line)],
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
-  /// Brings n cells from number `place` on to the end of a step; `stress` is the first component of the first
-  /// of them, the others `pitch` apart.
-  void slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  /// Takes what the next step begins with off them.
-  void begin(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+  /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
+  /// `pitch` apart. At the end of a step planes part before they slip.
+  void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
 
   const FractureSet<D>& set() const { return *set_; }
   /// Cells that belong to the set, and all that are kept.
@@ -50,6 +52,8 @@ class SlipGroup {
   bool holds(std::size_t place) const;
   /// mu of a cell, Pa, 0 outside the set.
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
+  /// lambda of a cell, Pa, where planes open; else 0.
+  Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
   /// All that changes from step to step.
   std::vector<std::vector<Real>*> memory();
 
@@ -59,6 +63,8 @@ class SlipGroup {
   void choose_kernels(SlipCorrection correction);
   void part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool begins);
+  void slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+  void begin(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
 
   const FractureSet<D>* set_;

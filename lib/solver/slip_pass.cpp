@@ -13,17 +13,17 @@ SlipPass<D, Real>::SlipPass(State<D, Real>& state, const Domain<D>& domain, cons
     SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s);
     if (group.cells() == 0) continue;
     if (scene.slip_diary) diary_.emplace_back(std::size_t(group.kept_cells()));
+    opens_ |= group.opens();
     groups_.push_back(std::move(group));
   }
   lines_ = fracture_lines(state.layout, domain, scene.model);
 }
 
-/// Runs change(group, stress, number of the first cell, cells) on all stretches of fracture cells that these
-/// columns hold. Columns end between two vectors or with the line.
+/// Does these things, one after the other, to all stretches of fracture cells that these columns hold.
+/// Columns end between two vectors or with the line.
 template <int D, class Real>
-template <class Change>
-void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns, bool at_end,
-                                     const Change& change) {
+void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns,
+                                     std::initializer_list<SlipAct> acts) {
   const std::int64_t pitch = state_.layout.row_pitch();
   const std::int64_t end =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
@@ -34,7 +34,7 @@ void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns, 
       if (first >= last) continue;
       const auto place = stretch.place + std::size_t(first - stretch.first);
       if (diary_.empty()) {
-        change(groups_[g], stress + first, place, last - first);
+        for (const auto act : acts) groups_[g].act(act, stress + first, pitch, place, last - first);
         continue;
       }
       constexpr std::int64_t piece = 64;
@@ -42,60 +42,64 @@ void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns, 
       for (std::int64_t done = 0; done < last - first; done += piece) {
         const std::int64_t n = std::min(piece, last - first - done);
         Real* const now = stress + first + done;
-        for (int c = 0; c < SymmetricTensor<D, Real>::components; ++c)
-          std::copy(now + c * pitch, now + c * pitch + n, before + c * piece);
-        change(groups_[g], now, place + std::size_t(done), n);
-        note(g, place + std::size_t(done), n, before, now, pitch, at_end);
+        for (const auto act : acts) {
+          for (int c = 0; c < SymmetricTensor<D, Real>::components; ++c)
+            std::copy(now + c * pitch, now + c * pitch + n, before + c * piece);
+          groups_[g].act(act, now, pitch, place + std::size_t(done), n);
+          note(g, place + std::size_t(done), n, before, now, pitch, act);
+        }
       }
     }
 }
 
-/// What slip took off the stress of n cells: G over mu is a strain, and stress times that an energy (S14).
+/// What planes took off the stress of n cells is a strain, and stress times that an energy (S14).
 template <int D, class Real>
 void SlipPass<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, const Real* before,
-                             const Real* after, std::int64_t pitch, bool at_end) {
+                             const Real* after, std::int64_t pitch, SlipAct act) {
   constexpr int components = SymmetricTensor<D, Real>::components;
   const std::int64_t piece = 64;
   for (std::int64_t i = 0; i < n; ++i) {
     const auto at = place + std::size_t(i);
-    const double mu = groups_[group].shear_modulus(at);
+    const double mu = groups_[group].shear_modulus(at), lambda = groups_[group].lambda(at);
     if (!(mu > 0)) continue;
     auto& entry = diary_[group][at];
     const auto still = groups_[group].prestress(at);
     double square = 0, mean = 0, of_still = 0;
+    double off_trace = 0, mean_trace = 0, still_trace = 0;
     for (int c = 0; c < components; ++c) {
       const double twice = c < D ? 1 : 2;  // off-diagonal components stand for two
       const double was = before[c * piece + i], is = after[c * pitch + i], off = was - is;
+      const double stays = still.values[std::size_t(c)];
       square += twice * off * off;
       mean += twice * off * (was + is) / 2;
-      of_still += twice * off * still.values[std::size_t(c)];
+      of_still += twice * off * stays;
+      if (c >= D) continue;
+      off_trace += off, mean_trace += (was + is) / 2, still_trace += stays;
     }
+    // Slip changes no normal stress in sum; parting does.
+    const double share = off_trace * lambda / (2 * mu + D * lambda);
+    entry.out_of_waves += (mean - share * mean_trace) / (2 * mu);
+    entry.heat += (mean + of_still - share * (mean_trace + still_trace)) / (2 * mu);
+    if (act == SlipAct::part) continue;
     const double strain = std::sqrt(square / 2) / mu;
-    if (at_end) entry.in_step = entry.ahead + strain;
-    entry.ahead = at_end ? 0 : strain;
+    if (act == SlipAct::slip) entry.in_step = entry.ahead + strain;
+    entry.ahead = act == SlipAct::slip ? 0 : strain;
     entry.slip += strain;
-    entry.out_of_waves += mean / (2 * mu);
-    entry.heat += (mean + of_still) / (2 * mu);
   }
 }
 
 template <int D, class Real>
 void SlipPass<D, Real>::run(const StepTime&, std::int64_t line, const Columns& columns) {
-  const std::int64_t pitch = state_.layout.row_pitch();
-  each_stretch(line, columns, true,
-               [pitch](SlipGroup<D, Real>& group, Real* stress, std::size_t place, std::int64_t n) {
-                 group.slip(stress, pitch, place, n);
-               });
+  if (opens_)
+    each_stretch(line, columns, {SlipAct::part, SlipAct::slip});
+  else
+    each_stretch(line, columns, {SlipAct::slip});
 }
 
 template <int D, class Real>
 void SlipPass<D, Real>::run_after(const StepTime&, std::int64_t line, const Columns& columns) {
   if (correction_ == SlipCorrection::first && diary_.empty()) return;
-  const std::int64_t pitch = state_.layout.row_pitch();
-  each_stretch(line, columns, false,
-               [pitch](SlipGroup<D, Real>& group, Real* stress, std::size_t place, std::int64_t n) {
-                 group.begin(stress, pitch, place, n);
-               });
+  each_stretch(line, columns, {SlipAct::begin});
 }
 
 template <int D, class Real>

@@ -35,15 +35,15 @@ class SlipPass : public Pass {
     double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3
   };
-  template <class Change>
-  void each_stretch(std::int64_t line, const Columns& columns, bool at_end, const Change& change);
+  void each_stretch(std::int64_t line, const Columns& columns, std::initializer_list<SlipAct> acts);
   void note(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
-            std::int64_t pitch, bool at_end);
+            std::int64_t pitch, SlipAct act);
 
   State<D, Real>& state_;
   const Domain<D>& domain_;
   double dt_s_;
   SlipCorrection correction_;
+  bool opens_ = false;
   std::vector<SlipGroup<D, Real>> groups_;
   std::vector<std::vector<Entry>> diary_;  // [group][cell], empty: none
   std::vector<std::int64_t> lines_;

@@ -49,6 +49,7 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
       whole_(std::size_t(Pass::most_steps_under_way)),
       monitor_(state_, domain_, unit_, largest_velocity(scene, shot)),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
+      keeps_diary_(scene.slip_diary),
       duration_s_(scene.recording.duration_s),
       snapshots_(snapshots),
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)) {
@@ -169,7 +170,7 @@ bool Step<D, Real>::stirs(const StepTime& time, std::int64_t line) const {
 template <int D, class Real>
 Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
   const Box all{{0, domain_.grid.shape[D - 1]}, {0, domain_.grid.shape[0]}};
-  if (snapshot_every_s_) return all;
+  if (snapshot_every_s_ || keeps_diary_) return all;
   // The sweep along x that the first step begins with is one more.
   const auto steps = steps_ - time.step + 1;
   const auto spread = [steps](const Columns& read, const Columns& by) {

@@ -82,6 +82,7 @@ class Step : private EndOfStep<Real> {
   Buffer<Real> snapshot_;  // all fields as they stand whole, laid out as the state
   std::int64_t snapshot_step_ = -1;
   std::optional<double> snapshot_every_s_;
+  bool keeps_diary_;
   double duration_s_;
   SnapshotSink<D> snapshots_;
   std::int64_t steps_, done_ = 0;

@@ -158,3 +158,29 @@ TEST_F(ModelPipeline, ImportsTheRealMarmousiTwoWithASharpSeaFloor) {
   EXPECT_TRUE(has(text, "fluid cells   176000\n")) << text;
   EXPECT_TRUE(has(text, "vp            1500 to ")) << text;
 }
+
+TEST_F(ModelPipeline, FracturesRockUnderItsWeightAndSaysSo) {
+  done(layers +
+       "| sw-fracture - --box 50:150,50:80 --dip 60 --friction 0.6 --viscosity 1 --block --opening "
+       "--prestress lithostatic -o m.nc");
+  const auto text = done("sw-info m.nc");
+  EXPECT_TRUE(has(text, "slip normal 0.866025,-0.5,")) << text;
+  EXPECT_TRUE(has(text, "slip normal 0.5,0.866025,")) << text;
+  EXPECT_TRUE(has(text, "opens under tension")) << text;
+  // -9.80665 (40 m of water + 12.5 and 37.5 m of rock).
+  EXPECT_TRUE(has(text, "prestress szz  -1201315 to -661948.9 Pa")) << text;
+  const std::string shot =
+      "sw-shoot m.nc --source 100,45 --wavelet ricker:25 --receivers 0:200:10,45 --time 0.15 -o ";
+  const auto plan = done(shot + "- --plan");
+  for (const char* effect : {"blocks", "prestress", "opening"}) EXPECT_TRUE(has(plan, effect)) << plan;
+  const auto bare = done(shot + "- --plan --without prestress,opening");
+  for (const char* effect : {"prestress:", "opening:"}) EXPECT_FALSE(has(bare, effect)) << bare;
+  const auto strong = run(shot + "g.sgy --amplitude 1e14 --balance");
+  EXPECT_EQ(strong.code, 0);
+  EXPECT_TRUE(has(strong.err, "sw-shoot: shot 1: 120 of 120 fractured cells slipped (100 %); of "))
+      << strong.err;
+  const auto weak = run(shot + "w.sgy --amplitude 1e-3 --balance");
+  EXPECT_TRUE(has(weak.err, "shot 1: 0 of 120 fractured cells slipped (0 %)")) << weak.err;
+  done(shot + "e.sgy --amplitude 1e-3 --without slip");
+  done("sw-compare w.sgy e.sgy --tolerance 0.001");
+}

@@ -18,6 +18,8 @@ TEST(Error, ShowsNumbersShortAndExact) {
   EXPECT_EQ(shown(0.1), "0.1");
   EXPECT_EQ(shown(1e-300), "1e-300");
   EXPECT_EQ(shown(1200), "1200");
+  EXPECT_EQ(shown(13876543.2, 3), "13900000");
+  EXPECT_EQ(shown(0.0041999999, 2), "0.0042");
 }
 
 TEST(Error, QuotesTheBeginningOfALongText) {

@@ -48,8 +48,12 @@ void expect_equal(const Model<D>& found, const Model<D>& expected) {
       EXPECT_EQ(systems[i].friction, expected.fracture_sets[k].systems[i].friction);
       EXPECT_EQ(systems[i].viscosity_s, expected.fracture_sets[k].systems[i].viscosity_s);
       EXPECT_EQ(systems[i].strength_pa, expected.fracture_sets[k].systems[i].strength_pa);
+      EXPECT_EQ(systems[i].opens, expected.fracture_sets[k].systems[i].opens);
     }
   }
+  ASSERT_EQ(found.prestress_pa.size(), expected.prestress_pa.size());
+  for (std::size_t c = 0; c < found.prestress_pa.size(); ++c)
+    EXPECT_TRUE(same(found.prestress_pa[c], expected.prestress_pa[c]));
   EXPECT_EQ(found.title, expected.title);
   EXPECT_EQ(found.source, expected.source);
   EXPECT_EQ(found.history, expected.history);
@@ -71,6 +75,30 @@ TEST_F(ModelFile, BringsBackATwoDimensionalModelBitForBit) {
   model.history = "first\nsecond";
   write_model(model, path_);
   expect_equal(read_model<2>(path_), model);
+}
+
+TEST_F(ModelFile, BringsBackStaticStressAndPlanesThatOpen) {
+  auto model = water_over_rock(grid_of(4, 3, 10), 1);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = 1;
+  model.fracture_sets = {{"one", {{{1, 0}, 0.2, 0, 0, true}, {{0, 1}, 0.3, 7, 1e6, false}}}};
+  for (const float value : {-1e6f, -2.5e6f, 1e3f}) {
+    model.prestress_pa.emplace_back(model.grid());
+    model.prestress_pa.back()({1, 2}) = value;
+  }
+  write_model(model, path_);
+  expect_equal(read_model<2>(path_), model);
+}
+
+TEST_F(ModelFile, WritesNeitherWhereThereIsNone) {
+  auto model = water_over_rock(grid_of(4, 3, 10), 1);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = 1;
+  model.fracture_sets = {{"one", {{{1, 0}, 0.2, 0, 0}}}};
+  write_model(model, path_);
+  const auto file = NetcdfFile::open(path_);
+  EXPECT_FALSE(file.has_variable("slip_opening"));
+  EXPECT_FALSE(file.has_variable("prestress_sxx"));
 }
 
 TEST_F(ModelFile, BringsBackAThreeDimensionalModelBitForBit) {

@@ -53,5 +53,48 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
   }
 }
 
+/// Parting planes give back what they took when they come together: all that is lost is what pulls them apart
+/// by a step's stress, and knocks them together.
+TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(16, 16, 5, {4500, 2250, 2500});
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid(), 1);
+  scene.model.fracture_sets = {
+      {"blocks", {{{0.6, 0.8}, 0.2, 2e3, 1e3, true}, {{0.8, -0.6}, 0.2, 2e3, 1e3, true}}}};
+  const float pressure = 2e4f;
+  for (const float value : {-pressure, -pressure, 0.f})
+    scene.model.prestress_pa.emplace_back(scene.model.grid(), value);
+  scene.slip_diary = true;
+  const double dt_s = 0.9 * 5 / 4500;
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    scene.numerics.correction = correction;
+    using L = Lab<double>;
+    L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
+    SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+    std::mt19937 random(2);
+    double lost = 0;
+    for (std::int64_t step = 0; step < 8; ++step) {
+      for (std::int64_t k = 0; k < 16; ++k)
+        for (std::int64_t i = 0; i < 16; ++i)
+          for (const auto row : {L::sxx, L::szz, L::sxz})
+            lab(row, i, k) += std::uniform_real_distribution<>(-5e4, 5e4)(random);
+      const double before = lab.energy();
+      run_everywhere(slip, {step, dt_s}, lab.state().layout);
+      run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+      lost += before - lab.energy();
+    }
+    const auto totals = slip.totals();
+    EXPECT_NEAR(totals.out_of_waves, lost, 1e-9 * std::abs(lost)) << name_of(correction);
+    EXPECT_NE(totals.out_of_waves, totals.dissipated);
+    const auto heat = slip.field(SlipField::dissipated), opening = slip.field(SlipField::opening);
+    double widest = 0;
+    for (std::size_t cell = 0; cell < heat.size(); ++cell) {
+      EXPECT_GE(heat[cell], 0) << cell;
+      widest = std::max(widest, double(opening[cell]));
+    }
+    EXPECT_GT(widest, 0);
+  }
+}
+
 }  // namespace
 }  // namespace slipwave::solver

@@ -1,0 +1,167 @@
+#include "model/prestress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+
+namespace slipwave {
+namespace {
+
+constexpr double gravity_m_s2 = 9.80665;
+// Room for the rounding of stresses to float: planes at the verge of slip are welcome.
+constexpr double slack = 1e-6;
+
+/// Mass above the centre of each cell on a unit area, kg/m2. z is the last axis.
+template <int D>
+std::vector<double> mass_above(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
+  const double h = grid.spacing_m;
+  std::vector<double> mass(medium.rho.size());
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    auto at = grid.index(n);
+    const double half = 0.5 * h * double(medium.rho[std::size_t(n)]);
+    mass[std::size_t(n)] = half;
+    if (--at[D - 1] < 0) continue;
+    const auto above = std::size_t(grid.flat(at));
+    mass[std::size_t(n)] += mass[above] + 0.5 * h * double(medium.rho[above]);
+  }
+  return mass;
+}
+
+double k0_of_uniaxial_strain(double vp, double vs) { return 1 - 2 * (vs / vp) * (vs / vp); }
+
+Lithostatic parse_lithostatic(const std::string& text) {
+  const auto colon = text.find(':');
+  if (colon == std::string::npos) return {};
+  const double k0 = parse_number(text.substr(colon + 1));
+  if (!(k0 >= 0)) throw Error("found K0 of " + shown(k0) + ", expected it not below zero", ErrorKind::usage);
+  return {k0};
+}
+
+/// What parallel planes feel of a static stress (S1), Pa.
+struct OnPlanes {
+  double normal = 0, shear = 0;
+};
+
+template <int D>
+OnPlanes on_planes(const SymmetricTensor<D, double>& stress, const Point<D>& normal) {
+  Point<D> traction{};
+  OnPlanes result;
+  for (int i = 0; i < D; ++i) {
+    for (int j = 0; j < D; ++j) traction[std::size_t(i)] += stress(i, j) * normal[std::size_t(j)];
+    result.normal += traction[std::size_t(i)] * normal[std::size_t(i)];
+  }
+  for (std::size_t i = 0; i < D; ++i)
+    result.shear = std::hypot(result.shear, traction[i] - result.normal * normal[i]);
+  return result;
+}
+
+}  // namespace
+
+template <>
+const std::vector<std::string>& stress_names<2>() {
+  static const std::vector<std::string> names = {"sxx", "szz", "sxz"};
+  return names;
+}
+
+template <>
+const std::vector<std::string>& stress_names<3>() {
+  static const std::vector<std::string> names = {"sxx", "syy", "szz", "sxy", "sxz", "syz"};
+  return names;
+}
+
+template <int D>
+Prestress<D> parse_prestress(const std::string& text) {
+  if (text == "none") return std::monostate{};
+  if (text == "lithostatic" || text.starts_with("lithostatic:")) return parse_lithostatic(text);
+  std::vector<double> numbers;
+  try {
+    numbers = parse_numbers(text, ',');
+  } catch (const Error&) {
+    numbers.clear();  // said below, with all there is to choose from
+  }
+  SymmetricTensor<D, double> stress;
+  if (numbers.size() == 1) {
+    for (int i = 0; i < D; ++i) stress(i, i) = -numbers[0];
+    return stress;
+  }
+  if (numbers.size() != stress.values.size()) {
+    std::string all;
+    for (const auto& name : stress_names<D>()) all += (all.empty() ? "" : ",") + name;
+    throw Error("found '" + text + "', expected none, lithostatic, lithostatic:K0, a pressure or " + all +
+                    " in Pa",
+                ErrorKind::usage);
+  }
+  std::copy(numbers.begin(), numbers.end(), stress.values.begin());
+  return stress;
+}
+
+template <int D>
+void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestress) {
+  using Tensor = SymmetricTensor<D, double>;
+  if (model.prestress_pa.empty()) {
+    if (std::holds_alternative<std::monostate>(prestress)) return;
+    model.prestress_pa.assign(Tensor::components, Field<D>(model.grid()));
+  }
+  const auto* const tensor = std::get_if<Tensor>(&prestress);
+  const auto* const weight = std::get_if<Lithostatic>(&prestress);
+  const auto mass = weight ? mass_above(model.medium) : std::vector<double>();
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    if (model.fracture[cell] != code) continue;
+    Tensor stress;
+    if (tensor) stress = *tensor;
+    if (weight) {
+      const double vertical = -gravity_m_s2 * mass[cell];
+      const double k0 =
+          weight->k0 ? *weight->k0
+                     : k0_of_uniaxial_strain(double(model.medium.vp[cell]), double(model.medium.vs[cell]));
+      for (int i = 0; i < D; ++i) stress(i, i) = i == D - 1 ? vertical : k0 * vertical;
+    }
+    for (std::size_t c = 0; c < stress.values.size(); ++c)
+      model.prestress_pa[c][cell] = float(stress.values[c]);
+  }
+}
+
+template <int D>
+void check_prestress(const Model<D>& model) {
+  if (model.prestress_pa.empty() || model.fracture.empty()) return;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    const std::size_t code = model.fracture[cell];
+    if (code == 0) continue;
+    SymmetricTensor<D, double> stress;
+    double largest = 0;
+    bool finite = true;
+    for (std::size_t c = 0; c < stress.values.size(); ++c) {
+      stress.values[c] = double(model.prestress_pa[c][cell]);
+      finite &= std::isfinite(stress.values[c]);
+      largest = std::max(largest, std::abs(stress.values[c]));
+    }
+    const auto refuse = [&](const std::string& verb, const std::string& rest) {
+      throw Error("the static stress at " + place_of(model.grid(), std::int64_t(cell)) + ' ' + verb +
+                  " the planes of fracture set " + std::to_string(code) + " '" +
+                  model.fracture_sets[code - 1].name + "' " + rest);
+    };
+    if (!finite) refuse("on", "is not finite, expected numbers");
+    for (const auto& system : model.fracture_sets[code - 1].systems) {
+      const auto [normal, shear] = on_planes<D>(stress, system.normal);
+      const double rounding = slack * largest;
+      const double strength = system.friction * std::max(-normal, 0.) + system.strength_pa;
+      if (system.opens && normal > rounding)
+        refuse("pulls", "by " + shown(normal, 4) + " Pa, expected them pressed together, as they open");
+      if (shear > strength + rounding)
+        refuse("shears", "by " + shown(shear, 4) + " Pa, expected at most their strength of " +
+                             shown(strength, 4) + " Pa");
+    }
+  }
+}
+
+template Prestress<2> parse_prestress<2>(const std::string&);
+template Prestress<3> parse_prestress<3>(const std::string&);
+template void set_prestress(Model<2>&, std::size_t, const Prestress<2>&);
+template void set_prestress(Model<3>&, std::size_t, const Prestress<3>&);
+template void check_prestress(const Model<2>&);
+template void check_prestress(const Model<3>&);
+
+}  // namespace slipwave
