@@ -36,6 +36,17 @@ void register_effects() {
   add("slip in 1 % of the cells", [](Case& what) { what.slipping = 0.01; });
   add("slip in 10 % of the cells", [](Case& what) { what.slipping = 0.1; });
   add("slip in all cells", [](Case& what) { what.slipping = 1; });
+  const auto add_slip = [&](const std::string& kind, const auto& change) {
+    add("slip in all cells, " + kind, [&](Case& what) {
+      what.slipping = 1;
+      change(what);
+    });
+  };
+  add_slip("first order", [](Case& what) { what.correction = SlipCorrection::first; });
+  add_slip("exponential", [](Case& what) { what.correction = SlipCorrection::exponential; });
+  add_slip("blocks", [](Case& what) { what.blocks = true; });
+  add_slip("static stress", [](Case& what) { what.under_stress = true; });
+  add_slip("parting planes", [](Case& what) { what.parting = true; });
   add("10 receivers", [](Case& what) {
     what.receivers = 10;
     what.duration_s = 10;

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "model/fracture.hpp"
+#include "model/prestress.hpp"
 
 namespace slipwave::bench {
 namespace {
@@ -41,10 +42,14 @@ Scene<2> make_scene(const Case& what) {
   if (what.slipping > 0) {
     scene.model.fracture = Field<2, std::uint8_t>(grid);
     const double half = std::sqrt(what.slipping) / 2;
-    add_fractures<2>(scene.model, {"cluster", {{normal_of_dip(60), 0.5, 0.01, 0}}}, [&](const Point<2>& p) {
+    FractureSet<2> set = {"cluster", {{normal_of_dip(60), 0.5, 0.01, 0, what.parting}}};
+    if (what.blocks) set.systems.push_back({normal_of_dip(-30), 0.5, 0.01, 0, what.parting});
+    add_fractures<2>(scene.model, set, [&](const Point<2>& p) {
       return std::abs(p[0] - width / 2) <= half * width && std::abs(p[1] - depth / 2) <= half * depth;
     });
+    if (what.under_stress) set_prestress(scene.model, 1, Prestress<2>(Lithostatic{1.0}));
   }
+  scene.numerics.correction = what.correction;
   scene.edges[0] = {what.others, what.others};
   scene.edges[1] = {what.top, what.others};
   scene.numerics.order = what.order;

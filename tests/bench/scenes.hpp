@@ -26,7 +26,9 @@ struct Case {
   bool plane_wave = false;
   bool at_the_surface = false;  // source and receivers, else in the middle and above it
   double slipping = 0;          // share of the cells, a box in the middle
-  int receivers = 1;            // of vx and vz, spread over a line
+  SlipCorrection correction = SlipCorrection::second;
+  bool blocks = false, parting = false, under_stress = false;  // what else slip may be of
+  int receivers = 1;                                           // of vx and vz, spread over a line
   double snapshot_every_s = 0;
   double duration_s = 100;  // of the traces, which the run need not reach
 };
