@@ -7,7 +7,7 @@ namespace slipwave {
 
 /// What the child process may take: far more than it needs for any file, with room for a busy machine.
 struct ProbeLimits {
-  unsigned processor_s = 10;
+  unsigned processor_s = 5;
   std::size_t bytes = std::size_t(1) << 30;  // beyond what the process has already
 };
 
