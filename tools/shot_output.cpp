@@ -111,7 +111,7 @@ RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
     settings.identity.push_back({"program", context.version});
     if (!snapshots.empty()) settings.identity.push_back({"fields", snapshot_fields});
     settings.identity.push_back({"first shot", std::to_string(first_shot)});
-    settings.identity.push_back({"history", history, false});
+    settings.identity.push_back({"command line or history of the model", history, false});
   }
   return RunBook(std::move(settings));
 }

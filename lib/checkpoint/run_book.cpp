@@ -88,6 +88,8 @@ class RunBook::ShotPauses : public Pauses {
 
 RunBook::RunBook(Settings settings) : settings_(std::move(settings)) {
   if (!keeps_checkpoints()) return;
+  // Temporaries of a run that goes on are no strays.
+  lock_.emplace(settings_.path + ".lock", settings_.path);
   remove_strays(settings_.path);
   const auto there = [](const std::string& path) {
     return access(path.c_str(), F_OK) == 0 || errno != ENOENT;
@@ -110,7 +112,13 @@ RunBook::Clock::duration RunBook::in_ticks(double seconds) {
 }
 
 void RunBook::read(const std::string& path) {
-  reader_ = std::make_unique<CheckpointReader>(path);
+  try {
+    reader_ = std::make_unique<CheckpointReader>(path);
+  } catch (const Error& error) {
+    const auto older = older_checkpoint(settings_.path);
+    if (path == older || access(older.c_str(), F_OK) != 0) throw;
+    throw Error(error.what() + ("; " + older + " is the one before"));
+  }
   auto content = reader_->content();
   Identity found;
   in_place(path, [&] { slipwave::keep(content, found); });
@@ -289,6 +297,7 @@ void RunBook::close() {
         name.find_first_not_of("0123456789", log.size()) == std::string::npos)
       unlink(entry.path().c_str());
   }
+  lock_.reset();
 }
 
 }  // namespace slipwave

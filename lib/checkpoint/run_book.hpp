@@ -13,6 +13,7 @@
 
 #include "base/interruption.hpp"
 #include "checkpoint/checkpoint_file.hpp"
+#include "checkpoint/file_lock.hpp"
 #include "checkpoint/identity.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "gather/trace.hpp"
@@ -34,7 +35,7 @@ class RunBook {
     std::function<void(const std::string&)> say, warn;
   };
   /// Opens the book where a run of the same identity left it. Throws an Error naming the file when there is
-  /// one that is damaged or of another run, or none can be written there.
+  /// one that is damaged, of another run or in use by one, or none can be written there.
   explicit RunBook(Settings settings);
 
   bool keeps_checkpoints() const { return !settings_.path.empty(); }
@@ -92,6 +93,7 @@ class RunBook {
   bool all_wait() const;
 
   Settings settings_;
+  std::optional<FileLock> lock_;
   std::optional<SignalWatch> watch_;
   std::unique_ptr<CheckpointReader> reader_;
   std::string goes_on_at_;

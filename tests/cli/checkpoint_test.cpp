@@ -218,3 +218,65 @@ TEST_F(Checkpoint, ADiskWithoutRoomForOneIsSaidAndDoesNotEndTheRun) {
   EXPECT_EQ(files(), "m.nc out.sgy whole.sgy");
   expect_refused(shoot + "--checkpoint no/c -o out.sgy", 1, "sw-shoot: no/c: No such file or directory");
 }
+
+TEST_F(Checkpoint, ASecondRunDoesNotTouchTheCheckpointOfTheFirst) {
+  const std::string line = scene + "--time 3 --threads 1 --checkpoint c --checkpoint-every 0.05 -o ";
+  const Ran ran =
+      run("(exec " + line + "first.sgy) 2> first & tool=$!; until [ -e c ]; do sleep 0.01; done; " + line +
+          "second.sgy; code=$?; ls -A > there; kill -KILL $tool; wait $tool; exit $code");
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_EQ(ran.err.substr(0, ran.err.find('\n')),
+            "sw-shoot: c: is in use by another run, expected one at a time");
+  EXPECT_EQ(content("first"), "");
+  EXPECT_NE(content("there").find("c.lock"), std::string::npos);
+  EXPECT_EQ(content("there").find("second.sgy"), std::string::npos);
+  // The lock of a run that was killed keeps nobody out, and goes with the one that ends.
+  EXPECT_TRUE(exists("c.lock"));
+  const Ran next = run("(exec " + line + "out.sgy) & sleep 0.5; kill -TERM $!; wait $!");
+  EXPECT_EQ(next.code, 128 + 15) << next.err;
+  EXPECT_GT(step_of(next.err), 0) << next.err;
+  EXPECT_FALSE(exists("c.lock"));
+}
+
+TEST_F(Checkpoint, OneOfAnotherRunOrDamagedIsRefusedAndStaysAsItIs) {
+  done("sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1500:2200:3 -o other.nc");
+  ASSERT_EQ(ended_once_begun(shoot + "-o out.sgy " + seldom, "TERM").code, 128 + 15);
+  const auto before = content("c");
+  const std::string rest = " --checkpoint c -o out.sgy", begin = "sw-shoot: c: is of a run with ";
+  const std::string anew = "; remove it to begin anew";
+  std::string model = shoot, same = shoot;
+  model.replace(model.find("m.nc"), 4, "other.nc");
+  done("cp m.nc same.nc");
+  same.replace(same.find("m.nc"), 4, "same.nc");
+  const auto refused = [&](const std::string& line) {
+    const Ran ran = run(line);
+    EXPECT_EQ(ran.code, 1) << line;
+    EXPECT_EQ(content("c"), before) << line;
+    EXPECT_FALSE(exists("out.sgy")) << line;
+    return ran.err;
+  };
+  EXPECT_EQ(refused(model + rest).find(begin), 0u);
+  EXPECT_EQ(refused(same + rest), begin + "another command line or history of the model" + anew + "\n");
+  EXPECT_EQ(refused(shoot + "--order 3" + rest), begin + "order 5, expected 3" + anew + "\n");
+  EXPECT_EQ(refused(shoot + "--amplitude 2" + rest), begin + "another source or wavelet" + anew + "\n");
+  expect_refused(shoot + "--checkpoint-every 0" + rest, 2,
+                 "sw-shoot: --checkpoint-every: found 0, expected it above 0");
+  done("mv c whole; head -c 1000 whole > c");
+  const Ran damaged = run(shoot + rest);
+  EXPECT_EQ(damaged.code, 1);
+  EXPECT_EQ(damaged.err.find("sw-shoot: c: is damaged or cut off"), 0u) << damaged.err;
+  EXPECT_NE(damaged.err.find("; c.1 is the one before\n"), std::string::npos) << damaged.err;
+  EXPECT_EQ(run("mv c.1 c; " + shoot + rest).code, 0);
+}
+
+TEST_F(Checkpoint, InADirectoryThatMayNotBeWrittenIsSaidBeforeAnythingIsComputed) {
+  const bool root = run("test $(id -u) -eq 0").code == 0;
+  const std::string as = root ? "setpriv --reuid 65534 --regid 65534 --clear-groups " : "";
+  done(
+      "mkdir closed bin; cp $(dirname $(command -v sw-shoot))/sw-shoot bin; chmod 755 . .. bin; chmod 644 "
+      "m.nc; chmod 555 closed");
+  if (root && run(as + "bin/sw-shoot --version > version").code != 0)
+    GTEST_SKIP() << "cannot run as another user here";
+  expect_refused(as + "bin/" + shoot + "--checkpoint closed/c -o /dev/null", 1,
+                 "sw-shoot: closed/c: Permission denied");
+}

@@ -183,7 +183,7 @@ TEST_F(CheckpointFile, KeepsOneOlderAndLeavesNothingWhenClosed) {
   {
     const auto pauses = book.pauses_of(1);
     shot.run_to(2, *pauses);
-    EXPECT_EQ(names(), (std::vector<std::string>{"c", "c.1"}));
+    EXPECT_EQ(names(), (std::vector<std::string>{"c", "c.1", "c.lock"}));
     const auto first = content(path());
     pauses->pause(shot.keep, {2, 9});
     EXPECT_EQ(content(path("c.1")), first);
@@ -244,7 +244,7 @@ TEST_F(CheckpointFile, IsNotWrittenOnceAShotHasFailed) {
     EXPECT_FALSE(pauses->wanted());
     pauses->pause(shot.keep, {1, 2});
   }
-  EXPECT_EQ(names(), std::vector<std::string>{});
+  EXPECT_EQ(names(), std::vector<std::string>{"c.lock"});
 }
 
 TEST_F(CheckpointFile, OfALogOfSnapshotsCutsItBack) {

@@ -1,0 +1,45 @@
+#include "checkpoint/file_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "base/error.hpp"
+#include "base/temporary.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Whether an open file is still the one of that name.
+bool has_name(int descriptor, const std::string& path) {
+  struct stat opened {
+  }, named{};
+  return fstat(descriptor, &opened) == 0 && stat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+}  // namespace
+
+FileLock::FileLock(std::string path, const std::string& what) : path_(std::move(path)) {
+  for (;;) {
+    descriptor_ = open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
+    if (descriptor_ < 0) throw Error(what + ": " + cause_of(errno));
+    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(descriptor_);
+      throw Error(what + ": is in use by another run, expected one at a time");
+    }
+    // Its last owner may have removed it after we opened it.
+    if (has_name(descriptor_, path_)) return;
+    close(descriptor_);
+  }
+}
+
+FileLock::~FileLock() {
+  unlink(path_.c_str());
+  close(descriptor_);
+}
+
+}  // namespace slipwave
