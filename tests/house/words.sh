@@ -10,3 +10,8 @@ if find . \( -name .git -o -path ./build -o -path './surveys/*/out' \) -prune -o
   xargs grep -nIE -- "$pattern"; then
   exit 1
 fi
+# Pictures tell how they were made, too.
+if find docs -name '*.png' -print | sort | LC_ALL=C xargs grep -laE -- "(^|[^[:alnum:]_.])/([w]ork|[h]ome|[r]oot|[U]sers|[m]nt)/"; then
+  echo 'these pictures tell of folders of somebody'
+  exit 1
+fi
