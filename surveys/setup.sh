@@ -88,8 +88,7 @@ configure_build() {
   # Later changes of the CMake files are seen by the build itself.
   if [ ! -f "$build/CMakeCache.txt" ] || [ ! -f "$build/build.ninja" ]; then
     # shellcheck disable=SC2086
-    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLIPWAVE_PRECOMPILED=ON \
-      ${SLIPWAVE_CMAKE_ARGS-} >&2 ||
+    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release ${SLIPWAVE_CMAKE_ARGS-} >&2 ||
       fail "cmake could not configure the build in $build"
   fi
 }
