@@ -50,12 +50,19 @@ fill() {
     pause 200 900
   done
 }
+longest_pause=$((900 + 40 * shots)) # ms, between kills
 kill_some() {
   while [ -e "$work/disturbing" ]; do
-    pause 200 900
-    tool=$(pgrep -s "$(cat "$work/session")" '^sw-' | shuf -n 1)
+    pause 200 "$longest_pause"
+    session=$(cat "$work/session")
+    tool=$([ -z "$session" ] || pgrep -s "$session" '^sw-' | shuf -n 1)
     if [ -n "$tool" ] && kill -KILL "$tool" 2>/dev/null; then echo "$tool" >>"$work/kills"; fi
   done
+}
+
+# Killed tools leave temporaries, which take room until somebody removes them.
+remove_temporaries() {
+  find "$small" -name '.*.tmp' -exec rm {} + -exec echo {} + | wc -w >>"$work/left"
 }
 
 # Files that are there are whole and right.
@@ -78,10 +85,11 @@ words() {
 }
 
 : >"$work/kills"
+: >"$work/left"
 : >"$work/failures"
 : >"$work/all-told"
 : >"$work/disturbing"
-echo $$ >"$work/session"
+: >"$work/session"
 if [ "$disk" = small ]; then
   fill &
   helpers="$helpers $!"
@@ -90,7 +98,7 @@ kill_some &
 helpers="$helpers $!"
 round=0
 wanted=$((shots / 3 + 3)) # failures, or it was no trial
-while [ "$round" -lt $((20 * wanted)) ]; do
+while [ "$round" -lt $((5 * wanted)) ]; do
   round=$((round + 1))
   (
     case $((round % 4)) in
@@ -100,9 +108,11 @@ while [ "$round" -lt $((20 * wanted)) ]; do
     survey -k -j 2
   ) >/dev/null 2>"$work/told" &
   made=$!
-  echo "$made" >"$work/session"
+  echo "$made" >"$work/session.new"
+  mv "$work/session.new" "$work/session"
   done=0
   wait "$made" || done=$?
+  remove_temporaries
   look
   words
   [ "$status" -eq 0 ] || break
@@ -121,10 +131,8 @@ rm -f "$small/filler"
 failures=$(wc -l <"$work/failures")
 [ "$failures" -ge "$wanted" ] || broken "only $failures failures in $round rounds: nothing was tried"
 [ -s "$work/kills" ] || broken 'nothing was killed'
-left=$(find "$small" -name '.*.tmp' | wc -l)
-[ "$left" -le "$(wc -l <"$work/kills")" ] || broken "more temporaries are left than tools were killed: $left"
-# Killed tools leave them, and on a small disk they take room.
-find "$small" -name '.*.tmp' -exec rm {} +
+left=$(awk '{ sum += $1 } END { print sum + 0 }' "$work/left")
+[ "$left" -le $((2 * $(wc -l <"$work/kills"))) ] || broken "more temporaries are left than tools were killed: $left"
 if (survey -j 2) >/dev/null 2>"$work/told"; then
   diff -r "$out" "$work/whole" || broken 'after all that it is not the same survey'
   [ -z "$( (survey -n) 2>&1 | grep -v -e '^make' -e sw-info -e echo -e '^cat' || :)" ] || broken 'make is not done'
