@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <vector>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -18,6 +19,32 @@ namespace {
 
 /// Pieces a worker gets on average: enough to even out what the machine takes from some of them.
 constexpr std::int64_t pieces_a_worker = 4;
+
+int this_worker() { return std::max(0, tbb::this_task_arena::current_thread_index()); }
+
+/// What was done before the pieces began is seen by them, what they did by those who waited for them, and
+/// what a worker left by whoever works next under its number. TBB sees to all this itself; the same in our
+/// own atomics is for the thread sanitizer, which cannot look into a TBB that was compiled without it.
+class Handover {
+ public:
+  Handover() : workers_(std::size_t(parallel_workers())) { begun_.store(true, std::memory_order_release); }
+  template <class Body>
+  void piece(Body&& body) {
+    begun();
+    auto& worker = workers_[std::size_t(this_worker())];
+    (void)worker.load(std::memory_order_acquire);
+    body();
+    worker.store(true, std::memory_order_release);
+    ended_.fetch_add(1, std::memory_order_release);
+  }
+  void begun() const { (void)begun_.load(std::memory_order_acquire); }
+  void ended() const { (void)ended_.load(std::memory_order_acquire); }
+
+ private:
+  std::vector<std::atomic<bool>> workers_;
+  std::atomic<bool> begun_ = false;
+  std::atomic<std::int64_t> ended_ = 0;
+};
 
 }  // namespace
 
@@ -54,7 +81,7 @@ void parallel_for(std::int64_t count, std::int64_t grain,
                   const std::function<void(std::int64_t, std::int64_t, int)>& body) {
   const auto run = [&](const tbb::blocked_range<std::int64_t>& piece) {
     flush_subnormals();
-    body(piece.begin(), piece.end(), std::max(0, tbb::this_task_arena::current_thread_index()));
+    body(piece.begin(), piece.end(), this_worker());
   };
   const std::int64_t threads = parallel_threads();
   if (threads == 1 || count <= grain) {
@@ -63,8 +90,11 @@ void parallel_for(std::int64_t count, std::int64_t grain,
   }
   // Halving stops below twice the grain.
   const std::int64_t longest = std::max(grain, count / (pieces_a_worker * threads));
-  tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, std::size_t(longest)), run,
-                    tbb::simple_partitioner());
+  Handover handover;
+  tbb::parallel_for(
+      tbb::blocked_range<std::int64_t>(0, count, std::size_t(longest)),
+      [&](const auto& piece) { handover.piece([&] { run(piece); }); }, tbb::simple_partitioner());
+  handover.ended();
 }
 
 namespace {
@@ -82,6 +112,7 @@ class Pieces {
   }
   void run() {
     group_.run_and_wait([this] { run_from(0, 0); });
+    handover_.ended();
   }
 
  private:
@@ -95,7 +126,10 @@ class Pieces {
   void run_from(std::int64_t pass, std::int64_t band) {
     for (;;) {
       flush_subnormals();
-      body_(pass, band, std::max(0, tbb::this_task_arena::current_thread_index()));
+      handover_.begun();
+      // Those it waited for have counted down here.
+      (void)waits(pass, band).load(std::memory_order_acquire);
+      handover_.piece([&] { body_(pass, band, this_worker()); });
       const auto start = [this](std::int64_t next_pass, std::int64_t next_band) {
         if (ready(next_pass, next_band))
           group_.run([this, next_pass, next_band] { run_from(next_pass, next_band); });
@@ -113,6 +147,7 @@ class Pieces {
   std::int64_t passes_, bands_, under_way_;
   const std::function<void(std::int64_t, std::int64_t, int)>& body_;
   std::unique_ptr<std::atomic<int>[]> waits_;
+  Handover handover_;
   tbb::task_group group_;
 };
 
@@ -137,15 +172,18 @@ void parallel_jobs(std::int64_t count, int at_once, const std::function<void(std
     return;
   }
   tbb::task_arena outer(at_once);
+  Handover handover;
   outer.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::int64_t>(0, count, 1),
         [&](const tbb::blocked_range<std::int64_t>& jobs) {
           tbb::task_arena inner(std::max(1, threads / at_once));
-          for (std::int64_t job = jobs.begin(); job < jobs.end(); ++job) inner.execute([&] { body(job); });
+          for (std::int64_t job = jobs.begin(); job < jobs.end(); ++job)
+            inner.execute([&] { handover.piece([&] { body(job); }); });
         },
         tbb::simple_partitioner());
   });
+  handover.ended();
 }
 
 }  // namespace slipwave
