@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <exception>
-#include <filesystem>
 
 #include "base/error.hpp"
 #include "base/temporary.hpp"
 
 namespace slipwave {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// How long a piece of an archive will be.
 class Length : public Archive {
@@ -287,16 +284,7 @@ void RunBook::close() {
   if (!keeps_checkpoints()) return;
   unlink(older_checkpoint(settings_.path).c_str());
   unlink(settings_.path.c_str());
-  const fs::path path(settings_.path);
-  const std::string log = path.filename().string() + ".shot";
-  std::error_code failed;
-  for (const auto& entry :
-       fs::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", failed)) {
-    const auto name = entry.path().filename().string();
-    if (name.compare(0, log.size(), log) == 0 && name.size() > log.size() &&
-        name.find_first_not_of("0123456789", log.size()) == std::string::npos)
-      unlink(entry.path().c_str());
-  }
+  remove_snapshot_logs(settings_.path + ".shot");
   lock_.reset();
 }
 

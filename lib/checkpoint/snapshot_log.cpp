@@ -6,6 +6,7 @@
 
 #include <cassert>
 #include <cerrno>
+#include <filesystem>
 
 #include "base/error.hpp"
 #include "base/temporary.hpp"
@@ -112,6 +113,19 @@ SnapshotMark SnapshotLog<D>::synchronized() {
   while (fsync(descriptor_) != 0)
     if (errno != EINTR) fail(path_, errno);
   return mark_;
+}
+
+void remove_snapshot_logs(const std::string& begin) {
+  const std::filesystem::path path(begin);
+  const std::string log = path.filename().string();
+  std::error_code failed;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(path.has_parent_path() ? path.parent_path() : ".", failed)) {
+    const auto name = entry.path().filename().string();
+    if (name.compare(0, log.size(), log) == 0 && name.size() > log.size() &&
+        name.find_first_not_of("0123456789", log.size()) == std::string::npos)
+      unlink(entry.path().c_str());
+  }
 }
 
 template class SnapshotLog<2>;

@@ -47,6 +47,9 @@ class SnapshotLog {
   SnapshotMark mark_;
 };
 
+/// Removes all files whose names are `begin` and a number.
+void remove_snapshot_logs(const std::string& begin);
+
 extern template class SnapshotLog<2>;
 
 }  // namespace slipwave
