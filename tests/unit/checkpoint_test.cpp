@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -203,19 +204,23 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
     std::array<Counting, 3> shots;
     std::array<std::size_t, 3> begun{};
     std::vector<std::thread> threads;
+    std::atomic<int> ended = 0;
     for (std::size_t n = 0; n < 3; ++n)
-      threads.emplace_back([&book, &shots, &begun, n] {
-        const auto pauses = book.pauses_of(n + 1);
+      threads.emplace_back([&book, &shots, &begun, &ended, n] {
+        auto pauses = book.pauses_of(n + 1);
         auto& shot = shots[n];
         pauses->begin(shot.keep);
         begun[n] = shot.steps.size();
-        for (int step = 0; step < 40 + 20 * int(n); ++step) {
+        // The last one outlasts the others, however threads are kept waiting.
+        for (int step = 0; step < 40 + 20 * int(n) || (n == 2 && ended < 2); ++step) {
           shot.steps.push_back(std::int64_t(shot.steps.size()));
           std::this_thread::sleep_for(std::chrono::microseconds(50));
           if (pauses->wanted()) pauses->pause(shot.keep, {std::int64_t(shot.steps.size()), 1000});
         }
         // What a shot keeps for the last time is the moment the next run goes on at.
         pauses->pause(shot.keep, {std::int64_t(shot.steps.size()), 1000});
+        pauses.reset();
+        ++ended;
       });
     for (auto& thread : threads) thread.join();
     for (std::size_t n = 0; n < 3; ++n) {
