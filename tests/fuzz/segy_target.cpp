@@ -1,49 +1,17 @@
 #include "segy_target.hpp"
 
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-
-#include <cstdio>
-#include <cstdlib>
 #include <optional>
 
 #include "base/error.hpp"
 #include "base/output_file.hpp"
+#include "memory_file.hpp"
 #include "segy/conversion.hpp"
 #include "segy/describe.hpp"
 
 namespace slipwave::segy {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-  std::fprintf(stderr, "%s\n", what.c_str());
-  std::abort();
-}
-
-/// A file in memory, written again for every input.
-class MemoryFile {
- public:
-  MemoryFile() : descriptor_(memfd_create("input", MFD_CLOEXEC)) {
-    if (descriptor_ < 0) fail("no memory file");
-    path_ = "/proc/self/fd/" + std::to_string(descriptor_);
-  }
-  MemoryFile(const MemoryFile&) = delete;
-  MemoryFile& operator=(const MemoryFile&) = delete;
-  ~MemoryFile() { close(descriptor_); }
-
-  const std::string& holding(std::span<const std::uint8_t> bytes) const {
-    const auto size = static_cast<off_t>(bytes.size());
-    const bool done =
-        ftruncate(descriptor_, size) == 0 && pwrite(descriptor_, bytes.data(), bytes.size(), 0) == size;
-    if (!done) fail("the memory file cannot be written");
-    return path_;
-  }
-
- private:
-  int descriptor_;
-  std::string path_;
-};
+using fuzz::fail;
 
 /// Where the bytes are read from: a file, or a stream that is at its end after them.
 struct Input {
@@ -96,7 +64,7 @@ std::int64_t convert(const Input& input, const std::optional<FileFormat>& format
 }  // namespace
 
 void examine(std::span<const std::uint8_t> bytes, As as) {
-  static const MemoryFile file;
+  static const fuzz::MemoryFile file;
   Input input{"/dev/null", {}};
   if (as == As::file)
     input.path = file.holding(bytes);
