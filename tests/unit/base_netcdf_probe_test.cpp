@@ -78,7 +78,8 @@ TEST(NetcdfProbe, HearsOfCrashesWhereTheNewsOfChildrenIsIgnored) {
 TEST(NetcdfProbe, EndsALoopWithoutEnd) {
   EXPECT_EQ(said_of(
                 [] {
-                  for (volatile int turn = 0;; turn = turn + 1) {
+                  const volatile bool on = true;
+                  while (on) {
                   }
                   return cannot_open;
                 },
