@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "segy/sample_format.hpp"
 #include "segy/text.hpp"
@@ -35,6 +36,17 @@ bool plausible_su(const TraceWords& words, std::optional<std::uint64_t> size) {
   if (words.get("counit") < 0 || words.get("counit") > 4) return false;
   if (words.get("trid") < -1 || words.get("trid") > 300) return false;
   return !size || *size % static_cast<std::uint64_t>(TraceLayout::size + 4 * ns) == 0;
+}
+
+/// A netCDF file may have a plausible trace header by chance; its first bytes could be a trace number of
+/// billions only.
+bool begins_netcdf(std::span<const std::uint8_t> first) {
+  const auto begins = [&](std::string_view signature) {
+    return first.size() >= signature.size() &&
+           std::equal(signature.begin(), signature.end(), first.begin(),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+  };
+  return begins("\x89HDF\r\n\x1a\n") || begins("CDF\x01") || begins("CDF\x02") || begins("CDF\x05");
 }
 
 /// Sum over the words of how many bits their magnitudes take: the wrong byte order makes small numbers large.
@@ -89,6 +101,7 @@ FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_
     const bool goes_on = !has_format && looks_like_text(first.subspan(text_bytes, assigned));
     return goes_on ? FileKind::unknown : FileKind::segy;
   }
+  if (begins_netcdf(first)) return FileKind::unknown;
   if (first.size() >= TraceLayout::size) {
     const auto header = first.first<TraceLayout::size>();
     if (plausible_su(TraceWords(header, su_byte_order_of(header, size)), size)) return FileKind::su;

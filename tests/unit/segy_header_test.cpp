@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "segy/geometry.hpp"
+#include "segy/sniff.hpp"
 #include "segy/words.hpp"
 
 using namespace slipwave;
@@ -171,4 +172,14 @@ TEST(TraceWords, ApplyScalarsFeetAndTheTimeScalar) {
   EXPECT_DOUBLE_EQ(start_s(words, file), 1);
   file.major = 0;  // byte 215 is free there
   EXPECT_DOUBLE_EQ(start_s(words, file), 10);
+}
+
+TEST(Sniff, TakesNoNetcdfForSeismicUnix) {
+  std::vector<std::uint8_t> trace(240 + 4 * 10, 0);
+  trace[115] = 10;  // ns, big-endian
+  EXPECT_EQ(kind_of(trace, trace.size()), FileKind::su);
+  for (const std::string_view signature : {"\x89HDF\r\n\x1a\n", "CDF\x01", "CDF\x02", "CDF\x05"}) {
+    std::copy(signature.begin(), signature.end(), trace.begin());
+    EXPECT_EQ(kind_of(trace, trace.size()), FileKind::unknown) << signature;
+  }
 }
