@@ -25,7 +25,8 @@ struct Column {
 constexpr Column<int> whole_numbers[] = {
     {"order", "order of the reconstruction in space", "1", &AccuracyRow::order},
     {"time_order", "order of the splitting in time", "1", &AccuracyRow::time_order},
-    {"slip_order", "order of the slip correction, 3 = exponential, 0 where nothing slips", "1", &AccuracyRow::slip_order},
+    {"slip_order", "order of the slip correction, 3 = exponential, 0 where nothing slips", "1",
+     &AccuracyRow::slip_order},
 };
 // Counts are stored as doubles: exact to 2^53, which int is not.
 constexpr Column<std::int64_t> counts[] = {

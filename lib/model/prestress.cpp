@@ -90,9 +90,9 @@ Prestress<D> parse_prestress(const std::string& text) {
   if (numbers.size() != stress.values.size()) {
     std::string all;
     for (const auto& name : stress_names<D>()) all += (all.empty() ? "" : ",") + name;
-    throw Error("found '" + text + "', expected none, lithostatic, lithostatic:K0, a pressure or " + all +
-                    " in Pa",
-                ErrorKind::usage);
+    throw Error(
+        "found '" + text + "', expected none, lithostatic, lithostatic:K0, a pressure or " + all + " in Pa",
+        ErrorKind::usage);
   }
   std::copy(numbers.begin(), numbers.end(), stress.values.begin());
   return stress;

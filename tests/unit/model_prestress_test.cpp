@@ -84,8 +84,9 @@ TEST(Prestress, ReadsSixComponentsInSpace) {
 TEST(Prestress, RefusesWhatItDoesNotKnow) {
   const auto said = [](const char* text) { return sentence_of([&] { parse_prestress<2>(text); }); };
   for (const std::string text : {"heavy", "1,2", "1,2,", "1,2,3,4", "lithostatics"})
-    EXPECT_EQ(said(text.c_str()),
-              "found '" + text + "', expected none, lithostatic, lithostatic:K0, a pressure or sxx,szz,sxz in Pa");
+    EXPECT_EQ(
+        said(text.c_str()),
+        "found '" + text + "', expected none, lithostatic, lithostatic:K0, a pressure or sxx,szz,sxz in Pa");
   EXPECT_EQ(said("lithostatic:-1"), "found K0 of -1, expected it not below zero");
 }
 
