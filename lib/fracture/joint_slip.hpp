@@ -16,19 +16,6 @@ using Stress = SymmetricTensor<D, Real>;
 template <int D, class Real>
 using Traction = std::array<Real, std::size_t(D)>;
 
-/// s_n and tau of the planes with unit normal n (S1).
-template <int D, class Real>
-Real resolve(const Traction<D, Real>& n, const Stress<D, Real>& s, Traction<D, Real>& tau) {
-  Real s_n = 0;
-  for (std::size_t i = 0; i < D; ++i) {
-    tau[i] = 0;
-    for (std::size_t j = 0; j < D; ++j) tau[i] += s(int(i), int(j)) * n[j];
-    s_n += n[i] * tau[i];
-  }
-  for (std::size_t i = 0; i < D; ++i) tau[i] -= s_n * n[i];
-  return s_n;
-}
-
 /// s += factor (change n + n change).
 template <int D, class Real>
 void add_shear(Stress<D, Real>& s, Real factor, const Traction<D, Real>& change, const Traction<D, Real>& n) {
@@ -36,15 +23,6 @@ void add_shear(Stress<D, Real>& s, Real factor, const Traction<D, Real>& change,
     for (int j = i; j < D; ++j)
       s(i, j) +=
           factor * (change[std::size_t(i)] * n[std::size_t(j)] + change[std::size_t(j)] * n[std::size_t(i)]);
-}
-
-template <int D, class Real>
-Real length(const Traction<D, Real>& a) {
-  Real largest = 0, sum = 0;
-  for (const Real part : a) largest = std::max(largest, std::abs(part));
-  if (!(largest > 0)) return largest;
-  for (const Real part : a) sum += (part / largest) * (part / largest);
-  return largest * std::sqrt(sum);
 }
 
 /// Any number of slip systems in one cell, in any directions: blocks in 3-D, planes that cross at any angle.
@@ -62,7 +40,6 @@ class JointSlip {
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
       : correction_(correction), systems_(std::move(systems)) {}
-  std::size_t systems() const { return systems_.size(); }
   /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the static part, `creep`
   /// and `open` (whether its planes stand apart) are by system.
   void slip(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open) const {

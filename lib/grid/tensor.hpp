@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace slipwave {
 
@@ -21,5 +22,29 @@ struct SymmetricTensor {
   constexpr const Real& operator()(int i, int j) const { return values[std::size_t(place(i, j))]; }
   bool operator==(const SymmetricTensor&) const = default;
 };
+
+/// s_n and tau, normal stress and shear traction, on planes with unit normal n (theory.md S1).
+template <int D, class Real>
+Real resolve(const std::array<Real, std::size_t(D)>& n, const SymmetricTensor<D, Real>& s,
+             std::array<Real, std::size_t(D)>& tau) {
+  Real s_n = 0;
+  for (std::size_t i = 0; i < D; ++i) {
+    tau[i] = 0;
+    for (std::size_t j = 0; j < D; ++j) tau[i] += s(int(i), int(j)) * n[j];
+    s_n += n[i] * tau[i];
+  }
+  for (std::size_t i = 0; i < D; ++i) tau[i] -= s_n * n[i];
+  return s_n;
+}
+
+/// Its squares neither overflow nor vanish.
+template <int D, class Real>
+Real length(const std::array<Real, std::size_t(D)>& a) {
+  Real largest = 0, sum = 0;
+  for (const Real part : a) largest = std::max(largest, std::abs(part));
+  if (!(largest > 0)) return largest;
+  for (const Real part : a) sum += (part / largest) * (part / largest);
+  return largest * std::sqrt(sum);
+}
 
 }  // namespace slipwave

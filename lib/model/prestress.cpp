@@ -40,24 +40,6 @@ Lithostatic parse_lithostatic(const std::string& text) {
   return {k0};
 }
 
-/// What parallel planes feel of a static stress (S1), Pa.
-struct OnPlanes {
-  double normal = 0, shear = 0;
-};
-
-template <int D>
-OnPlanes on_planes(const SymmetricTensor<D, double>& stress, const Point<D>& normal) {
-  Point<D> traction{};
-  OnPlanes result;
-  for (int i = 0; i < D; ++i) {
-    for (int j = 0; j < D; ++j) traction[std::size_t(i)] += stress(i, j) * normal[std::size_t(j)];
-    result.normal += traction[std::size_t(i)] * normal[std::size_t(i)];
-  }
-  for (std::size_t i = 0; i < D; ++i)
-    result.shear = std::hypot(result.shear, traction[i] - result.normal * normal[i]);
-  return result;
-}
-
 }  // namespace
 
 template <>
@@ -145,8 +127,9 @@ void check_prestress(const Model<D>& model) {
     };
     if (!finite) refuse("on", "is not finite, expected numbers");
     for (const auto& system : model.fracture_sets[code - 1].systems) {
-      const auto [normal, shear] = on_planes<D>(stress, system.normal);
-      const double rounding = slack * largest;
+      Point<D> traction{};
+      const double normal = resolve<D, double>(system.normal, stress, traction);
+      const double shear = length<D, double>(traction), rounding = slack * largest;
       const double strength = system.friction * std::max(-normal, 0.) + system.strength_pa;
       if (system.opens && normal > rounding)
         refuse("pulls", "by " + shown(normal, 4) + " Pa, expected them pressed together, as they open");
