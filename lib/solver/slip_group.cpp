@@ -176,17 +176,13 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
 template <int D, class Real>
 void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
                              std::int64_t n) {
-  if (act == SlipAct::slip) return slip(stress, pitch, place, n);
-  if (act == SlipAct::begin) return begin(stress, pitch, place, n);
-  if (part_) part(stress, pitch, place, n);
-}
-
-template <int D, class Real>
-void SlipGroup<D, Real>::slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
-  if (joint_)
-    slip_jointly(stress, pitch, place, n, false);
-  else
-    kernels_.slip(n, planes_, rows(stress, pitch, place));
+  if (act == SlipAct::part) {
+    if (part_) part(stress, pitch, place, n);
+  } else if (joint_) {
+    slip_jointly(stress, pitch, place, n, act == SlipAct::begin);
+  } else {
+    (act == SlipAct::begin ? kernels_.begin : kernels_.slip)(n, planes_, rows(stress, pitch, place));
+  }
 }
 
 /// To and fro, as parting of one system changes the normal stress of the others.
@@ -226,14 +222,6 @@ void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::siz
       joint_->slip(s, total, creep.data(), open.data());
     for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
   }
-}
-
-template <int D, class Real>
-void SlipGroup<D, Real>::begin(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
-  if (joint_)
-    slip_jointly(stress, pitch, place, n, true);
-  else
-    kernels_.begin(n, planes_, rows(stress, pitch, place));
 }
 
 template class SlipGroup<2, float>;

@@ -63,8 +63,6 @@ class SlipGroup {
   void choose_kernels(SlipCorrection correction);
   void part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool begins);
-  void slip(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  void begin(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
 
   const FractureSet<D>* set_;
