@@ -119,7 +119,7 @@ RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
 /// Whether the files that a finished shot has to itself are where they were put.
 bool ShotOutput::in_place_still(const Scene<2>& scene, RunBook& book, std::size_t shot) const {
   const auto there = [](const std::string& path) { return path == "-" || access(path.c_str(), F_OK) == 0; };
-  const std::size_t number = shot + std::size_t(first_shot - 1);
+  const std::size_t number = number_of(shot);
   bool all = snapshots.empty() || there(name_for(snapshots, number, ""));
   if (!book.gather(shot) && !scene.survey.receivers_m.empty())
     for (const Component component : scene.recording.components)
@@ -151,7 +151,7 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
   try {
     shoot_rest(scene, history, context, run);
   } catch (const Unstable& error) {
-    const auto number = std::to_string(error.shot() + std::size_t(first_shot - 1));
+    const auto number = std::to_string(number_of(error.shot()));
     const auto kept = keep(scene, error, context, run);
     throw Error((scene.survey.sources.size() > 1 ? "shot " + number + ": " : "") + error.what() +
                     (kept.empty() ? ""
@@ -169,8 +169,7 @@ std::map<std::string, Gather> ShotOutput::gathers_by_file(RunBook& book, std::si
     if (!gather) continue;
     for (auto& trace : gather->traces) {
       trace.header.shot += first_shot - 1;
-      auto& collected =
-          gathers[name_for(traces, shot + std::size_t(first_shot - 1), name_of(trace.header.component))];
+      auto& collected = gathers[name_for(traces, number_of(shot), name_of(trace.header.component))];
       collected.axis = gather->axis;
       collected.traces.push_back(std::move(trace));
     }
@@ -192,7 +191,7 @@ std::string ShotOutput::keep(const Scene<2>& scene, const Unstable& error, const
       }
     if (!keep_unstable) return "";
     auto entries = run.entries;
-    entries.push_back("shot " + std::to_string(error.shot() + std::size_t(first_shot - 1)) +
+    entries.push_back("shot " + std::to_string(number_of(error.shot())) +
                       " became unstable: its samples after " + shown(error.sound_until_s(), 6) +
                       " s are zero");
     for (std::size_t shot = 1; holds(traces, "{shot}") && shot <= shots; ++shot) run.book.forget(shot);
@@ -204,7 +203,7 @@ std::string ShotOutput::keep(const Scene<2>& scene, const Unstable& error, const
       kept += (kept.empty() ? "" : ", ") + unstable_name(name);
     }
     if (!run.kept) return kept;
-    const auto name = unstable_name(name_for(snapshots, error.shot() + std::size_t(first_shot - 1), ""));
+    const auto name = unstable_name(name_for(snapshots, number_of(error.shot()), ""));
     run.kept->commit_as(name);
     kept += (kept.empty() ? "" : ", ") + name;
   } catch (const Error& other) {
@@ -221,7 +220,6 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
   auto& kept = run.kept;
   const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
   const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
-  const auto number_of = [&](std::size_t shot) { return shot + std::size_t(first_shot - 1); };
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };

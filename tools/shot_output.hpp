@@ -38,6 +38,8 @@ struct ShotOutput {
 
  private:
   struct Underway;
+  /// In headers and names, of shot 1, 2, ... of the run.
+  std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
   void shoot_rest(const Scene<2>& scene, const std::string& history, const cli::Context& context,
                   Underway& run) const;
   std::map<std::string, Gather> gathers_by_file(RunBook& book, std::size_t shots) const;
