@@ -5,14 +5,9 @@ root=$1
 SLIPWAVE_BUILD=$2
 export SLIPWAVE_BUILD
 unset MAKEFLAGS MAKELEVEL
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 out=$work/out
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
 survey() { "$root/surveys/run" accuracy OUT="$out" SHORT=1 "$@"; }
 
 said=$(survey ERROR=0.3)

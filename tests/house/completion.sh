@@ -4,13 +4,8 @@ set -eu
 completions=$1/completions
 bin=$1/bin
 shift
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 
 # Every option is offered, and no other.
 for tool in "$@"; do

@@ -6,14 +6,9 @@ root=$1
 SLIPWAVE_BUILD=$2
 export SLIPWAVE_BUILD
 unset MAKEFLAGS MAKELEVEL
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 bin=$2/bin
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
 survey() { "$root/surveys/run" line STEP=50 SHOTS=3 SPACING=1500 "$@"; }
 # sums FOLDER: what the traces of all files are, whatever commands their texts tell of.
 sums() {

@@ -4,13 +4,8 @@ set -eu
 build=$1
 shift
 command -v dpkg-shlibdeps >/dev/null || { echo 'there is no dpkg-shlibdeps'; exit 77; }
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 (cd "$build" && umask 022 && cpack -G DEB -B "$work/packages") >"$work/said" 2>&1 ||
   { cat "$work/said"; echo 'cpack failed'; exit 1; }
 # field PACKAGE FIELD

@@ -6,13 +6,8 @@ root=$1
 SLIPWAVE_BUILD=$2
 export SLIPWAVE_BUILD
 unset MAKEFLAGS MAKELEVEL
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 # survey NAME OUT ARGUMENT...
 survey() {
   name=$1

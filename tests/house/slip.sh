@@ -6,14 +6,9 @@ root=$1
 SLIPWAVE_BUILD=$2
 export SLIPWAVE_BUILD
 unset MAKEFLAGS MAKELEVEL
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 out=$work/out
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
 survey() {
   "$root/surveys/run" slip OUT="$out" STEP=10 FRICTIONS='0 1' VISCOSITIES='0 25600' DIPS='0 45' FREQUENCIES=20 ANGLES=30 "$@"
 }

@@ -4,8 +4,8 @@
 set -eu
 root=$1
 build=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+# shellcheck source=tests/house/lib.sh
+. "$(dirname -- "$0")/lib.sh"
 unset MAKELEVEL
 MAKEFLAGS="BUILD=$build"
 SLIPWAVE=$root
@@ -28,11 +28,6 @@ cd "$work/folder"
 sh -eu "$work/commands" </dev/null >"$work/said" 2>&1 || { cat "$work/said"; echo 'a command failed'; exit 1; }
 cat "$work/said"
 
-status=0
-broken() {
-  echo "$1"
-  status=1
-}
 grep -oE '[a-z-]+\.(png|pdf|svg)\b' "$work/as-written" | sort -u > "$work/pictures"
 while IFS= read -r picture; do
   case $picture in section.png) picture=out/section.png ;; esac
