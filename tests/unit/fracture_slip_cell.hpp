@@ -35,22 +35,17 @@ inline double creep_of_d(double d) { return d > 1 / most_creep_pa ? 1 / d : most
 
 namespace slip_cell {
 
+/// A kernel of one system on one cell.
 template <class Correction, int D, class Real>
-struct Call {
-  solver::SlipPlanes<Real> planes;
-  solver::SlipRows<Real> rows{};
-  solver::SlipKernels<Real> kernels;
-  Real creep;
-};
-
-template <class Correction, int D, class Real, class Vector>
-Call<Correction, D, Real> call(const SlipStrength<Real>& law, const Vector& normal, Real creep) {
+void run(const SlipStrength<Real>& law, const Traction<D, Real>& normal, double d, Stress<D, Real>& s,
+         std::array<Real, 8>& memory, bool begins) {
   Point<D> n{};
   for (std::size_t i = 0; i < D; ++i) n[i] = double(normal[i]);
-  return {solver::planes_of<D, Real>({{n, double(law.friction), 0, double(law.cohesion_pa)}}),
-          {},
-          solver::slip_kernels<Real>({D, 1, Correction::correction, false}),
-          creep};
+  const auto planes = solver::planes_of<D, Real>({{n, double(law.friction), 0, double(law.cohesion_pa)}});
+  const auto kernels = solver::slip_kernels<Real>({D, 1, Correction::correction, false});
+  const Real creep = Real(creep_of_d(d));
+  (begins ? kernels.begin : kernels.slip)(
+      1, planes, {s.values.data(), 1, {&creep, nullptr}, memory.data(), 1, nullptr, 0, {nullptr, nullptr}});
 }
 
 }  // namespace slip_cell
@@ -60,9 +55,7 @@ template <class Correction, int D, class Real>
 void correct(const std::type_identity_t<SlipStrength<Real>>& law,
              const std::type_identity_t<Traction<D, Real>>& normal, double d, Stress<D, Real>& s,
              std::array<Real, 8>& memory) {
-  auto call = slip_cell::call<Correction, D, Real>(law, normal, Real(creep_of_d(d)));
-  call.rows = {s.values.data(), 1, {&call.creep, nullptr}, memory.data(), 1, nullptr, 0, {nullptr, nullptr}};
-  call.kernels.slip(1, call.planes, call.rows);
+  slip_cell::run<Correction, D, Real>(law, normal, d, s, memory, false);
 }
 
 /// What the next step begins with.
@@ -70,9 +63,7 @@ template <class Correction, int D, class Real>
 void begin(const std::type_identity_t<SlipStrength<Real>>& law,
            const std::type_identity_t<Traction<D, Real>>& normal, double d, Stress<D, Real>& s,
            std::array<Real, 8>& memory) {
-  auto call = slip_cell::call<Correction, D, Real>(law, normal, Real(creep_of_d(d)));
-  call.rows = {s.values.data(), 1, {&call.creep, nullptr}, memory.data(), 1, nullptr, 0, {nullptr, nullptr}};
-  call.kernels.begin(1, call.planes, call.rows);
+  slip_cell::run<Correction, D, Real>(law, normal, d, s, memory, true);
 }
 
 template <int D, class Real>
