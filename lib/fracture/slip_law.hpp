@@ -97,7 +97,7 @@ template <class Real>
 [[gnu::always_inline]] inline Real crept(Real size, Real strength, Real creep) {
   const Real excess = greater(size - strength, Real(0));
   // Written without a choice between results, for which compilers leave the vectors.
-  return excess * (1 - smooth::decay(creep / greater(strength, least<Real>)));
+  return excess * smooth::decay(creep / greater(strength, least<Real>)).lost;
 }
 
 /// The law solved over a step in which load and strength grow steadily (S10): `before` is |tau| - S at its
@@ -105,20 +105,24 @@ template <class Real>
 /// |tau| - S at the end, slip beginning or stopping on the way where it does.
 template <class Real>
 [[gnu::always_inline]] inline Real excess_after(Real before, Real grown, Real strength, Real creep) {
-  const Real x = lesser(creep / greater(strength, least<Real>), Real(most_creep_pa));
-  const Real elastic = before + grown;
+  constexpr Real most = Real(most_creep_pa);
+  // Divisions are most of the work: each is made once. x is c/S.
+  const Real x = lesser(creep / greater(strength, least<Real>), most);
+  const Real of_x = lesser(strength / greater(creep, least<Real>), 1 / least<Real>);
+  const Real elastic = before + grown, pace = grown < 0 ? -grown : grown;
+  const Real of_pace = 1 / greater(pace, least<Real>);
   // Stuck at the beginning: slip for the last part of the step only.
   const bool begins = !(before > 0);
-  const Real part = begins ? lesser(elastic / greater(grown, least<Real>), Real(1)) : Real(1);
-  const Real slipping = greater(x * part, Real(0)), left = smooth::decay(slipping);
-  const Real near_zero = smooth::mean_decay_near_zero(lesser(slipping, Real(0.5)));
-  const Real mean = slipping < Real(0.5) ? near_zero : (1 - left) / slipping;
-  const Real end = (begins ? Real(0) : before * left) + grown * (part * mean);
+  const Real part = begins ? lesser(elastic * of_pace, Real(1)) : Real(1);
+  const Real slipping = greater(x * part, Real(0));
+  const auto decay = smooth::decay(slipping);
+  // A part of the step cancels where the decay is divided by what slips in it.
+  const Real added = grown * (slipping < smooth::near_zero<Real> ? part * decay.mean : decay.lost * of_x);
+  const Real end = (begins ? Real(0) : before * decay.left) + added;
   // Slipping at the beginning, stuck at the end: e^(-x w) = rho/(before + rho) at the instant w, rho =
   // -grown/x.
-  const Real until = smooth::logarithm_of_one_more(
-      lesser(greater(before, Real(0)) * (x / greater(-grown, least<Real>)), Real(most_creep_pa)));
-  const Real stopped = grown * (1 - lesser(until / greater(x, least<Real>), Real(1)));
+  const Real until = smooth::logarithm_of_one_more(lesser(greater(before, Real(0)) * of_pace * x, most));
+  const Real stopped = grown * (1 - lesser(until * of_x, Real(1)));
   const Real started = elastic > 0 ? end : elastic, went_on = grown < 0 ? (end > 0 ? end : stopped) : end;
   return begins ? started : went_on;
 }

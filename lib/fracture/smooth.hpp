@@ -39,15 +39,21 @@ template <int N, int Last, class Real>
     return of_artanh<N + 1, Last>(x) * x + Real(1. / (2 * N + 1));
 }
 
-/// (1 - exp(-x))/x for 0 <= x <= 1/2 by its Taylor series; relative error below rounding.
+/// No whole power of two is in exp(-x) below this x.
 template <class Real>
-[[gnu::always_inline]] inline Real mean_decay_near_zero(Real x) {
-  return alternating<2, Bits<Real>::exponential_terms + 1>(x);
-}
+constexpr Real near_zero = Real(0.34);
 
-/// exp(-x) for x >= 0, held above the smallest normal number. Relative error: some roundings, and of x.
+/// What x >= 0 leaves of 1 and takes off it; no digit of `lost` goes into the 1.
 template <class Real>
-[[gnu::always_inline]] inline Real decay(Real x) {
+struct Decay {
+  Real left;  // exp(-x), held above the smallest normal number
+  Real lost;  // 1 - exp(-x)
+  Real mean;  // (1 - exp(-x))/x, only where x < near_zero
+};
+
+/// Relative errors: some roundings, and of x.
+template <class Real>
+[[gnu::always_inline]] inline Decay<Real> decay(Real x) {
   using B = Bits<Real>;
   using Whole = typename B::Whole;
   const Real limit = Real((B::bias - 2) * 0.69314718055994531);
@@ -61,7 +67,9 @@ template <class Real>
   const Real high = Real(0.693145751953125), low = Real(1.428606820309417e-06);
   const Real rest = (held - power * high) - power * low;
   const Whole bits = (Whole(B::bias) - __builtin_bit_cast(Whole, shifted)) << B::mantissa;
-  return alternating<1, B::exponential_terms>(rest) * __builtin_bit_cast(Real, bits);
+  const Real halvings = __builtin_bit_cast(Real, bits), mean = alternating<2, B::exponential_terms>(rest);
+  const Real lost = rest * mean;
+  return {halvings * (1 - lost), (1 - halvings) + halvings * lost, mean};
 }
 
 /// ln(1 + x) for x >= 0.
@@ -73,10 +81,11 @@ template <class Real>
   const Real all = 1 + x;
   const Whole bits = __builtin_bit_cast(Whole, all),
               root_half = __builtin_bit_cast(Whole, Real(0.70710678118654752));
+  const bool no_power = all < 2 * Real(0.70710678118654752);
   const Whole power = (bits - root_half) >> B::mantissa;
   const Real m = __builtin_bit_cast(Real, bits - (power << B::mantissa));
   // ln m = 2 artanh((m - 1)/(m + 1)); of a small x no digit may go into the 1.
-  const Real s = (power == 0 ? x : m - 1) / (power == 0 ? 2 + x : m + 1), square = s * s;
+  const Real s = (no_power ? x : m - 1) / (no_power ? 2 + x : m + 1), square = s * s;
   constexpr Real large = Real(Whole(1) << B::mantissa);
   const Real whole = __builtin_bit_cast(Real, __builtin_bit_cast(Whole, large) + power) - large;
   return whole * Real(0.69314718055994531) + 2 * s * of_artanh<0, B::logarithm_terms>(square);

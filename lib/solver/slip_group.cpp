@@ -105,8 +105,11 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
     }
   };
   const bool extended = !still_.empty() || opens();
-  if (extended)
+  if (extended) {
     for (std::size_t n = 0; n < systems.size(); ++n) add_row(planes_.normal[n], 1);
+    if (std::any_of(gaps_.begin(), gaps_.end(), [](const auto& gaps) { return gaps.empty(); }))
+      shut_.assign(count_, 0);
+  }
   if (systems.size() == 1 || two) {
     kernels_ = slip_kernels<Real>({D, int(systems.size()), correction, extended});
     kept_.assign(count_ * std::size_t(kernels_.kept_rows), 0);
@@ -162,13 +165,14 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
   SlipRows<Real> rows{};
   rows.stress = stress;
   rows.pitch = pitch;
+  const auto from = [place](auto& row) { return row.empty() ? nullptr : row.data() + place; };
   const auto systems = set_->systems.size();
   for (std::size_t n = 0; n < systems && n < 2; ++n) {
-    rows.creep[n] = creep_[n].data() + place;
-    rows.gap[n] = gaps_[n].empty() ? nullptr : gaps_[n].data() + place;
+    rows.creep[n] = from(creep_[n]);
+    rows.gap[n] = from(gaps_[n].empty() ? shut_ : gaps_[n]);
   }
-  rows.kept = kept_.data() + place;
-  rows.still = resolved_.empty() ? nullptr : resolved_.data() + place;
+  rows.kept = from(kept_);
+  rows.still = from(resolved_);
   rows.kept_pitch = rows.still_pitch = std::int64_t(count_);
   return rows;
 }
@@ -195,7 +199,7 @@ void SlipGroup<D, Real>::part(Real* stress, std::int64_t pitch, std::size_t plac
     if (gap.empty()) continue;
     part_(n, planes_, system,
           {stress, pitch, gap.data() + place, lambda_.data() + place, modulus_.data() + place,
-           still_.empty() ? nullptr : resolved_.data() + std::size_t(system) * count_ + place});
+           resolved_.data() + std::size_t(system) * count_ + place});
   }
 }
 

@@ -77,6 +77,7 @@ class SlipGroup {
   std::optional<JointSlip<D, Real>> joint_;  // where no kernel knows the systems
   std::vector<std::vector<Real>> creep_;     // [system][cell], Pa
   std::vector<std::vector<Real>> gaps_;      // [system][cell], of systems that open; else empty
+  std::vector<Real> shut_;                   // the gap of the others, where kernels read gaps
   std::vector<Real> lambda_, modulus_, mu_;  // Pa, where planes open or a diary is kept
   std::vector<Real> still_;                  // static stress, row after row; empty: none
   std::vector<Real> resolved_;               // what planes feel of it, as SlipRows says

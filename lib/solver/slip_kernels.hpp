@@ -27,9 +27,10 @@ struct SlipRows {
   const Real* creep[2];  // mu dt/eta of each system, 0 in cells that do not slip
   Real* kept;            // SlipKernels::kept_rows, `kept_pitch` apart
   std::int64_t kept_pitch;
-  const Real* still;  // static stress: s_n of each system, then tau; null: none
+  // Read where SlipCase::still_or_gap says so only.
+  const Real* still;  // static stress: s_n of each system, then tau
   std::int64_t still_pitch;
-  const Real* gap[2];  // of each system (open); null: none can open
+  const Real* gap[2];  // of each system (open), 0 where it cannot open
 };
 
 /// Cells of a plane that may open.
@@ -39,7 +40,7 @@ struct GapRows {
   std::int64_t pitch;
   Real* gap;                     // strain by which planes stand open, n.e.n
   const Real *lambda, *modulus;  // Lame's and lambda + 2 mu, Pa
-  const Real* still;             // static s_n; null: none
+  const Real* still;             // static s_n
 };
 
 /// Inner loops of slip over n neighbouring cells of a line.

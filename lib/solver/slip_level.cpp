@@ -54,7 +54,6 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still2 = rows.still + tangents * rows.still_pitch;
   const Real* __restrict const gaps = rows.gap[0];
-  const bool has_gap = gaps != nullptr;
   Real normal[last + 1], m1[last + 1], m2[last + 1];
   for (int c = 0; c <= last; ++c) {
     normal[c] = planes.normal[0][c];
@@ -76,7 +75,7 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
       if constexpr (D == 3) t2 += still2[i];
     }
     Real strength = friction * greater(-s_n, Real(0)) + cohesion;
-    if constexpr (Extended) strength = has_gap && gaps[has_gap ? i : 0] > 0 ? Real(0) : strength;
+    if constexpr (Extended) strength = gaps[i] > 0 ? Real(0) : strength;
     const Real size = D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
@@ -131,7 +130,6 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still_t = rows.still + 2 * rows.still_pitch;
   const Real* __restrict const gaps_a = rows.gap[0], * __restrict const gaps_b = rows.gap[1];
-  const bool has_a = gaps_a != nullptr, has_b = gaps_b != nullptr;
   const Real na0 = planes.normal[0][0], na1 = planes.normal[0][1], na2 = planes.normal[0][2];
   const Real m0 = planes.shear[0][0], m1 = planes.shear[0][1], m2 = planes.shear[0][2];
   const Real friction_a = planes.friction[0], cohesion_a = planes.cohesion_pa[0];
@@ -149,8 +147,8 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
     Real strength_a = friction_a * greater(-n_a, Real(0)) + cohesion_a;
     Real strength_b = friction_b * greater(-n_b, Real(0)) + cohesion_b;
     if constexpr (Extended) {
-      strength_a = has_a && gaps_a[has_a ? i : 0] > 0 ? Real(0) : strength_a;
-      strength_b = has_b && gaps_b[has_b ? i : 0] > 0 ? Real(0) : strength_b;
+      strength_a = gaps_a[i] > 0 ? Real(0) : strength_a;
+      strength_b = gaps_b[i] > 0 ? Real(0) : strength_b;
     }
     const Real size = t < 0 ? -t : t;
     Real now;
@@ -191,7 +189,6 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
                                                                  D == 2 ? r2 : r4 + rows.pitch;
   Real* __restrict const gap = rows.gap;
   const Real* __restrict const lambdas = rows.lambda, * __restrict const moduli = rows.modulus, * __restrict const still = rows.still;
-  const bool has_still = still != nullptr;
   Real normal[last + 1];
   for (int c = 0; c <= last; ++c) normal[c] = planes.normal[system][c];
 #pragma omp simd
@@ -199,8 +196,7 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real lambda = lambdas[i], modulus = moduli[i], was = gap[i];
-    Real s_n = projected<D>(normal, Real(1), s0, s1, s2, s3, s4, s5);
-    s_n += has_still ? still[has_still ? i : 0] : Real(0);
+    const Real s_n = projected<D>(normal, Real(1), s0, s1, s2, s3, s4, s5) + still[i];
     // What s_n would be were the planes shut.
     const Real shut = s_n + modulus * was;
     const Real now = modulus > 0 ? greater(shut, Real(0)) / greater(modulus, slip::least<Real>) : Real(0);

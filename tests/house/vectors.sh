@@ -1,6 +1,6 @@
 #!/bin/sh
-# vectors.sh BUILD: whether every inner loop of lib/solver/kernels_level.cpp was compiled into vectors of the full width
-# of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
+# vectors.sh BUILD: whether every inner loop of lib/solver/kernels_level.cpp and slip_level.cpp was compiled into vectors
+# of the full width of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
 #
 # Reads the disassembly. A loop is what a jump leads back to from below. Each kernel must have one in which all of the
 # kernel's arithmetic, counted by hand below, is done with vectors of that width; what is left over at the end of a row
@@ -21,12 +21,15 @@ esac
 status=0
 
 # loops OBJECT: a line "KERNEL<tab>WIDTH<tab>OPERATIONS" for each innermost loop: bits of its widest vectors and the
-# additions and multiplications done with those.
+# additions and multiplications done with those. Every kernel has a line with zeros, too.
 loops() {
   objdump -d -C --no-show-raw-insn "$1" | awk '
     function close_function(  n, from, i, width, done) {
-      sub(/^.*\(anonymous namespace\)::/, "", name)
+      gsub(/slipwave::|solver::|\(anonymous namespace\)::/, "", name)
+      sub(/^[^<]*</, "", name)
+      sub(/^void /, "", name)
       sub(/>\(.*$/, ">", name)
+      if (name ~ />$/) printf "%s\t0\t0\n", name
       for (n = 0; n < count; ++n) {
         if (!(n in target) || !(target[n] in place)) continue
         from = place[target[n]]
@@ -105,13 +108,41 @@ want() {
     }' || status=1
 }
 
+# want_slip OBJECT LEVEL WIDTH: the same of the kernels of slip, by what the projections of stress and its change take.
+want_slip() {
+  loops "$1" | awk -F '\t' -v level="$2" -v width="$3" '
+    $1 !~ /^(slip_one|slip_two|open)</ { next }
+    { seen[$1] = 1 }
+    $2 == width && $3 > most[$1] { most[$1] = $3 }
+    END {
+      for (kernel in seen) {
+        ++kernels
+        least = kernel ~ /^slip_one<3/ ? 60 : kernel ~ /^open<3/ ? 25 : kernel ~ /^open/ ? 14 : 20
+        if (most[kernel] >= least) continue
+        printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
+        bad = 1
+      }
+      # Three corrections by halves, with and without static stress and parting, in 2-D, 3-D and for blocks; parting.
+      if (kernels != 2 * (5 * 2 * 3 + 2)) {
+        printf "%s: %d kernels of slip, expected 64\n", level, kernels
+        bad = 1
+      }
+      if (!bad) printf "%s: %d kernels of slip on vectors of %d bits\n", level, kernels, width
+      exit bad
+    }' || status=1
+}
+
 for level in generic=128 x86_64_v2=128 x86_64_v3=256 x86_64_v4=512; do
-  object=$(find "$build/lib/solver" -path "*kernels_${level%=*}.dir*" -name 'kernels_level.cpp.o')
-  if [ -z "$object" ]; then
-    echo "${level%=*}: no object in $build"
-    status=1
-    continue
-  fi
-  want "$object" "${level%=*}" "${level#*=}"
+  for of in kernels slip; do
+    object=$(find "$build/lib/solver" -path "*kernels_${level%=*}.dir*" -name "${of}_level.cpp.o")
+    if [ -z "$object" ]; then
+      echo "${level%=*}: no object of ${of}_level.cpp in $build"
+      status=1
+    elif [ "$of" = kernels ]; then
+      want "$object" "${level%=*}" "${level#*=}"
+    else
+      want_slip "$object" "${level%=*}" "${level#*=}"
+    fi
+  done
 done
 exit "$status"
