@@ -53,7 +53,12 @@ void Options::add(const std::string& name, std::string& to, const std::string& p
                   const std::string& help) {
   auto& option = declare(name, placeholder, help);
   option.shown_default = to;
-  option.store = [&to](const auto& values) { to = values.back(); };
+  const bool may_be_empty = placeholder == "TEXT" || !to.empty();
+  option.store = [&to, placeholder, may_be_empty](const auto& values) {
+    if (values.back().empty() && !may_be_empty)
+      throw Error("found '', expected " + placeholder, ErrorKind::usage);
+    to = values.back();
+  };
 }
 
 void Options::add(const std::string& name, double& to, const std::string& placeholder,

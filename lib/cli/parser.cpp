@@ -65,7 +65,7 @@ void Parser::parse(int argc, const char* const* argv) {
   for (const auto& option : options_.options_) {
     if (option.name == "version" || option.name == "config") {
       const auto found = given_.find(option.name);
-      if (found != given_.end()) option.store(found->second);
+      if (found != given_.end()) in_place("--" + option.name, [&] { option.store(found->second); });
     }
   }
   if (common_.version) return;
@@ -138,7 +138,6 @@ void Parser::refuse_without_value(const std::string& name) const {
 
 void Parser::read_config() {
   const std::string& path = common_.config;
-  if (path.empty()) refuse("--config: found no name, expected a file");
   std::istringstream file(read_text(path));
   po::options_description known;
   for (const auto& option : options_.options_) {

@@ -22,6 +22,7 @@ struct ToolInfo {
 class Options {
  public:
   /// A value; `to` keeps its present content where the option is not given (shown as the default in --help).
+  /// Where that is empty, an empty value is refused: it would pass for no option. Only a TEXT may be empty.
   void add(const std::string& name, std::string& to, const std::string& placeholder, const std::string& help);
   void add(const std::string& name, double& to, const std::string& placeholder, const std::string& help);
   void add(const std::string& name, int& to, const std::string& placeholder, const std::string& help);

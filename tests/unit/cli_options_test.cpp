@@ -90,6 +90,13 @@ TEST(Options, AreRefusedWithUsageStatusBeforeTheBodyRuns) {
   }
 }
 
+TEST(Options, AreNotEmptyWhereThatWouldPassForNone) {
+  EXPECT_EQ(run({"--source", ""}).code, 2);
+  EXPECT_EQ(run({"--source="}).code, 2);
+  EXPECT_EQ(run({"--config", ""}).code, 2);
+  EXPECT_EQ(run({"--output", ""}).settings.output, "");
+}
+
 TEST(Options, TheNearestNameIsTheOneMeant) {
   const std::vector<std::string> names = {"receivers", "record", "source", "sides", "time"};
   EXPECT_EQ(slipwave::nearest_of(names, "receiver"), "receivers");
