@@ -11,7 +11,6 @@
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
 #include "base/parse.hpp"
-#include "base/temporary.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "output/derivatives.hpp"
 #include "output/snapshot_netcdf.hpp"
@@ -223,19 +222,16 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };
-  const bool goes_on = !book.goes_on_at().empty();
-  if (goes_on) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
+  if (!book.goes_on_at().empty()) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
   std::vector<std::size_t> open;
   for (std::size_t shot = 1; shot <= shots; ++shot) {
     if (book.finished(shot) && !in_place_still(scene, book, shot)) book.forget(shot);
     if (!book.finished(shot)) open.push_back(shot);
-    if (goes_on && !snapshots.empty()) remove_strays(name_for(snapshots, number_of(shot), ""));
   }
   const auto open_files = [&](std::size_t shot) {
     for (const Component component : scene.recording.components) {
       const auto name = name_of_file(shot, component);
       if (!any_trace || files.count(name) > 0) continue;
-      if (goes_on) remove_strays(name);
       files.try_emplace(name, name, OutputFile::Content::binary);
     }
   };

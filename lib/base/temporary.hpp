@@ -4,8 +4,9 @@
 
 namespace slipwave {
 
-/// A private file (mode 0600) of a name nobody else has, unlinked by the destructor unless renamed or
-/// released before, and by the signals of remove_temporaries_on_signals().
+/// A private file (mode 0600) of a name nobody else has, unlinked by the destructor unless renamed before,
+/// and by the signals of remove_temporaries_on_signals(). One that a process left which was killed is
+/// unlinked by the next of its directory and prefix: who lives holds a lock on his.
 class Temporary {
  public:
   /// Creates `directory`/`prefix`XXXXXX.tmp, open for reading and writing. Throws Error with the bare cause
@@ -21,6 +22,8 @@ class Temporary {
   void rename_to(const std::string& target);
 
  private:
+  bool create(const std::string& pattern);
+  void remove();
   void forget();
 
   std::string path_;
@@ -28,9 +31,8 @@ class Temporary {
   void* slot_ = nullptr;
 };
 
-/// Removes the temporaries of OutputFile and of others beside `path` that a process which was killed has
-/// left.
-void remove_strays(const std::string& path);
+/// Whether an open file is still the one of that name.
+bool has_name(int descriptor, const std::string& path);
 
 /// $TMPDIR, or /tmp.
 std::string temporary_directory();

@@ -7,7 +7,6 @@
 #include <exception>
 
 #include "base/error.hpp"
-#include "base/temporary.hpp"
 
 namespace slipwave {
 namespace {
@@ -85,9 +84,7 @@ class RunBook::ShotPauses : public Pauses {
 
 RunBook::RunBook(Settings settings) : settings_(std::move(settings)) {
   if (!keeps_checkpoints()) return;
-  // Temporaries of a run that goes on are no strays.
   lock_.emplace(settings_.path + ".lock", settings_.path);
-  remove_strays(settings_.path);
   const auto there = [](const std::string& path) {
     return access(path.c_str(), F_OK) == 0 || errno != ENOENT;
   };

@@ -60,10 +60,8 @@ kill_some() {
   done
 }
 
-# Killed tools leave temporaries, which take room until somebody removes them.
-remove_temporaries() {
-  find "$small" -name '.*.tmp' -exec rm {} + -exec echo {} + | wc -w >>"$work/left"
-}
+# Killed tools leave temporaries, which the next that writes the same file removes.
+count_temporaries() { find "$out" -name '.*.tmp' | wc -l; }
 
 # Files that are there are whole and right.
 look() {
@@ -112,7 +110,7 @@ while [ "$round" -lt $((5 * wanted)) ]; do
   mv "$work/session.new" "$work/session"
   done=0
   wait "$made" || done=$?
-  remove_temporaries
+  count_temporaries >>"$work/left"
   look
   words
   [ "$status" -eq 0 ] || break
@@ -131,9 +129,9 @@ rm -f "$small/filler"
 failures=$(wc -l <"$work/failures")
 [ "$failures" -ge "$wanted" ] || broken "only $failures failures in $round rounds: nothing was tried"
 [ -s "$work/kills" ] || broken 'nothing was killed'
-left=$(awk '{ sum += $1 } END { print sum + 0 }' "$work/left")
-[ "$left" -le $((2 * $(wc -l <"$work/kills"))) ] || broken "more temporaries are left than tools were killed: $left"
+left=$(sort -n "$work/left" | tail -n 1)
 if (survey -j 2) >/dev/null 2>"$work/told"; then
+  # Temporaries would be files too many.
   diff -r "$out" "$work/whole" || broken 'after all that it is not the same survey'
   [ -z "$( (survey -n) 2>&1 | grep -v -e '^make' -e sw-info -e echo -e '^cat' || :)" ] || broken 'make is not done'
 else
@@ -141,5 +139,5 @@ else
 fi
 echo "$shots shots, $disk disk: $round rounds, $failures failures, $(wc -l <"$work/kills") tools killed," \
   "$(grep -c 'No space left\|File too large' "$work/all-told") said the disk was full," \
-  "$(grep -ci 'memory\|failed to map' "$work/all-told") that memory was short, $left temporaries left"
+  "$(grep -ci 'memory\|failed to map' "$work/all-told") that memory was short, up to $left temporaries left by a round"
 exit "$status"

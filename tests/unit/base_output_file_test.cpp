@@ -2,12 +2,17 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
 #include "base/error.hpp"
+#include "base/netcdf_file.hpp"
 
 using namespace slipwave;
 
@@ -31,6 +36,17 @@ class OutputFileTest : public ::testing::Test {
   }
   std::size_t entries() const {
     return std::size_t(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+  }
+
+  /// A process writes something and is killed before it is whole.
+  static void kill_a_writer_of(const std::string& path) {
+    const pid_t child = fork();
+    if (child == 0) {
+      OutputFile out(path, OutputFile::Content::text);
+      out.write("12345", 5);
+      raise(SIGKILL);
+    }
+    ASSERT_EQ(waitpid(child, nullptr, 0), child);
   }
 
   fs::path directory_;
@@ -78,6 +94,90 @@ TEST_F(OutputFileTest, HandsItsTemporaryToLibraries) {
   out.commit();
   EXPECT_EQ(content("a"), "by name");
   EXPECT_EQ(entries(), 1u);
+}
+
+TEST_F(OutputFileTest, RemovesWhatAKilledWriterOfTheSameFileHasLeft) {
+  for (const char* name : {"a", "b"}) kill_a_writer_of(path(name));
+  ASSERT_EQ(entries(), 2u);
+  {
+    OutputFile out(path("a"), OutputFile::Content::text);
+    EXPECT_EQ(entries(), 2u);  // its own, and that of the other file
+    out.commit();
+  }
+  EXPECT_EQ(entries(), 2u);
+  EXPECT_TRUE(fs::exists(path("a")));
+  OutputFile(path("b"), OutputFile::Content::text).commit();
+  EXPECT_EQ(entries(), 2u);
+  EXPECT_TRUE(fs::exists(path("b")));
+}
+
+TEST_F(OutputFileTest, TakesNothingForAStrayThatIsNone) {
+  fs::create_directory(path("elsewhere"));
+  std::ofstream(path("elsewhere/x")) << "x";
+  fs::create_symlink(path("elsewhere/x"), path(".a.abcdef.tmp"));
+  fs::create_directory(path(".a.bcdefg.tmp"));
+  ASSERT_EQ(mkfifo(path(".a.cdefgh.tmp").c_str(), 0600), 0);
+  for (const char* name : {".a.abc.tmp", ".a.abcdefg.tmp", ".a.abcdef", ".ab.abcdef.tmp", "a.abcdef.tmp"})
+    std::ofstream(path(name)) << "x";
+  OutputFile(path("a"), OutputFile::Content::text).commit();
+  EXPECT_EQ(entries(), 10u);
+  EXPECT_EQ(content("elsewhere/x"), "x");
+}
+
+TEST_F(OutputFileTest, LeavesTheTemporariesOfLivingWritersAlone) {
+  OutputFile one(path("a"), OutputFile::Content::text);
+  auto file = NetcdfFile::create(one.path_for_libraries(), "a");
+  OutputFile other(path("a"), OutputFile::Content::text);
+  other.write("other", 5);
+  // A third in a process of its own, which sees no locks of its own there.
+  const pid_t child = fork();
+  if (child == 0) {
+    {
+      OutputFile third(path("a"), OutputFile::Content::text);
+      third.write("third", 5);
+      third.commit();
+    }
+    _exit(0);
+  }
+  ASSERT_EQ(waitpid(child, nullptr, 0), child);
+  EXPECT_EQ(content("a"), "third");
+  EXPECT_EQ(entries(), 3u);
+  other.commit();
+  EXPECT_EQ(content("a"), "other");
+  file.define_dimension("x", 3);
+  file.close();
+  one.commit();
+  EXPECT_EQ(entries(), 1u);
+  EXPECT_EQ(NetcdfFile::open(path("a")).dimension_length("x"), 3u);
+}
+
+TEST_F(OutputFileTest, IsWrittenByManyAtOnceAndOneOfThemWins) {
+  constexpr int writers = 4, times = 100;
+  std::vector<pid_t> children;
+  for (int writer = 0; writer < writers; ++writer) {
+    children.push_back(fork());
+    if (children.back() != 0) continue;
+    const std::string text(5000, char('0' + writer));
+    try {
+      for (int n = 0; n < times; ++n) {
+        OutputFile out(path("a"), OutputFile::Content::text);
+        out.write(text.data(), text.size());
+        out.commit();
+      }
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+      _exit(1);
+    }
+    _exit(0);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(entries(), 1u);
+  const auto last = content("a");
+  EXPECT_EQ(last, std::string(5000, last.at(0)));
 }
 
 TEST_F(OutputFileTest, WritesSpecialFilesInPlace) {
