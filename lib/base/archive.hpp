@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -24,6 +25,12 @@ class Archive {
   void value(T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
     bytes(&value, sizeof(T));
+  }
+  /// What is read is a bool, whatever was written.
+  void flag(bool& flag) {
+    std::uint8_t one = flag ? 1 : 0;
+    value(one);
+    flag = one != 0;
   }
   /// As many as there are; throws an Error when another number was written.
   template <class T>

@@ -182,7 +182,7 @@ void keep(Archive& archive, Identity& identity) {
   for (auto& [name, value, in_words] : identity) {
     archive.text(name);
     archive.text(value);
-    archive.value(in_words);
+    archive.flag(in_words);
   }
 }
 

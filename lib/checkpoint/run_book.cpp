@@ -43,6 +43,13 @@ void keep_gather(Archive& archive, Gather& gather) {
   }
 }
 
+bool is_whole(const Gather& gather) {
+  return std::all_of(gather.traces.begin(), gather.traces.end(), [&](const Trace& trace) {
+    return trace.header.component >= Component::vx && trace.header.component <= Component::other &&
+           std::int64_t(trace.samples.size()) == gather.axis.count;
+  });
+}
+
 /// A few bytes at a time from one archive to another.
 void copy(CheckpointPart from, Archive& to) {
   std::vector<char> block(std::size_t(1) << 18);
@@ -119,6 +126,8 @@ void RunBook::read(const std::string& path) {
   if (const auto difference = difference_of(found, settings_.identity))
     throw Error(path + ": is of a run with " + *difference + "; remove it to begin anew");
   keep_finished(content);
+  for (const auto& [shot, gather] : finished_)
+    if (gather && !is_whole(*gather)) throw Error(path + ": holds traces that no shot records");
   auto count = content.count(0, 1);
   for (; count > 0; --count) {
     std::uint64_t shot = 0, bytes = 0;
@@ -271,7 +280,7 @@ void RunBook::keep_finished(Archive& archive) {
   for (const auto shot : shots) {
     auto& gather = finished_[shot];
     bool kept = gather.has_value();
-    archive.value(kept);
+    archive.flag(kept);
     if (kept && !gather) gather.emplace();
     if (kept) keep_gather(archive, *gather);
   }

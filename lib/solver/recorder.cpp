@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "acquisition/interpolation.hpp"
+#include "base/error.hpp"
 #include "grid/locate.hpp"
 
 namespace slipwave::solver {
@@ -149,7 +150,12 @@ template <int D, class Real>
 void Recorder<D, Real>::keep(Archive& archive) {
   archive.value(next_sample_);
   archive.fixed(history_);
-  for (auto& trace : gather_.traces) archive.values(trace.samples);
+  for (auto& trace : gather_.traces) {
+    archive.values(trace.samples);
+    if (std::int64_t(trace.samples.size()) != next_sample_ || next_sample_ > gather_.axis.count)
+      throw Error("found a trace of " + std::to_string(trace.samples.size()) + " samples, expected " +
+                  std::to_string(next_sample_));
+  }
 }
 
 template double water_depth_m(const Medium<2>&, const Point<2>&);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "solver/absorbing.hpp"
 
@@ -128,6 +129,8 @@ void Step<D, Real>::run_to(std::int64_t last, const Progress& progress, const st
 template <int D, class Real>
 void Step<D, Real>::keep(Archive& archive) {
   archive.value(done_);
+  if (done_ < 0 || done_ > steps_)
+    throw Error("found step " + std::to_string(done_) + ", expected 0 to " + std::to_string(steps_));
   archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
   pipeline_.keep(archive);
   if (layer_) layer_->keep(archive);

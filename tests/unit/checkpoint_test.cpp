@@ -123,6 +123,27 @@ TEST_F(CheckpointFile, HoldsWhatIsFinishedAndWhereTheOthersAre) {
   EXPECT_EQ(shot.steps, (std::vector<std::int64_t>{0, 1, 2, 3}));
 }
 
+TEST_F(CheckpointFile, IsRefusedWithTracesThatNoShotRecords) {
+  const auto said_of = [&](auto&& change) {
+    {
+      RunBook book(settings());
+      auto gather = gather_of(1);
+      change(gather);
+      book.finish(1, gather);
+      Counting shot;
+      book.pauses_of(2)->pause(shot.keep, {0, 10});
+    }
+    const auto said = refusal([&] { RunBook book(settings()); });
+    fs::remove(path());
+    fs::remove(older_checkpoint(path()));
+    return said;
+  };
+  const auto refused = path() + ": holds traces that no shot records";
+  EXPECT_EQ(said_of([](Gather&) {}), "");
+  EXPECT_EQ(said_of([](Gather& gather) { gather.traces[1].samples.pop_back(); }), refused);
+  EXPECT_EQ(said_of([](Gather& gather) { gather.traces[0].header.component = Component(99); }), refused);
+}
+
 TEST_F(CheckpointFile, IsRefusedWhicheverOfItsBytesIsDamaged) {
   leave_off(settings());
   const auto whole = content(path());
