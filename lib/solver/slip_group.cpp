@@ -173,7 +173,9 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
   }
   rows.kept = from(kept_);
   rows.still = from(resolved_);
-  rows.kept_pitch = rows.still_pitch = std::int64_t(count_);
+  // Of rows that are not there, no pointer is moved.
+  rows.kept_pitch = kept_.empty() ? 0 : std::int64_t(count_);
+  rows.still_pitch = resolved_.empty() ? 0 : std::int64_t(count_);
   return rows;
 }
 
