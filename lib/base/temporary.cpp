@@ -146,7 +146,8 @@ std::string cause_of(int error_number) { return std::strerror(error_number); }
 
 Temporary::Temporary(const std::string& directory, const std::string& prefix) {
   remove_strays(directory, prefix);
-  while (!create(directory + '/' + prefix + "XXXXXX.tmp")) {
+  const std::string pattern = (directory + '/').append(prefix).append("XXXXXX.tmp");
+  while (!create(pattern)) {
   }
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -97,7 +98,7 @@ void Options::add_choice(const std::string& name, std::string& to, std::vector<s
                          const std::string& help) {
   auto& option = declare(name, joined(choices, "|"), help);
   option.shown_default = to;
-  option.store = [&to, choices](const auto& values) {
+  option.store = [&to, choices = std::move(choices)](const auto& values) {
     if (std::find(choices.begin(), choices.end(), values.back()) == choices.end()) {
       throw Error("found '" + values.back() + "', expected one of " + joined(choices, ", "),
                   ErrorKind::usage);
