@@ -1,4 +1,4 @@
-# `umask 022; cpack -G DEB` in a build directory: slipwave (tools, man pages, completions, surveys) and libslipwave-dev.
+# `cpack -G DEB` in a build directory: slipwave (tools, man pages, completions, surveys) and libslipwave-dev.
 # Read twice: by cmake, and again by cpack, which then knows the version that was built.
 if(CPACK_GENERATOR)
   file(STRINGS ${CPACK_SLIPWAVE_VERSION} text REGEX version_text)
@@ -12,6 +12,7 @@ if(CPACK_GENERATOR)
   return()
 endif()
 
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_LIST_DIR}/package_modes.cmake)
 set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_FILE})
 set(CPACK_SLIPWAVE_VERSION ${CMAKE_BINARY_DIR}/generated/cli/version_text.hpp)
 set(CPACK_GENERATOR DEB)

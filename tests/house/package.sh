@@ -1,12 +1,13 @@
 #!/bin/sh
-# package.sh BUILD TOOL...: `cpack -G DEB` makes packages that say what they depend on, and whose tools run.
+# package.sh BUILD TOOL...: `cpack -G DEB` makes packages that say what they depend on, and whose tools run, under a umask of
+# people who keep to themselves.
 set -eu
 build=$1
 shift
 command -v dpkg-shlibdeps >/dev/null || { echo 'there is no dpkg-shlibdeps'; exit 77; }
 # shellcheck source=tests/house/lib.sh
 . "$(dirname -- "$0")/lib.sh"
-(cd "$build" && umask 022 && cpack -G DEB -B "$work/packages") >"$work/said" 2>&1 ||
+(cd "$build" && umask 077 && cpack -G DEB -B "$work/packages") >"$work/said" 2>&1 ||
   { cat "$work/said"; echo 'cpack failed'; exit 1; }
 # field PACKAGE FIELD
 field() { dpkg-deb -f "$1" "$2"; }
