@@ -20,7 +20,7 @@ std::string expected_mechanisms() {
 /// `count` numbers that are not all zero.
 template <int D>
 std::vector<double> components(const std::string& text, const std::string& list, std::size_t count) {
-  const auto numbers = in_place("source kind '" + text + "'", [&] { return parse_numbers(list, ','); });
+  auto numbers = in_place("source kind '" + text + "'", [&] { return parse_numbers(list, ','); });
   if (numbers.size() != count)
     throw Error("source kind '" + text + "': found " + std::to_string(numbers.size()) + " numbers, " +
                     expected_mechanisms<D>(),

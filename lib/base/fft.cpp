@@ -115,7 +115,8 @@ struct RealTransform2::Plan {
 };
 
 double RealTransform2::bytes_for(std::size_t rows, std::size_t length) {
-  return 16.0 * static_cast<double>(rows) * static_cast<double>(length / 2 + 1);
+  const std::size_t frequencies = length / 2 + 1;
+  return 16.0 * static_cast<double>(rows) * static_cast<double>(frequencies);
 }
 
 RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {

@@ -72,7 +72,7 @@ const std::vector<SnapshotField>& snapshot_fields<3>() {
 
 template <int D>
 std::vector<std::string> parse_snapshot_fields(const std::string& text) {
-  const auto names = split(text, ',');
+  auto names = split(text, ',');
   for (auto name = names.begin(); name != names.end(); ++name) {
     field_named<D>(*name);
     if (std::find(names.begin(), name, *name) != name)

@@ -38,8 +38,9 @@ double Legend::height() const { return double(rows_) * row_height(text_pt_); }
 void Legend::draw(Canvas& canvas, const Spot& top_left) const {
   for (std::size_t n = 0; n < entries_.size(); ++n) {
     const auto& entry = entries_[n];
-    const double x = top_left.x + double(n / rows_) * column_width_;
-    const double y = top_left.y + (double(n % rows_) + 0.5) * row_height(text_pt_);
+    const auto column = n / rows_, row = n % rows_;
+    const double x = top_left.x + double(column) * column_width_;
+    const double y = top_left.y + (double(row) + 0.5) * row_height(text_pt_);
     const double key = key_width(text_pt_) - 0.5 * text_pt_;
     if (entry.patch) {
       const Rect patch{x, y - 0.4 * text_pt_, key, 0.8 * text_pt_};

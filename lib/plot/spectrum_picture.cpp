@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 #include "plot/magnitudes.hpp"
@@ -213,7 +214,8 @@ Picture draw_spectra(const std::vector<Spectra>& files, bool log, const Look& lo
     throw Error(
         "spectra of each trace or wavenumber are drawn from one file, found " + std::to_string(files.size()),
         ErrorKind::usage);
-  return each ? draw_each(files[0], log, look, page) : draw_lines(files, log, look, page);
+  return each ? draw_each(files[0], log, look, std::move(page))
+              : draw_lines(files, log, look, std::move(page));
 }
 
 }  // namespace slipwave::plot

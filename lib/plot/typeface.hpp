@@ -1,6 +1,6 @@
 #pragma once
 
-struct _cairo;
+struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library calls it so
 
 namespace slipwave::plot {
 
