@@ -143,9 +143,11 @@ void check_components(const std::vector<Component>& components) {
       throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
                   ErrorKind::usage);
     if (!has<D>(component))
-      throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
-                      "-D, expected vx, vz, p, sxx, szz or sxz",
-                  ErrorKind::usage);
+      throw Error(
+          "found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
+              "-D, expected " +
+              (D == 2 ? "vx, vz, p, sxx, szz or sxz" : "vx, vy, vz, p, sxx, syy, szz, sxy, sxz or syz"),
+          ErrorKind::usage);
   }
 }
 
@@ -196,10 +198,15 @@ void check(const Scene<D>& scene) {
   bool any = false;
   for (std::size_t cell = 0; cell < medium.vp.size() && !any; ++cell) any = !medium.is_void(cell);
   if (!any) throw Error("every cell of the model is void, expected rock or fluid");
-  if (scene.survey.sources.empty()) throw Error("found no source, expected --source X,Z", ErrorKind::usage);
+  if (scene.survey.sources.empty())
+    throw Error(std::string("found no source, expected --source ") + (D == 2 ? "X,Z" : "X,Y,Z"),
+                ErrorKind::usage);
   check(scene.survey, scene.model.grid());
   for (const auto& source : scene.survey.sources) {
-    if (const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism))
+    const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
+    if (wave && D == 3)
+      throw Error("found a plane wave in 3-D, expected it in 2-D or a point source", ErrorKind::usage);
+    if (wave)
       check_plane_wave(scene, source, *wave);
     else
       refuse_void(scene, source.position_m, "the source");
@@ -269,5 +276,12 @@ template int zone_cells(const Scene<2>&, const Source<2>&);
 template void check(const Scene<2>&);
 template SlowestWave slowest_wave(const Medium<2>&);
 template double highest_frequency_hz(const Survey<2>&);
+template struct Scene<3>;
+template double stable_time_step_s(const Scene<3>&);
+template double time_step_s(const Scene<3>&);
+template int zone_cells(const Scene<3>&, const Source<3>&);
+template void check(const Scene<3>&);
+template SlowestWave slowest_wave(const Medium<3>&);
+template double highest_frequency_hz(const Survey<3>&);
 
 }  // namespace slipwave

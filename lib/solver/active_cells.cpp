@@ -33,5 +33,7 @@ void ActiveCells<D, Real>::look(std::int64_t line, const Columns& columns) {
 
 template class ActiveCells<2, float>;
 template class ActiveCells<2, double>;
+template class ActiveCells<3, float>;
+template class ActiveCells<3, double>;
 
 }  // namespace slipwave::solver

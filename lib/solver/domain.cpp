@@ -168,5 +168,12 @@ template double energy_of_cell(const State<2, float>&, const Domain<2>&, const M
 template double energy_of_cell(const State<2, double>&, const Domain<2>&, const Medium<2>&, Index<2>);
 template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
+template struct Domain<3>;
+template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int);
+template double fastest_wave(const Medium<3>&);
+template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
+template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
+template double energy(const State<3, float>&, const Domain<3>&, const Medium<3>&);
+template double energy(const State<3, double>&, const Domain<3>&, const Medium<3>&);
 
 }  // namespace slipwave::solver

@@ -96,8 +96,8 @@ FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, in
       const auto terms = edge_slope(domain, at, axis, side, row);
       const auto begin = terms_.size();
       for (const auto& term : terms)
-        terms_.push_back({axis == 0 ? layout.line_number(term.cell) * D + term.row
-                                    : layout.cell(term.cell) + term.row * layout.row_pitch(),
+        terms_.push_back({axis < D - 1 ? number(term.cell) * D + term.row
+                                       : layout.cell(term.cell) + term.row * layout.row_pitch(),
                           Real(term.weight)});
       const auto place = [&](int material_row) {
         return material.cell(at) + material_row * material.row_pitch();
@@ -111,9 +111,9 @@ FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, in
       if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
   }
   if (cells_.empty()) return;
-  if (axis == 0) kept_.assign(std::size_t(layout.lines() * D), 0);
   Index<D> last = shape_;
   for (auto& n : last) --n;
+  if (axis < D - 1) kept_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
   for (auto* lists : {&bends_, &jumps_})
     for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
 }
@@ -129,14 +129,18 @@ std::int64_t FreeEdge<D, Real>::number(const Index<D>& at) const {
 
 template <int D, class Real>
 void FreeEdge<D, Real>::keep(const State<D, Real>& state, std::int64_t line) {
-  const Real* const cell = state.field_row(state.layout.line_index(line), 0) + (side_ ? shape_[0] - 1 : 0);
-  for (int row = 0; row < D; ++row)
-    kept_[std::size_t(line * D + row)] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch()];
+  const auto at = state.layout.line_index(line);
+  const bool along_x = axis_ > 0;
+  const Real* const cell = state.field_row(at, 0) + (!along_x && side_ ? shape_[0] - 1 : 0);
+  Real* const kept = kept_.data() + number(at) * D;
+  for (std::int64_t x = 0; x < (along_x ? shape_[0] : 1); ++x)
+    for (int row = 0; row < D; ++row)
+      kept[x * D + row] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch() + x];
 }
 
 template <int D, class Real>
 void FreeEdge<D, Real>::measure(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
-  const Real* const fields = axis_ == 0 ? kept_.data() : state.fields.data();
+  const Real* const fields = axis_ < D - 1 ? kept_.data() : state.fields.data();
   const Real* const material = state.material.data();
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
                                [](const Cell& one, std::int64_t number) { return one.number < number; });
@@ -151,7 +155,10 @@ void FreeEdge<D, Real>::measure(const State<D, Real>& state, std::int64_t first,
 }
 
 template std::vector<EdgeTerm<2>> edge_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
+template std::vector<EdgeTerm<3>> edge_slope<3>(const Domain<3>&, const Index<3>&, int, int, int);
 template class FreeEdge<2, float>;
 template class FreeEdge<2, double>;
+template class FreeEdge<3, float>;
+template class FreeEdge<3, double>;
 
 }  // namespace slipwave::solver

@@ -36,8 +36,8 @@ class FreeEdge {
   FreeEdge(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
 
   bool empty() const { return cells_.empty(); }
-  /// Keeps the velocities of the edge of the x axis on this line as they are now: measure() works with those,
-  /// since sweeps along x change line after line.
+  /// Keeps the velocities of the edge's cells on this line as they are now, at an edge of another axis than
+  /// the last: measure() works with those, since sweeps change line after line.
   void keep(const State<D, Real>& state, std::int64_t line);
   /// Makes bend() and jump() at cells first <= number < last of the edge for a sweep across it that follows,
   /// from the fields as they are, or were kept, up to two cells beyond.
@@ -67,8 +67,8 @@ class FreeEdge {
   std::int64_t padded_nx_ = 0;
   Index<D> shape_{};
   std::vector<Cell> cells_;  // by number
-  std::vector<Term> terms_;  // places in the fields, at the edge of the x axis in kept_
-  std::vector<Real> kept_;   // [line][velocity]
+  std::vector<Term> terms_;  // places in the fields, at the edges of all axes but the last in kept_
+  std::vector<Real> kept_;   // [number][velocity]
   std::array<std::vector<Real>, D> bends_, jumps_;
 };
 

@@ -17,7 +17,7 @@ struct Columns {
   bool empty() const { return last <= first; }
 };
 
-/// Rows and columns.
+/// Rows and columns: along the last axis and the one before it.
 struct Box {
   Columns rows, columns;
   /// Whether it has anything in common with these.
@@ -27,17 +27,21 @@ struct Box {
   }
 };
 
-/// Values at faces: of the P pair (v_n, s_nn) and the S pair (v_t, s_nt).
+/// Values at faces: of the P pair (v_n, s_nn), the S pair (v_t, s_nt) and, in 3-D, the other S pair; in 2-D
+/// its pointers are not used.
 template <class Real>
 struct Faces {
-  Real *v_p, *s_p, *v_s, *s_s;
-  Faces at(std::int64_t i) const { return {v_p + i, s_p + i, v_s + i, s_s + i}; }
+  Real *v_p, *s_p, *v_s, *s_s, *v_s2 = v_s, *s_s2 = s_s;
+  Faces at(std::int64_t i) const { return {v_p + i, s_p + i, v_s + i, s_s + i, v_s2 + i, s_s2 + i}; }
 };
 
-/// What leaves cells up and down along the axis, of the P and the S pair.
+/// What leaves cells up and down along the axis, of the P and the S pairs.
 template <class Real>
 struct Leaving {
-  Real *up_p, *down_p, *up_s, *down_s;
+  Real *up_p, *down_p, *up_s, *down_s, *up_s2 = up_s, *down_s2 = down_s;
+  /// By pair: 0 P, 1 and 2 S.
+  Real* up(int pair) const { return pair == 0 ? up_p : pair == 1 ? up_s : up_s2; }
+  Real* down(int pair) const { return pair == 0 ? down_p : pair == 1 ? down_s : down_s2; }
 };
 
 /// Material of a stretch of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
@@ -46,10 +50,12 @@ struct MaterialRows {
   const Real *b, *zp, *zs;
 };
 
-/// Fields of a stretch of cells that a sweep changes; update_p leaves vt and st alone.
+/// Fields of a stretch of cells that a sweep changes; update_p leaves those of S alone. Those of the third
+/// axis are not used in 2-D.
 template <class Real>
 struct SweptRows {
   Real *v, *s, *passive, *vt, *st;
+  Real *passive2 = passive, *vt2 = vt, *st2 = st;
 };
 
 /// What the matched layer does to a change (MatchedLayer), one value for all cells or one a cell.
@@ -83,6 +89,13 @@ struct Kernels {
   /// The same where no cell carries shear.
   void (*update_p)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
                    const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  /// In 3-D: of P and both S pairs; the updates change two passive normal stresses.
+  void (*meet_3d)(std::int64_t n, const Leaving<Real>& up, const Leaving<Real>& down,
+                  const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
+  void (*update_3d)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                    const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  void (*update_p_3d)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                      const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 
 /// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;

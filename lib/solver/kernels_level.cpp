@@ -115,6 +115,75 @@ void update_p(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Rea
   }
 }
 
+template <bool Uniform, class Real>
+void meet_3d(std::int64_t n, const Leaving<Real>& below, const Leaving<Real>& above,
+             const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces) {
+  const Real *p_lo = lo.zp, *p_hi = hi.zp, *s_lo = lo.zs, *s_hi = hi.zs;
+  const Real* __restrict up_p = below.up_p, * __restrict down_p = above.down_p;
+  const Real* __restrict up_s = below.up_s, * __restrict down_s = above.down_s;
+  const Real* __restrict up_s2 = below.up_s2, * __restrict down_s2 = above.down_s2;
+  Real* __restrict v_p = faces.v_p, * __restrict s_p = faces.s_p;
+  Real* __restrict v_s = faces.v_s, * __restrict s_s = faces.s_s;
+  Real* __restrict v_s2 = faces.v_s2, * __restrict s_s2 = faces.s_s2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int64_t m = of_material<Uniform>(i);
+    const Real sum_p = p_lo[m] + p_hi[m] + Real(none), sum_s = s_lo[m] + s_hi[m] + Real(none);
+    const Real both = 1 / (sum_p * sum_s), share_p = both * sum_s, share_s = both * sum_p;
+    v_p[i] = (up_p[i] + down_p[i]) * share_p;
+    s_p[i] = (p_lo[m] * down_p[i] - p_hi[m] * up_p[i]) * share_p;
+    v_s[i] = (up_s[i] + down_s[i]) * share_s;
+    s_s[i] = (s_lo[m] * down_s[i] - s_hi[m] * up_s[i]) * share_s;
+    v_s2[i] = (up_s2[i] + down_s2[i]) * share_s;
+    s_s2[i] = (s_lo[m] * down_s2[i] - s_hi[m] * up_s2[i]) * share_s;
+  }
+}
+
+template <bool Uniform, class Real>
+void update_3d(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+               const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+  const Real size = scale < 0 ? -scale : scale;
+  const Real* __restrict v_lo = lo.v_p, * __restrict s_lo = lo.s_p, * __restrict w_lo = lo.v_s, * __restrict t_lo = lo.s_s;
+  const Real* __restrict v_hi = hi.v_p, * __restrict s_hi = hi.s_p, * __restrict w_hi = hi.v_s, * __restrict t_hi = hi.s_s;
+  const Real* __restrict w2_lo = lo.v_s2, * __restrict t2_lo = lo.s_s2, * __restrict w2_hi = hi.v_s2, * __restrict t2_hi = hi.s_s2;
+  const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
+  Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
+  Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int64_t m = of_material<Uniform>(i);
+    const Real moved = scale * b[m], strained = size * b[m];
+    const Real p_modulus = strained * zp[m] * zp[m], s_modulus = strained * zs[m] * zs[m];
+    const Real dv = v_hi[i] - v_lo[i], along = (p_modulus - 2 * s_modulus) * dv;
+    v[i] += moved * (s_hi[i] - s_lo[i]);
+    s[i] += p_modulus * dv;
+    passive[i] += along;
+    passive2[i] += along;
+    vt[i] += moved * (t_hi[i] - t_lo[i]);
+    st[i] += s_modulus * (w_hi[i] - w_lo[i]);
+    vt2[i] += moved * (t2_hi[i] - t2_lo[i]);
+    st2[i] += s_modulus * (w2_hi[i] - w2_lo[i]);
+  }
+}
+
+template <bool Uniform, class Real>
+void update_p_3d(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                 const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+  const Real size = scale < 0 ? -scale : scale;
+  const Real* __restrict v_lo = lo.v_p, * __restrict s_lo = lo.s_p, * __restrict v_hi = hi.v_p, * __restrict s_hi = hi.s_p;
+  const Real* __restrict b = material.b, * __restrict zp = material.zp;
+  Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int64_t m = of_material<Uniform>(i);
+    const Real stress = size * b[m] * zp[m] * zp[m] * (v_hi[i] - v_lo[i]);
+    v[i] += scale * b[m] * (s_hi[i] - s_lo[i]);
+    s[i] += stress;
+    passive[i] += stress;
+    passive2[i] += stress;
+  }
+}
+
 template <bool Along, bool Remember, class Real>
 void stretch_in(std::int64_t n, const StretchFactors<Real>& factors, Real plate, const Real* plates,
                 const Real* __restrict before, Real* __restrict now, Real* __restrict phi) {
@@ -145,8 +214,10 @@ void stretch_across(std::int64_t n, const StretchFactors<Real>& of_all, const Re
 }
 
 template <int Order, bool Uniform, class Real>
-constexpr Kernels<Real> table = {leave<Order, Uniform, Real>, meet<Uniform, Real>, meet_p<Uniform, Real>,
-                                 update<Uniform, Real>, update_p<Uniform, Real>};
+constexpr Kernels<Real> table = {leave<Order, Uniform, Real>, meet<Uniform, Real>,
+                                 meet_p<Uniform, Real>,       update<Uniform, Real>,
+                                 update_p<Uniform, Real>,     meet_3d<Uniform, Real>,
+                                 update_3d<Uniform, Real>,    update_p_3d<Uniform, Real>};
 
 template <bool Uniform, class Real>
 const Kernels<Real>* of_order(int order) {

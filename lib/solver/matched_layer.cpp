@@ -195,5 +195,7 @@ std::int64_t MatchedLayer<D, Real>::memory_bytes() const {
 
 template class MatchedLayer<2, float>;
 template class MatchedLayer<2, double>;
+template class MatchedLayer<3, float>;
+template class MatchedLayer<3, double>;
 
 }  // namespace slipwave::solver

@@ -208,7 +208,11 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
 template double largest_velocity(const Scene<2>&, std::size_t);
 template class Monitor<2, float>;
 template class Monitor<2, double>;
+template class Monitor<3, float>;
+template class Monitor<3, double>;
 template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<float>&, Component, double);
 template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<double>&, Component, double);
+template Field<3> field_of(const Layout<3>&, const Domain<3>&, const WholeLine<float>&, Component, double);
+template Field<3> field_of(const Layout<3>&, const Domain<3>&, const WholeLine<double>&, Component, double);
 
 }  // namespace slipwave::solver

@@ -29,7 +29,7 @@ class EndOfStep {
   /// Whether run() or run_after() may make something of a line that is zero.
   virtual bool stirs(const StepTime& time, std::int64_t line) const = 0;
   /// What of the fields at the end of the step is looked at then or later, or anything later looked at comes
-  /// of. `growth`: by how much a step spreads along each axis at most.
+  /// of. `growth`: by how much a step spreads along each axis at most. Boxes are of the last two axes.
   virtual Box needed(const StepTime& time, const Box& growth) const = 0;
   /// Passes before and after looking.
   virtual void run(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
@@ -41,9 +41,10 @@ class EndOfStep {
 /// Takes the fields through time in passes through memory. A pass makes one or several steps: row after row
 /// comes to the first sweep, and each following sweep works some rows behind the one before it, so that what
 /// it needs is still in the cache. Rows are cut into stripes of columns that fit the first cache; a sweep
-/// stays some columns behind the one before it, too. Threads work on different passes at once, each on a band
-/// of rows some bands behind the pass before. Everything is computed once and in an order of its own whatever
-/// the number of threads, so results do not depend on it.
+/// stays some columns behind the one before it, too. In 3-D what comes are planes, cut along y into stripes
+/// of whole rows that fit the second cache: planes are the rows of 2-D, their rows the columns. Threads work
+/// on different passes at once, each on a band of rows some bands behind the pass before. Everything is
+/// computed once and in an order of its own whatever the number of threads, so results do not depend on it.
 template <int D, class Real>
 class Pipeline {
  public:
@@ -63,10 +64,10 @@ class Pipeline {
   std::int64_t swept_cells() const;
 
  private:
-  /// What is done to every row in turn. A sweep along x, one along z or the end of a step: two sweeps along x
-  /// with all that happens between them.
+  /// What is done to every row (plane) in turn. A sweep along an axis or the end of a step: two sweeps along
+  /// x with all that happens between them.
   struct Stage {
-    enum Kind { along_x, along_z, end_of_step } kind;
+    enum Kind { along_x, along_y, along_z, end_of_step } kind;
     Real part;                // of the step, of each of the two sweeps at its end
     StepTime time;            // whose end it is, or which it is in
     std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
@@ -76,28 +77,47 @@ class Pipeline {
   };
   struct UnderWay {
     std::vector<Stage> stages;
-    std::vector<Ring<Real>> rings;  // of the sweeps along z
+    std::vector<Ring<Real>> rings;  // of the sweeps along z, in 3-D by y
   };
   struct Worker {
     Workspace<Real> work;
     std::vector<Carry<Real>> carries;  // [sweep along x][row of the band]
+    std::vector<Ring<Real>> rings;     // [sweep along y][plane of the band]
     std::vector<Columns> columns;      // of each stage; the end of a step has two
     std::int64_t swept = 0;            // cells, along z
   };
+  /// How many stages of a pass are of a kind; ends of steps count as two sweeps along x.
+  struct Counts {
+    std::int64_t along_x = 0, along_y = 0, along_z = 0;
+  };
+  static Counts counts(const std::vector<Stage>& stages);
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
   void run_band(std::int64_t pass, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
   void run_stripe(UnderWay& pass, const Columns& rows, Worker& worker);
+  void sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band, const Columns* columns,
+                  Worker& worker);
+  void sweep_plane(const Stage& stage, std::int64_t row, const Columns& lines, Ring<Real>& ring,
+                   Worker& worker);
   void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker);
-  void along_z(const Stage& stage, std::int64_t step, const Columns& columns, Ring<Real>& ring,
-               Worker& worker);
-  bool quiet(const Columns& rows, const Columns& columns) const;
+  void along_z(const Stage& stage, std::int64_t step, const Columns& columns, UnderWay& pass, Worker& worker);
+  bool quiet(const Columns& rows, const Columns& lines, const Columns& columns) const;
   void look_for_active(std::int64_t line, const Columns& columns);
   std::int64_t carries_a_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const Columns& first, const Columns& second,
-                   Carry<Real>* carries, Worker& worker);
+                   Carry<Real>& carry, Carry<Real>& second_carry, Worker& worker);
   std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;
   std::int64_t stripes() const;
   Box growth_of_a_step() const;
+  std::int64_t columns_behind(const Stage& stage) const;
+  /// Lines of a row: one; in 3-D those of a plane, by y.
+  std::int64_t line_of(std::int64_t row, std::int64_t y) const { return D == 2 ? row : row * cut_cells_ + y; }
+  Columns whole_lines() const { return {0, layout_.shape()[0]}; }
+  /// How far sweeps along an axis must stay behind what its free edges read.
+  std::int64_t bend_rows(int axis) const { return sweeps_.bends(axis) ? FreeEdge<D, Real>::reach : 0; }
+  /// The same rows (in 3-D of a plane) and those beside them that free edges of an axis read.
+  Columns with_bends(int axis, const Columns& rows) const {
+    return {rows.first - bend_rows(axis), rows.last + bend_rows(axis)};
+  }
 
   Sweeps<D, Real>& sweeps_;
   const Layout<D>& layout_;
@@ -108,7 +128,7 @@ class Pipeline {
   EndOfStep<Real>& end_;
   int steps_a_pass_;
   std::int64_t stripe_width_;
-  std::int64_t rows_, side_rows_;  // side_rows_: how far sweeps along x stay behind where free sides bend
+  std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
   std::int64_t longest_;           // rows from the first to the last stage of a pass
   std::int64_t band_rows_, bands_;
   std::vector<UnderWay> under_way_;

@@ -218,5 +218,11 @@ template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<
 template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                     Component);
 template int row_of<2>(Component);
+template Index<3> cell_at(const Domain<3>&, const Point<3>&);
+template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
+                                                    Component);
+template int row_of<3>(Component);
 
 }  // namespace slipwave::solver

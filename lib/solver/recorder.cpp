@@ -76,20 +76,23 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
   }
   starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
   for (const auto& weight : all) weights_.push_back(weight.weight);
-  find_box();
+  find_box(layout);
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::find_box() {
-  const auto lines = std::int64_t(starts_.size()) - 1;
-  while (box_.rows.first < lines && !reads(box_.rows.first)) ++box_.rows.first;
-  for (box_.rows.last = lines; box_.rows.last > box_.rows.first && !reads(box_.rows.last - 1);)
-    --box_.rows.last;
-  box_.columns.first = std::numeric_limits<std::int64_t>::max();
-  for (const auto& read : reads_) {
-    box_.columns.first = std::min(box_.columns.first, read.column);
-    box_.columns.last = std::max(box_.columns.last, read.column + 1);
-  }
+void Recorder<D, Real>::find_box(const Layout<D>& layout) {
+  constexpr auto none = std::numeric_limits<std::int64_t>::max();
+  box_ = {{none, 0}, {none, 0}};
+  const auto hold = [](Columns& range, std::int64_t n) {
+    range = {std::min(range.first, n), std::max(range.last, n + 1)};
+  };
+  for (std::int64_t line = 0; line < layout.lines(); ++line)
+    for (auto n = starts_[std::size_t(line)]; n < starts_[std::size_t(line) + 1]; ++n) {
+      auto at = layout.line_index(line);
+      at[0] = reads_[n].column;
+      hold(box_.rows, at[D - 1]);
+      hold(box_.columns, at[D - 2]);
+    }
 }
 
 template <int D, class Real>
@@ -161,5 +164,8 @@ void Recorder<D, Real>::keep(Archive& archive) {
 template double water_depth_m(const Medium<2>&, const Point<2>&);
 template class Recorder<2, float>;
 template class Recorder<2, double>;
+template double water_depth_m(const Medium<3>&, const Point<3>&);
+template class Recorder<3, float>;
+template class Recorder<3, double>;
 
 }  // namespace slipwave::solver

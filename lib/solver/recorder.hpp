@@ -20,7 +20,7 @@ class Recorder {
 
   /// Whether it reads anything of a line.
   bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
-  /// The rows and columns of all it reads.
+  /// The rows and columns of all it reads, in 3-D the planes and their rows.
   const Box& box() const { return box_; }
   /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
   /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
@@ -40,7 +40,7 @@ class Recorder {
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
-  void find_box();
+  void find_box(const Layout<D>& layout);
   void interpolate(std::int64_t newest, double dt_s);
   Real* values_of(const StepTime& time) {
     return values_.data() + time.step % Pass::most_steps_under_way * std::int64_t(reads_.size());

@@ -89,5 +89,8 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*,
                       ShotReport*);
+template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
+template Gather shoot(const Scene<3>&, std::size_t, const Progress&, const SnapshotSink<3>&, Pauses*,
+                      ShotReport*);
 
 }  // namespace slipwave

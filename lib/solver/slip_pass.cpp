@@ -193,5 +193,8 @@ std::vector<std::int64_t> fracture_lines(const Layout<D>& layout, const Domain<D
 template std::vector<std::int64_t> fracture_lines(const Layout<2>&, const Domain<2>&, const Model<2>&);
 template class SlipPass<2, float>;
 template class SlipPass<2, double>;
+template std::vector<std::int64_t> fracture_lines(const Layout<3>&, const Domain<3>&, const Model<3>&);
+template class SlipPass<3, float>;
+template class SlipPass<3, double>;
 
 }  // namespace slipwave::solver

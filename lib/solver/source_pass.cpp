@@ -100,5 +100,7 @@ void SourcePass<D, Real>::find_lines(const Index<D>& centre) {
 
 template class SourcePass<2, float>;
 template class SourcePass<2, double>;
+template class SourcePass<3, float>;
+template class SourcePass<3, double>;
 
 }  // namespace slipwave::solver

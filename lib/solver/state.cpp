@@ -69,5 +69,7 @@ template class Layout<2>;
 template class Layout<3>;
 template State<2, float> make_state<2, float>(const Index<2>&);
 template State<2, double> make_state<2, double>(const Index<2>&);
+template State<3, float> make_state<3, float>(const Index<3>&);
+template State<3, double> make_state<3, double>(const Index<3>&);
 
 }  // namespace slipwave::solver

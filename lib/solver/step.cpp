@@ -67,19 +67,20 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
 template <int D, class Real>
 void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
   const auto& source = scene.survey.sources[shot - 1];
-  if constexpr (D == 2)
-    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      background_ = make_plane_wave<Real>(scene, source, domain_, dt_s_);
   const auto add = [this](std::unique_ptr<Pass> pass) { passes_.push_back(std::move(pass)); };
   const double vp_max = fastest_wave(scene.model.medium);
-  if (domain_.grid.size() > domain_.model_grid.size()) {
-    if (background_) {
+  const bool zones = domain_.grid.size() > domain_.model_grid.size();
+  // Plane waves are known in 2-D only; check(scene) has seen to it.
+  if constexpr (D == 2) {
+    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+      background_ = make_plane_wave<Real>(scene, source, domain_, dt_s_);
+    if (background_ && zones)
       add(std::make_unique<AbsorbingZones<D, Real>>(state_, domain_, dt_s_, vp_max, background_.get()));
-    } else {
-      layer_ = std::make_unique<MatchedLayer<D, Real>>(
-          state_.layout, domain_, dt_s_, vp_max, source.wavelet.nominal_hz(), scene.numerics.time_order);
-      sweeps_.use(layer_.get());
-    }
+  }
+  if (!background_ && zones) {
+    layer_ = std::make_unique<MatchedLayer<D, Real>>(state_.layout, domain_, dt_s_, vp_max,
+                                                     source.wavelet.nominal_hz(), scene.numerics.time_order);
+    sweeps_.use(layer_.get());
   }
   if (point_injection(source)) {
     auto pass = std::make_unique<SourcePass<D, Real>>(state_, domain_, scene, source, unit_);
@@ -172,7 +173,7 @@ bool Step<D, Real>::stirs(const StepTime& time, std::int64_t line) const {
 /// What reaches a receiver before the end, or is part of a snapshot.
 template <int D, class Real>
 Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
-  const Box all{{0, domain_.grid.shape[D - 1]}, {0, domain_.grid.shape[0]}};
+  const Box all{{0, domain_.grid.shape[D - 1]}, {0, domain_.grid.shape[D - 2]}};
   if (snapshot_every_s_ || keeps_diary_) return all;
   // The sweep along x that the first step begins with is one more.
   const auto steps = steps_ - time.step + 1;
@@ -254,5 +255,7 @@ std::int64_t Step<D, Real>::memory_bytes() const {
 
 template class Step<2, float>;
 template class Step<2, double>;
+template class Step<3, float>;
+template class Step<3, double>;
 
 }  // namespace slipwave::solver

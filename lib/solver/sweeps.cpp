@@ -1,6 +1,7 @@
 #include "solver/sweeps.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/parallel.hpp"
 
@@ -22,6 +23,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       shear_(domain.shear()) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
+    changed_[axis] = rows_changed(axis);
     const BentAt<D> bent = [&domain, axis](Index<D> at, int side) {
       at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
       return !edge_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
@@ -35,7 +37,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
 
 template <int D, class Real>
 Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
-  return Workspace<Real>(widest, FieldRows<D>::count);
+  return Workspace<Real>(widest, FieldRows<D>::count, D);
 }
 
 template <int D, class Real>
@@ -59,6 +61,21 @@ auto Sweeps<D, Real>::make_pairs(int axis) const -> std::array<Pair, D> {
   return all;
 }
 
+template <int D, class Real>
+auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
+  std::array<int, changed> rows{};
+  int n = 0;
+  rows[n++] = pairs_[axis][0].v;
+  rows[n++] = pairs_[axis][0].s;
+  for (int other = 0; other < D; ++other)
+    if (other != axis) rows[n++] = FieldRows<D>::normal_stress(other);
+  for (int p = 1; p < D; ++p) {
+    rows[n++] = pairs_[axis][p].v;
+    rows[n++] = pairs_[axis][p].s;
+  }
+  return rows;
+}
+
 /// What leaves the cells of these columns; `leaving` begins with the first of them.
 template <int D, class Real>
 void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
@@ -74,8 +91,8 @@ void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& co
     const Real* v = fields + pair.v * pitch + columns.first;
     const Real* s = fields + pair.s * pitch + columns.first;
     const Real* z = pair.wave == wave_p ? material.zp : material.zs;
-    Real* const up = p == 0 ? leaving.up_p : leaving.up_s;
-    Real* const down = p == 0 ? leaving.down_p : leaving.down_s;
+    Real* const up = leaving.up(p);
+    Real* const down = leaving.down(p);
     leave(columns.count(), stride, v, s, z, material.b, scale, up, down);
     ends_[axis][pair.wave].correct(order_, number, columns, stride, v, s,
                                    state_.material_from(line, columns.first), scale, up, down);
@@ -88,7 +105,9 @@ void Sweeps<D, Real>::meet(std::int64_t n, bool uniform, const Leaving<Real>& up
                            const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
                            const Faces<Real>& faces) const {
   const auto& kernels = *kernels_[uniform];
-  if (shear_)
+  if (shear_ && D == 3)
+    kernels.meet_3d(n, up, down, lo, hi, faces);
+  else if (shear_)
     kernels.meet(n, up.up_p, down.down_p, up.up_s, down.down_s, lo, hi, faces);
   else
     kernels.meet_p(n, up.up_p, down.down_p, lo, hi, faces);
@@ -99,21 +118,25 @@ template <int D, class Real>
 void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& columns, Real* fields,
                              std::int64_t pitch, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
                              Workspace<Real>& work, bool remember) {
-  const auto& all = pairs_[axis];
-  const int rows[] = {all[0].v, all[0].s, FieldRows<D>::normal_stress(axis == 0 ? 1 : 0), all[1].v, all[1].s};
-  const int row_count = shear_ ? 5 : 3;
+  const auto& rows = changed_[axis];
+  const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
   std::array<Columns, 2> covered;
   if (layer_) covered = layer_->covered(axis, line, columns);
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)
       std::copy(field(n) + part.first, field(n) + part.last, work.before(n) + part.first - columns.first);
-  const SweptRows<Real> swept = {field(0) + columns.first, field(1) + columns.first, field(2) + columns.first,
-                                 field(3) + columns.first, field(4) + columns.first};
+  const auto begin = [&](int n) { return field(n) + columns.first; };
+  SweptRows<Real> swept{};
+  if constexpr (D == 2) swept = {begin(0), begin(1), begin(2), begin(3), begin(4)};
+  if constexpr (D == 3)
+    swept = {begin(0), begin(1), begin(2), begin(4), begin(5), begin(3), begin(6), begin(7)};
   const auto* stretch = state_.stretch(state_.layout.line_number(line), columns.first, columns.last);
   const auto& kernels = *kernels_[stretch != nullptr];
   const auto material = stretch ? stretch->rows() : state_.material_from(line, columns.first);
-  (shear_ ? kernels.update : kernels.update_p)(columns.count(), scale, lo, hi, material, swept);
+  const auto change = D == 2 ? (shear_ ? kernels.update : kernels.update_p)
+                             : (shear_ ? kernels.update_3d : kernels.update_p_3d);
+  change(columns.count(), scale, lo, hi, material, swept);
   work.coming().ask_for_one();
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)
@@ -128,9 +151,9 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
   const std::int64_t widest = axis == 0 ? nx : stripe_width;
   std::vector<Workspace<Real>> work;
   for (int worker = 0; worker < parallel_workers(); ++worker) work.push_back(make_workspace(widest));
+  for (std::int64_t line = 0; line < lines && axis < z_axis && bends(axis); ++line)
+    keep(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {
-    for (std::int64_t line = 0; line < lines && sides_bend(); ++line)
-      keep_sides(line, {0, layout.shape()[0]});
     parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
       Carry<Real> carry{};
       for (std::int64_t line = begin; line < end; ++line) {
@@ -140,21 +163,27 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
     });
     return;
   }
-  const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width;
+  const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
   // Free edges read columns of neighbouring stripes: these must not have moved.
-  for (const int side : {0, 1}) free_edges_[z_axis][side].measure(state_, 0, nx);
-  parallel_for(stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+  for (const int side : {0, 1})
+    free_edges_[axis][side].measure(state_, 0, std::numeric_limits<std::int64_t>::max());
+  const std::int64_t sheets = layout.lines() / rows;
+  parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
-      const Columns columns{n * stripe_width, std::min((n + 1) * stripe_width, nx)};
-      Ring<Real> ring(columns.first, columns.count(), ring_rows());
-      const std::int64_t rows = layout.shape()[z_axis];
+      const auto stripe = n % stripes;
+      const Columns columns{stripe * stripe_width, std::min((stripe + 1) * stripe_width, nx)};
+      Ring<Real> ring(columns.first, columns.count(), ring_rows(), D);
+      Index<D> at{};
+      if (D == 3) at[std::size_t(3 - axis)] = n / stripes;
       for (std::int64_t step = 0; step < rows + rows_behind(); ++step)
-        along_z(step, columns, scale, ring, work[std::size_t(worker)]);
+        across(axis, at, step, columns, scale, ring, work[std::size_t(worker)]);
     }
   });
 }
 
 template class Sweeps<2, float>;
 template class Sweeps<2, double>;
+template class Sweeps<3, float>;
+template class Sweeps<3, double>;
 
 }  // namespace slipwave::solver

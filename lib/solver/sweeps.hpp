@@ -40,29 +40,33 @@ class Sweeps {
   /// is. Pointer to the line's cell 0 in row 0 of a copy, in the workspace, rows ahead_pitch() apart.
   const Real* ahead_along_x(std::int64_t line, const Columns& columns, Real scale, Workspace<Real>& work);
 
-  /// A piece of a sweep along z: row `step` - reach, counted from the top, sends out what leaves it and row
-  /// step - rows_behind() is brought forward, where there are such rows. Rows up to `step` and `reach` cells
-  /// on both sides must be there as they were before the sweep. Call for each step from 0 up to the number of
-  /// rows + rows_behind() - 1 with the same columns; the ring goes along.
-  void along_z(std::int64_t step, const Columns& columns, Real scale, Ring<Real>& ring,
-               Workspace<Real>& work);
+  /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
+  /// out what leaves it and row step - rows_behind() is brought forward, where there are such rows; `at` says
+  /// where on the third axis they are. Rows up to `step` and `reach` cells on both sides must be there as
+  /// they were before the sweep. Call for each step from 0 up to the number of rows + rows_behind() - 1 with
+  /// the same columns; the ring goes along.
+  void across(int axis, const Index<D>& at, std::int64_t step, const Columns& columns, Real scale,
+              Ring<Real>& ring, Workspace<Real>& work);
   /// The same where it would only make zero of zero.
-  void pass_over_z(std::int64_t step, const Columns& columns, Ring<Real>& ring) const;
-  /// Rows that a sweep along z still needs behind the newest one.
+  void pass_over(std::int64_t step, const Columns& columns, Ring<Real>& ring) const;
+  /// Rows that a sweep across still needs behind the newest one.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
   int ring_rows() const { return std::max(reach_, 1) + 1; }
 
-  /// Whether free edges at the sides bend the fields: sweeps along x then need the velocities there of
-  /// FreeEdge::reach lines on both sides as they were before the sweep (keep_sides).
-  bool sides_bend() const { return !free_edges_[0][0].empty() || !free_edges_[0][1].empty(); }
-  /// The same of the first and the last row.
-  bool ends_bend() const { return !free_edges_[z_axis][0].empty() || !free_edges_[z_axis][1].empty(); }
+  /// Whether free edges of an axis bend the fields: sweeps along it then need the velocities there of
+  /// FreeEdge::reach cells on all sides as they were before the sweep.
+  bool bends(int axis) const { return !free_edges_[axis][0].empty() || !free_edges_[axis][1].empty(); }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
-  void keep_sides(std::int64_t line, const Columns& columns);
+  /// Keeps the velocities at the edges of x on this line, or of an axis between x and z on this line of
+  /// theirs.
+  void keep(int axis, std::int64_t line, const Columns& columns);
   /// Before the first piece of a line is swept along x.
   void measure_sides(std::int64_t line);
-  /// Before along_z of that step, on all columns it and the pieces before it were given and lag more.
+  /// In 3-D, before a plane of rows is swept along y.
+  void measure_flanks(std::int64_t plane);
+  /// Before the sweep along z is across the rows of that step: of all columns (in 3-D rows of a plane) it and
+  /// the pieces before it were given, and FreeEdge::reach more.
   void measure_ends(std::int64_t step, const Columns& columns);
 
   /// These columns of a line will be needed soon.
@@ -103,8 +107,11 @@ class Sweeps {
   void enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
                 const Leaving<Real>& entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
-  void fill_ghost_rows(int side, const Columns& columns, Real scale);
+  void fill_ghost_rows(int axis, const Index<D>& at, int side, const Columns& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
+  /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs.
+  static constexpr int changed = 3 * D - 1, changed_by_p = D + 1;
+  std::array<int, changed> rows_changed(int axis) const;
   int pair_count() const { return shear_ ? D : 1; }
 
   State<D, Real>& state_;
@@ -115,6 +122,7 @@ class Sweeps {
   bool shear_;
   std::array<std::array<SpanEnds, 2>, D> ends_;                 // [axis][wave]
   std::array<std::array<Pair, D>, D> pairs_;                    // [axis]: P, then S by axes
+  std::array<std::array<int, changed>, D> changed_;             // [axis]
   std::array<std::array<FreeEdge<D, Real>, 2>, D> free_edges_;  // [axis][side]
 };
 

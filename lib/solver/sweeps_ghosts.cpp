@@ -22,10 +22,14 @@ struct Mirror {
 }  // namespace
 
 template <int D, class Real>
-void Sweeps<D, Real>::keep_sides(std::int64_t line, const Columns& columns) {
-  if (columns.first == 0 && !free_edges_[0][0].empty()) free_edges_[0][0].keep(state_, line);
-  if (columns.last == state_.layout.shape()[0] && !free_edges_[0][1].empty())
-    free_edges_[0][1].keep(state_, line);
+void Sweeps<D, Real>::keep(int axis, std::int64_t line, const Columns& columns) {
+  const Columns at = axis == 0 ? columns : [&] {
+    const auto row = state_.layout.line_index(line)[std::size_t(axis)];
+    return Columns{row, row + 1};
+  }();
+  auto& edges = free_edges_[axis];
+  if (at.first == 0 && !edges[0].empty()) edges[0].keep(state_, line);
+  if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].keep(state_, line);
 }
 
 template <int D, class Real>
@@ -35,10 +39,20 @@ void Sweeps<D, Real>::measure_sides(std::int64_t line) {
 }
 
 template <int D, class Real>
+void Sweeps<D, Real>::measure_flanks(std::int64_t plane) {
+  const auto cells = state_.layout.padded_nx();
+  for (auto& edge : free_edges_[1])
+    if (!edge.empty()) edge.measure(state_, plane * cells, (plane + 1) * cells);
+}
+
+template <int D, class Real>
 void Sweeps<D, Real>::measure_ends(std::int64_t step, const Columns& columns) {
-  if (step == reach_) free_edges_[z_axis][0].measure(state_, columns.first, columns.last);
-  if (step == state_.layout.shape()[z_axis])
-    free_edges_[z_axis][1].measure(state_, columns.first, columns.last);
+  const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
+  const auto measure = [&](int side) {
+    free_edges_[z_axis][side].measure(state_, columns.first * cells, columns.last * cells);
+  };
+  if (step == reach_) measure(0);
+  if (step == state_.layout.shape()[z_axis]) measure(1);
 }
 
 /// The values a stencil finds beyond an end of a line.
@@ -64,40 +78,56 @@ void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields
   }
 }
 
-/// The same beyond the first or the last row.
+/// The same beyond the first or the last row of another axis.
 template <int D, class Real>
-void Sweeps<D, Real>::fill_ghost_rows(int side, const Columns& columns, Real scale) {
-  const std::int64_t n = state_.layout.shape()[z_axis];
-  const auto& edge = free_edges_[z_axis][side];
-  const auto& all = pairs_[z_axis];
+void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, const Columns& columns,
+                                      Real scale) {
+  const std::int64_t n = state_.layout.shape()[axis];
+  const auto& edge = free_edges_[axis][side];
+  const auto& all = pairs_[axis];
+  const auto first = edge.empty() ? 0 : edge.number(at);
   for (int p = 0; p < pair_count(); ++p) {
-    const Mirror<Real> mirror(continuation(edges_[z_axis][side], all[p].wave));
+    const Mirror<Real> mirror(continuation(edges_[axis][side], all[p].wave));
     for (std::int64_t j = 0; j < reach_; ++j) {
       const std::int64_t from = mirror.image(j, n);
-      Index<D> ghost{}, cell{};
-      ghost[z_axis] = side ? n + j : -1 - j;
-      cell[z_axis] = side ? n - 1 - from : from;
+      Index<D> ghost = at, cell = at;
+      ghost[axis] = side ? n + j : -1 - j;
+      cell[axis] = side ? n - 1 - from : from;
       const auto fill = [&](int row, Real sign, const Real* gain, Real share) {
         Real* const to = state_.field_row(ghost, row);
         const Real* const source = state_.field_row(cell, row);
         for (std::int64_t i = columns.first; i < columns.last; ++i)
           to[i] = sign * source[i] + (gain ? share * gain[i] : Real(0));
       };
-      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.bend(p), Real(2 * j + 1));
-      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.jump(p), scale);
+      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.bend(p) + first, Real(2 * j + 1));
+      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.jump(p) + first, scale);
     }
   }
 }
 
-template void Sweeps<2, float>::keep_sides(std::int64_t, const Columns&);
-template void Sweeps<2, double>::keep_sides(std::int64_t, const Columns&);
+template void Sweeps<2, float>::keep(int, std::int64_t, const Columns&);
 template void Sweeps<2, float>::measure_sides(std::int64_t);
-template void Sweeps<2, double>::measure_sides(std::int64_t);
+template void Sweeps<2, float>::measure_flanks(std::int64_t);
 template void Sweeps<2, float>::measure_ends(std::int64_t, const Columns&);
-template void Sweeps<2, double>::measure_ends(std::int64_t, const Columns&);
 template void Sweeps<2, float>::fill_ghost_cells(std::int64_t, int, float*, std::int64_t, float) const;
+template void Sweeps<2, float>::fill_ghost_rows(int, const Index<2>&, int, const Columns&, float);
+template void Sweeps<3, float>::keep(int, std::int64_t, const Columns&);
+template void Sweeps<3, float>::measure_sides(std::int64_t);
+template void Sweeps<3, float>::measure_flanks(std::int64_t);
+template void Sweeps<3, float>::measure_ends(std::int64_t, const Columns&);
+template void Sweeps<3, float>::fill_ghost_cells(std::int64_t, int, float*, std::int64_t, float) const;
+template void Sweeps<3, float>::fill_ghost_rows(int, const Index<3>&, int, const Columns&, float);
+template void Sweeps<2, double>::keep(int, std::int64_t, const Columns&);
+template void Sweeps<2, double>::measure_sides(std::int64_t);
+template void Sweeps<2, double>::measure_flanks(std::int64_t);
+template void Sweeps<2, double>::measure_ends(std::int64_t, const Columns&);
 template void Sweeps<2, double>::fill_ghost_cells(std::int64_t, int, double*, std::int64_t, double) const;
-template void Sweeps<2, float>::fill_ghost_rows(int, const Columns&, float);
-template void Sweeps<2, double>::fill_ghost_rows(int, const Columns&, double);
+template void Sweeps<2, double>::fill_ghost_rows(int, const Index<2>&, int, const Columns&, double);
+template void Sweeps<3, double>::keep(int, std::int64_t, const Columns&);
+template void Sweeps<3, double>::measure_sides(std::int64_t);
+template void Sweeps<3, double>::measure_flanks(std::int64_t);
+template void Sweeps<3, double>::measure_ends(std::int64_t, const Columns&);
+template void Sweeps<3, double>::fill_ghost_cells(std::int64_t, int, double*, std::int64_t, double) const;
+template void Sweeps<3, double>::fill_ghost_rows(int, const Index<3>&, int, const Columns&, double);
 
 }  // namespace slipwave::solver

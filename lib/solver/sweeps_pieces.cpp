@@ -2,13 +2,14 @@
 
 #include "solver/sweeps.hpp"
 
-// Pieces of sweeps: along x a stretch of a line, along z a row of a stripe of columns.
+// Pieces of sweeps: along x a stretch of a line, along other axes a row of a stripe of columns.
 namespace slipwave::solver {
 namespace {
 
 template <class Real>
 Leaving<Real> shifted(const Leaving<Real>& from, std::int64_t cells) {
-  return {from.up_p + cells, from.down_p + cells, from.up_s + cells, from.down_s + cells};
+  return {from.up_p + cells,   from.down_p + cells, from.up_s + cells,
+          from.down_s + cells, from.up_s2 + cells,  from.down_s2 + cells};
 }
 
 /// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
@@ -37,8 +38,9 @@ template <int D, class Real>
 void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
                                const Leaving<Real>& entering) const {
   const EdgeLaw law = edges_[axis][side];
-  enter(law, wave_p, n, side ? leaving.up_p : leaving.down_p, side ? entering.down_p : entering.up_p);
-  enter(law, wave_s, n, side ? leaving.up_s : leaving.down_s, side ? entering.down_s : entering.up_s);
+  for (int p = 0; p < D; ++p)
+    enter(law, pairs_[axis][p].wave, n, side ? leaving.up(p) : leaving.down(p),
+          side ? entering.down(p) : entering.up(p));
 }
 
 template <int D, class Real>
@@ -52,13 +54,13 @@ void Sweeps<D, Real>::along_x(std::int64_t line, const Columns& columns, Real sc
   const auto leaving = work.leaving();
   const std::int64_t last = leave.last - columns.first;
   const auto waiting = [&](auto&& copy) {
-    copy(faces.v_p, carry.v_p), copy(faces.s_p, carry.s_p);
-    copy(faces.v_s, carry.v_s), copy(faces.s_s, carry.s_s);
+    copy(faces.v_p, carry.v[0]), copy(faces.s_p, carry.s[0]);
+    copy(faces.v_s, carry.v[1]), copy(faces.s_s, carry.s[1]);
+    if (D == 3) copy(faces.v_s2, carry.v[2]), copy(faces.s_s2, carry.s[2]);
   };
   if (!begins) {
     waiting([](Real* to, const Real* from) { std::copy(from, from + lag, to); });
-    leaving.up_p[lag - 1] = carry.up_p;
-    leaving.up_s[lag - 1] = carry.up_s;
+    for (int p = 0; p < D; ++p) leaving.up(p)[lag - 1] = carry.up[p];
   }
   const Index<D> at = state_.layout.line_index(line);
   sweep_piece({line,
@@ -70,8 +72,7 @@ void Sweeps<D, Real>::along_x(std::int64_t line, const Columns& columns, Real sc
               scale, work);
   if (ends) return;
   waiting([last](const Real* from, Real* to) { std::copy(from + last - lag, from + last, to); });
-  carry.up_p = leaving.up_p[last - 1];
-  carry.up_s = leaving.up_s[last - 1];
+  for (int p = 0; p < D; ++p) carry.up[p] = leaving.up(p)[last - 1];
 }
 
 template <int D, class Real>
@@ -89,7 +90,7 @@ const Real* Sweeps<D, Real>::ahead_along_x(std::int64_t line, const Columns& col
               from + row * layout.row_pitch() + leave.last + max_reach,
               copy + row * work.pitch() + leave.first - max_reach);
   const auto leaving = work.leaving();
-  if (leave.first > 0) leaving.up_p[-1] = leaving.up_s[-1] = 0;
+  for (int p = 0; p < D && leave.first > 0; ++p) leaving.up(p)[-1] = 0;
   sweep_piece({line, leave, columns, copy, work.pitch(), false}, scale, work);
   return copy;
 }
@@ -109,8 +110,8 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   if (ends) {
     const auto beyond = shifted(first, nx - piece.leave.first);
     met.last += lag;  // where the row fills whole blocks its last face is in the next one
-    for (Real* const zero : {beyond.up_p, beyond.down_p, beyond.up_s, beyond.down_s})
-      std::fill(zero, zero + met.last - nx, Real(0));
+    for (int p = 0; p < D; ++p)
+      for (Real* const zero : {beyond.up(p), beyond.down(p)}) std::fill(zero, zero + met.last - nx, Real(0));
     enter_at(0, 1, 1, shifted(beyond, -1), beyond);
   }
   // The faces at the ends of a line have other material on one side.
@@ -132,26 +133,26 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::along_z(std::int64_t step, const Columns& columns, Real scale, Ring<Real>& ring,
-                              Workspace<Real>& work) {
+void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, const Columns& columns,
+                             Real scale, Ring<Real>& ring, Workspace<Real>& work) {
   const auto& layout = state_.layout;
-  const std::int64_t rows = layout.shape()[z_axis], row = step - reach_;
+  const std::int64_t rows = layout.shape()[axis], row = step - reach_;
   const Columns wide{columns.first, columns.last == layout.shape()[0] ? layout.padded_nx() : columns.last};
-  const auto line = [](std::int64_t k) {
-    Index<D> at{};
-    at[z_axis] = k;
-    return at;
+  const auto line = [&](std::int64_t k) {
+    Index<D> index = at;
+    index[axis] = k;
+    return index;
   };
-  if (row == 0) fill_ghost_rows(0, wide, scale);
-  if (row == std::max<std::int64_t>(0, rows - reach_)) fill_ghost_rows(1, wide, scale);
+  if (row == 0) fill_ghost_rows(axis, at, 0, wide, scale);
+  if (row == std::max<std::int64_t>(0, rows - reach_)) fill_ghost_rows(axis, at, 1, wide, scale);
   const std::int64_t x = wide.first, n = wide.count();
   if (row >= 0 && row < rows)
-    send_out(z_axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(),
-             layout.stride(z_axis), scale, ring.leaving(row, x), work.coming());
+    send_out(axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(), layout.stride(axis),
+             scale, ring.leaving(row, x), work.coming());
   if (row >= 0 && row <= rows) {
     const auto above = ring.leaving(row - 1, x), here = ring.leaving(row, x);
-    if (row == 0) enter_at(z_axis, 0, n, here, above);
-    if (row == rows) enter_at(z_axis, 1, n, above, here);
+    if (row == 0) enter_at(axis, 0, n, here, above);
+    if (row == rows) enter_at(axis, 1, n, above, here);
     const auto stretch = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), x, x + n) : nullptr;
     };
@@ -163,35 +164,53 @@ void Sweeps<D, Real>::along_z(std::int64_t step, const Columns& columns, Real sc
   work.coming().ask_for_one();
   const std::int64_t done = step - rows_behind();
   if (done >= 0 && done < rows)
-    update(z_axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
+    update(axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
            ring.faces(done, x), ring.faces(done + 1, x), work, true);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::pass_over_z(std::int64_t step, const Columns& columns, Ring<Real>& ring) const {
+void Sweeps<D, Real>::pass_over(std::int64_t step, const Columns& columns, Ring<Real>& ring) const {
   const std::int64_t row = step - reach_;
   if (row < 0) return;
   const std::int64_t last =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
   const auto leaving = ring.leaving(row, columns.first);
   const auto faces = ring.faces(row, columns.first);
-  for (Real* const zero : {leaving.up_p, leaving.up_s, faces.v_p, faces.s_p, faces.v_s, faces.s_s})
-    std::fill(zero, zero + last - columns.first, Real(0));
+  const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
+  for (int p = 0; p < D; ++p) clear(leaving.up(p));
+  for (Real* const zero : {faces.v_p, faces.s_p, faces.v_s, faces.s_s}) clear(zero);
+  if (D == 3) clear(faces.v_s2), clear(faces.s_s2);
 }
 
-template void Sweeps<2, float>::pass_over_z(std::int64_t, const Columns&, Ring<float>&) const;
+template void Sweeps<2, float>::pass_over(std::int64_t, const Columns&, Ring<float>&) const;
 template void Sweeps<2, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
 template void Sweeps<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
                                         Workspace<float>&);
 template const float* Sweeps<2, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
-template void Sweeps<2, float>::along_z(std::int64_t, const Columns&, float, Ring<float>&, Workspace<float>&);
-template void Sweeps<2, double>::pass_over_z(std::int64_t, const Columns&, Ring<double>&) const;
+template void Sweeps<2, float>::across(int, const Index<2>&, std::int64_t, const Columns&, float,
+                                       Ring<float>&, Workspace<float>&);
+template void Sweeps<3, float>::pass_over(std::int64_t, const Columns&, Ring<float>&) const;
+template void Sweeps<3, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
+template void Sweeps<3, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
+                                        Workspace<float>&);
+template const float* Sweeps<3, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
+template void Sweeps<3, float>::across(int, const Index<3>&, std::int64_t, const Columns&, float,
+                                       Ring<float>&, Workspace<float>&);
+template void Sweeps<2, double>::pass_over(std::int64_t, const Columns&, Ring<double>&) const;
 template void Sweeps<2, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
 template void Sweeps<2, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
                                          Workspace<double>&);
 template const double* Sweeps<2, double>::ahead_along_x(std::int64_t, const Columns&, double,
                                                         Workspace<double>&);
-template void Sweeps<2, double>::along_z(std::int64_t, const Columns&, double, Ring<double>&,
+template void Sweeps<2, double>::across(int, const Index<2>&, std::int64_t, const Columns&, double,
+                                        Ring<double>&, Workspace<double>&);
+template void Sweeps<3, double>::pass_over(std::int64_t, const Columns&, Ring<double>&) const;
+template void Sweeps<3, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
+template void Sweeps<3, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
                                          Workspace<double>&);
+template const double* Sweeps<3, double>::ahead_along_x(std::int64_t, const Columns&, double,
+                                                        Workspace<double>&);
+template void Sweeps<3, double>::across(int, const Index<3>&, std::int64_t, const Columns&, double,
+                                        Ring<double>&, Workspace<double>&);
 
 }  // namespace slipwave::solver

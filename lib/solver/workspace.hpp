@@ -11,34 +11,45 @@ namespace slipwave::solver {
 template <class Real>
 struct Carry {
   static constexpr std::int64_t faces = 16;
-  Real up_p, up_s;
-  Real v_p[faces], s_p[faces], v_s[faces], s_s[faces];
+  static constexpr int most_pairs = 3;
+  Real up[most_pairs];
+  Real v[most_pairs][faces], s[most_pairs][faces];
 };
 
-/// What a sweep along z keeps between its rows: what leaves the newest row upwards (and the one before), and
-/// the faces of the rows that are still to be brought forward. Columns from `first` on.
+/// What a sweep across the rows keeps between them: what leaves the newest row upwards (and the one before),
+/// and the faces of the rows that are still to be brought forward. Columns from `first` on, of `pairs` pairs
+/// (2, in 3-D 3).
 template <class Real>
 class Ring {
  public:
-  Ring(std::int64_t first, std::int64_t width, int face_rows)
-      : first_(first), pitch_(width + 2 * gap), face_rows_(face_rows), values_(pitch_ * (6 + 4 * face_rows)) {
+  Ring(std::int64_t first, std::int64_t width, int face_rows, int pairs = 2)
+      : first_(first),
+        pitch_(width + 2 * gap),
+        face_rows_(face_rows),
+        pairs_(pairs),
+        values_(pitch_ * rows(face_rows, pairs)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
   /// From column x on. What leaves downwards is met at once: there is one row of it.
   Leaving<Real> leaving(std::int64_t row, std::int64_t x) {
     const int turn = int(row & 1);
-    return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x)};
+    if (pairs_ == 2) return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x)};
+    return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x), at(6 + turn, x), at(8, x)};
   }
   Faces<Real> faces(std::int64_t row, std::int64_t x) {
-    const int first = 6 + 4 * int(row % face_rows_);
-    return {at(first, x), at(first + 1, x), at(first + 2, x), at(first + 3, x)};
+    const int first = 3 * pairs_ + 2 * pairs_ * int(row % face_rows_);
+    if (pairs_ == 2) return {at(first, x), at(first + 1, x), at(first + 2, x), at(first + 3, x)};
+    return {at(first, x),     at(first + 1, x), at(first + 2, x),
+            at(first + 3, x), at(first + 4, x), at(first + 5, x)};
   }
+  std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
  private:
   static constexpr std::int64_t gap = 16;
+  static int rows(int face_rows, int pairs) { return (3 + 2 * face_rows) * pairs; }
   Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
   std::int64_t first_, pitch_;
-  int face_rows_;
+  int face_rows_, pairs_;
   Buffer<Real> values_;
 };
 
@@ -66,28 +77,36 @@ class Coming {
   std::int64_t width_ = 0;
 };
 
-/// Scratch memory of one thread for pieces of at most `widest` columns.
+/// Scratch memory of one thread for pieces of at most `widest` columns of `pairs` pairs.
 template <class Real>
 class Workspace {
  public:
-  Workspace(std::int64_t widest, int field_rows)
-      : pitch_(widest + 6 * gap), values_(pitch_ * (8 + 6 + field_rows)) {
+  Workspace(std::int64_t widest, int field_rows, int pairs)
+      : pitch_(widest + 6 * gap), pairs_(pairs), values_(pitch_ * (4 * pairs + most_changed + field_rows)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
-  Leaving<Real> leaving() { return {row(0), row(1), row(2), row(3)}; }
-  Faces<Real> faces() { return {row(4), row(5), row(6), row(7)}; }
+  Leaving<Real> leaving() {
+    if (pairs_ == 2) return {row(0), row(1), row(2), row(3)};
+    return {row(0), row(1), row(2), row(3), row(8), row(9)};
+  }
+  Faces<Real> faces() {
+    if (pairs_ == 2) return {row(4), row(5), row(6), row(7)};
+    return {row(4), row(5), row(6), row(7), row(10), row(11)};
+  }
   /// Fields as they were, while the matched layer needs them.
-  Real* before(int n) { return row(8 + n); }
+  Real* before(int n) { return row(4 * pairs_ + n); }
   /// A copy of all fields of a piece.
-  Real* copy() { return row(14); }
+  Real* copy() { return row(4 * pairs_ + most_changed); }
   Coming<Real>& coming() { return coming_; }
   /// From a row of the copy to the next; room for 32 cells before and behind the piece.
   std::int64_t pitch() const { return pitch_; }
 
  private:
   static constexpr std::int64_t gap = 16;
+  static constexpr int most_changed = 8;  // fields that a sweep changes
   Real* row(int n) { return values_.data() + n * pitch_ + 2 * gap; }
   std::int64_t pitch_;
+  int pairs_;
   Buffer<Real> values_;
   Coming<Real> coming_;
 };

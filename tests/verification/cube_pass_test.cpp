@@ -1,0 +1,145 @@
+#include <gtest/gtest.h>
+
+#include "base/parallel.hpp"
+#include "cube.hpp"
+#include "solver/pipeline.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Nothing happens between steps and all of it is wanted.
+template <class Real>
+class Nothing : public EndOfStep<Real> {
+ public:
+  void begin(const StepTime&) override {}
+  bool whole(const StepTime&, std::int64_t) const override { return false; }
+  bool looks(const StepTime&, std::int64_t) const override { return false; }
+  void look(const StepTime&, std::int64_t, const Columns&, const Real*, std::int64_t) override {}
+  bool stirs(const StepTime&, std::int64_t) const override { return false; }
+  Box needed(const StepTime&, const Box&) const override { return {{0, 1 << 20}, {0, 1 << 20}}; }
+  void run(const StepTime&, std::int64_t, const Columns&) override {}
+  void run_after(const StepTime&, std::int64_t, const Columns&) override {}
+  void finish(const StepTime&) override {}
+};
+
+/// Passes end with a whole sweep along x, which belongs to the next step, too: here as many sweeps one after
+/// the other, each through all of the memory.
+template <class Real>
+void sweep_by_sweep(Cube<Real>& cube, std::int64_t steps, int time_order) {
+  const auto parts = splitting(3, time_order);
+  cube.sweep(0, parts.front().part);
+  for (std::int64_t n = 0; n < steps; ++n) {
+    for (std::size_t inner = 1; inner + 1 < parts.size(); ++inner)
+      cube.sweep(parts[inner].axis, parts[inner].part);
+    cube.sweep(0, 2 * parts.front().part);
+  }
+}
+
+template <class Real>
+std::vector<Real> fields_of(Cube<Real>& cube) {
+  std::vector<Real> all;
+  for (std::int64_t n = 0; n < cube.grid().size(); ++n)
+    for (int row = 0; row < FieldRows<3>::count; ++row) all.push_back(cube(row, cube.grid().index(n)));
+  return all;
+}
+
+TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
+  struct Case {
+    const char* name;
+    EdgeLaw edges;
+    int order, time_order;
+  };
+  // More planes than two bands, rows for several stripes.
+  const Index<3> shape = {37, 41, 97};
+  const auto medium = lumps(shape, 5, 3);
+  for (const auto& [name, law, order, time_order] :
+       {Case{"free edges", EdgeLaw::free, 5, 2}, Case{"free edges, order 3", EdgeLaw::free, 3, 2},
+        Case{"free edges, order 4 in time", EdgeLaw::free, 7, 4}, Case{"rigid", EdgeLaw::rigid, 1, 2},
+        Case{"mirrors, order 4 in time", EdgeLaw::mirror, 3, 4}, Case{"mirrors", EdgeLaw::mirror, 7, 2}}) {
+    SCOPED_TRACE(name);
+    const double dt_s = 0.9 * 5 / 5500;
+    const std::int64_t steps = 5;
+    const auto edges = edges_all_3d(law);
+    Cube<float> one(medium, edges, order, dt_s, time_order);
+    one.shake(1);
+    sweep_by_sweep(one, steps, time_order);
+    const auto expected = fields_of(one);
+    for (const auto& passage : {Passage{1, 100, true}, Passage{2, 7}, Passage{3, 12, true}, Passage{0, 0}})
+      for (const int threads : {1, 3}) {
+        const ThreadLimit limit(threads);
+        Cube<float> cube(medium, edges, order, dt_s, time_order);
+        cube.shake(1);
+        Nothing<float> nothing;
+        Pipeline<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, passage);
+        pipeline.find_active_cells();
+        pipeline.run(0, steps);
+        EXPECT_TRUE(fields_of(cube) == expected)
+            << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+      }
+  }
+}
+
+/// Fields where the axes of `from` are those that `axis_of` says.
+void turn(Cube<double>& from, const std::array<std::size_t, 3>& axis_of, Cube<double>& to) {
+  using Rows = FieldRows<3>;
+  for (std::int64_t n = 0; n < from.grid().size(); ++n) {
+    const auto at = from.grid().index(n);
+    const Index<3> there = {at[axis_of[0]], at[axis_of[1]], at[axis_of[2]]};
+    for (int a = 0; a < 3; ++a) {
+      const int b = int(axis_of[std::size_t(a)]);
+      to(Rows::velocity(a), there) = from(Rows::velocity(b), at);
+      to(Rows::normal_stress(a), there) = from(Rows::normal_stress(b), at);
+      for (int other = a + 1; other < 3; ++other) {
+        const int c = int(axis_of[std::size_t(other)]);
+        to(Rows::shear_stress(a, other), there) =
+            from(Rows::shear_stress(std::min(b, c), std::max(b, c)), at);
+      }
+    }
+  }
+}
+
+TEST(SweepsOfACube, AreAlikeAlongAllAxes) {
+  const Index<3> shape = {26, 19, 33};
+  const auto medium = lumps(shape, 5, 9);
+  const double dt_s = 0.9 * 5 / 5500;
+  const EdgeLaw laws[3][2] = {
+      {EdgeLaw::free, EdgeLaw::rigid}, {EdgeLaw::mirror, EdgeLaw::free}, {EdgeLaw::free, EdgeLaw::free}};
+  for (const int order : orders)
+    for (const auto& axis_of : {std::array<std::size_t, 3>{1, 2, 0}, std::array<std::size_t, 3>{2, 0, 1},
+                                std::array<std::size_t, 3>{0, 2, 1}, std::array<std::size_t, 3>{2, 1, 0}}) {
+      EdgeLaws<3> edges, turned_edges;
+      Index<3> turned_shape;
+      for (int axis = 0; axis < 3; ++axis) edges[axis] = {laws[axis][0], laws[axis][1]};
+      for (int axis = 0; axis < 3; ++axis) {
+        turned_edges[axis] = edges[int(axis_of[std::size_t(axis)])];
+        turned_shape[std::size_t(axis)] = shape[axis_of[std::size_t(axis)]];
+      }
+      auto turned = uniform_cube(turned_shape, 5, {4500, 2250, 2500});
+      for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+        const auto at = medium.grid().index(n);
+        put(turned, {at[axis_of[0]], at[axis_of[1]], at[axis_of[2]]},
+            {medium.vp(at), medium.vs(at), medium.rho(at)});
+      }
+      Cube<double> cube(medium, edges, order, dt_s), other(turned, turned_edges, order, dt_s);
+      cube.shake(5);
+      turn(cube, axis_of, other);
+      for (int axis = 0; axis < 3; ++axis) {
+        cube.sweep(int(axis_of[std::size_t(axis)]), 0.7);
+        other.sweep(axis, 0.7);
+      }
+      Cube<double> expected(turned, turned_edges, order, dt_s);
+      turn(cube, axis_of, expected);
+      double difference = 0, largest = 0;
+      for (std::int64_t n = 0; n < other.grid().size(); ++n)
+        for (int row = 0; row < FieldRows<3>::count; ++row) {
+          const auto at = other.grid().index(n);
+          const double unit = row < 3 ? 1 : 1e7;
+          difference = std::max(difference, std::abs(other(row, at) - expected(row, at)) / unit);
+          largest = std::max(largest, std::abs(expected(row, at)) / unit);
+        }
+      EXPECT_LT(difference, 1e-13 * largest) << "order " << order << ", " << axis_of[0] << axis_of[1];
+    }
+}
+
+}  // namespace
+}  // namespace slipwave::solver
