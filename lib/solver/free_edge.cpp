@@ -26,7 +26,6 @@ template <int D>
 bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
                     std::vector<EdgeTerm<D>>& terms) {
   const std::int64_t n = domain.grid.shape[std::size_t(along)];
-  if (n <= std::int64_t(offsets.size())) return false;
   for (std::size_t k = 0; k < offsets.size(); ++k) {
     EdgeTerm<D> term{at, row, factor * weights[k]};
     auto& place = term.cell[std::size_t(along)];
@@ -67,6 +66,11 @@ std::vector<EdgeTerm<D>> edge_slope(const Domain<D>& domain, const Index<D>& at,
   std::vector<EdgeTerm<D>> terms;
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
+    // A slice too thin for a difference has no slope, unless its own edges are free.
+    if (domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size())) {
+      if (domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free) return {};
+      continue;
+    }
     bool found = true;
     if (row == Rows::velocity(axis))
       found = add_difference(domain, at, along, Rows::velocity(along),

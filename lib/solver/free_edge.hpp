@@ -20,8 +20,8 @@ struct EdgeTerm {
 /// What the velocity `row` gains from cell j before a free edge (side 0 low, 1 high of an axis) of a solid to
 /// its mirror image beyond it, over 2 j + 1, as a sum of velocities of cells along the edge (theory.md
 /// (E12)). `at` is a cell of the edge. Empty where the mirror image stays as it is: in fluid and void, beside
-/// them, contacts that end a span and free edges of another axis, and on grids of less than four cells
-/// across.
+/// them, contacts that end a span and free edges of another axis, and on grids of a few cells along the edge
+/// (in 3-D: along both axes of it).
 template <int D>
 std::vector<EdgeTerm<D>> edge_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side, int row);
 

@@ -106,7 +106,8 @@ void MatchedLayer<D, Real>::find_plates(int axis, const Domain<D>& domain) {
     plates.assign(std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
     if ((side ? domain.high_zone : domain.low_zone)[std::size_t(axis)] == 0) continue;
     for (int across = 0; across < D; ++across) {
-      if (across == axis) continue;
+      // A slice one cell thick between mirrors stands for all of the space: no plate.
+      if (across == axis || layout_.shape()[std::size_t(across)] == 1) continue;
       const auto run_of = [&](Index<D> at) {
         const auto z = [&](std::int64_t cell) {
           at[std::size_t(across)] = cell;

@@ -21,6 +21,8 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
     bool traction = false;
     for (int other = 0; other < D; ++other)
       traction |= other != axis && row == Rows::shear_stress(std::min(axis, other), std::max(axis, other));
+    // What has no index across a plane of symmetry is even about it.
+    if (!traction && law == EdgeLaw::mirror) return Beyond::even;
     if (!traction && !fluid) return Beyond::unknown;
     normal = !traction;
   }
