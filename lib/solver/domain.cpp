@@ -173,6 +173,8 @@ template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int);
 template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
+template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);
+template double energy_of_cell(const State<3, double>&, const Domain<3>&, const Medium<3>&, Index<3>);
 template double energy(const State<3, float>&, const Domain<3>&, const Medium<3>&);
 template double energy(const State<3, double>&, const Domain<3>&, const Medium<3>&);
 

@@ -232,5 +232,7 @@ void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::siz
 
 template class SlipGroup<2, float>;
 template class SlipGroup<2, double>;
+template class SlipGroup<3, float>;
+template class SlipGroup<3, double>;
 
 }  // namespace slipwave::solver

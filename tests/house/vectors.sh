@@ -97,6 +97,9 @@ want() {
         need("meet_p<true, " real ">", 6); need("meet_p<false, " real ">", 9)
         need("update<true, " real ">", 14); need("update<false, " real ">", 22)
         need("update_p<true, " real ">", 7); need("update_p<false, " real ">", 11)
+        need("meet_3d<true, " real ">", 18); need("meet_3d<false, " real ">", 26)
+        need("update_3d<true, " real ">", 21); need("update_3d<false, " real ">", 29)
+        need("update_p_3d<true, " real ">", 8); need("update_p_3d<false, " real ">", 12)
         # Along and across, with and without memory of the change.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
