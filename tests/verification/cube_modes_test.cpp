@@ -89,7 +89,7 @@ TEST(CubeModes, OfPAndSWavesConvergeWithTheSecondOrderOfTheSplitting) {
 
 TEST(CubeModes, ConvergeWithTheOrderOfTheReconstructionWhereTheCourantNumberIsSmall) {
   for (const auto& mode : {p_mode, s_mode}) {
-    EXPECT_GT(observed_order(error_after(mode, 32, 1, 0.4, 2), error_after(mode, 64, 1, 0.4, 2)), 0.85);
+    EXPECT_GT(observed_order(error_after(mode, 24, 1, 0.4, 2), error_after(mode, 48, 1, 0.4, 2)), 0.85);
     EXPECT_GT(observed_order(error_after(mode, 12, 3, 0.05, 2), error_after(mode, 24, 3, 0.05, 2)), 2.8);
   }
 }

@@ -64,18 +64,18 @@ TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
     one.shake(1);
     sweep_by_sweep(one, steps, time_order);
     const auto expected = fields_of(one);
-    for (const auto& passage : {Passage{1, 100, true}, Passage{2, 7}, Passage{3, 12, true}, Passage{0, 0}})
-      for (const int threads : {1, 3}) {
-        const ThreadLimit limit(threads);
-        Cube<float> cube(medium, edges, order, dt_s, time_order);
-        cube.shake(1);
-        Nothing<float> nothing;
-        Pipeline<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, passage);
-        pipeline.find_active_cells();
-        pipeline.run(0, steps);
-        EXPECT_TRUE(fields_of(cube) == expected)
-            << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
-      }
+    for (const auto& [passage, threads] : {std::pair(Passage{1, 100, true}, 3), std::pair(Passage{2, 7}, 1),
+                                           std::pair(Passage{3, 12, true}, 3), std::pair(Passage{0, 0}, 1)}) {
+      const ThreadLimit limit(threads);
+      Cube<float> cube(medium, edges, order, dt_s, time_order);
+      cube.shake(1);
+      Nothing<float> nothing;
+      Pipeline<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, passage);
+      pipeline.find_active_cells();
+      pipeline.run(0, steps);
+      EXPECT_TRUE(fields_of(cube) == expected)
+          << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+    }
   }
 }
 

@@ -1,18 +1,10 @@
 #include <gtest/gtest.h>
 
 #include "base/parallel.hpp"
-#include "cube_shot.hpp"
+#include "cube_extruded.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
-
-/// Water over two rocks.
-Rock reef_at(std::int64_t along, std::int64_t count, std::int64_t depth) {
-  if (depth < 12 + std::abs(2 * along + 1 - count) / 20) return water;
-  return depth > 38 ? soft : rock;
-}
 
 /// The same in 3-D, not the same from row to row, with a source and receivers all over it.
 Scene<3> reef(const EdgeLaws<3>& edges, const char* mechanism) {
@@ -24,7 +16,7 @@ Scene<3> reef(const EdgeLaws<3>& edges, const char* mechanism) {
   }
   return scene_of(medium, edges, {91, 87, 121}, mechanism, "ricker:40",
                   {{21, 30, 13}, {133, 71.3, 62.2}, {71, 160, 187}},
-                  {Component::vx, Component::vy, Component::syz, Component::p}, 0.06, 0.001);
+                  {Component::vx, Component::vy, Component::syz, Component::p}, 0.035, 0.001);
 }
 
 TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
@@ -53,13 +45,13 @@ TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     double largest = 0;
     for (const double sample : whole) largest = std::max(largest, std::abs(sample));
     EXPECT_GT(largest, 0);
-    for (const auto& passage : {Passage{0, 0}, Passage{1, 7}, Passage{3, 12, true}})
-      for (const int threads : {1, 3}) {
-        const ThreadLimit limit(threads);
-        scene.numerics.passage = passage;
-        EXPECT_TRUE(samples_of(shoot(scene, 1)) == whole)
-            << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
-      }
+    for (const auto& [passage, threads] :
+         {std::pair(Passage{0, 0}, 3), std::pair(Passage{1, 7}, 1), std::pair(Passage{3, 12, true}, 3)}) {
+      const ThreadLimit limit(threads);
+      scene.numerics.passage = passage;
+      EXPECT_TRUE(samples_of(shoot(scene, 1)) == whole)
+          << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+    }
   }
 }
 
@@ -74,77 +66,10 @@ TEST(CubeTraces, DoNotDependOnWhoElseIsLooking) {
     taken += std::int64_t(field(Component::vy).size()) == scene.model.grid().size();
   }));
   EXPECT_EQ(all, watched);
-  EXPECT_EQ(taken, 8);
+  EXPECT_EQ(taken, 5);
   scene.survey.receivers_m.resize(1);
   const auto alone = shoot(scene, 1);
   EXPECT_TRUE(std::equal(alone.traces[0].samples.begin(), alone.traces[0].samples.end(), all.begin()));
-}
-
-/// A scene in 2-D, which stretches along one axis of a scene in 3-D one cell thick between mirrors.
-struct Extruded {
-  Scene<2> flat;
-  Scene<3> deep;
-};
-
-/// `axes`: those of 3-D that x and z of 2-D become.
-Extruded extruded(const std::array<int, 2>& axes, const EdgeLaws<2>& edges, const char* mechanism,
-                  const char* mechanism_3d, const std::vector<Component>& components,
-                  const std::vector<Component>& components_3d) {
-  constexpr std::int64_t nx = 90, nz = 70;
-  constexpr double h = 5;
-  Extruded both;
-  both.flat.model.medium = uniform_medium(nx, nz, h, rock);
-  Index<3> shape = {1, 1, 1};
-  shape[std::size_t(axes[0])] = nx;
-  shape[std::size_t(axes[1])] = nz;
-  auto medium = uniform_cube(shape, h, rock);
-  const auto at = [&](std::int64_t i, std::int64_t k) {
-    Index<3> cell{};
-    cell[std::size_t(axes[0])] = i;
-    cell[std::size_t(axes[1])] = k;
-    return cell;
-  };
-  const auto point = [&](const Point<2>& flat) {
-    Point<3> deep = {h / 2, h / 2, h / 2};
-    for (std::size_t n = 0; n < 2; ++n) deep[std::size_t(axes[n])] = flat[n];
-    return deep;
-  };
-  for (std::int64_t k = 0; k < nz; ++k)
-    for (std::int64_t i = 0; i < nx; ++i) {
-      put(both.flat.model.medium, {i, k}, reef_at(i, nx, k));
-      put(medium, at(i, k), reef_at(i, nx, k));
-    }
-  both.flat.edges = edges;
-  EdgeLaws<3> deep_edges = edges_all_3d(EdgeLaw::mirror);
-  for (int n = 0; n < 2; ++n) deep_edges[axes[std::size_t(n)]] = edges[n];
-  const Point<2> source = {221, 131};
-  both.flat.survey.sources = {{source, parse_mechanism<2>(mechanism), parse_wavelet("ricker:25"), 1e9}};
-  both.flat.survey.receivers_m = {{101, 33}, {302.5, 201.3}, {420, 60}, {201, 313}};
-  both.flat.recording = {components, 0.2, 0.001};
-  both.flat.numerics.double_precision = true;
-  both.deep =
-      scene_of(medium, deep_edges, point(source), mechanism_3d, "ricker:25", {}, components_3d, 0.2, 0.001);
-  // A point source in a slice one cell thick is a line source of as much per metre.
-  both.deep.survey.sources[0].amplitude *= h;
-  for (const auto& receiver : both.flat.survey.receivers_m)
-    both.deep.survey.receivers_m.push_back(point(receiver));
-  both.deep.numerics.double_precision = true;
-  return both;
-}
-
-double largest_error(const Extruded& both) {
-  const auto flat = shoot(both.flat, 1), deep = shoot(both.deep, 1);
-  double largest = 0;
-  for (std::size_t n = 0; n < flat.traces.size(); ++n)
-    largest = std::max(largest, relative_error(deep.traces[n].samples, flat.traces[n].samples));
-  return largest;
-}
-
-EdgeLaws<2> edges_of(EdgeLaw top, EdgeLaw sides, EdgeLaw bottom) {
-  EdgeLaws<2> edges;
-  edges[0] = {sides, sides};
-  edges[1] = {top, bottom};
-  return edges;
 }
 
 const std::vector<Component> all = {Component::vx, Component::vz, Component::sxx, Component::szz,
@@ -173,6 +98,7 @@ TEST(ExtrudedScene, AlongXOrZGivesTheTracesOf2D) {
   auto along_x = extruded({1, 2}, edges, "force:1,2", "force:0,1,2", all, of_yz);
   auto along_z = extruded({0, 1}, edges, "force:1,2", "force:1,2,0", all, of_xy);
   for (auto* both : {&along_x, &along_z}) {
+    both->flat.recording.duration_s = both->deep.recording.duration_s = 0.12;
     both->flat.numerics.cfl = both->deep.numerics.cfl = 0.5;
     EXPECT_LT(largest_error(*both), 0.02);
   }
