@@ -10,11 +10,11 @@
 #include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "model/model_report.hpp"
-#include "output/snapshot_reader.hpp"
 #include "plot/error_picture.hpp"
 #include "plot/model_picture.hpp"
 #include "plot/snapshot_picture.hpp"
 #include "plot/spectrum_picture.hpp"
+#include "plot_snapshots.hpp"
 #include "segy/reader.hpp"
 #include "segy/sniff.hpp"
 
@@ -58,10 +58,10 @@ Input open_input(const std::string& path, const PlotSettings& settings) {
   return input;
 }
 
-plot::SurveyMarks survey_of(const PlotSettings& settings) {
+plot::SurveyMarks survey_of(const PlotSettings& settings, int axis) {
   if (settings.survey.empty()) return {};
   segy::Reader reader(settings.survey, settings.traces.read_options());
-  return plot::read_survey(reader);
+  return plot::read_survey(reader, axis);
 }
 
 plot::Picture gather_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
@@ -77,17 +77,30 @@ plot::Picture gather_picture(Input& input, const PlotSettings& settings, const p
                            plot::with_history(page, text));
 }
 
+/// With the plane in its title.
+plot::Page on_plane(plot::Page page, const std::optional<Slice>& slice) {
+  if (!slice) return page;
+  const std::string plane =
+      std::string(1, axis_names<3>()[std::size_t(slice->axis)]) + " = " + shown(slice->at_m) + " m";
+  page.title += (page.title.empty() ? "" : ", ") + plane;
+  return page;
+}
+
 plot::Picture model_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
   const bool as_sets = settings.property == "fractures";
-  const auto section = plot::read_model_section(*input.file, as_sets ? "vp" : settings.property);
-  return plot::draw_model(section, as_sets, survey_of(settings), settings.look, page);
+  const auto section =
+      plot::read_model_section(*input.file, as_sets ? "vp" : settings.property, settings.slice);
+  return plot::draw_model(section, as_sets, survey_of(settings, settings.slice ? settings.slice->axis : 1),
+                          settings.look, on_plane(page, settings.slice));
 }
 
 /// The model under the snapshots; its cells may be larger or smaller than theirs, its extent is the same.
-std::optional<plot::ModelSection> model_below(const PlotSettings& settings, const Grid<2>& grid) {
+std::optional<plot::ModelSection> model_below(const PlotSettings& settings, const Snapshots& snapshots) {
+  const auto& grid = snapshots.grid();
   if (settings.over.empty()) return std::nullopt;
   const bool as_sets = settings.property == "fractures";
-  auto model = plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property);
+  auto model = plot::read_model_section(NetcdfFile::open(settings.over), as_sets ? "vp" : settings.property,
+                                        snapshots.slice());
   for (const int axis : {0, 1}) {
     const auto at = std::size_t(axis);
     const double slack = grid.spacing_m / 2;
@@ -100,50 +113,21 @@ std::optional<plot::ModelSection> model_below(const PlotSettings& settings, cons
   return model;
 }
 
-/// The snapshots of a file, less those of another one where one is given.
-class Snapshots {
- public:
-  Snapshots(NetcdfFile file, const std::string& minus) : of_(std::move(file)) {
-    if (minus.empty()) return;
-    minus_.emplace(NetcdfFile::open(minus));
-    if (!(minus_->grid() == of_.grid()))
-      throw Error(minus_->name() + ": has a grid of " + shown(minus_->grid()) + ", expected that of " +
-                  of_.name() + ", " + shown(of_.grid()));
-  }
-  const SnapshotReader<2>& file() const { return of_; }
-  plot::Snapshot read(const std::string& field, std::size_t time) const {
-    const double time_s = of_.times_s()[time];
-    plot::Snapshot snapshot{field, plot::shown_unit(of_.unit(field)), time_s, of_.read(field, time)};
-    if (!minus_) return snapshot;
-    const auto other = minus_->nearest(time_s);
-    if (std::fabs(minus_->times_s()[other] - time_s) > 1e-9)
-      throw Error(minus_->name() + ": has no snapshot at " + shown(time_s) + " s, the nearest is at " +
-                  shown(minus_->times_s()[other]) + " s");
-    const auto subtrahend = minus_->read(field, other);
-    for (std::size_t n = 0; n < subtrahend.size(); ++n) snapshot.values[n] -= subtrahend[n];
-    return snapshot;
-  }
-
- private:
-  SnapshotReader<2> of_;
-  std::optional<SnapshotReader<2>> minus_;
-};
-
 double full_of(const plot::Magnitudes& magnitudes, const PlotSettings& settings) {
   const double full = magnitudes.percentile(settings.look.clip_percent);
   return full > 0 ? full : 1;  // before the wave is there
 }
 
 plot::Picture snapshot_picture(Input& input, const PlotSettings& settings, const plot::Page& page) {
-  const Snapshots snapshots(std::move(*input.file), settings.minus);
-  const auto& reader = snapshots.file();
-  const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
-  const auto time = settings.time_s ? reader.nearest(*settings.time_s) : reader.times_s().size() - 1;
+  const Snapshots snapshots(std::move(*input.file), settings.minus, settings.slice);
+  const auto field = settings.field.empty() ? snapshots.fields().front() : settings.field;
+  const auto time = settings.time_s ? snapshots.nearest(*settings.time_s) : snapshots.times_s().size() - 1;
   const auto snapshot = snapshots.read(field, time);
   plot::Magnitudes magnitudes;
   magnitudes.add({snapshot.values.data(), snapshot.values.size()});
-  return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings, reader.grid()),
-                             survey_of(settings), settings.look, page);
+  return plot::draw_snapshot(snapshot, full_of(magnitudes, settings), model_below(settings, snapshots),
+                             survey_of(settings, snapshots.axis()), settings.look,
+                             on_plane(page, snapshots.slice()));
 }
 
 }  // namespace
@@ -190,10 +174,9 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
     throw Error(shown_input(input.path) + ": holds no snapshots, expected them for --movie");
   const auto page =
       plot::with_history(page_of(settings), input.file->text_attribute("", "history").value_or(""));
-  const Snapshots snapshots(std::move(*input.file), settings.minus);
-  const auto& reader = snapshots.file();
-  const auto field = settings.field.empty() ? reader.fields().front() : settings.field;
-  const auto times = reader.times_s().size();
+  const Snapshots snapshots(std::move(*input.file), settings.minus, settings.slice);
+  const auto field = settings.field.empty() ? snapshots.fields().front() : settings.field;
+  const auto times = snapshots.times_s().size();
   const auto done = [&](std::size_t steps) {
     if (progress) progress(std::int64_t(steps), std::int64_t(2 * times));
   };
@@ -204,16 +187,16 @@ void draw_movie(const PlotSettings& settings, const Progress& progress) {
     done(n + 1);
   }
   const double full = full_of(magnitudes, settings);
-  const auto model = model_below(settings, reader.grid());
-  const auto marks = survey_of(settings);
+  const auto model = model_below(settings, snapshots);
+  const auto marks = survey_of(settings, snapshots.axis());
   const auto dot = settings.output.rfind('.');
   for (std::size_t n = 0; n < times; ++n) {
     char number[32];
     std::snprintf(number, sizeof number, "-%04zu", n + 1);
     OutputFile out(settings.output.substr(0, dot) + number + settings.output.substr(dot),
                    OutputFile::Content::binary);
-    const auto picture =
-        plot::draw_snapshot(snapshots.read(field, n), full, model, marks, settings.look, page);
+    const auto picture = plot::draw_snapshot(snapshots.read(field, n), full, model, marks, settings.look,
+                                             on_plane(page, snapshots.slice()));
     out.write(picture.bytes.data(), picture.bytes.size());
     out.commit();
     done(times + n + 1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/progress.hpp"
+#include "grid/slice.hpp"
 #include "plot/gather_picture.hpp"
 #include "plot/look.hpp"
 #include "plot/page.hpp"
@@ -28,6 +29,7 @@ struct PlotSettings {
   // models and snapshots
   std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
+  std::optional<Slice> slice;  // of what is in 3-D
   bool movie = false;
   // spectra and errors
   bool log = false, overlay = false;

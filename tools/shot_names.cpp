@@ -37,10 +37,15 @@ void check_marks(const std::string& pattern) {
 
 bool holds(std::string pattern, const std::string& mark) { return replace(pattern, mark, ""); }
 
+template <int D>
 void ShotOutput::check(std::size_t shots) const {
   check_marks(traces);
   check_marks(snapshots);
-  if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<2>(snapshot_fields); });
+  if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<D>(snapshot_fields); });
+  if (!slice.empty() && snapshots.empty())
+    throw Error("found --slice without --snapshots, expected where to write them", ErrorKind::usage);
+  if (!slice.empty() && D == 2)
+    throw Error("found --slice with a model in 2-D, expected one in 3-D", ErrorKind::usage);
   if (first_shot < 1)
     throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
                 ErrorKind::usage);
@@ -71,13 +76,14 @@ void ShotOutput::check(std::size_t shots) const {
                 ErrorKind::usage);
 }
 
-std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& history,
+template <int D>
+std::vector<std::string> entries_of(const Scene<D>& scene, const std::string& history,
                                     const std::string& version) {
   const auto& source = scene.survey.sources.front();
   const auto& n = scene.numerics;
   std::vector<std::string> entries = {
       version + ": synthetic seismograms",
-      "source: " + std::string(name_of<2>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
+      "source: " + std::string(name_of<D>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
           ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
           shown(source.wavelet.delay_s()) + " s",
       "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
@@ -93,5 +99,10 @@ std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& hi
 }
 
 std::string unstable_name(std::string pattern) { return pattern.insert(pattern.rfind('/') + 1, "unstable-"); }
+
+template void ShotOutput::check<2>(std::size_t) const;
+template void ShotOutput::check<3>(std::size_t) const;
+template std::vector<std::string> entries_of(const Scene<2>&, const std::string&, const std::string&);
+template std::vector<std::string> entries_of(const Scene<3>&, const std::string&, const std::string&);
 
 }  // namespace slipwave

@@ -11,31 +11,15 @@
 #include "base/output_file.hpp"
 #include "base/parallel.hpp"
 #include "base/parse.hpp"
-#include "checkpoint/snapshot_log.hpp"
-#include "output/derivatives.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "segy/writer.hpp"
 #include "segy/writer_headers.hpp"
 #include "shot_balance.hpp"
+#include "shot_snapshots.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
 namespace {
-
-std::optional<SlipField> slip_field(const std::string& name) {
-  if (name == "slip") return SlipField::slip;
-  if (name == "slip_rate") return SlipField::slip_rate;
-  if (name == "dissipated") return SlipField::dissipated;
-  if (name == "opening") return SlipField::opening;
-  return std::nullopt;
-}
-
-Field<2> snapshot_of(const std::string& name, const FieldReader<2>& field) {
-  if (name == "div") return divergence<2>({field(Component::vx), field(Component::vz)});
-  if (name == "curl") return curl({field(Component::vx), field(Component::vz)});
-  if (const auto slip = slip_field(name)) return field(*slip);
-  return field(component_named(name));
-}
 
 /// What the trace files can not hold is refused before anything is computed.
 void check_sampling(const Recording& recording, const cli::Context& context) {
@@ -49,45 +33,16 @@ void check_sampling(const Recording& recording, const cli::Context& context) {
 /// Trace files by name, opened before their shots are shot.
 using TraceFiles = std::map<std::string, OutputFile>;
 
-/// Snapshots of one shot: the file, and with a checkpoint the log that goes with it.
-class Snapshots {
- public:
-  Snapshots(const std::string& path, const Grid<2>& grid, const std::vector<std::string>& fields,
-            const SnapshotHistory& history, const RunBook& book, std::size_t shot)
-      : writer_(path, grid, fields, history) {
-    if (book.keeps_checkpoints())
-      log_.emplace(book.snapshot_log(shot), grid, fields.size(), book.snapshots_of(shot),
-                   [this](double time_s, const auto& taken) { writer_.write(time_s, taken); });
-  }
-  SnapshotSink<2> sink() {
-    return [this](double time_s, const FieldReader<2>& field) {
-      std::vector<Field<2>> taken;
-      for (const auto& name : writer_.fields()) taken.push_back(snapshot_of(name, field));
-      writer_.write(time_s, taken);
-      if (log_) log_->append(time_s, taken);
-    };
-  }
-  RunBook::Mark mark() {
-    if (!log_) return {};
-    return [this] { return log_->synchronized(); };
-  }
-  void commit() { writer_.commit(); }
-  void commit_as(const std::string& path) { writer_.commit_as(path); }
-
- private:
-  SnapshotWriter<2> writer_;
-  std::optional<SnapshotLog<2>> log_;
-};
-
 }  // namespace
 
 bool ShotOutput::wants_slip() const {
   const auto names = split(snapshot_fields, ',');
   return std::any_of(names.begin(), names.end(),
-                     [](const auto& name) { return slip_field(name).has_value(); });
+                     [](const auto& name) { return slip_field_named(name).has_value(); });
 }
 
-std::size_t ShotOutput::shots_at_once(const Scene<2>& scene) const {
+template <int D>
+std::size_t ShotOutput::shots_at_once(const Scene<D>& scene) const {
   const auto shots = scene.survey.sources.size();
   if (!snapshots.empty()) return 1;
   if (shots_in_parallel > 0) return std::min(std::size_t(shots_in_parallel), shots);
@@ -96,7 +51,8 @@ std::size_t ShotOutput::shots_at_once(const Scene<2>& scene) const {
       std::clamp<std::int64_t>(std::min<std::int64_t>(fit, parallel_threads()), 1, std::int64_t(shots)));
 }
 
-RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
+template <int D>
+RunBook ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
                               const cli::Context& context) const {
   RunBook::Settings settings;
   settings.path = checkpoint;
@@ -109,6 +65,7 @@ RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
     settings.identity = identity_of(scene);
     settings.identity.push_back({"program", context.version});
     if (!snapshots.empty()) settings.identity.push_back({"fields", snapshot_fields});
+    if (!slice.empty()) settings.identity.push_back({"slice", slice});
     settings.identity.push_back({"first shot", std::to_string(first_shot)});
     settings.identity.push_back({"command line or history of the model", history, false});
   }
@@ -116,7 +73,8 @@ RunBook ShotOutput::open_book(const Scene<2>& scene, const std::string& history,
 }
 
 /// Whether the files that a finished shot has to itself are where they were put.
-bool ShotOutput::in_place_still(const Scene<2>& scene, RunBook& book, std::size_t shot) const {
+template <int D>
+bool ShotOutput::in_place_still(const Scene<D>& scene, RunBook& book, std::size_t shot) const {
   const auto there = [](const std::string& path) { return path == "-" || access(path.c_str(), F_OK) == 0; };
   const std::size_t number = number_of(shot);
   bool all = snapshots.empty() || there(name_for(snapshots, number, ""));
@@ -127,14 +85,16 @@ bool ShotOutput::in_place_still(const Scene<2>& scene, RunBook& book, std::size_
 }
 
 /// What a run works on.
+template <int D>
 struct ShotOutput::Underway {
   std::vector<std::string> entries;  // of the textual headers
   RunBook book;
   TraceFiles files;
-  std::optional<Snapshots> kept;
+  std::optional<ShotSnapshots<D>> kept;
 };
 
-void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
+template <int D>
+void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history,
                            const cli::Context& context) const {
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
@@ -146,7 +106,7 @@ void ShotOutput::shoot_all(const Scene<2>& scene, const std::string& history,
                 ErrorKind::usage);
   // Samples are written alike whether anything was computed before, or all came from a checkpoint.
   flush_subnormals();
-  Underway run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
+  Underway<D> run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
   try {
     shoot_rest(scene, history, context, run);
   } catch (const Unstable& error) {
@@ -178,8 +138,9 @@ std::map<std::string, Gather> ShotOutput::gathers_by_file(RunBook& book, std::si
 
 /// What there is when a shot has become unstable: files of other shots that are whole are put in place, all
 /// the rest under other names where that is wanted. These names; what can not be written is a warning.
-std::string ShotOutput::keep(const Scene<2>& scene, const Unstable& error, const cli::Context& context,
-                             Underway& run) const {
+template <int D>
+std::string ShotOutput::keep(const Scene<D>& scene, const Unstable& error, const cli::Context& context,
+                             Underway<D>& run) const {
   const auto shots = scene.survey.sources.size();
   std::string kept;
   try {
@@ -211,13 +172,15 @@ std::string ShotOutput::keep(const Scene<2>& scene, const Unstable& error, const
   return kept;
 }
 
-void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, const cli::Context& context,
-                            Underway& run) const {
+template <int D>
+void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                            Underway<D>& run) const {
   const auto& entries = run.entries;
   auto& book = run.book;
   auto& files = run.files;
   auto& kept = run.kept;
   const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
+  const auto cut = in_place("--slice", [&] { return cut_of(scene.model.grid(), slice); });
   const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
@@ -254,8 +217,8 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
     for (const auto shot : group) open_files(shot);
     kept.reset();
     if (!snapshots.empty())
-      kept.emplace(name_for(snapshots, number_of(group[0]), ""), scene.model.grid(),
-                   parse_snapshot_fields<2>(snapshot_fields),
+      kept.emplace(name_for(snapshots, number_of(group[0]), ""), scene.model.grid(), cut,
+                   parse_snapshot_fields<D>(snapshot_fields),
                    SnapshotHistory{"wave fields of shot " + std::to_string(number_of(group[0])),
                                    context.version, history},
                    book, group[0]);
@@ -268,7 +231,7 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
       const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
       // The first of those that run together speaks for all.
       book.finish(shot,
-                  shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<2>(),
+                  shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
                         pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
     });
     for (std::size_t n = 0; scene.slip_diary && n < group.size(); ++n)
@@ -280,5 +243,8 @@ void ShotOutput::shoot_rest(const Scene<2>& scene, const std::string& history, c
   if (!a_file_a_shot) write_files();
   book.close();
 }
+
+template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&) const;
+template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&) const;
 
 }  // namespace slipwave

@@ -18,6 +18,7 @@ struct ShotOutput {
   std::string traces = "-";
   std::string snapshots;  // empty: none
   std::string snapshot_fields = "vx,vz";
+  std::string slice;       // of 3-D snapshots, empty: all of the volume
   int first_shot = 1;      // number of the first source
   std::string checkpoint;  // empty: none
   std::optional<double> checkpoint_every_s;
@@ -27,6 +28,7 @@ struct ShotOutput {
   /// Whether snapshots hold what slip has done.
   bool wants_slip() const;
   /// Throws a usage Error when the names can not hold all shots.
+  template <int D>
   void check(std::size_t shots) const;
   static constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
   static constexpr double usual_checkpoint_every_s = 600;
@@ -34,20 +36,27 @@ struct ShotOutput {
   /// belong to, so that a name that can not be written costs no computing. With a checkpoint it goes on where
   /// that was written. Where a shot becomes unstable it throws the Error that says so, after it has put what
   /// there is under other names if `keep_unstable`.
-  void shoot_all(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
+  template <int D>
+  void shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context) const;
 
  private:
+  template <int D>
   struct Underway;
   /// In headers and names, of shot 1, 2, ... of the run.
   std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
-  void shoot_rest(const Scene<2>& scene, const std::string& history, const cli::Context& context,
-                  Underway& run) const;
+  template <int D>
+  void shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                  Underway<D>& run) const;
   std::map<std::string, Gather> gathers_by_file(RunBook& book, std::size_t shots) const;
-  std::string keep(const Scene<2>& scene, const Unstable& error, const cli::Context& context,
-                   Underway& run) const;
-  std::size_t shots_at_once(const Scene<2>& scene) const;
-  RunBook open_book(const Scene<2>& scene, const std::string& history, const cli::Context& context) const;
-  bool in_place_still(const Scene<2>& scene, RunBook& book, std::size_t shot) const;
+  template <int D>
+  std::string keep(const Scene<D>& scene, const Unstable& error, const cli::Context& context,
+                   Underway<D>& run) const;
+  template <int D>
+  std::size_t shots_at_once(const Scene<D>& scene) const;
+  template <int D>
+  RunBook open_book(const Scene<D>& scene, const std::string& history, const cli::Context& context) const;
+  template <int D>
+  bool in_place_still(const Scene<D>& scene, RunBook& book, std::size_t shot) const;
 };
 
 /// A name for a shot (as messages number it) and a component.
@@ -59,7 +68,8 @@ bool holds(std::string pattern, const std::string& mark);
 std::string unstable_name(std::string pattern);
 
 /// What the textual header says of a run.
-std::vector<std::string> entries_of(const Scene<2>& scene, const std::string& history,
+template <int D>
+std::vector<std::string> entries_of(const Scene<D>& scene, const std::string& history,
                                     const std::string& version);
 
 }  // namespace slipwave

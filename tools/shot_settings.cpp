@@ -14,15 +14,16 @@ EdgeLaw edge_law(const std::string& name) {
                             : EdgeLaw::absorbing;
 }
 
-Survey<2> make_survey(const ShotSettings& s) {
-  Survey<2> survey;
+template <int D>
+Survey<D> make_survey(const ShotSettings& s) {
+  Survey<D> survey;
   const auto wavelet = in_place("--wavelet", [&] { return parse_wavelet(s.wavelet); });
-  const auto mechanism = in_place("--kind", [&] { return parse_mechanism<2>(s.kind); });
+  const auto mechanism = in_place("--kind", [&] { return parse_mechanism<D>(s.kind); });
   for (const auto& text : s.sources)
     survey.sources.push_back(
-        {in_place("--source", [&] { return parse_point<2>(text); }), mechanism, wavelet, s.amplitude});
+        {in_place("--source", [&] { return parse_point<D>(text); }), mechanism, wavelet, s.amplitude});
   for (const auto& text : s.receivers)
-    for (const auto& point : in_place("--receivers", [&] { return parse_line<2>(text); }))
+    for (const auto& point : in_place("--receivers", [&] { return parse_line<D>(text); }))
       survey.receivers_m.push_back(point);
   return survey;
 }
@@ -32,17 +33,21 @@ Survey<2> make_survey(const ShotSettings& s) {
 void ShotSettings::declare_scene(cli::Options& options) {
   const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
   options.positional(model, "MODEL");
-  options.add("source", sources, "X,Z", "where the source is, m; repeated: several shots");
+  options.add("source", sources, "X,Z", "where the source is, m; repeated: several shots; in 3-D X,Y,Z");
   options.add("kind", kind, "KIND",
-              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (0 = down, degrees)");
+              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (0 = down, degrees); in 3-D "
+              "force:AX,AY,AZ, moment:MXX,MYY,MZZ,MXY,MXZ,MYZ");
   options.add("wavelet", wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
-  options.add("amplitude", amplitude, "A", "explosion, moment: N m/s per m; force: N/m; plane: m/s");
-  options.add("receivers", receivers, "X0:X1:DX,Z", "line of receivers or one X,Z, m; may be repeated");
+  options.add("amplitude", amplitude, "A",
+              "explosion, moment: N m/s per m; force: N/m; plane: m/s; in 3-D N m/s and N");
+  options.add("receivers", receivers, "X0:X1:DX,Z",
+              "line of receivers or one X,Z, m; may be repeated; in 3-D "
+              "X0:X1:DX,Y0:Y1:DY,Z: an area");
   options.add("time", duration_s, "T", "length of the traces, s");
   options.add("dt", interval_s, "DT", "sampling interval of the traces, s");
-  options.add("record", record, "LIST", "of vx, vz, p, sxx, szz, sxz");
+  options.add("record", record, "LIST", "of vx, vz, p, sxx, szz, sxz; in 3-D also vy, syy, sxy, syz");
   options.add_choice("top", top, edges, "the surface z = 0");
-  options.add_choice("sides", sides, edges, "the left and right edges");
+  options.add_choice("sides", sides, edges, "the left and right edges, in 3-D all four");
   options.add_choice("bottom", bottom, edges, "the bottom edge");
   options.add("edge-width", edge_width, "CELLS",
               "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
@@ -63,15 +68,16 @@ void ShotSettings::declare_numerics(cli::Options& options) {
   options.add("time-step", time_step_s, "S", "time step in s, instead of --cfl");
 }
 
-Scene<2> ShotSettings::without_model() const {
-  Scene<2> scene;
-  scene.survey = make_survey(*this);
+template <int D>
+Scene<D> ShotSettings::without_model() const {
+  Scene<D> scene;
+  scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
     scene.recording.components.push_back(in_place("--record", [&] { return component_named(name); }));
   scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
-  scene.edges[0] = {edge_law(sides), edge_law(sides)};
-  scene.edges[1] = {edge_law(top), edge_law(bottom)};
+  for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};
+  scene.edges[D - 1] = {edge_law(top), edge_law(bottom)};
   scene.numerics.order = std::stoi(order);
   scene.numerics.cfl = cfl;
   scene.numerics.time_step_s = time_step_s;
@@ -93,13 +99,19 @@ std::vector<SlipEffect> ShotSettings::effects_without() const {
   return effects;
 }
 
-void ShotSettings::read_model_into(Scene<2>& scene) const {
-  scene.model = read_model<2>(model);
+template <int D>
+void ShotSettings::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
+  scene.model = read_model<D>(file);
   in_place(model == "-" ? "standard input" : model, [&] { check(scene.model, limits); });
   for (const auto effect : effects_without()) remove_effect(scene.model, effect);
   // What is left must still hold together: planes without friction may slip under the static stress.
   if (!without.empty()) in_place("--without " + without, [&] { check(scene.model, limits); });
   check(scene);
 }
+
+template Scene<2> ShotSettings::without_model() const;
+template Scene<3> ShotSettings::without_model() const;
+template void ShotSettings::read_model_into(Scene<2>&, const NetcdfFile&) const;
+template void ShotSettings::read_model_into(Scene<3>&, const NetcdfFile&) const;
 
 }  // namespace slipwave

@@ -10,6 +10,8 @@
 
 namespace slipwave {
 
+class NetcdfFile;
+
 /// The options that describe a shot, for the tools that shoot: model, source, receivers, edges, numerics.
 struct ShotSettings {
   std::string model = "-";
@@ -27,9 +29,11 @@ struct ShotSettings {
   /// Order, step, slip correction and precision.
   void declare_numerics(cli::Options& options);
   /// The scene, its model not yet read.
-  Scene<2> without_model() const;
+  template <int D>
+  Scene<D> without_model() const;
   /// Puts the model in and checks both.
-  void read_model_into(Scene<2>& scene) const;
+  template <int D>
+  void read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
 
  private:
   std::vector<SlipEffect> effects_without() const;

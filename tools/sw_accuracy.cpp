@@ -3,6 +3,7 @@
 #include "accuracy/cases.hpp"
 #include "accuracy/ladder.hpp"
 #include "base/error.hpp"
+#include "base/netcdf_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "model/model_netcdf.hpp"
@@ -105,8 +106,8 @@ Scene<2> make_scene(const Settings& s) {
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
       throw Error("found no " + std::string(name) + ", expected it, or --case full-space", ErrorKind::usage);
-  auto scene = s.shot.without_model();
-  s.shot.read_model_into(scene);
+  auto scene = s.shot.without_model<2>();
+  s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model));
   return scene;
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
@@ -28,55 +29,92 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
-  options.add("box", settings.box, "X0:X1,Z0:Z1", "the region: cells whose centres lie in a box, m");
+  options.add("box", settings.box, "X0:X1,Z0:Z1",
+              "the region: cells whose centres lie in a box, m; in 3-D models X0:X1,Y0:Y1,Z0:Z1");
   options.add("polygon", settings.polygon, "FILE", "or in a polygon: a line \"X Z\" for each vertex");
   options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
-              "or in an ellipse round X,Z: half axes A, which dips by DIP, and B");
-  options.add("slab", settings.slab, "X,Z:L,T[:DIP]", "or in a slab of length L and thickness T");
+              "or in an ellipse round X,Z: half axes A, which dips by DIP, and B; in 3-D "
+              "X,Y,Z:A,B,C[:DIP[:AZIMUTH]]");
+  options.add("slab", settings.slab, "X,Z:L,T[:DIP]",
+              "or in a slab of length L and thickness T; in 3-D X,Y,Z:L,WIDTH,T[:DIP[:AZIMUTH]]");
   options.add("count", settings.count, "N",
               "not all of the region but N small slabs in it, along the planes");
   options.add("body", settings.body, "L,T",
               "their mean length and thickness [1/10 of the region's longer side, 1/10 of that]");
   options.add("seed", settings.seed, "S", "another S, other slabs");
   options.add(
-      "dip", settings.dips, "DEG",
-      "angle of the planes from the horizontal, deepening towards +x; give two for two families of planes");
-  options.add("normal", settings.normals, "NX,NZ", "or their normal, of any length; z points down");
+      "dip", settings.dips, "DEG[:AZIMUTH]",
+      "angle of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "
+      "(90: +y); give two for two families of planes, in 3-D up to three");
+  options.add("normal", settings.normals, "NX,NZ",
+              "or their normal, of any length; z points down; in 3-D NX,NY,NZ");
   options.add("friction", settings.friction, "Q", "coefficient of friction");
   options.add("viscosity", settings.viscosity_s, "ETA", "viscosity of slip, s");
   options.add("strength", settings.strength_pa, "PA", "cohesion, Pa");
   options.add("block", settings.block, "blocks: planes across those of --dip or --normal, too");
   options.add("opening", settings.opening, "planes part under tension, which they carry otherwise");
-  options.add("prestress", settings.prestress, "STRESS",
-              "static stress of these cells, Pa: none, lithostatic[:K0] (the weight above; sideways K0 times "
-              "that [lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, tension positive");
+  options.add(
+      "prestress", settings.prestress, "STRESS",
+      "static stress of these cells, Pa: none, lithostatic[:K0] (the weight above; sideways K0 times "
+      "that [lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, in 3-D SXX,SYY,SZZ,SXY,SXZ,SYZ, tension "
+      "positive");
   options.add("name", settings.name, "S", "name of the set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file, - is standard output");
   for (const char* name : {"friction", "viscosity"}) options.require(name);
 }
 
-std::vector<Point<2>> normals_of(const Settings& settings) {
-  std::vector<Point<2>> normals;
+/// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".
+template <int D>
+Point<D> normal_of(const std::string& text) {
+  if constexpr (D == 2) {
+    return normal_of_dip(parse_number(text));
+  } else {
+    const auto angles = parse_numbers(text, ':');
+    if (angles.size() > 2) throw Error("found '" + text + "', expected DEG or DEG:AZIMUTH", ErrorKind::usage);
+    return normal_of_dip(angles[0], angles.size() == 2 ? angles[1] : 0);
+  }
+}
+
+/// The other planes of blocks: across the first; in 3-D the second family is vertical, across the strike.
+template <int D>
+void add_across(std::vector<Point<D>>& normals) {
+  const auto n = normals[0];
+  if constexpr (D == 2) {
+    normals.push_back({-n[1], n[0]});
+  } else {
+    const bool level = n[0] == 0 && n[1] == 0;
+    const auto strike = unit_normal<3>(level ? Point<3>{0, 1, 0} : Point<3>{-n[1], n[0], 0});
+    normals.push_back(strike);
+    normals.push_back({n[1] * strike[2] - n[2] * strike[1], n[2] * strike[0] - n[0] * strike[2],
+                       n[0] * strike[1] - n[1] * strike[0]});
+  }
+}
+
+template <int D>
+std::vector<Point<D>> normals_of(const Settings& settings) {
+  std::vector<Point<D>> normals;
   for (const auto& text : settings.dips) {
-    normals.push_back(in_place("--dip", [&] { return normal_of_dip(parse_number(text)); }));
+    normals.push_back(in_place("--dip", [&] { return normal_of<D>(text); }));
   }
   for (const auto& text : settings.normals) {
-    normals.push_back(in_place("--normal", [&] { return unit_normal<2>(parse_point<2>(text)); }));
+    normals.push_back(in_place("--normal", [&] { return unit_normal<D>(parse_point<D>(text)); }));
   }
   if (settings.block && normals.size() != 1) {
     throw Error("found --block and " + std::to_string(normals.size()) +
                     " of --dip and --normal, expected one of them with --block",
                 ErrorKind::usage);
   }
-  if (settings.block) normals.push_back({-normals[0][1], normals[0][0]});
-  if (normals.empty() || normals.size() > 2) {
-    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected one or two",
+  if (settings.block) add_across(normals);
+  if (normals.empty() || normals.size() > D) {
+    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected " +
+                    (D == 2 ? "one or two" : "one to three"),
                 ErrorKind::usage);
   }
   return normals;
 }
 
-Region region_of(const Settings& settings) {
+template <int D>
+RegionIn<D> region_of(const Settings& settings) {
   const int given =
       !settings.box.empty() + !settings.polygon.empty() + !settings.ellipse.empty() + !settings.slab.empty();
   if (given != 1) {
@@ -84,26 +122,35 @@ Region region_of(const Settings& settings) {
         "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, expected one of them",
         ErrorKind::usage);
   }
-  if (settings.polygon == "-" && settings.model == "-") {
-    throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
+  if (!settings.polygon.empty()) {
+    if constexpr (D == 2) return read_polygon(settings.polygon);
+    throw Error("found --polygon with a model in 3-D, expected --box, --ellipse or --slab", ErrorKind::usage);
   }
-  if (!settings.polygon.empty()) return read_polygon(settings.polygon);
   if (!settings.ellipse.empty())
-    return in_place("--ellipse", [&] { return parse_ellipse(settings.ellipse); });
-  if (!settings.slab.empty()) return in_place("--slab", [&] { return parse_slab(settings.slab); });
-  return in_place("--box", [&] { return region_of_box(parse_box<2>(settings.box)); });
+    return in_place("--ellipse", [&] { return parse_ellipse<D>(settings.ellipse); });
+  if (!settings.slab.empty()) return in_place("--slab", [&] { return parse_slab<D>(settings.slab); });
+  return in_place("--box", [&] { return region_of_box<D>(parse_box<D>(settings.box)); });
 }
 
-/// The region itself, or slabs in it that lie along planes of this dip.
-Region bodies_of(const Settings& settings, const Region& region, double dip_deg) {
+/// The region itself, or slabs in it that lie along planes of this normal.
+template <int D>
+RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const Point<D>& normal) {
   if (settings.count == 0) {
     if (settings.body.empty()) return region;
     throw Error("found --body without --count, expected both", ErrorKind::usage);
   }
   const auto& low = region.bounds.low_m;
   const auto& high = region.bounds.high_m;
-  Scatter scatter{settings.count, std::uint64_t(settings.seed), 0, 0, dip_deg};
-  scatter.length_m = std::max(high[0] - low[0], high[1] - low[1]) / 10;
+  Scatter scatter;
+  scatter.count = settings.count;
+  scatter.seed = std::uint64_t(settings.seed);
+  if constexpr (D == 2) scatter.dip_deg = dip_of_normal(normal);
+  if constexpr (D == 3) {
+    const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
+    scatter.dip_deg = dip_deg, scatter.azimuth_deg = azimuth_deg;
+  }
+  for (std::size_t axis = 0; axis < D; ++axis)
+    scatter.length_m = std::max(scatter.length_m, (high[axis] - low[axis]) / 10);
   scatter.thickness_m = scatter.length_m / 10;
   if (!settings.body.empty()) {
     const auto body = in_place("--body", [&] { return parse_point<2>(settings.body); });
@@ -112,24 +159,25 @@ Region bodies_of(const Settings& settings, const Region& region, double dip_deg)
   return in_place("--count", [&] { return scattered_in(region, scatter); });
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  FractureSet<2> set;
-  for (const auto& normal : normals_of(settings)) {
+template <int D>
+void fracture(const Settings& settings, const NetcdfFile& file, const cli::Context& context) {
+  FractureSet<D> set;
+  for (const auto& normal : normals_of<D>(settings)) {
     set.systems.push_back(
         {normal, settings.friction, settings.viscosity_s, settings.strength_pa, settings.opening});
   }
   const auto prestress = in_place("--prestress", [&] {
-    return parse_prestress<2>(settings.prestress.empty() ? "none" : settings.prestress);
+    return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
   });
-  const auto region = bodies_of(settings, region_of(settings), dip_of_normal(set.systems[0].normal));
+  const auto region = bodies_of<D>(settings, region_of<D>(settings), set.systems[0].normal);
   OutputFile out(settings.output, OutputFile::Content::binary);
-  auto model = read_model<2>(settings.model);
+  auto model = read_model<D>(file);
   set.name =
       settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true}); });
-  const auto count = add_fractures<2>(model, set, region.contains);
+  const auto count = add_fractures<D>(model, set, region.contains);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
   check(model, {.allow_auxetic = true});
   if (count.left) {
@@ -141,6 +189,15 @@ void run(const Settings& settings, const cli::Context& context) {
   append_history(model.history, context.command_line);
   model.source = context.version;
   write_model(model, out);
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  if (settings.polygon == "-" && settings.model == "-") {
+    throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
+  }
+  const auto file = NetcdfFile::open(settings.model);
+  if (dimension_of(file) == 3) return fracture<3>(settings, file, context);
+  fracture<2>(settings, file, context);
 }
 
 }  // namespace

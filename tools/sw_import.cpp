@@ -22,6 +22,7 @@ struct Settings {
   std::string vp, vs, rho;
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
+  std::optional<double> extrude_m;
   std::string crop, vs_from, rho_from;
   double fluid_vp = 1500;
   bool no_average = false;
@@ -45,6 +46,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("no-average", settings.no_average, "interpolate for larger cells, too, instead of averaging");
   options.add("crop", settings.crop, "X0:X1,Z0:Z1",
               "keep a box, after resampling; its top becomes the surface");
+  options.add("extrude", settings.extrude_m, "LY", "a model in 3-D, the same along LY m of y; at last");
   options.add("title", settings.title, "TEXT", "title of the model file");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file, - is standard output");
@@ -118,6 +120,15 @@ Field<2> read_property(const Settings& settings, const std::string& name, const 
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
 }
 
+template <int D>
+void write(Model<D> model, const Settings& settings, const cli::Context& context, OutputFile& out) {
+  model.title = settings.title;
+  model.source = context.version;
+  append_history(model.history, context.command_line);
+  write_model(model, out);
+  context.note(shown(model.grid()));
+}
+
 void run(const Settings& settings, const cli::Context& context) {
   check_choices(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
@@ -135,11 +146,11 @@ void run(const Settings& settings, const cli::Context& context) {
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
   }
-  model.title = settings.title;
-  model.source = context.version;
-  append_history(model.history, context.command_line);
-  write_model(model, out);
-  context.note(shown(model.grid()));
+  if (!settings.extrude_m) return write(std::move(model), settings, context, out);
+  Model<3> deep;
+  deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });
+  deep.history = std::move(model.history);
+  write(std::move(deep), settings, context, out);
 }
 
 }  // namespace

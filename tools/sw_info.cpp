@@ -89,18 +89,23 @@ Finding look_at_accuracy(const NetcdfFile& file) {
   return finding;
 }
 
-Finding look_at_netcdf(const NetcdfFile& file) {
-  const auto kind = kind_of(file);
-  if (kind != "model" && holds_accuracy(file)) return look_at_accuracy(file);
-  if (kind != "model") return {kind, report_of(file), ""};
-  const auto model = read_model<2>(file);
-  Finding finding{kind, report_of(model), ""};
+template <int D>
+Finding look_at_model(const NetcdfFile& file) {
+  const auto model = read_model<D>(file);
+  Finding finding{"model", report_of(model), ""};
   try {
     check(model, {.allow_auxetic = true});
   } catch (const Error& error) {
     finding.damage = file.shown_name() + ": " + error.what();
   }
   return finding;
+}
+
+Finding look_at_netcdf(const NetcdfFile& file) {
+  const auto kind = kind_of(file);
+  if (kind != "model" && holds_accuracy(file)) return look_at_accuracy(file);
+  if (kind != "model") return {kind, report_of(file), ""};
+  return dimension_of(file) == 3 ? look_at_model<3>(file) : look_at_model<2>(file);
 }
 
 /// Of a gather: where the options say what it is, it need not look like one.

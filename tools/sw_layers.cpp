@@ -20,7 +20,7 @@ struct Settings {
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.add("size", settings.size, "LXxLZ", "size of the model, m");
+  options.add("size", settings.size, "LXxLZ", "size of the model, m; LXxLYxLZ: in 3-D, the same all along y");
   options.add("step", settings.step_m, "H", "edge of a cell, m");
   options.add(
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
@@ -36,15 +36,16 @@ void declare(cli::Options& options, Settings& settings) {
   for (const char* name : {"size", "step", "layer"}) options.require(name);
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  const auto size = in_place("--size", [&] { return parse_size<2>(settings.size); });
-  const auto grid = in_place("--size, --step", [&] { return grid_of_size<2>(size, settings.step_m); });
+template <int D>
+void build(const Settings& settings, const cli::Context& context) {
+  const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
+  const auto grid = in_place("--size, --step", [&] { return grid_of_size<D>(size, settings.step_m); });
   std::vector<Layer> layers;
   for (const auto& text : settings.layers) {
     layers.push_back(in_place("--layer", [&] { return parse_layer(text); }));
   }
   OutputFile out(settings.output, OutputFile::Content::binary);
-  Model<2> model;
+  Model<D> model;
   model.medium = in_place("--layer", [&] { return layered_medium(grid, layers, !settings.no_average); });
   check(model, settings.limits);
   for (const auto& sentence : cut_off_layers(grid, layers)) context.warn(sentence);
@@ -53,6 +54,11 @@ void run(const Settings& settings, const cli::Context& context) {
   model.history = context.command_line;
   write_model(model, out);
   context.note(shown(grid));
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  if (split(settings.size, 'x').size() == 3) return build<3>(settings, context);
+  build<2>(settings, context);
 }
 
 }  // namespace

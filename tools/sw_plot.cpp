@@ -11,7 +11,7 @@ namespace {
 
 /// Options as they are written.
 struct Texts {
-  std::string map = "auto", range, x, y, component, axis = "auto", style = "density";
+  std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density";
 };
 
 void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
@@ -33,6 +33,7 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
   options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"}, "model: what is drawn");
+  options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: what lies on this plane, y=500");
   options.add("survey", settings.survey, "GATHER", "model, snapshot: marks sources and receivers");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
@@ -55,6 +56,7 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
   limits("--range", texts.range, settings.look.colours);
   limits("--x", texts.x, settings.look.x);
   limits("--y", texts.y, settings.look.y);
+  if (!texts.slice.empty()) settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
   if (!texts.component.empty())
     settings.component = in_place("--component", [&] { return component_named(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))

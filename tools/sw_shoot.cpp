@@ -3,6 +3,7 @@
 #include "accuracy/choice.hpp"
 #include "accuracy/plan.hpp"
 #include "base/error.hpp"
+#include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "model/model_netcdf.hpp"
@@ -25,8 +26,11 @@ void declare(cli::Options& options, Settings& s) {
   s.shot.declare_numerics(options);
   options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
   options.add("every", s.every_s, "S", "time between snapshots, s");
-  options.add("fields", s.output.snapshot_fields, "LIST",
-              "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening");
+  options.add(
+      "fields", s.output.snapshot_fields, "LIST",
+      "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening; in 3-D also vy, syy, "
+      "sxy, syz, and curlx, curly, curlz in place of curl");
+  options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots of the cells on a plane, y=500, alone");
   options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
               "shots shot at once; 0: one a thread as long as 1 GiB holds them");
@@ -46,46 +50,58 @@ void declare(cli::Options& options, Settings& s) {
   options.add_threads();
 }
 
-Scene<2> make_scene(const Settings& s) {
-  Scene<2> scene = s.shot.without_model();
+template <int D>
+Scene<D> make_scene(const Settings& s, const NetcdfFile& file) {
+  auto scene = s.shot.without_model<D>();
   if (!s.output.snapshots.empty()) {
     if (!s.every_s)
       throw Error("found --snapshots without --every, expected the time between them", ErrorKind::usage);
     scene.snapshot_every_s = s.every_s;
   }
   scene.slip_diary = s.balance || (!s.output.snapshots.empty() && s.output.wants_slip());
-  s.output.check(scene.survey.sources.size());
+  s.output.check<D>(scene.survey.sources.size());
   for (const auto& output : {s.output.traces, s.output.snapshots}) {
     expect_other_files(output, {s.shot.model});
     if (s.output.keep_unstable && !output.empty()) expect_other_files(unstable_name(output), {s.shot.model});
   }
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
     throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
-  s.shot.read_model_into(scene);
+  s.shot.read_model_into(scene, file);
   return scene;
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  Scene<2> scene = make_scene(settings);
-  if (settings.wanted_error) {
-    if (!(*settings.wanted_error > 0))
-      throw Error("--error: found " + shown(*settings.wanted_error) + ", expected it above 0",
-                  ErrorKind::usage);
-    const auto choice = cheapest_setting(scene, *settings.wanted_error);
+/// The cheapest way to compute the scene with the error that is wanted.
+template <int D>
+Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Context& context) {
+  if (!(wanted > 0))
+    throw Error("--error: found " + shown(wanted) + ", expected it above 0", ErrorKind::usage);
+  if constexpr (D == 2) {
+    const auto choice = cheapest_setting(scene, wanted);
     if (!choice.good_enough)
-      throw Error("--error: found no setting for " + shown(*settings.wanted_error) + "; the best is " +
+      throw Error("--error: found no setting for " + shown(wanted) + "; the best is " +
                   sentence_of(choice, scene) + " (margin: 1.5)");
     context.say("chose " + sentence_of(choice, scene));
-    scene = with_setting(scene, choice.setting);
-    check(scene);
+    auto chosen = with_setting(scene, choice.setting);
+    check(chosen);
+    return chosen;
   }
+  throw Error("found --error with a model in 3-D, expected one in 2-D", ErrorKind::usage);
+}
+
+template <int D>
+void shoot_model(const Settings& settings, NetcdfFile file, const cli::Context& context) {
+  auto scene = make_scene<D>(settings, file);
+  file.close();
+  if (settings.wanted_error) scene = with_wanted_error(scene, *settings.wanted_error, context);
   for (const auto& sentence : warnings(scene)) context.warn(sentence);
   if (settings.plan) {
     auto report = report_of(plan(scene));
-    if (!settings.wanted_error) {
-      const auto choice = cheapest_setting(scene, 0.01);
-      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene));
-    }
+    if constexpr (D == 2)
+      if (!settings.wanted_error) {
+        const auto choice = cheapest_setting(scene, 0.01);
+        report.text("for an error of 1 %",
+                    (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene));
+      }
     const std::string text = report.lines();
     OutputFile out(settings.output.traces, OutputFile::Content::text);
     out.write(text.data(), text.size());
@@ -94,6 +110,12 @@ void run(const Settings& settings, const cli::Context& context) {
   std::string history = scene.model.history;
   append_history(history, context.command_line);
   settings.output.shoot_all(scene, history, context);
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  auto file = NetcdfFile::open(settings.shot.model);
+  if (dimension_of(file) == 3) return shoot_model<3>(settings, std::move(file), context);
+  shoot_model<2>(settings, std::move(file), context);
 }
 
 }  // namespace

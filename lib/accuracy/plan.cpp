@@ -88,9 +88,11 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.loss_per_wavelength =
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
-  plan.error = WavesOfScene(scene).expected();
   plan.threads = parallel_threads();
-  plan.computed_share = expected_share(scene);
+  if constexpr (D == 2) {
+    plan.error = WavesOfScene(scene).expected();
+    plan.computed_share = expected_share(scene);
+  }
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
   plan.instruction_set = solver::instruction_set();
@@ -118,15 +120,17 @@ Report report_of(const Plan<D>& plan) {
                   (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
   report.text("loss of the slowest",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude a wavelength");
-  if (plan.error.direct)
+  if (D == 2 && plan.error.direct)
     report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in the direct waves");
-  report.text("error after " + shown(plan.duration_s, 3) + " s",
-              "P " + shown(100 * plan.error.p, 2) + " %" +
-                  (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
+  if (D == 2)
+    report.text("error after " + shown(plan.duration_s, 3) + " s",
+                "P " + shown(100 * plan.error.p, 2) + " %" +
+                    (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
   report.count("cells beside contacts", plan.span_ends);
-  report.text("computed",
-              shown(100 * plan.computed_share, 2) +
-                  " % of all cells in all steps: the others no wave has come to, or none returns from");
+  if (D == 2)
+    report.text("computed",
+                shown(100 * plan.computed_share, 2) +
+                    " % of all cells in all steps: the others no wave has come to, or none returns from");
   report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
   report.text("expected time", shown(plan.seconds, 2) + " s of the processor, " +
                                    shown(plan.seconds / plan.threads, 2) + " s on " +
@@ -155,5 +159,8 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
 template Plan<2> plan(const Scene<2>&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
+template Plan<3> plan(const Scene<3>&);
+template Report report_of(const Plan<3>&);
+template std::vector<std::string> warnings(const Scene<3>&);
 
 }  // namespace slipwave

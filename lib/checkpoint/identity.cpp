@@ -187,5 +187,6 @@ void keep(Archive& archive, Identity& identity) {
 }
 
 template Identity identity_of(const Scene<2>&);
+template Identity identity_of(const Scene<3>&);
 
 }  // namespace slipwave

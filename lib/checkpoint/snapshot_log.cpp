@@ -129,5 +129,6 @@ void remove_snapshot_logs(const std::string& begin) {
 }
 
 template class SnapshotLog<2>;
+template class SnapshotLog<3>;
 
 }  // namespace slipwave

@@ -51,5 +51,6 @@ class SnapshotLog {
 void remove_snapshot_logs(const std::string& begin);
 
 extern template class SnapshotLog<2>;
+extern template class SnapshotLog<3>;
 
 }  // namespace slipwave

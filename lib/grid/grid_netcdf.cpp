@@ -56,7 +56,7 @@ std::vector<std::string> field_dimensions() {
 }
 
 template <int D>
-Grid<D> read_grid(const NetcdfFile& file) {
+Grid<D> read_grid(const NetcdfFile& file, bool whole) {
   Grid<D> grid;
   std::array<std::vector<double>, D> values;
   for (std::size_t axis = 0; axis < D; ++axis) {
@@ -95,11 +95,12 @@ Grid<D> read_grid(const NetcdfFile& file) {
     grid.origin_m[axis] = origin;
   }
   double& top = grid.origin_m[D - 1];
-  if (std::abs(top) > 1e-4 * grid.spacing_m) {
+  const bool begins_below = std::abs(top) > 1e-4 * grid.spacing_m;
+  if (begins_below && whole) {
     throw Error(file.shown_name() + ": z begins at " + shown(values[D - 1].front()) + ", expected " +
                 shown(grid.spacing_m / 2) + ", half a step below the surface");
   }
-  top = 0;
+  if (!begins_below) top = 0;
   return grid;
 }
 
@@ -133,8 +134,8 @@ void put_grid(NetcdfFile& file, const Grid<D>& grid) {
 
 template std::vector<std::string> field_dimensions<2>();
 template std::vector<std::string> field_dimensions<3>();
-template Grid<2> read_grid<2>(const NetcdfFile&);
-template Grid<3> read_grid<3>(const NetcdfFile&);
+template Grid<2> read_grid<2>(const NetcdfFile&, bool);
+template Grid<3> read_grid<3>(const NetcdfFile&, bool);
 template void define_grid(NetcdfFile&, const Grid<2>&);
 template void define_grid(NetcdfFile&, const Grid<3>&);
 template void put_grid(NetcdfFile&, const Grid<2>&);

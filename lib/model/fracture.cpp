@@ -28,6 +28,23 @@ double dip_of_normal(const Point<2>& normal) {
   return std::atan2(up * normal[0], up * -normal[1]) * 180 / std::numbers::pi;
 }
 
+Point<3> normal_of_dip(double dip_deg, double azimuth_deg) {
+  const auto [across, down] = normal_of_dip(dip_deg);
+  const double azimuth = azimuth_deg * std::numbers::pi / 180;
+  Point<3> normal = {across * std::cos(azimuth), across * std::sin(azimuth), down};
+  for (auto& part : normal) {
+    if (std::abs(part) < 1e-15) part = 0;
+  }
+  return normal;
+}
+
+DipAndAzimuth dip_and_azimuth_of(const Point<3>& normal) {
+  const double up = normal[2] > 0 ? -1 : 1;  // the direction that points up
+  const double across = std::hypot(normal[0], normal[1]), degree = std::numbers::pi / 180;
+  return {std::atan2(across, up * -normal[2]) / degree,
+          across > 0 ? std::atan2(up * normal[1], up * normal[0]) / degree : 0};
+}
+
 template <int D>
 Point<D> unit_normal(const Point<D>& direction) {
   double length = 0;

@@ -16,6 +16,14 @@ Point<2> normal_of_dip(double dip_deg);
 /// The dip of the planes of a unit normal, from -90 to 90 degrees: the inverse of normal_of_dip().
 double dip_of_normal(const Point<2>& normal);
 
+/// In 3-D: of planes that dip towards an azimuth in degrees from +x, 90 being +y; and back, with a dip from 0
+/// to 90 degrees.
+Point<3> normal_of_dip(double dip_deg, double azimuth_deg);
+struct DipAndAzimuth {
+  double dip_deg, azimuth_deg;
+};
+DipAndAzimuth dip_and_azimuth_of(const Point<3>& normal);
+
 /// `direction` scaled to length 1. Throws a usage Error when it has none.
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);

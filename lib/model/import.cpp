@@ -1,9 +1,11 @@
 #include "model/import.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
 #include "base/error.hpp"
+#include "model/layers.hpp"
 #include "model/relations.hpp"
 
 namespace slipwave {
@@ -70,6 +72,23 @@ Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field
 
 template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);
 template Field<3> field_from_raw(const std::vector<char>&, const Grid<3>&, FastAxis);
+
+Medium<3> extruded(const Medium<2>& medium, double length_m) {
+  const auto& flat = medium.grid();
+  auto grid = grid_of_size<3>({flat.end(0) - flat.origin_m[0], length_m, flat.end(1)}, flat.spacing_m);
+  grid.origin_m = {flat.origin_m[0], 0, flat.origin_m[1]};
+  Medium<3> deep{Field<3>(grid), Field<3>(grid), Field<3>(grid)};
+  const auto fill = [&](const Field<2>& from, Field<3>& to) {
+    for (std::int64_t line = 0; line < grid.shape[1] * grid.shape[2]; ++line) {
+      const auto row = from.line(line / grid.shape[1]);
+      std::copy(row.begin(), row.end(), to.line(line).begin());
+    }
+  };
+  fill(medium.vp, deep.vp);
+  fill(medium.vs, deep.vs);
+  fill(medium.rho, deep.rho);
+  return deep;
+}
 
 template Medium<2> medium_of(Field<2>, std::optional<Field<2>>, std::optional<Field<2>>, double);
 template Medium<3> medium_of(Field<3>, std::optional<Field<3>>, std::optional<Field<3>>, double);

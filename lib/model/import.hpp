@@ -35,4 +35,8 @@ Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, 
 template <int D>
 Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp);
 
+/// The same all along y, `length_m` long in cells of the medium's. Throws a usage Error when that is no whole
+/// number of cells.
+Medium<3> extruded(const Medium<2>& medium, double length_m);
+
 }  // namespace slipwave

@@ -25,6 +25,8 @@ void check_dimensions(const NetcdfFile& file, const std::string& name) {
   if (!file.has_variable(name))
     throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model");
   const auto found = file.variable(name).dimensions;
+  if (D == 2 && found == field_dimensions<3>())
+    throw Error(file.shown_name() + ": found a model in 3-D, expected one in 2-D");
   if (found != field_dimensions<D>()) {
     throw Error(file.shown_name() + ": " + name + ": found dimensions (" + listed(found) + "), expected (" +
                 listed(field_dimensions<D>()) + ")");
@@ -139,6 +141,10 @@ std::vector<Field<D>> read_prestress(const NetcdfFile& file, const Grid<D>& grid
 }
 
 }  // namespace
+
+int dimension_of(const NetcdfFile& file) {
+  return file.has_variable("y") && file.dimension_length("y") ? 3 : 2;
+}
 
 template <int D>
 std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {

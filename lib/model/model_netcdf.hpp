@@ -10,6 +10,9 @@ namespace slipwave {
 class NetcdfFile;
 class OutputFile;
 
+/// 2 or 3: the axes of a model or of snapshots. 2 for files that are neither.
+int dimension_of(const NetcdfFile& file);
+
 /// Reads a model file (docs/formats.md, Model), from standard input for "-". Structure is checked here
 /// (names, dimensions, equal steps, sets), values by check(). Throws Error naming file, place, found and
 /// expected.

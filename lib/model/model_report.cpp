@@ -140,7 +140,7 @@ Report report_of(const Model<D>& model) {
 Report report_of(const NetcdfFile& file) {
   Report of_file;
   if (has_coordinates<3>(file)) {
-    report_grid(of_file, read_grid<3>(file));
+    report_grid(of_file, read_grid<3>(file, false));
   } else if (has_coordinates<2>(file)) {
     report_grid(of_file, read_grid<2>(file));
   }

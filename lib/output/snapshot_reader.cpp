@@ -10,7 +10,8 @@
 namespace slipwave {
 
 template <int D>
-SnapshotReader<D>::SnapshotReader(NetcdfFile file) : file_(std::move(file)), grid_(read_grid<D>(file_)) {
+SnapshotReader<D>::SnapshotReader(NetcdfFile file)
+    : file_(std::move(file)), grid_(read_grid<D>(file_, D == 2)) {
   auto wanted = field_dimensions<D>();
   wanted.insert(wanted.begin(), "time");
   for (const auto& variable : file_.variables()) {

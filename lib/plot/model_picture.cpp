@@ -52,7 +52,7 @@ std::vector<LegendEntry> legend_of_sets(const ModelSection& section) {
 
 Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks& marks, const Look& look,
                    Page page) {
-  const auto axes = axes_of(section.grid(), look);
+  const auto axes = axes_of(section.grid(), look, section.axes);
   PanelSpec spec{page.title, axes.x, axes.depth, bar_of(section, as_sets, look), {}};
   if (as_sets) spec.legend = legend_of_sets(section);
   const auto places = legend_of(marks);

@@ -12,16 +12,50 @@
 namespace slipwave::plot {
 namespace {
 
-Field<2> read_property(const NetcdfFile& file, const Grid<2>& grid, const std::string& name) {
+template <int D>
+Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
   if (!file.has_variable(name))
     throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model");
-  if (file.variable(name).dimensions != field_dimensions<2>())
-    throw Error(file.shown_name() + ": " + name +
-                ": is no field of z and x, expected a model in two dimensions");
+  if (file.variable(name).dimensions != field_dimensions<D>())
+    throw Error(file.shown_name() + ": " + name + ": is no field of z and x" +
+                (D == 2 ? ", expected a model in two dimensions" : " and y, expected a model"));
   const auto values = file.get_physical(name);
-  Field<2> field(grid);
+  Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
   return field;
+}
+
+template <int D>
+Field<D, std::uint8_t> read_codes(const NetcdfFile& file, const Grid<D>& grid, std::size_t sets) {
+  const auto codes = file.get<std::uint8_t>("fracture");
+  if (codes.size() != std::size_t(grid.size()))
+    throw Error(file.shown_name() + ": fracture: found " + std::to_string(codes.size()) +
+                " values, expected " + std::to_string(grid.size()));
+  Field<D, std::uint8_t> field(grid);
+  std::copy(codes.begin(), codes.end(), field.begin());
+  const auto highest = *std::max_element(codes.begin(), codes.end());
+  if (highest > sets)
+    throw Error(file.shown_name() + ": fracture: found the code " + std::to_string(int(highest)) +
+                ", expected 0 to " + std::to_string(sets));
+  return field;
+}
+
+/// Sets as a section shows them: their normals without the part across it.
+std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& sets, int axis) {
+  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  std::vector<FractureSet<2>> seen;
+  for (const auto& set : sets) {
+    seen.push_back({set.name, {}});
+    for (const auto& system : set.systems) {
+      const auto& n = system.normal;
+      const double length = std::hypot(n[across], n[down]);
+      if (length < 0.01) continue;  // planes along the section draw no lines on it
+      SlipSystem<2> flat;
+      flat.normal = {n[across] / length, n[down] / length};
+      seen.back().systems.push_back(flat);
+    }
+  }
+  return seen;
 }
 
 /// Models without void, nearly all, say so in the range of rho: then rho itself need not be read.
@@ -32,32 +66,39 @@ bool may_have_void(const NetcdfFile& file) {
 
 }  // namespace
 
-ModelSection read_model_section(const NetcdfFile& file, const std::string& property) {
+ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
+                                const std::optional<Slice>& slice) {
   ModelSection section;
   section.property = property;
   section.unit = property == "rho" ? "kg/m\u00b3" : "m/s";
-  const auto grid = read_grid<2>(file);
-  section.values = read_property(file, grid, property);
-  if (may_have_void(file)) {
-    const auto rho = read_property(file, grid, "rho");
-    for (std::size_t cell = 0; cell < rho.size(); ++cell) {
-      if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
+  section.title = file.text_attribute("", "title").value_or("");
+  Field<2> rho;
+  if (dimension_of(file) == 3) {
+    const auto grid = read_grid<3>(file);
+    const auto [axis, number] = in_place(file.shown_name(), [&] { return layer_to_show(grid, slice); });
+    section.axes = section_axes(axis);
+    section.values = section_of(read_property(file, grid, property), axis, number);
+    if (may_have_void(file)) rho = section_of(read_property(file, grid, "rho"), axis, number);
+    if (file.has_variable("fracture")) {
+      const auto sets = read_fracture_sets<3>(file);
+      section.sets = seen_in_section(sets, axis);
+      section.fracture = section_of(read_codes(file, grid, sets.size()), axis, number);
+    }
+  } else {
+    if (slice)
+      throw Error(file.shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
+                  ErrorKind::usage);
+    const auto grid = read_grid<2>(file);
+    section.values = read_property(file, grid, property);
+    if (may_have_void(file)) rho = read_property(file, grid, "rho");
+    if (file.has_variable("fracture")) {
+      section.sets = read_fracture_sets<2>(file);
+      section.fracture = read_codes(file, grid, section.sets.size());
     }
   }
-  if (file.has_variable("fracture")) {
-    section.sets = read_fracture_sets<2>(file);
-    const auto codes = file.get<std::uint8_t>("fracture");
-    if (codes.size() != std::size_t(grid.size()))
-      throw Error(file.shown_name() + ": fracture: found " + std::to_string(codes.size()) +
-                  " values, expected " + std::to_string(grid.size()));
-    section.fracture = Field<2, std::uint8_t>(grid);
-    std::copy(codes.begin(), codes.end(), section.fracture.begin());
-    const auto highest = *std::max_element(codes.begin(), codes.end());
-    if (highest > section.sets.size())
-      throw Error(file.shown_name() + ": fracture: found the code " + std::to_string(int(highest)) +
-                  ", expected 0 to " + std::to_string(section.sets.size()));
+  for (std::size_t cell = 0; cell < rho.size(); ++cell) {
+    if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
   }
-  section.title = file.text_attribute("", "title").value_or("");
   return section;
 }
 
@@ -74,8 +115,9 @@ Raster reduced(const Field<2>& field, const GridPixels& pixels, Take take) {
                         take);
 }
 
-SectionAxes axes_of(const Grid<2>& grid, const Look& look) {
-  SectionAxes axes{{"x", "m", grid.origin_m[0], grid.end(0)}, {"depth", "m", grid.origin_m[1], grid.end(1)}};
+SectionAxes axes_of(const Grid<2>& grid, const Look& look, const std::array<const char*, 2>& names) {
+  SectionAxes axes{{names[0], "m", grid.origin_m[0], grid.end(0)},
+                   {names[1], "m", grid.origin_m[1], grid.end(1)}};
   axes.depth.upwards = false;
   narrow(axes.x, look.x, "--x");
   narrow(axes.depth, look.y, "--y");

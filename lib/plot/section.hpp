@@ -1,10 +1,13 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grid/field.hpp"
+#include "grid/slice.hpp"
 #include "model/model.hpp"
 #include "plot/look.hpp"
 #include "plot/panel.hpp"
@@ -23,11 +26,14 @@ struct ModelSection {
   Field<2, std::uint8_t> fracture;  // empty when the model has none
   std::vector<FractureSet<2>> sets;
   std::string title;
+  std::array<const char*, 2> axes = {"x", "depth"};  // across and down
   const Grid<2>& grid() const { return values.grid(); }
 };
 
-/// Reads vp, vs or rho, and nothing else that is large, from a model file. Throws Error naming the file.
-ModelSection read_model_section(const NetcdfFile& file, const std::string& property);
+/// Reads vp, vs or rho, and nothing else that is large, from a model file; of a model in 3-D what lies on a
+/// plane. Throws Error naming the file.
+ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
+                                const std::optional<Slice>& slice = std::nullopt);
 
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {
@@ -43,7 +49,8 @@ Raster reduced(const Field<2>& field, const GridPixels& pixels, Take take);
 struct SectionAxes {
   Axis x, depth;
 };
-SectionAxes axes_of(const Grid<2>& grid, const Look& look);
+SectionAxes axes_of(const Grid<2>& grid, const Look& look,
+                    const std::array<const char*, 2>& names = {"x", "depth"});
 double height_per_width(const Axis& x, const Axis& depth);
 
 /// Outlines fractured cells and, if so wanted, hatches them along their planes, over what is drawn.

@@ -62,7 +62,7 @@ std::string shown_unit(const std::string& file_unit) {
 Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional<ModelSection>& model,
                       const SurveyMarks& marks, const Look& look, Page page) {
   const auto& grid = snapshot.values.grid();
-  const auto axes = axes_of(grid, look);
+  const auto axes = axes_of(grid, look, snapshot.axes);
   const Limits limits = look.colours.value_or(Limits{-full, full});
   PanelSpec spec{title_of(snapshot, page.title), axes.x, axes.depth,
                  ColourBar{map_of(look, "blue-red"), {snapshot.name, snapshot.unit, limits.low, limits.high}},

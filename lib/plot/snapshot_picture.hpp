@@ -16,6 +16,7 @@ struct Snapshot {
   std::string name, unit;  // "vz", "m/s"
   double time_s = 0;
   Field<2> values;
+  std::array<const char*, 2> axes = {"x", "depth"};  // across and down
 };
 
 /// "m/s" for "m s-1": units of files as pictures show them.

@@ -29,13 +29,14 @@ void draw_marks(Canvas& canvas, const Panel& panel, const std::vector<Point<2>>&
 
 }  // namespace
 
-SurveyMarks read_survey(segy::Reader& reader) {
+SurveyMarks read_survey(segy::Reader& reader, int axis) {
+  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
   std::set<Point<2>> sources, receivers;
   segy::Trace trace;
   while (reader.next(trace)) {
     const auto header = reader.si_header(trace);
-    sources.insert({header.source_m[0], header.source_m[2]});
-    receivers.insert({header.receiver_m[0], header.receiver_m[2]});
+    sources.insert({header.source_m[across], header.source_m[down]});
+    receivers.insert({header.receiver_m[across], header.receiver_m[down]});
   }
   if (sources.empty()) throw Error(reader.name() + ": has no traces, expected at least one");
   return {{sources.begin(), sources.end()}, {receivers.begin(), receivers.end()}};

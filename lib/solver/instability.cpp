@@ -157,5 +157,10 @@ template std::optional<UnsoundFields<2>> first_unsound<2, float>(const Scene<2>&
                                                                  const Unsound<2>&, bool);
 template std::optional<UnsoundFields<2>> first_unsound<2, double>(const Scene<2>&, std::size_t,
                                                                   const Unsound<2>&, bool);
+template std::string surroundings(const Scene<3>&, const Domain<3>&, std::size_t, const Index<3>&);
+template std::optional<UnsoundFields<3>> first_unsound<3, float>(const Scene<3>&, std::size_t,
+                                                                 const Unsound<3>&, bool);
+template std::optional<UnsoundFields<3>> first_unsound<3, double>(const Scene<3>&, std::size_t,
+                                                                  const Unsound<3>&, bool);
 
 }  // namespace slipwave::solver

@@ -206,6 +206,7 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
 }
 
 template double largest_velocity(const Scene<2>&, std::size_t);
+template double largest_velocity(const Scene<3>&, std::size_t);
 template class Monitor<2, float>;
 template class Monitor<2, double>;
 template class Monitor<3, float>;

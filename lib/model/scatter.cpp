@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <utility>
+
+#include "base/error.hpp"
+#include "model/frame.hpp"
+#include "model/noise.hpp"
+#include "model/region.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Slabs, sorted into strips of x so that a point is held against few of them.
+template <int D>
+class Slabs {
+ public:
+  Slabs(std::vector<Frame<D>> slabs, const Box<D>& bounds)
+      : slabs_(std::move(slabs)), low_m_(bounds.low_m[0]) {
+    double width = 0;
+    for (const auto& slab : slabs_) width += slab.slab_bounds().high_m[0] - slab.slab_bounds().low_m[0];
+    strip_m_ = width / double(slabs_.size());
+    const double length = bounds.high_m[0] - low_m_;
+    strips_.resize(std::size_t(std::clamp(length / strip_m_, 1., 1e5)) + 1);
+    strip_m_ = std::max(strip_m_, length / double(strips_.size() - 1));
+    for (std::size_t n = 0; n < slabs_.size(); ++n) {
+      const auto box = slabs_[n].slab_bounds();
+      for (std::size_t k = strip(box.low_m[0]); k <= strip(box.high_m[0]); ++k) strips_[k].push_back(n);
+    }
+  }
+  bool contain(const Point<D>& at) const {
+    const auto& near = strips_[strip(at[0])];
+    return std::any_of(near.begin(), near.end(), [&](std::size_t n) { return slabs_[n].in_slab(at); });
+  }
+
+ private:
+  std::size_t strip(double x_m) const {
+    return std::size_t(std::clamp((x_m - low_m_) / strip_m_, 0., double(strips_.size() - 1)));
+  }
+
+  std::vector<Frame<D>> slabs_;
+  double low_m_ = 0, strip_m_ = 1;
+  std::vector<std::vector<std::size_t>> strips_;
+};
+
+}  // namespace
+
+template <int D>
+RegionIn<D> scattered_in(const RegionIn<D>& region, const Scatter& scatter) {
+  if (scatter.count < 1) {
+    throw Error("found a count of " + std::to_string(scatter.count) + ", expected at least 1",
+                ErrorKind::usage);
+  }
+  if (!(scatter.length_m > 0 && scatter.thickness_m > 0)) {
+    throw Error("found slabs of " + shown(scatter.length_m) + " by " + shown(scatter.thickness_m) +
+                    " m, expected both above zero",
+                ErrorKind::usage);
+  }
+  const auto& low = region.bounds.low_m;
+  const auto& high = region.bounds.high_m;
+  std::vector<Frame<D>> slabs;
+  constexpr std::int64_t numbers_a_try = D + 2;
+  constexpr std::int64_t tries_a_slab = 10000;
+  // Each try draws numbers of its own, so that a slab does not depend on how many there are.
+  for (std::int64_t n = 0; slabs.size() < std::size_t(scatter.count); n += numbers_a_try) {
+    if (n / numbers_a_try > tries_a_slab * (std::int64_t(slabs.size()) + 1)) {
+      throw Error("found no place for a slab in the region, expected it to fill more of its bounds");
+    }
+    Point<D> centre{}, size_m{};
+    for (std::size_t axis = 0; axis < D; ++axis)
+      centre[axis] = uniform(scatter.seed, n + std::int64_t(axis), low[axis], high[axis]);
+    if (!region.contains(centre)) continue;
+    size_m.fill(scatter.length_m * uniform(scatter.seed, n + D, 0.5, 1.5));
+    size_m.back() = scatter.thickness_m * uniform(scatter.seed, n + D + 1, 0.5, 1.5);
+    slabs.emplace_back(centre, size_m, scatter.dip_deg, scatter.azimuth_deg);
+  }
+  return {region.bounds, [whole = region.contains, slabs = Slabs<D>(std::move(slabs), region.bounds)](
+                             const Point<D>& at) { return whole(at) && slabs.contain(at); }};
+}
+
+template RegionIn<2> scattered_in(const RegionIn<2>&, const Scatter&);
+template RegionIn<3> scattered_in(const RegionIn<3>&, const Scatter&);
+
+}  // namespace slipwave

@@ -1,0 +1,98 @@
+#include <cmath>
+
+#include "shell.hpp"
+
+namespace {
+
+/// From a model to pictures in three dimensions.
+class Cube : public Shell {
+ protected:
+  const std::string layers = "--step 10 --layer 0:1500:0:1000 --layer sine,50,8,200:2500:1300:2100 ";
+  const std::string planes = "--friction 0.1 --viscosity 500 ";
+  const std::string shot =
+      "--source 95,65,85 --kind force:1,0,2 --wavelet ricker:15 --amplitude 1e9 --time 0.15 --dt 0.005 -q ";
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_F(Cube, OfLayersIsTheSectionExtrudedAlongY) {
+  done("sw-layers --size 200x120x150 " + layers + "-o deep.nc");
+  done("sw-layers --size 200x150 " + layers + "-o flat.nc");
+  done("sw-import --vp flat.nc --vs flat.nc --rho flat.nc --extrude 120 -o extruded.nc");
+  for (const char* name : {"vp", "vs", "rho", "x", "y", "z"})
+    done("diff <(ncdump -v " + std::string(name) + " deep.nc | sed '1,/^data:/d') <(ncdump -v " + name +
+         " extruded.nc | sed '1,/^data:/d')");
+  expect_refused("sw-import --vp flat.nc --vs flat.nc --rho flat.nc --extrude 125 -o no.nc", 2,
+                 "sw-import: --extrude: 125 m are 12.5 steps of 10 m, expected a whole number");
+}
+
+TEST_F(Cube, IsFracturedInBoxesEllipsoidsAndSlabs) {
+  done("sw-layers --size 200x120x150 --step 10 --layer 0:2500:1300:2100 -o m.nc");
+  const auto cells = [&](const std::string& region) {
+    const auto text = done("sw-fracture m.nc " + region + " --dip 30:90 " + planes + "| sw-info -");
+    EXPECT_TRUE(has(text, "slip normal 0,0.5,-0.866025")) << text;
+    return std::stoi(text.substr(text.find("cells ", text.find("fractures")) + 6));
+  };
+  EXPECT_EQ(cells("--box 50:150,20:80,60:120"), 10 * 6 * 6);
+  EXPECT_NEAR(cells("--ellipse 100,60,75:60,50,40"), 4. / 3 * std::acos(-1.) * 6 * 5 * 4, 25);
+  // A vertical slab, which the azimuth turns from the x-z into the y-z plane.
+  EXPECT_EQ(cells("--slab 95,55,75:60,30,80"), cells("--slab 95,55,75:60,30,80:0:180"));
+  EXPECT_EQ(cells("--slab 95,55,75:50,10,30:0:90"), cells("--slab 95,55,75:10,50,30"));
+  const int few = cells("--box 0:200,0:120,0:150 --count 3 --body 60,20"),
+            more = cells("--box 0:200,0:120,0:150 --count 9 --body 60,20");
+  EXPECT_GT(few, 20);
+  EXPECT_GT(more, few);
+  expect_refused("sw-fracture m.nc --box 0:50,0:50 --dip 0 " + planes + "-o no.nc", 2,
+                 "sw-fracture: --box: found '0:50,0:50', expected a box X0:X1,Y0:Y1,Z0:Z1");
+  expect_refused("sw-fracture m.nc --polygon p --dip 0 " + planes + "-o no.nc", 2,
+                 "sw-fracture: found --polygon with a model in 3-D, expected --box, --ellipse or --slab");
+}
+
+TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
+  done("sw-layers --size 200x120x150 " + layers + "| sw-fracture - --box 50:150,20:80,90:120 --dip 30:60 " +
+       "--dip 70:150 --normal 1,1,0 " + planes + "-o m.nc");
+  done("sw-shoot m.nc " + shot + "--receivers 20:180:40,30:90:20,5 --record vx,vy,vz -o a.sgy");
+  const auto text = done("sw-info a.sgy");
+  EXPECT_TRUE(has(text, "traces           60\n")) << text;
+  EXPECT_TRUE(has(text, "receiver y       30 to 90 m")) << text;
+  // Midpoints lie 10 m apart in y; bins of half the spacing of the receivers.
+  const auto lines = done("sw-select a.sgy --where 'iline=7 and component=vy' | sw-info -");
+  EXPECT_TRUE(has(lines, "traces           5\n")) << lines;
+  done("sw-shoot m.nc " + shot + "--receivers 20:180:40,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
+  done("cmp a.sgy b.sgy");
+  EXPECT_TRUE(has(done("sw-shoot m.nc " + shot + "--plan"), "slip, second order"));
+  expect_refused("sw-shoot m.nc " + shot + "--error 0.01 --receivers 20,30,5 -o no.sgy", 2,
+                 "sw-shoot: found --error with a model in 3-D, expected one in 2-D");
+  expect_refused("sw-shoot m.nc --source 95,85 --wavelet ricker:15 --time 0.1 --receivers 5,5,5 -o no.sgy", 2,
+                 "sw-shoot: --source: found '95,85', expected a point X,Y,Z");
+}
+
+TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {
+  done("sw-layers --size 200x120x150 " + layers + "-o m.nc");
+  const std::string snapshots = "sw-shoot m.nc " + shot + "--every 0.05 --fields vy,curlz ";
+  done(snapshots + "--snapshots volume.nc");
+  done(snapshots + "--snapshots slice.nc --slice y=64");
+  EXPECT_TRUE(has(done("sw-info slice.nc"), "20 x 1 x 15 cells of 10 m"));
+  // Pictures of the same values in the same colours.
+  done("sw-plot volume.nc --slice y=65 --field vy -o a.svg && sw-plot slice.nc --field vy -o b.svg");
+  EXPECT_GT(std::stoi(done("grep -c '<image' a.svg")), 0);
+  done("cmp <(grep '<image' a.svg) <(grep '<image' b.svg)");
+  done("sw-plot m.nc --slice z=55 -o map.png && sw-plot slice.nc --over m.nc --movie -o film.png");
+  EXPECT_TRUE(exists("film-0003.png"));
+  expect_refused("sw-plot m.nc -o no.png", 2,
+                 "sw-plot: m.nc: found a volume, expected --slice AXIS=AT, for example --slice y=60");
+  expect_refused("sw-plot m.nc --slice y=130 -o no.png", 2,
+                 "sw-plot: m.nc: found y=130, expected it from 0 to 120");
+  expect_refused("sw-export m.nc --property vp -o no.sgy", 1,
+                 "sw-export: m.nc: found a model in 3-D, expected one in 2-D");
+}
+
+TEST_F(Cube, GoesOnFromACheckpoint) {
+  done("sw-layers --size 200x120x150 " + layers + "-o m.nc");
+  const std::string run = "sw-shoot m.nc " + shot + "--source 60,60,60 --receivers 20:180:40,30:90:20,5 ";
+  done(run + "-o a.sgy");
+  done(run + "--checkpoint c -o b.sgy");
+  done("cmp a.sgy b.sgy");
+}

@@ -1,0 +1,89 @@
+#include "shot_snapshots.hpp"
+
+#include "output/derivatives.hpp"
+
+namespace slipwave {
+namespace {
+
+template <int D>
+std::array<Field<D>, std::size_t(D)> velocity_of(const FieldReader<D>& field) {
+  if constexpr (D == 2) return {field(Component::vx), field(Component::vz)};
+  if constexpr (D == 3) return {field(Component::vx), field(Component::vy), field(Component::vz)};
+}
+
+template <int D>
+Field<D> snapshot_of(const std::string& name, const FieldReader<D>& field) {
+  if (name == "div") return divergence<D>(velocity_of<D>(field));
+  if constexpr (D == 2) {
+    if (name == "curl") return curl(velocity_of<D>(field));
+  } else {
+    for (std::size_t axis = 0; axis < D; ++axis)
+      if (name == std::string("curl") + axis_names<D>()[axis]) return curl(velocity_of<D>(field))[axis];
+  }
+  if (const auto slip = slip_field_named(name)) return field(*slip);
+  return field(component_named(name));
+}
+
+template <int D>
+Grid<D> cut_grid(const Grid<D>& grid, const std::optional<CellLayer>& cut) {
+  if constexpr (D == 3)
+    if (cut) return layer_of(grid, cut->axis, cut->number);
+  return grid;
+}
+
+}  // namespace
+
+std::optional<SlipField> slip_field_named(const std::string& name) {
+  if (name == "slip") return SlipField::slip;
+  if (name == "slip_rate") return SlipField::slip_rate;
+  if (name == "dissipated") return SlipField::dissipated;
+  if (name == "opening") return SlipField::opening;
+  return std::nullopt;
+}
+
+std::optional<CellLayer> cut_of(const Grid<2>&, const std::string&) { return std::nullopt; }
+
+std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice) {
+  if (slice.empty()) return std::nullopt;
+  const auto plane = parse_slice(slice);
+  return CellLayer{plane.axis, cells_on(grid, plane)};
+}
+
+template <int D>
+ShotSnapshots<D>::ShotSnapshots(const std::string& path, const Grid<D>& grid,
+                                const std::optional<CellLayer>& cut, const std::vector<std::string>& fields,
+                                const SnapshotHistory& history, const RunBook& book, std::size_t shot)
+    : cut_(cut), writer_(path, cut_grid(grid, cut), fields, history) {
+  if (book.keeps_checkpoints())
+    log_.emplace(book.snapshot_log(shot), cut_grid(grid, cut), fields.size(), book.snapshots_of(shot),
+                 [this](double time_s, const auto& taken) { writer_.write(time_s, taken); });
+}
+
+template <int D>
+Field<D> ShotSnapshots<D>::taken(const std::string& name, const FieldReader<D>& field) const {
+  auto whole = snapshot_of<D>(name, field);
+  if constexpr (D == 3)
+    if (cut_) return layer_of(whole, cut_->axis, cut_->number);
+  return whole;
+}
+
+template <int D>
+SnapshotSink<D> ShotSnapshots<D>::sink() {
+  return [this](double time_s, const FieldReader<D>& field) {
+    std::vector<Field<D>> all;
+    for (const auto& name : writer_.fields()) all.push_back(taken(name, field));
+    writer_.write(time_s, all);
+    if (log_) log_->append(time_s, all);
+  };
+}
+
+template <int D>
+RunBook::Mark ShotSnapshots<D>::mark() {
+  if (!log_) return {};
+  return [this] { return log_->synchronized(); };
+}
+
+template class ShotSnapshots<2>;
+template class ShotSnapshots<3>;
+
+}  // namespace slipwave

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "checkpoint/run_book.hpp"
+#include "checkpoint/snapshot_log.hpp"
+#include "grid/slice.hpp"
+#include "output/snapshot_netcdf.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave {
+
+/// The field of slip of that name, if it is one.
+std::optional<SlipField> slip_field_named(const std::string& name);
+
+/// The layer of cells that snapshots are cut down to: "y=500", or "" for none. Throws a usage Error, also
+/// when it misses the grid. No grid in 2-D is cut.
+std::optional<CellLayer> cut_of(const Grid<2>& grid, const std::string& slice);
+std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice);
+
+/// Snapshots of one shot: the file, and with a checkpoint the log that goes with it.
+template <int D>
+class ShotSnapshots {
+ public:
+  ShotSnapshots(const std::string& path, const Grid<D>& grid, const std::optional<CellLayer>& cut,
+                const std::vector<std::string>& fields, const SnapshotHistory& history, const RunBook& book,
+                std::size_t shot);
+  SnapshotSink<D> sink();
+  RunBook::Mark mark();
+  void commit() { writer_.commit(); }
+  void commit_as(const std::string& path) { writer_.commit_as(path); }
+
+ private:
+  Field<D> taken(const std::string& name, const FieldReader<D>& field) const;
+
+  std::optional<CellLayer> cut_;
+  SnapshotWriter<D> writer_;
+  std::optional<SnapshotLog<D>> log_;
+};
+
+}  // namespace slipwave
