@@ -9,8 +9,6 @@ namespace {
 
 std::string percent(double share) { return shown(100 * share, 3) + " %"; }
 
-std::string joules(double energy) { return shown(energy, 3) + " J/m"; }
-
 std::string slipped(const ShotReport& report) {
   if (!report.slip) return "nothing can slip";
   const auto& slip = *report.slip;
@@ -20,7 +18,10 @@ std::string slipped(const ShotReport& report) {
 
 }  // namespace
 
-std::string sentence_of(const ShotReport& report) {
+std::string sentence_of(const ShotReport& report, int dimension) {
+  const auto joules = [dimension](double energy) {
+    return shown(energy, 3) + (dimension == 2 ? " J/m" : " J");
+  };
   const SlipTotals slip = report.slip.value_or(SlipTotals());
   // Only static stress makes heat that the waves did not bring.
   const double of_static = slip.dissipated - slip.out_of_waves;

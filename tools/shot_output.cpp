@@ -235,7 +235,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
                         pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
     });
     for (std::size_t n = 0; scene.slip_diary && n < group.size(); ++n)
-      context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n]));
+      context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n], D));
     if (kept) kept->commit();
     if (a_file_a_shot) write_files();
     if (group.back() != open.back()) book.turn_page();

@@ -38,7 +38,7 @@ void declare(cli::Options& options, Settings& s) {
   options.add_threads();
   // A configuration of sw-shoot says what is shot; how is varied here.
   options.pass_over(
-      {"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields"});
+      {"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields", "slice"});
 }
 
 double number_in(const char* option, const std::string& text) {
