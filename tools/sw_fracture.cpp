@@ -104,7 +104,7 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
                     " of --dip and --normal, expected one of them with --block",
                 ErrorKind::usage);
   }
-  if (settings.block) add_across(normals);
+  if (settings.block) add_across<D>(normals);
   if (normals.empty() || normals.size() > D) {
     throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected " +
                     (D == 2 ? "one or two" : "one to three"),
