@@ -42,8 +42,6 @@ void ShotOutput::check(std::size_t shots) const {
   check_marks(traces);
   check_marks(snapshots);
   if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<D>(snapshot_fields); });
-  if (!slice.empty() && snapshots.empty())
-    throw Error("found --slice without --snapshots, expected where to write them", ErrorKind::usage);
   if (!slice.empty() && D == 2)
     throw Error("found --slice with a model in 2-D, expected one in 3-D", ErrorKind::usage);
   if (first_shot < 1)
