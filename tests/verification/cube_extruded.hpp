@@ -66,12 +66,47 @@ inline Extruded extruded(const std::array<int, 2>& axes, const EdgeLaws<2>& edge
   return both;
 }
 
+/// A box of planes with this normal in the rock, some of its columns intact.
+inline void fracture(Extruded& both, const Point<2>& normal, double friction, double cohesion_pa) {
+  auto& flat = both.flat.model;
+  auto& deep = both.deep.model;
+  flat.fracture = Field<2, std::uint8_t>(flat.grid());
+  deep.fracture = Field<3, std::uint8_t>(deep.grid());
+  for (std::int64_t k = 26; k < 37; ++k)
+    for (std::int64_t i = 22; i < 71; ++i)
+      if (i % 9 != 0) flat.fracture({i, k}) = deep.fracture(both.deep_cell(i, k)) = 1;
+  Point<3> normal_in_3d{};
+  for (std::size_t n = 0; n < 2; ++n) normal_in_3d[std::size_t(both.axes[n])] = normal[n];
+  flat.fracture_sets = {{"cracks", {{normal, friction, 500, cohesion_pa}}}};
+  deep.fracture_sets = {{"cracks", {{normal_in_3d, friction, 500, cohesion_pa}}}};
+}
+
+/// In 2-D the half sweeps along x of two steps are one, but for lines with fractures: with a column of planes
+/// that never slip through all lines a step has the sweeps of one in 3-D whose y is this x.
+inline void keep_half_sweeps(Extruded& both) {
+  auto& model = both.flat.model;
+  if (model.fracture.size() == 0) model.fracture = Field<2, std::uint8_t>(model.grid());
+  model.fracture_sets.push_back({"welded", {{{0, 1}, 0, 500, 1e12}}});
+  for (std::int64_t k = 0; k < model.grid().shape[1]; ++k)
+    model.fracture({10, k}) = std::uint8_t(model.fracture_sets.size());
+}
+
 inline double largest_error(const Extruded& both) {
   const auto flat = shoot(both.flat, 1), deep = shoot(both.deep, 1);
   double largest = 0;
   for (std::size_t n = 0; n < flat.traces.size(); ++n)
     largest = std::max(largest, relative_error(deep.traces[n].samples, flat.traces[n].samples));
   return largest;
+}
+
+/// Order in the step of what the traces differ by, all of them together, from two lengths of it.
+inline double order_of_difference(Extruded both, double cfl) {
+  double difference[2];
+  for (int n = 0; n < 2; ++n) {
+    both.flat.numerics.cfl = both.deep.numerics.cfl = n == 0 ? cfl : cfl / 2;
+    difference[n] = relative_error(samples_of(shoot(both.deep, 1)), samples_of(shoot(both.flat, 1)));
+  }
+  return observed_order(difference[0], difference[1]);
 }
 
 inline EdgeLaws<2> edges_of(EdgeLaw top, EdgeLaw sides, EdgeLaw bottom) {
