@@ -29,7 +29,7 @@ void declare(cli::Options& options, Settings& s) {
   options.add(
       "fields", s.output.snapshot_fields, "LIST",
       "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening; in 3-D also vy, syy, "
-      "sxy, syz, and curlx, curly, curlz in place of curl");
+      "sxy, syz, and curlx, curly, curlz, not curl");
   options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots of the cells on a plane, y=500, alone");
   options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
