@@ -160,7 +160,8 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
 }
 
 template <int D>
-void fracture(const Settings& settings, const NetcdfFile& file, const cli::Context& context) {
+void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
+              const cli::Context& context) {
   FractureSet<D> set;
   for (const auto& normal : normals_of<D>(settings)) {
     set.systems.push_back(
@@ -170,7 +171,6 @@ void fracture(const Settings& settings, const NetcdfFile& file, const cli::Conte
     return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
   });
   const auto region = bodies_of<D>(settings, region_of<D>(settings), set.systems[0].normal);
-  OutputFile out(settings.output, OutputFile::Content::binary);
   auto model = read_model<D>(file);
   set.name =
       settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
@@ -195,9 +195,10 @@ void run(const Settings& settings, const cli::Context& context) {
   if (settings.polygon == "-" && settings.model == "-") {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
+  OutputFile out(settings.output, OutputFile::Content::binary);
   const auto file = NetcdfFile::open(settings.model);
-  if (dimension_of(file) == 3) return fracture<3>(settings, file, context);
-  fracture<2>(settings, file, context);
+  if (dimension_of(file) == 3) return fracture<3>(settings, file, out, context);
+  fracture<2>(settings, file, out, context);
 }
 
 }  // namespace

@@ -53,14 +53,14 @@ TEST_F(Cube, IsFracturedInBoxesEllipsoidsAndSlabs) {
 TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
   done("sw-layers --size 200x120x150 " + layers + "| sw-fracture - --box 50:150,20:80,90:120 --dip 30:60 " +
        "--dip 70:150 --normal 1,1,0 " + planes + "-o m.nc");
-  done("sw-shoot m.nc " + shot + "--receivers 20:180:40,30:90:20,5 --record vx,vy,vz -o a.sgy");
+  done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz -o a.sgy");
   const auto text = done("sw-info a.sgy");
-  EXPECT_TRUE(has(text, "traces           60\n")) << text;
+  EXPECT_TRUE(has(text, "traces           108\n")) << text;
   EXPECT_TRUE(has(text, "receiver y       30 to 90 m")) << text;
-  // Midpoints lie 10 m apart in y; bins of half the spacing of the receivers.
+  // Midpoints lie 10 m apart, as wide as a bin; those of the second line of receivers at y = 57.5 m.
   const auto lines = done("sw-select a.sgy --where 'iline=7 and component=vy' | sw-info -");
-  EXPECT_TRUE(has(lines, "traces           5\n")) << lines;
-  done("sw-shoot m.nc " + shot + "--receivers 20:180:40,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
+  EXPECT_TRUE(has(lines, "traces           9\n")) << lines;
+  done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
   done("cmp a.sgy b.sgy");
   EXPECT_TRUE(has(done("sw-shoot m.nc " + shot + "--plan"), "slip, second order"));
   expect_refused("sw-shoot m.nc " + shot + "--error 0.01 --receivers 20,30,5 -o no.sgy", 2,
