@@ -107,7 +107,7 @@ double expected_share(const Scene<2>& scene) {
   };
   double share = 0;
   for (const auto& source : scene.survey.sources) {
-    if (!point_injection(source) || scene.numerics.double_precision || !scene.model.fracture_sets.empty()) {
+    if (!point_injection(source) || scene.numerics.double_precision) {
       share += 1;
       continue;
     }

@@ -100,7 +100,7 @@ auto Pipeline<D, Real>::stages(std::int64_t first, std::int64_t last) const -> s
     all.push_back({Stage::end_of_step, end, {step, dt_s_}});
   }
   std::int64_t behind = 0;
-  int along_x = 0, along_y = 0, along_z = 0;
+  int along_x = 0, along_y = 0, along_z = 0, ends = 0;
   for (auto& stage : all) {
     stage.behind = behind;
     switch (stage.kind) {
@@ -117,6 +117,7 @@ auto Pipeline<D, Real>::stages(std::int64_t first, std::int64_t last) const -> s
         behind += bend_rows(0);
         stage.number = along_x;
         along_x += stage.kind == Stage::end_of_step ? 2 : 1;
+        if (stage.kind == Stage::end_of_step) stage.end = ends++;
     }
   }
   std::int64_t ahead = 0;

@@ -7,6 +7,7 @@
 #include "scene/splitting.hpp"
 #include "solver/active_cells.hpp"
 #include "solver/pass.hpp"
+#include "solver/patches.hpp"
 #include "solver/sweeps.hpp"
 
 namespace slipwave::solver {
@@ -34,6 +35,9 @@ class EndOfStep {
   /// Passes before and after looking.
   virtual void run(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
   virtual void run_after(const StepTime& time, std::int64_t line, const Columns& columns) = 0;
+  /// What of them happens to the patches of a line that is not whole, in a copy.
+  virtual void run_patch(const StepTime&, std::int64_t, const Columns&, Real*, std::int64_t) {}
+  virtual void run_patch_after(const StepTime&, std::int64_t, const Columns&, Real*, std::int64_t) {}
   /// When all lines have come to the end of the step, step after step.
   virtual void finish(const StepTime& time) = 0;
 };
@@ -51,6 +55,8 @@ class Pipeline {
   /// Keeps references.
   Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
            EndOfStep<Real>& end, const Passage& passage);
+  /// From now on these columns end with the step, too (null: none); they must outlive this.
+  void use(const Patches<D>* patches);
   /// To be called when fields have been set from outside.
   void find_active_cells();
   /// Makes steps first <= n < last, which begin where the last call ended, from 0 on. `pause` is asked before
@@ -73,6 +79,7 @@ class Pipeline {
     std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
+    int end = 0;              // the same of the ends of steps
     Box needed{};             // elsewhere nobody will see what it does
   };
   struct UnderWay {
@@ -81,10 +88,13 @@ class Pipeline {
   };
   struct Worker {
     Workspace<Real> work;
-    std::vector<Carry<Real>> carries;  // [sweep along x][row of the band]
-    std::vector<Ring<Real>> rings;     // [sweep along y][plane of the band]
-    std::vector<Columns> columns;      // of each stage; the end of a step has two
-    std::int64_t swept = 0;            // cells, along z
+    std::vector<Carry<Real>> carries;         // [sweep along x][row of the band]
+    std::vector<Ring<Real>> rings;            // [sweep along y][plane of the band]
+    std::vector<Columns> columns;             // of each stage; the end of a step has two
+    std::vector<PatchCarry<Real>> patches{};  // [end of a step][row of the band]
+    Buffer<Real> strip{};                     // copies of patches, rows strip_pitch apart
+    std::int64_t strip_pitch = 0;
+    std::int64_t swept = 0;  // cells, along z
   };
   /// How many stages of a pass are of a kind; ends of steps count as two sweeps along x.
   struct Counts {
@@ -98,13 +108,21 @@ class Pipeline {
                   Worker& worker);
   void sweep_plane(const Stage& stage, std::int64_t row, const Columns& lines, Ring<Real>& ring,
                    Worker& worker);
-  void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker);
+  void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker,
+               bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const Columns& columns, UnderWay& pass, Worker& worker);
   bool quiet(const Columns& rows, const Columns& lines, const Columns& columns) const;
   void look_for_active(std::int64_t line, const Columns& columns);
   std::int64_t carries_a_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const Columns& first, const Columns& second,
-                   Carry<Real>& carry, Carry<Real>& second_carry, Worker& worker);
+                   Carry<Real>& carry, Carry<Real>& second_carry, PatchCarry<Real>* patches, Worker& worker);
+  const Real* work_on_patches(const Stage& stage, std::int64_t line, const Columns& first,
+                              const Columns& second, PatchCarry<Real>& carry, Worker& worker);
+  void sweep_beside_patches(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry,
+                            Worker& worker);
+  void put_patches(std::int64_t line, const Columns& columns, const Real* copy, std::int64_t pitch);
+  void look_beside_patches(const Stage& stage, std::int64_t line, const Columns& columns, const Real* fields,
+                           std::int64_t pitch);
   std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;
   std::int64_t stripes() const;
   Box growth_of_a_step() const;
@@ -122,6 +140,7 @@ class Pipeline {
   Sweeps<D, Real>& sweeps_;
   const Layout<D>& layout_;
   ActiveCells<D, Real> active_;
+  const Patches<D>* patches_ = nullptr;
   bool everywhere_;
   std::vector<SweepPart> splitting_;
   double dt_s_;

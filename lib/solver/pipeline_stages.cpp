@@ -58,10 +58,13 @@ void Pipeline<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, std::in
     const auto number = stage.number + sweep;
     return worker.carries[std::size_t(D == 2 ? number * carries_a_sweep() + in_band : number)];
   };
+  PatchCarry<Real>* patches = nullptr;
+  if (ends && patches_)
+    patches = &worker.patches[std::size_t(D == 2 ? stage.end * carries_a_sweep() + in_band : stage.end)];
   const auto line = [&](std::int64_t number, const Columns& first, const Columns& second) {
     if (!first.empty()) sweeps_.measure_sides(number);
     if (ends)
-      end_of_step(stage, number, first, second, carry(0), carry(1), worker);
+      end_of_step(stage, number, first, second, carry(0), carry(1), patches, worker);
     else if (!first.empty())
       along_x(number, first, stage.part, carry(0), worker);
   };
@@ -157,7 +160,7 @@ void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Col
 
 template <int D, class Real>
 void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry,
-                                Worker& worker) {
+                                Worker& worker, bool begins) {
   constexpr auto reach = 2 * Sweeps<D, Real>::lag;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
@@ -166,14 +169,14 @@ void Pipeline<D, Real>::along_x(std::int64_t line, const Columns& columns, Real 
     carry = {};
     return;
   }
-  sweeps_.along_x(line, columns, part, carry, worker.work);
+  sweeps_.along_x(line, columns, part, carry, worker.work, begins);
   look_for_active(line, columns);
 }
 
 template <int D, class Real>
 void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const Columns& first,
                                     const Columns& second, Carry<Real>& carry, Carry<Real>& second_carry,
-                                    Worker& worker) {
+                                    PatchCarry<Real>* patches, Worker& worker) {
   const StepTime& time = stage.time;
   const auto passes = [&](auto&& what) {
     what();
@@ -189,28 +192,47 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
     if (!second.empty()) along_x(line, second, stage.part, second_carry, worker);
     return;
   }
-  if (first.empty()) return;
+  const bool patched = patches && !patches_->of(line).empty();
+  const Real* const patch = patched ? work_on_patches(stage, line, first, second, *patches, worker) : nullptr;
+  if (first.empty()) {
+    if (patch) put_patches(line, second, patch, worker.strip_pitch);
+    return;
+  }
   if (end_.looks(time, line)) {
     constexpr auto lag = Sweeps<D, Real>::lag;
     const Columns seen{first.first == 0 ? 0 : first.first + lag,
                        first.last == layout_.shape()[0] ? first.last : first.last + lag};
-    end_.look(time, line, seen, sweeps_.ahead_along_x(line, seen, stage.part, worker.work),
-              worker.work.pitch());
+    look_beside_patches(stage, line, seen, sweeps_.ahead_along_x(line, seen, stage.part, worker.work),
+                        worker.work.pitch());
   }
-  along_x(line, first, 2 * stage.part, carry, worker);
+  if (patch)
+    sweep_beside_patches(line, first, 2 * stage.part, carry, worker);
+  else
+    along_x(line, first, 2 * stage.part, carry, worker);
   passes([&] {
     end_.run(time, line, first);
     end_.run_after(time, line, first);
   });
+  if (patch) put_patches(line, second, patch, worker.strip_pitch);
 }
 
 template void Pipeline<2, float>::run_stripe(UnderWay&, const Columns&, Worker&);
+template bool Pipeline<2, float>::quiet(const Columns&, const Columns&, const Columns&) const;
+template void Pipeline<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&, Worker&, bool);
 template void Pipeline<2, float>::look_for_active(std::int64_t, const Columns&);
 template void Pipeline<2, double>::run_stripe(UnderWay&, const Columns&, Worker&);
+template bool Pipeline<2, double>::quiet(const Columns&, const Columns&, const Columns&) const;
+template void Pipeline<2, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&, Worker&,
+                                           bool);
 template void Pipeline<2, double>::look_for_active(std::int64_t, const Columns&);
 template void Pipeline<3, float>::run_stripe(UnderWay&, const Columns&, Worker&);
+template bool Pipeline<3, float>::quiet(const Columns&, const Columns&, const Columns&) const;
+template void Pipeline<3, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&, Worker&, bool);
 template void Pipeline<3, float>::look_for_active(std::int64_t, const Columns&);
 template void Pipeline<3, double>::run_stripe(UnderWay&, const Columns&, Worker&);
+template bool Pipeline<3, double>::quiet(const Columns&, const Columns&, const Columns&) const;
+template void Pipeline<3, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&, Worker&,
+                                           bool);
 template void Pipeline<3, double>::look_for_active(std::int64_t, const Columns&);
 
 }  // namespace slipwave::solver

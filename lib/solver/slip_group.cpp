@@ -14,10 +14,10 @@ constexpr std::size_t lanes = std::size_t(Layout<2>::block);
 
 template <int D, class Real>
 SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
-                              std::size_t set, double dt_s)
-    : set_(&scene.model.fracture_sets[set]), number_(set) {
+                              std::size_t set, double dt_s, double unit)
+    : set_(&scene.model.fracture_sets[set]), unit_(unit), number_(set) {
   find_stretches(layout, domain, scene.model);
-  planes_ = planes_of<D, Real>(set_->systems);
+  planes_ = planes_of<D, Real>(set_->systems, unit);
   fill(domain, scene, layout, dt_s);
   choose_kernels(scene.numerics.correction);
 }
@@ -77,14 +77,14 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
         const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
         const double mu = rho * vs * vs;
         for (std::size_t n = 0; n < systems.size(); ++n)
-          creep_[n][place] = Real(slip::creep_pa(systems[n].viscosity_s, mu, dt_s));
+          creep_[n][place] = Real(slip::creep_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
         if (opens()) {
           lambda_[place] = Real(rho * vp * vp - 2 * mu);
           modulus_[place] = Real(rho * vp * vp);
         }
         if (!mu_.empty()) mu_[place] = Real(mu);
         for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
-          still_[c * count_ + place] = model.prestress_pa[c][cell];
+          still_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
       }
 }
 
@@ -119,7 +119,7 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
     std::vector<typename JointSlip<D, Real>::System> all;
     for (const auto& system : systems) {
       const auto n = unit_normal<D>(system.normal);
-      all.push_back({{}, Real(system.friction), Real(system.strength_pa)});
+      all.push_back({{}, Real(system.friction), Real(unit_ * system.strength_pa)});
       for (std::size_t i = 0; i < D; ++i) all.back().normal[i] = Real(n[i]);
     }
     joint_.emplace(correction, std::move(all));

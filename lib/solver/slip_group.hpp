@@ -21,9 +21,9 @@ enum class SlipAct { part, slip, begin };
 template <int D, class Real>
 class SlipGroup {
  public:
-  /// Of set number `set` (0-based) of the scene's model.
+  /// Of set number `set` (0-based) of the scene's model. Stress is `unit` times Pa, gaps `unit` times strain.
   SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t set,
-            double dt_s);
+            double dt_s, double unit);
 
   /// Side by side on a line, from column `first` on; the first of them is number `place` of the group.
   struct Stretch {
@@ -66,6 +66,7 @@ class SlipGroup {
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
 
   const FractureSet<D>* set_;
+  double unit_;
   std::size_t number_;
   std::vector<Stretch> stretches_;
   std::vector<std::size_t> starts_;  // of each line, and the end
@@ -75,7 +76,7 @@ class SlipGroup {
   SlipKernels<Real> kernels_{};
   GapKernel<Real> part_ = nullptr;
   std::optional<JointSlip<D, Real>> joint_;  // where no kernel knows the systems
-  std::vector<std::vector<Real>> creep_;     // [system][cell], Pa
+  std::vector<std::vector<Real>> creep_;     // [system][cell], as stress
   std::vector<std::vector<Real>> gaps_;      // [system][cell], of systems that open; else empty
   std::vector<Real> shut_;                   // the gap of the others, where kernels read gaps
   std::vector<Real> lambda_, modulus_, mu_;  // Pa, where planes open or a diary is kept

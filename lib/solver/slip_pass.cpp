@@ -7,27 +7,25 @@ namespace slipwave::solver {
 
 template <int D, class Real>
 SlipPass<D, Real>::SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                            double dt_s)
-    : state_(state), domain_(domain), dt_s_(dt_s), correction_(scene.numerics.correction) {
+                            double dt_s, double unit)
+    : state_(state), domain_(domain), dt_s_(dt_s), unit_(unit), correction_(scene.numerics.correction) {
   for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
-    SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s);
+    SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s, unit);
     if (group.cells() == 0) continue;
     if (scene.slip_diary) diary_.emplace_back(std::size_t(group.kept_cells()));
     opens_ |= group.opens();
     groups_.push_back(std::move(group));
   }
-  lines_ = fracture_lines(state.layout, domain, scene.model);
 }
 
 /// Does these things, one after the other, to all stretches of fracture cells that these columns hold.
 /// Columns end between two vectors or with the line.
 template <int D, class Real>
-void SlipPass<D, Real>::each_stretch(std::int64_t line, const Columns& columns,
-                                     std::initializer_list<SlipAct> acts) {
-  const std::int64_t pitch = state_.layout.row_pitch();
+void SlipPass<D, Real>::each_stretch(Real* fields, std::int64_t pitch, std::int64_t line,
+                                     const Columns& columns, std::initializer_list<SlipAct> acts) {
   const std::int64_t end =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
-  Real* const stress = state_.field_row(state_.layout.line_index(line), FieldRows<D>::normal_stress(0));
+  Real* const stress = fields + FieldRows<D>::normal_stress(0) * pitch;
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const auto& stretch : groups_[g].stretches(line)) {
       const std::int64_t first = std::max(stretch.first, columns.first), last = std::min(stretch.last, end);
@@ -90,16 +88,27 @@ void SlipPass<D, Real>::note(std::size_t group, std::size_t place, std::int64_t 
 
 template <int D, class Real>
 void SlipPass<D, Real>::run(const StepTime&, std::int64_t line, const Columns& columns) {
-  if (opens_)
-    each_stretch(line, columns, {SlipAct::part, SlipAct::slip});
-  else
-    each_stretch(line, columns, {SlipAct::slip});
+  run_in(state_.field_row(state_.layout.line_index(line), 0), state_.layout.row_pitch(), line, columns);
 }
 
 template <int D, class Real>
 void SlipPass<D, Real>::run_after(const StepTime&, std::int64_t line, const Columns& columns) {
+  run_after_in(state_.field_row(state_.layout.line_index(line), 0), state_.layout.row_pitch(), line, columns);
+}
+
+template <int D, class Real>
+void SlipPass<D, Real>::run_in(Real* fields, std::int64_t pitch, std::int64_t line, const Columns& columns) {
+  if (opens_)
+    each_stretch(fields, pitch, line, columns, {SlipAct::part, SlipAct::slip});
+  else
+    each_stretch(fields, pitch, line, columns, {SlipAct::slip});
+}
+
+template <int D, class Real>
+void SlipPass<D, Real>::run_after_in(Real* fields, std::int64_t pitch, std::int64_t line,
+                                     const Columns& columns) {
   if (correction_ == SlipCorrection::first && diary_.empty()) return;
-  each_stretch(line, columns, {SlipAct::begin});
+  each_stretch(fields, pitch, line, columns, {SlipAct::begin});
 }
 
 template <int D, class Real>
@@ -156,10 +165,10 @@ Field<D> SlipPass<D, Real>::field(SlipField which) const {
           const Entry none;
           const auto& entry = diary_.empty() ? none : diary_[g][place];
           field(domain_.model_cell(at)) =
-              float(which == SlipField::slip         ? entry.slip - entry.ahead
-                    : which == SlipField::slip_rate  ? entry.in_step / dt_s_
-                    : which == SlipField::dissipated ? entry.heat
-                                                     : double(groups_[g].gap(place)));
+              float(which == SlipField::slip         ? (entry.slip - entry.ahead) / unit_
+                    : which == SlipField::slip_rate  ? entry.in_step / dt_s_ / unit_
+                    : which == SlipField::dissipated ? entry.heat / (unit_ * unit_)
+                                                     : double(groups_[g].gap(place)) / unit_);
         }
   return field;
 }
@@ -172,28 +181,14 @@ SlipTotals SlipPass<D, Real>::totals() const {
   for (const auto& entries : diary_)
     for (const auto& entry : entries) {
       totals.slipped += entry.slip > 0;
-      totals.dissipated += volume * entry.heat;
-      totals.out_of_waves += volume * entry.out_of_waves;
+      totals.dissipated += volume * entry.heat / (unit_ * unit_);
+      totals.out_of_waves += volume * entry.out_of_waves / (unit_ * unit_);
     }
   return totals;
 }
 
-template <int D>
-std::vector<std::int64_t> fracture_lines(const Layout<D>& layout, const Domain<D>& domain,
-                                         const Model<D>& model) {
-  std::vector<std::int64_t> lines;
-  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
-    if (model.fracture[cell] != 0)
-      lines.push_back(layout.line_number(domain.computed_cell(model.grid().index(std::int64_t(cell)))));
-  std::sort(lines.begin(), lines.end());
-  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
-  return lines;
-}
-
-template std::vector<std::int64_t> fracture_lines(const Layout<2>&, const Domain<2>&, const Model<2>&);
 template class SlipPass<2, float>;
 template class SlipPass<2, double>;
-template std::vector<std::int64_t> fracture_lines(const Layout<3>&, const Domain<3>&, const Model<3>&);
 template class SlipPass<3, float>;
 template class SlipPass<3, double>;
 

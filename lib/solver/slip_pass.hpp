@@ -15,13 +15,17 @@ namespace slipwave::solver {
 template <int D, class Real>
 class SlipPass : public Pass {
  public:
-  SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s);
+  /// Fields are `unit` times SI.
+  SlipPass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
+           double unit = 1);
 
   void run(const StepTime&, std::int64_t line, const Columns& columns) override;
   void run_after(const StepTime&, std::int64_t line, const Columns& columns) override;
+  /// The same in a copy of the fields of these columns: cell 0 of row 0 and the way to the next row.
+  void run_in(Real* fields, std::int64_t pitch, std::int64_t line, const Columns& columns);
+  void run_after_in(Real* fields, std::int64_t pitch, std::int64_t line, const Columns& columns);
   std::string name() const override;
   std::int64_t cells() const override;
-  std::span<const std::int64_t> lines() const override { return lines_; }
   std::vector<PassEffect> effects() const override;
   void keep(Archive& archive) override;
 
@@ -34,24 +38,19 @@ class SlipPass : public Pass {
   struct Entry {
     double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3
-  };
-  void each_stretch(std::int64_t line, const Columns& columns, std::initializer_list<SlipAct> acts);
+  };                                          // as the fields are
+  void each_stretch(Real* fields, std::int64_t pitch, std::int64_t line, const Columns& columns,
+                    std::initializer_list<SlipAct> acts);
   void note(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
             std::int64_t pitch, SlipAct act);
 
   State<D, Real>& state_;
   const Domain<D>& domain_;
-  double dt_s_;
+  double dt_s_, unit_;
   SlipCorrection correction_;
   bool opens_ = false;
   std::vector<SlipGroup<D, Real>> groups_;
   std::vector<std::vector<Entry>> diary_;  // [group][cell], empty: none
-  std::vector<std::int64_t> lines_;
 };
-
-/// Numbers of the lines that hold fracture cells, ascending.
-template <int D>
-std::vector<std::int64_t> fracture_lines(const Layout<D>& layout, const Domain<D>& domain,
-                                         const Model<D>& model);
 
 }  // namespace slipwave::solver

@@ -56,12 +56,12 @@ bool at_right_angles(const Point<D>& a, const Point<D>& b) {
 }
 
 template <int D, class Real>
-SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems) {
+SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit) {
   SlipPlanes<Real> planes{};
   for (std::size_t n = 0; n < systems.size() && n < SlipPlanes<Real>::most_systems; ++n) {
     put_normal<D>(unit_normal<D>(systems[n].normal), planes.normal[n]);
     planes.friction[n] = Real(systems[n].friction);
-    planes.cohesion_pa[n] = Real(systems[n].strength_pa);
+    planes.cohesion_pa[n] = Real(unit * systems[n].strength_pa);
   }
   const auto normal = unit_normal<D>(systems[0].normal);
   const auto tangents = tangents_of<D>(normal);
@@ -71,9 +71,9 @@ SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems) {
 
 template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
 template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
-template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&);
-template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&);
-template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&);
-template SlipPlanes<double> planes_of<3, double>(const std::vector<SlipSystem<3>>&);
+template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&, double);
+template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&, double);
+template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&, double);
+template SlipPlanes<double> planes_of<3, double>(const std::vector<SlipSystem<3>>&, double);
 
 }  // namespace slipwave::solver

@@ -12,7 +12,8 @@ template <int D>
 bool at_right_angles(const Point<D>& a, const Point<D>& b);
 
 /// What kernels need to know of up to three systems of a set; their shear traction is that of the first.
+/// Stress is `unit` times Pa.
 template <int D, class Real>
-SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems);
+SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit = 1);
 
 }  // namespace slipwave::solver

@@ -15,12 +15,13 @@ constexpr double largest_addition = 1e-20;
 
 /// What fields are kept in: a power of two times SI. In single precision all that is 10^-18 of what the
 /// source does where it stands then counts as zero, so that the cells in front of the waves are zero and can
-/// be left out (ActiveCells). 1 where that gains nothing, and where fractures know strengths in Pa: with slip
-/// and without, so that the difference of both is the work of slip alone.
+/// be left out (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths are to
+/// stay numbers that can be counted with. The same with slip and without, so that the difference of both is
+/// the work of slip alone.
 template <int D>
 double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s) {
   const auto injection = point_injection(source);
-  if (!injection || !scene.model.fracture_sets.empty() || scene.numerics.double_precision) return 1;
+  if (!injection || scene.numerics.double_precision) return 1;
   const auto& medium = scene.model.medium;
   const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
   const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
@@ -31,7 +32,9 @@ double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s) {
     for (int j = 0; j < D; ++j)
       largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
   }
-  return largest > 0 ? std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest)))) : 1;
+  if (!(largest > 0)) return 1;
+  const double unit = std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest))));
+  return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
 }
 
 }  // namespace
@@ -88,13 +91,13 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
     add(std::move(pass));
   }
   if (scene.slips()) {
-    auto slip = std::make_unique<SlipPass<D, Real>>(state_, domain_, scene, dt_s_);
+    auto slip = std::make_unique<SlipPass<D, Real>>(state_, domain_, scene, dt_s_, unit_);
     slip_ = slip.get();
     add(std::move(slip));
   }
   recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot, unit_);
-  // The same sweeps with and without slip: their difference must be the work of slip alone.
-  fracture_lines_ = fracture_lines(state_.layout, domain_, scene.model);
+  patches_ = Patches<D>(state_.layout, domain_, scene.model);
+  pipeline_.use(&patches_);
   // All that was built from them is there.
   domain_.impedance = {};
 }
@@ -156,7 +159,7 @@ template <int D, class Real>
 void Step<D, Real>::begin(const StepTime& time) {
   auto& whole = whole_[std::size_t(time.step % Pass::most_steps_under_way)];
   whole.assign(std::size_t(state_.layout.lines()), 0);
-  for (const auto line : fracture_lines_) whole[std::size_t(line)] = 1;
+  for (const auto line : patches_.whole_lines()) whole[std::size_t(line)] = 1;
   for (const auto& pass : passes_) {
     pass->begin(time);
     if (!pass->acts(time)) continue;
@@ -214,13 +217,29 @@ void Step<D, Real>::look(const StepTime& time, std::int64_t line, const Columns&
 
 template <int D, class Real>
 void Step<D, Real>::run(const StepTime& time, std::int64_t line, const Columns& columns) {
-  for (const auto& pass : passes_) pass->run(time, line, columns);
+  const bool slips = whole(time, line);
+  for (const auto& pass : passes_)
+    if (slips || pass.get() != slip_) pass->run(time, line, columns);
 }
 
 template <int D, class Real>
 void Step<D, Real>::run_after(const StepTime& time, std::int64_t line, const Columns& columns) {
   // The other way round: what came last before looking comes first after it.
-  for (auto pass = passes_.rbegin(); pass != passes_.rend(); ++pass) (*pass)->run_after(time, line, columns);
+  const bool slips = whole(time, line);
+  for (auto pass = passes_.rbegin(); pass != passes_.rend(); ++pass)
+    if (slips || pass->get() != slip_) (*pass)->run_after(time, line, columns);
+}
+
+template <int D, class Real>
+void Step<D, Real>::run_patch(const StepTime&, std::int64_t line, const Columns& columns, Real* fields,
+                              std::int64_t pitch) {
+  if (slip_) slip_->run_in(fields, pitch, line, columns);
+}
+
+template <int D, class Real>
+void Step<D, Real>::run_patch_after(const StepTime&, std::int64_t line, const Columns& columns, Real* fields,
+                                    std::int64_t pitch) {
+  if (slip_) slip_->run_after_in(fields, pitch, line, columns);
 }
 
 template <int D, class Real>

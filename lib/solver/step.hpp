@@ -60,6 +60,10 @@ class Step : private EndOfStep<Real> {
             std::int64_t pitch) override;
   void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
   void run_after(const StepTime& time, std::int64_t line, const Columns& columns) override;
+  void run_patch(const StepTime& time, std::int64_t line, const Columns& columns, Real* fields,
+                 std::int64_t pitch) override;
+  void run_patch_after(const StepTime& time, std::int64_t line, const Columns& columns, Real* fields,
+                       std::int64_t pitch) override;
   void finish(const StepTime& time) override;
 
   double dt_s_;
@@ -76,7 +80,7 @@ class Step : private EndOfStep<Real> {
   SourcePass<D, Real>* source_ = nullptr;      // one of them, null: no point source
   SlipPass<D, Real>* slip_ = nullptr;          // the one of them, null: nothing slips
   std::vector<std::vector<char>> whole_;  // [step under way][line]: its last sweep along x ends with the step
-  std::vector<std::int64_t> fracture_lines_;
+  Patches<D> patches_;
   Monitor<D, Real> monitor_;
   std::unique_ptr<Recorder<D, Real>> recorder_;
   Buffer<Real> snapshot_;  // all fields as they stand whole, laid out as the state

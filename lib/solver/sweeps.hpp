@@ -33,12 +33,24 @@ class Sweeps {
   /// A piece of a sweep along x: brings columns `columns` of a line forward. Pieces of a line follow each
   /// other from cell 0 to the last, `carry` goes on from one to the next. 2 * lag further cells must not
   /// change before (as many as there are).
+  /// A piece that `begins` in the middle of a line reads 2 * lag cells before it instead of the carry.
   void along_x(std::int64_t line, const Columns& columns, Real scale, Carry<Real>& carry,
-               Workspace<Real>& work);
+               Workspace<Real>& work, bool begins = false);
   static constexpr std::int64_t lag = Layout<D>::block;
   /// What along_x() will make of these columns, read from lag more cells on both sides; the state stays as it
   /// is. Pointer to the line's cell 0 in row 0 of a copy, in the workspace, rows ahead_pitch() apart.
   const Real* ahead_along_x(std::int64_t line, const Columns& columns, Real scale, Workspace<Real>& work);
+  /// Cell 0 of row 0 of a copy of a line's fields, and the way to the next row.
+  struct Copy {
+    Real* fields;
+    std::int64_t pitch;
+  };
+  /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the line and
+  /// from the matched layer. The first piece `begins`; the copy must hold 2 * lag cells more on both sides.
+  void along_copy(std::int64_t line, const Copy& copy, const Columns& columns, bool begins, Real scale,
+                  Carry<Real>& carry, Workspace<Real>& work);
+  /// Puts these columns of a copy into the line.
+  void put(std::int64_t line, const Columns& columns, const Real* copy, std::int64_t pitch);
 
   /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
   /// out what leaves it and row step - rows_behind() is brought forward, where there are such rows; `at` says
@@ -96,6 +108,8 @@ class Sweeps {
     std::int64_t pitch;
     bool remember;
   };
+  void go_on(const Piece& piece, bool begins, bool ends, Real scale, Carry<Real>& carry,
+             Workspace<Real>& work);
   void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
   void send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
                 std::int64_t pitch, std::int64_t stride, Real scale, const Leaving<Real>& leaving,

@@ -45,31 +45,51 @@ void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, const Leaving
 
 template <int D, class Real>
 void Sweeps<D, Real>::along_x(std::int64_t line, const Columns& columns, Real scale, Carry<Real>& carry,
-                              Workspace<Real>& work) {
-  const std::int64_t nx = state_.layout.shape()[0];
-  const bool begins = columns.first == 0, ends = columns.last == nx;
-  const Columns leave{begins ? 0 : columns.first + lag,
-                      ends ? state_.layout.padded_nx() : columns.last + lag};
+                              Workspace<Real>& work, bool begins) {
+  const auto& layout = state_.layout;
+  const bool low = columns.first == 0, high = columns.last == layout.shape()[0];
+  const std::int64_t first = low ? 0 : begins ? columns.first - lag : columns.first + lag;
+  const Columns leave{first, high ? layout.padded_nx() : columns.last + lag};
+  go_on({line,
+         leave,
+         {columns.first, high ? leave.last : columns.last},
+         state_.field_row(layout.line_index(line), 0),
+         layout.row_pitch(),
+         true},
+        begins || low, high, scale, carry, work);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_copy(std::int64_t line, const Copy& copy, const Columns& columns, bool begins,
+                                 Real scale, Carry<Real>& carry, Workspace<Real>& work) {
+  const Columns leave{begins ? columns.first - lag : columns.first + lag, columns.last + lag};
+  go_on({line, leave, columns, copy.fields, copy.pitch, false}, begins, false, scale, carry, work);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::put(std::int64_t line, const Columns& columns, const Real* copy, std::int64_t pitch) {
+  Real* const to = state_.field_row(state_.layout.line_index(line), 0);
+  for (int row = 0; row < FieldRows<D>::count; ++row)
+    std::copy(copy + row * pitch + columns.first, copy + row * pitch + columns.last,
+              to + row * state_.layout.row_pitch() + columns.first);
+}
+
+/// A piece of a sweep along x with what the piece before it left, unless it begins.
+template <int D, class Real>
+void Sweeps<D, Real>::go_on(const Piece& piece, bool begins, bool ends, Real scale, Carry<Real>& carry,
+                            Workspace<Real>& work) {
   const auto faces = work.faces();
   const auto leaving = work.leaving();
-  const std::int64_t last = leave.last - columns.first;
+  const std::int64_t last = piece.leave.last - std::min(piece.leave.first, piece.update.first);
   const auto waiting = [&](auto&& copy) {
     copy(faces.v_p, carry.v[0]), copy(faces.s_p, carry.s[0]);
     copy(faces.v_s, carry.v[1]), copy(faces.s_s, carry.s[1]);
     if (D == 3) copy(faces.v_s2, carry.v[2]), copy(faces.s_s2, carry.s[2]);
   };
-  if (!begins) {
-    waiting([](Real* to, const Real* from) { std::copy(from, from + lag, to); });
-    for (int p = 0; p < D; ++p) leaving.up(p)[lag - 1] = carry.up[p];
-  }
-  const Index<D> at = state_.layout.line_index(line);
-  sweep_piece({line,
-               leave,
-               {columns.first, ends ? leave.last : columns.last},
-               state_.field_row(at, 0),
-               state_.layout.row_pitch(),
-               true},
-              scale, work);
+  if (!begins) waiting([](Real* to, const Real* from) { std::copy(from, from + lag, to); });
+  for (int p = 0; p < D && piece.leave.first > 0; ++p)
+    leaving.up(p)[begins ? -1 : lag - 1] = begins ? Real(0) : carry.up[p];
+  sweep_piece(piece, scale, work);
   if (ends) return;
   waiting([last](const Real* from, Real* to) { std::copy(from + last - lag, from + last, to); });
   for (int p = 0; p < D; ++p) carry.up[p] = leaving.up(p)[last - 1];
@@ -184,22 +204,31 @@ void Sweeps<D, Real>::pass_over(std::int64_t step, const Columns& columns, Ring<
 
 template void Sweeps<2, float>::pass_over(std::int64_t, const Columns&, Ring<float>&) const;
 template void Sweeps<2, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
-template void Sweeps<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
-                                        Workspace<float>&);
+template void Sweeps<2, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&, Workspace<float>&,
+                                        bool);
+template void Sweeps<2, float>::along_copy(std::int64_t, const Copy&, const Columns&, bool, float,
+                                           Carry<float>&, Workspace<float>&);
+template void Sweeps<2, float>::put(std::int64_t, const Columns&, const float*, std::int64_t);
 template const float* Sweeps<2, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
 template void Sweeps<2, float>::across(int, const Index<2>&, std::int64_t, const Columns&, float,
                                        Ring<float>&, Workspace<float>&);
 template void Sweeps<3, float>::pass_over(std::int64_t, const Columns&, Ring<float>&) const;
 template void Sweeps<3, float>::expect(std::int64_t, const Columns&, Coming<float>&) const;
-template void Sweeps<3, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&,
-                                        Workspace<float>&);
+template void Sweeps<3, float>::along_x(std::int64_t, const Columns&, float, Carry<float>&, Workspace<float>&,
+                                        bool);
+template void Sweeps<3, float>::along_copy(std::int64_t, const Copy&, const Columns&, bool, float,
+                                           Carry<float>&, Workspace<float>&);
+template void Sweeps<3, float>::put(std::int64_t, const Columns&, const float*, std::int64_t);
 template const float* Sweeps<3, float>::ahead_along_x(std::int64_t, const Columns&, float, Workspace<float>&);
 template void Sweeps<3, float>::across(int, const Index<3>&, std::int64_t, const Columns&, float,
                                        Ring<float>&, Workspace<float>&);
 template void Sweeps<2, double>::pass_over(std::int64_t, const Columns&, Ring<double>&) const;
 template void Sweeps<2, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
 template void Sweeps<2, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
-                                         Workspace<double>&);
+                                         Workspace<double>&, bool);
+template void Sweeps<2, double>::along_copy(std::int64_t, const Copy&, const Columns&, bool, double,
+                                            Carry<double>&, Workspace<double>&);
+template void Sweeps<2, double>::put(std::int64_t, const Columns&, const double*, std::int64_t);
 template const double* Sweeps<2, double>::ahead_along_x(std::int64_t, const Columns&, double,
                                                         Workspace<double>&);
 template void Sweeps<2, double>::across(int, const Index<2>&, std::int64_t, const Columns&, double,
@@ -207,7 +236,10 @@ template void Sweeps<2, double>::across(int, const Index<2>&, std::int64_t, cons
 template void Sweeps<3, double>::pass_over(std::int64_t, const Columns&, Ring<double>&) const;
 template void Sweeps<3, double>::expect(std::int64_t, const Columns&, Coming<double>&) const;
 template void Sweeps<3, double>::along_x(std::int64_t, const Columns&, double, Carry<double>&,
-                                         Workspace<double>&);
+                                         Workspace<double>&, bool);
+template void Sweeps<3, double>::along_copy(std::int64_t, const Copy&, const Columns&, bool, double,
+                                            Carry<double>&, Workspace<double>&);
+template void Sweeps<3, double>::put(std::int64_t, const Columns&, const double*, std::int64_t);
 template const double* Sweeps<3, double>::ahead_along_x(std::int64_t, const Columns&, double,
                                                         Workspace<double>&);
 template void Sweeps<3, double>::across(int, const Index<3>&, std::int64_t, const Columns&, double,

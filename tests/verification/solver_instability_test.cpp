@@ -136,16 +136,17 @@ TEST(Instability, NearFreeSurfacesAndUnderStaticStressIsSaidToBeThere) {
   }
 }
 
-/// Cracks near a source so strong that single precision ends.
+/// Cracks near a source so strong that double precision ends; in single precision fields have their own unit.
 Scene<2> too_strong(double amplitude) {
   auto scene = sea();
   scene.survey.sources[0].position_m = {602.5, 552.5};
   scene.survey.sources[0].amplitude = amplitude;
+  scene.numerics.double_precision = true;
   return scene;
 }
 
 TEST(Instability, ThatBeganBetweenTwoLooksIsFollowedToItsFirstStep) {
-  for (const double amplitude : {1e36, 1e38, 1e41}) {
+  for (const double amplitude : {1e306, 1e307, 1e308}) {
     std::string before;
     for (const int threads : {1, 2, 3}) {
       const ThreadLimit limit(threads);

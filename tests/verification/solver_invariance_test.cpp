@@ -27,6 +27,9 @@ Scene<2> reef(std::int64_t nx = 150, std::int64_t nz = 110) {
         put(scene.model.medium, {i, k}, soft);
       }
       if (k >= 50 && k < 60 && i >= 60 && i < 90) scene.model.fracture({i, k}) = 1;
+      // In wide models also a wide cluster, and a narrow one beside it.
+      if (nx > 600 && k >= 45 && k < 56 && ((i >= 160 && i < 270) || (i >= nx - 120 && i < nx - 115)))
+        scene.model.fracture({i, k}) = 1;
     }
   scene.model.fracture_sets = {{"cracks", {{{0, 1}, 0.5, 1000, 0}}}};
   scene.survey.sources = {{{250, 60}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e6}};
@@ -70,7 +73,9 @@ TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
         Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "explosion"},
         Cut{"free sides, order 4 in time", EdgeLaw::free, 5, 4, "explosion"}}) {
     SCOPED_TRACE(name);
-    auto scene = reef(317, 150);
+    auto scene = reef(700, 150);
+    scene.survey.sources[0].position_m = {1010, 210};
+    scene.survey.receivers_m = {{790, 230}, {1102.5, 271.3}, {1362, 243}};
     scene.edges[0] = {sides, sides};
     scene.numerics.order = order;
     scene.numerics.time_order = time_order;
@@ -102,6 +107,32 @@ TEST(Traces, ScaleWithTheSourceToTheLastBit) {
     auto scaled = samples_of(shoot(scene, 1));
     for (auto& sample : scaled) sample = std::ldexp(sample, -power);
     EXPECT_EQ(scaled, found) << "2^" << power;
+  }
+}
+
+TEST(Traces, OfSlippingRockScaleWithTheSourceAndAllOtherStress) {
+  // The law holds for stress in any unit, viscosity in one over that: |tau| = S (1 + eta |g|).
+  auto scene = reef();
+  auto& planes = scene.model.fracture_sets[0].systems[0];
+  planes.strength_pa = 0.01;
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::exponential}) {
+    scene.numerics.correction = correction;
+    const auto scaled_by = [&](int power) {
+      auto other = scene;
+      auto& system = other.model.fracture_sets[0].systems[0];
+      other.survey.sources[0].amplitude = std::ldexp(1e6, power);
+      system.strength_pa = std::ldexp(system.strength_pa, power);
+      system.viscosity_s = std::ldexp(system.viscosity_s, -power);
+      auto samples = samples_of(shoot(other, 1));
+      for (auto& sample : samples) sample = std::ldexp(sample, -power);
+      return samples;
+    };
+    const auto found = scaled_by(0);
+    EXPECT_EQ(scaled_by(40), found);
+    EXPECT_EQ(scaled_by(-8), found);
+    scene.with_slip = false;
+    EXPECT_GT(relative_error(samples_of(shoot(scene, 1)), found), 1e-3);
+    scene.with_slip = true;
   }
 }
 
