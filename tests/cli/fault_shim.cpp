@@ -6,6 +6,7 @@
 //   close:N:E    likewise closing a regular file that may be written; it is closed all the same
 //   rename:N:E   likewise renaming
 //   read:N:E     likewise reading a regular file
+//   unit         powers of two are 1, and with them the unit of the fields: strong sources overflow
 // Standard error always works.
 
 #include <dlfcn.h>
@@ -157,5 +158,10 @@ int close(int descriptor) {
 int rename(const char* from, const char* to) noexcept {
   if (fails("rename")) return -1;
   return next<int (*)(const char*, const char*)>("rename")(from, to);
+}
+
+double exp2(double power) noexcept {
+  static const auto library = next<double (*)(double)>("exp2");
+  return fault().kind == "unit" ? 1 : library(power);
 }
 }
