@@ -10,9 +10,10 @@ namespace slipwave {
 /// An output that appears whole or not at all.
 /// For a path: a private temporary beside it, renamed over it by commit(); the destructor without commit
 /// removes the temporary and leaves an older file of that name untouched. Ended by a signal (INT, TERM, HUP,
-/// PIPE): the temporary is removed too; by KILL: by the next OutputFile of that path. A path that exists and is no regular file (/dev/null, a fifo) is
-/// written in place. For "-": streams to stdout; binary to a terminal is refused. Every failed write throws
-/// Error naming file and cause ("gather.sgy: No space left on device").
+/// PIPE): the temporary is removed too; by KILL: by the next OutputFile of that path. A path that exists and
+/// is no regular file (/dev/null, a fifo) is written in place. For "-": streams to stdout; binary to a
+/// terminal is refused. Every failed write throws Error naming file and cause ("gather.sgy: No space left on
+/// device").
 class OutputFile {
  public:
   enum class Content { binary, text };
