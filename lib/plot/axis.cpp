@@ -41,6 +41,10 @@ bool stand_clear(const AxisMarks& marks, const Scale& scale, double text_pt, boo
 AxisMarks linear_marks(const Axis& axis, double step, int exponent) {
   const double divisor = std::pow(10.0, exponent);
   auto ticks = linear_ticks(axis.low / divisor, axis.high / divisor, step);
+  // Zero may be as near to the low end as makes no difference otherwise.
+  if (axis.log)
+    for (auto* values : {&ticks.major, &ticks.minor})
+      std::erase_if(*values, [](double value) { return !(value > 0); });
   AxisMarks marks;
   marks.labels = linear_labels(ticks.major, step);
   marks.values = std::move(ticks.major);
