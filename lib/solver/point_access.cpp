@@ -70,7 +70,8 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 }
 
 /// From here on stencils across an edge, in cells from the last centre, need nothing from beyond it.
-constexpr double centred_from = widest_stencil / 2 - 1;
+constexpr int half_a_stencil = widest_stencil / 2;
+constexpr double centred_from = half_a_stencil - 1;
 
 /// The cells round a point and how the field goes on beyond those at an edge of the grid.
 template <int D>
