@@ -6,6 +6,7 @@ namespace slipwave::bench {
 void register_triad();
 void register_kernels();
 void register_steps();
+void register_cubes();
 void register_effects();
 void register_growth();
 

@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
   slipwave::bench::register_triad();
   slipwave::bench::register_kernels();
   slipwave::bench::register_steps();
+  slipwave::bench::register_cubes();
   slipwave::bench::register_effects();
   slipwave::bench::register_growth();
   benchmark::AddCustomContext("processor", processor_name());

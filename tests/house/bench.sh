@@ -8,11 +8,11 @@ if [ ! -x "$program" ]; then
 fi
 status=0
 said=$("$1/tests/bench/report" --bin "$2/bin" --quick --filter \
-  'triad/.*first_cache|kernel:.*order:5.*float|step/order:5/cells:200x200|effect:(none|all|free)|(growth|memory)/cells:99856|shots:1/') || {
+  'triad/.*first_cache|kernel:.*order:5.*float|step/order:5/cells:200x200|cube/order:3/cells:128x128x128/material:uniform/threads:1|effect:(none|all|free)|(growth|memory)/cells:99856|shots:1/') || {
   echo "report failed"
   exit 1
 }
-for heading in Memory Kernels 'Whole steps' Effects Growth; do
+for heading in Memory Kernels 'Whole steps' 'Three dimensions' Effects Growth; do
   # Under the heading a table with a row that begins with words and goes on with a number above zero.
   if ! printf '%s\n' "$said" | awk -v heading="## $heading" '
     /^## / { here = $0 == heading }
