@@ -13,7 +13,7 @@ namespace {
 constexpr std::int64_t usual_stripe = 256;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
-constexpr std::int64_t usual_cells_of_a_plane = 3072;
+constexpr std::int64_t usual_cells_of_a_plane = 1536;
 /// Steps a pass through memory makes: two are up to a tenth faster than one, more gain nothing.
 constexpr int usual_steps = 2;
 /// Rows of a band, at least. Between bands some rows leave the cache.

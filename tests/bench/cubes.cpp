@@ -58,7 +58,8 @@ int flops_a_cell_step(int order, bool uniform) {
 
 void register_cube(const std::string& name, const Cube& what) {
   const std::int64_t cells = what.shape[0] * what.shape[1] * what.shape[2];
-  const std::int64_t steps = 8;
+  // Threads work on several steps at once: few steps would be spent on starting and ending.
+  const std::int64_t steps = std::max<std::int64_t>(8, 50'000'000 / cells);
   const auto run = [=](benchmark::State& state) {
     const ThreadLimit threads(what.threads);
     const auto scene = make_scene(what);
