@@ -1,44 +1,18 @@
 // The inner loops of slip, compiled once for each instruction set as kernels_level.cpp is, under the same
 // rules.
+#include "solver/slip_felt.hpp"
 #include "solver/slip_tables.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-using slip::greater;
-using slip::lesser;
-
-/// s_n or tau of planes from the components s0.. of stress, `half` for the diagonal of shear.
-template <int D, class Real>
-[[gnu::always_inline]] inline Real projected(const Real* weights, Real diagonal, Real s0, Real s1, Real s2,
-                                             Real s3, Real s4, Real s5) {
-  if constexpr (D == 2)
-    return diagonal * (weights[0] * s0 + weights[1] * s1) + weights[2] * s2;
-  else
-    return diagonal * (weights[0] * s0 + weights[1] * s1 + weights[2] * s2) +
-           (weights[3] * s3 + weights[4] * s4 + weights[5] * s5);
-}
-
-/// Length of a traction with two components; squares neither overflow nor vanish.
-template <class Real>
-[[gnu::always_inline]] inline Real length(Real a, Real b) {
-  const Real x = a < 0 ? -a : a, y = b < 0 ? -b : b, large = greater(x, y), small = lesser(x, y);
-  const Real ratio = small / greater(large, slip::least<Real>);
-  return large * Real(__builtin_sqrt(1 + ratio * ratio));
-}
-[[gnu::always_inline]] inline float length(float a, float b) {
-  const float x = a < 0 ? -a : a, y = b < 0 ? -b : b, large = greater(x, y), small = lesser(x, y);
-  const float ratio = small / greater(large, slip::least<float>);
-  return large * __builtin_sqrtf(1 + ratio * ratio);
-}
 
 /// Which half of the work: the end of a step or what the next one begins with.
 enum class Half { end, beginning };
 
 /// What one system makes of the stress.
 template <int D, SlipCorrection Correction, bool Extended, Half Now, class Real>
-void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  constexpr int tangents = D - 1, last = D == 2 ? 2 : 5;
+[[gnu::noinline]] void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
+  constexpr int tangents = D - 1;
   constexpr bool exponential = Correction == SlipCorrection::exponential;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
   Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
@@ -54,29 +28,15 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still2 = rows.still + tangents * rows.still_pitch;
   const Real* __restrict const gaps = rows.gap[0];
-  Real normal[last + 1], m1[last + 1], m2[last + 1];
-  for (int c = 0; c <= last; ++c) {
-    normal[c] = planes.normal[0][c];
-    m1[c] = planes.shear[0][c];
-    m2[c] = planes.shear[tangents - 1][c];
-  }
-  const Real friction = planes.friction[0], cohesion = planes.cohesion_pa[0];
+  const OneSystem<D, Real> system(planes);
+  const Real *const m1 = system.m1, *const m2 = system.m2;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real creep = creeps[i];
-    Real s_n = projected<D>(normal, Real(1), s0, s1, s2, s3, s4, s5);
-    Real t1 = projected<D>(m1, Real(0.5), s0, s1, s2, s3, s4, s5), t2 = 0;
-    if constexpr (D == 3) t2 = projected<D>(m2, Real(0.5), s0, s1, s2, s3, s4, s5);
-    if constexpr (Extended) {
-      s_n += still_n[i];
-      t1 += still1[i];
-      if constexpr (D == 3) t2 += still2[i];
-    }
-    Real strength = friction * greater(-s_n, Real(0)) + cohesion;
-    if constexpr (Extended) strength = gaps[i] > 0 ? Real(0) : strength;
-    const Real size = D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
+    const auto [t1, t2, size, strength] =
+        felt<D, Extended>(system, s0, s1, s2, s3, s4, s5, still_n, still1, still2, gaps, i);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
     const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
@@ -118,6 +78,45 @@ void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
       r4[i] = s4 + (m1[4] * d1 + m2[4] * d2);
       r5[i] = s5 + (m1[5] * d1 + m2[5] * d2);
     }
+  }
+}
+
+/// Whether any of these cells has more shear traction than strength.
+template <int D, bool Extended, class Real>
+bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
+  constexpr int tangents = D - 1;
+  const Real *const r0 = rows.stress, *const r1 = r0 + rows.pitch, *const r2 = r1 + rows.pitch;
+  const Real *const r3 = D == 2 ? r2 : r2 + rows.pitch, *const r4 = D == 2 ? r2 : r3 + rows.pitch,
+                    *const r5 = D == 2 ? r2 : r4 + rows.pitch;
+  const Real *const still_n = rows.still, *const still1 = still_n + rows.still_pitch,
+                    *const still2 = still_n + tangents * rows.still_pitch;
+  const OneSystem<D, Real> system(planes);
+  using Whole = typename smooth::Bits<Real>::Whole;
+  Whole any = 0;
+#pragma omp simd reduction(| : any)
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto [t1, t2, size, strength] =
+        felt<D, Extended>(system, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
+                          D == 2 ? Real(0) : r5[i], still_n, still1, still2, rows.gap[0], i);
+    any |= size > strength ? Whole(1) : Whole(0);
+  }
+  return any != 0;
+}
+
+/// slip_one() where it has anything to do: it is left out for pieces of a line in which nothing slips.
+template <int D, SlipCorrection Correction, bool Extended, class Real>
+void slip_where_needed(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
+  constexpr std::int64_t piece = 64;
+  for (std::int64_t first = 0; first < n; first += piece) {
+    SlipRows<Real> here = rows;
+    here.stress += first;
+    here.creep[0] += first;
+    if (rows.kept) here.kept += first;
+    if (rows.still) here.still += first;
+    if (rows.gap[0]) here.gap[0] += first;
+    const std::int64_t count = n - first < piece ? n - first : piece;
+    if (slips<D, Extended>(count, planes, here))
+      slip_one<D, Correction, Extended, Half::end>(count, planes, here);
   }
 }
 
@@ -218,12 +217,13 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
 
 template <int D, SlipCorrection Correction, bool Extended, class Real>
 SlipKernels<Real> one() {
+  constexpr auto begin = slip_one<D, Correction, Extended, Half::beginning, Real>;
   if constexpr (Correction == SlipCorrection::first)
     return {slip_one<D, Correction, Extended, Half::end, Real>, nothing<Real>, 0};
-  else
-    return {slip_one<D, Correction, Extended, Half::end, Real>,
-            slip_one<D, Correction, Extended, Half::beginning, Real>,
-            Correction == SlipCorrection::exponential ? D + 1 : 0};
+  else if constexpr (Correction == SlipCorrection::second)
+    return {slip_one<D, Correction, Extended, Half::end, Real>, begin, 0};
+  else  // divisions and roots: worth a look before
+    return {slip_where_needed<D, Correction, Extended, Real>, begin, D + 1};
 }
 template <SlipCorrection Correction, bool Extended, class Real>
 SlipKernels<Real> two() {
