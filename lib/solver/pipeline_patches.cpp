@@ -88,7 +88,7 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
     };
     const auto slipping =
         sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, carry.first);
-    if (!slipping.empty()) {
+    if (!slipping.empty() && !still) {
       end_.run_patch(stage.time, line, slipping, copy, pitch);
       if (const auto seen = common(patch.cells, first); looks && !seen.empty())
         end_.look(stage.time, line, seen, copy, pitch);

@@ -178,9 +178,13 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
                                     const Columns& second, Carry<Real>& carry, Carry<Real>& second_carry,
                                     PatchCarry<Real>* patches, Worker& worker) {
   const StepTime& time = stage.time;
+  const auto at = layout_.line_index(line);
   const auto passes = [&](auto&& what) {
+    const bool stirs = end_.stirs(time, line);
+    // They make nothing of rock at rest.
+    if (!stirs && quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
     what();
-    if (end_.stirs(time, line)) look_for_active(line, first);
+    if (stirs) look_for_active(line, first);
   };
   if (end_.whole(time, line)) {
     if (!first.empty()) {

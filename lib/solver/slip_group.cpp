@@ -1,6 +1,7 @@
 #include "solver/slip_group.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "model/fracture.hpp"
 #include "solver/slip_planes.hpp"
@@ -188,6 +189,17 @@ void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std:
     slip_jointly(stress, pitch, place, n, act == SlipAct::begin);
   } else {
     (act == SlipAct::begin ? kernels_.begin : kernels_.slip)(n, planes_, rows(stress, pitch, place));
+  }
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::rest() {
+  if (kept_.empty()) return;
+  constexpr int components = SymmetricTensor<D, Real>::components;
+  std::array<Real, components * lanes> none;
+  for (std::size_t place = 0; place < count_; place += lanes) {
+    none.fill(0);
+    act(SlipAct::begin, none.data(), lanes, place, lanes);
   }
 }
 

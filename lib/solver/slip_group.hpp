@@ -39,6 +39,9 @@ class SlipGroup {
   /// `pitch` apart. At the end of a step planes part before they slip.
   void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
 
+  /// Makes all that is kept of the cells what a step at rest leaves of them.
+  void rest();
+
   const FractureSet<D>& set() const { return *set_; }
   /// Cells that belong to the set, and all that are kept.
   std::int64_t cells() const { return cells_; }

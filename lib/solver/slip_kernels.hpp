@@ -50,7 +50,7 @@ struct SlipKernels {
   void (*slip)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
   /// What the next step begins with.
   void (*begin)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
-  /// Rows kept from step to step, zero before the first.
+  /// Rows kept from step to step; before the first as `begin` leaves them at rest.
   int kept_rows;
 };
 

@@ -13,6 +13,7 @@ SlipPass<D, Real>::SlipPass(State<D, Real>& state, const Domain<D>& domain, cons
     SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s, unit);
     if (group.cells() == 0) continue;
     if (scene.slip_diary) diary_.emplace_back(std::size_t(group.kept_cells()));
+    group.rest();
     opens_ |= group.opens();
     groups_.push_back(std::move(group));
   }

@@ -110,6 +110,25 @@ TEST(Traces, ScaleWithTheSourceToTheLastBit) {
   }
 }
 
+TEST(Traces, OfSlippingRockDoNotDependOnWhatIsLeftOutAtRest) {
+  auto scene = reef(300, 150);
+  auto& planes = scene.model.fracture_sets[0].systems[0];
+  planes.strength_pa = 0.01;
+  planes.opens = true;
+  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -0.02F));
+  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 0.005F);
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    scene.numerics.correction = correction;
+    scene.numerics.passage = {1, 1 << 20, true};
+    const auto everywhere = samples_of(shoot(scene, 1));
+    scene.numerics.passage = {};
+    EXPECT_EQ(samples_of(shoot(scene, 1)), everywhere) << name_of(correction);
+    scene.with_slip = false;
+    EXPECT_GT(relative_error(samples_of(shoot(scene, 1)), everywhere), 1e-4);
+    scene.with_slip = true;
+  }
+}
+
 TEST(Traces, OfSlippingRockScaleWithTheSourceAndAllOtherStress) {
   // The law holds for stress in any unit, viscosity in one over that: |tau| = S (1 + eta |g|).
   auto scene = reef();
