@@ -28,15 +28,15 @@ template <int D, SlipCorrection Correction, bool Extended, Half Now, class Real>
                                                          rows.still + rows.still_pitch;
   const Real* __restrict const still2 = rows.still + tangents * rows.still_pitch;
   const Real* __restrict const gaps = rows.gap[0];
-  const OneSystem<D, Real> system(planes);
-  const Real *const m1 = system.m1, *const m2 = system.m2;
+  const OneSystem<D, Real> one(planes);
+  const Real *const m1 = one.m1, *const m2 = one.m2;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real creep = creeps[i];
     const auto [t1, t2, size, strength] =
-        felt<D, Extended>(system, s0, s1, s2, s3, s4, s5, still_n, still1, still2, gaps, i);
+        felt<D, Extended>(one, s0, s1, s2, s3, s4, s5, still_n, still1, still2, gaps, i);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
     const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
@@ -90,13 +90,13 @@ bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>&
                     *const r5 = D == 2 ? r2 : r4 + rows.pitch;
   const Real *const still_n = rows.still, *const still1 = still_n + rows.still_pitch,
                     *const still2 = still_n + tangents * rows.still_pitch;
-  const OneSystem<D, Real> system(planes);
+  const OneSystem<D, Real> one(planes);
   using Whole = typename smooth::Bits<Real>::Whole;
   Whole any = 0;
 #pragma omp simd reduction(| : any)
   for (std::int64_t i = 0; i < n; ++i) {
     const auto [t1, t2, size, strength] =
-        felt<D, Extended>(system, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
+        felt<D, Extended>(one, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
                           D == 2 ? Real(0) : r5[i], still_n, still1, still2, rows.gap[0], i);
     any |= size > strength ? Whole(1) : Whole(0);
   }
