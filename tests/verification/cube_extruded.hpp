@@ -81,8 +81,9 @@ inline void fracture(Extruded& both, const Point<2>& normal, double friction, do
   deep.fracture_sets = {{"cracks", {{normal_in_3d, friction, 500, cohesion_pa}}}};
 }
 
-/// In 2-D the half sweeps along x of two steps are one, but for lines with fractures: with a column of planes
-/// that never slip through all lines a step has the sweeps of one in 3-D whose y is this x.
+/// In 2-D the half sweeps along x of two steps are one, but for lines with fractures close to an end
+/// (Patches): with such a column of planes that never slip through all lines a step has the sweeps of one in
+/// 3-D whose y is this x.
 inline void keep_half_sweeps(Extruded& both) {
   auto& model = both.flat.model;
   if (model.fracture.size() == 0) model.fracture = Field<2, std::uint8_t>(model.grid());
