@@ -11,7 +11,7 @@ constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
 constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
 /// Cells without a contact or an edge that must follow each other across the edge: no stencil that reads
 /// beyond it may reach another end.
-constexpr std::int64_t fewest_across = 2 * max_reach;
+constexpr auto fewest_across = std::int64_t(2) * max_reach;
 
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {

@@ -44,7 +44,7 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
   const auto longest = stages(0, steps_a_pass_);
   longest_ = longest.back().behind + bend_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  band_rows_ = std::max(fewest_band_rows, longest_ + 2 * max_reach);
+  band_rows_ = std::max(fewest_band_rows, longest_ + std::int64_t(2) * max_reach);
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
   const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
