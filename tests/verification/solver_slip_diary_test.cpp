@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "lab.hpp"
@@ -90,6 +91,53 @@ TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
     }
     EXPECT_GT(widest, 0);
   }
+}
+
+TEST(SlipDiary, IsInSiUnitsWhateverUnitTheFieldsHave) {
+  // Fields of single precision have a unit of their own, those of double precision have not.
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(160, 60, 5, {4500, 2250, 2500});
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+  for (std::int64_t x = 75; x < 85; ++x)
+    for (std::int64_t z = 30; z < 40; ++z) scene.model.fracture({x, z}) = 1;
+  scene.model.fracture_sets = {{"cracks", {{{0.6, 0.8}, 0.2, 1e-3, 2e3, true}}}};
+  for (const float value : {-4e4f, -3e4f, 0.f})
+    scene.model.prestress_pa.emplace_back(scene.model.grid(), value);
+  scene.survey.sources = {{{402.5, 52.5}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:30"), 1e12}};
+  scene.survey.receivers_m = {{402.5, 102.5}};
+  scene.recording = {{Component::vz}, 0.12, 0.001};
+  scene.slip_diary = true;
+  scene.snapshot_every_s = 0.1;
+  struct Seen {
+    std::vector<Field<2>> fields;
+    ShotReport report;
+  } seen[2];
+  for (const bool precise : {false, true}) {
+    scene.numerics.double_precision = precise;
+    auto& here = seen[precise];
+    shoot<2>(
+        scene, 1, {},
+        [&](double, const FieldReader<2>& field) {
+          for (const auto which :
+               {SlipField::slip, SlipField::slip_rate, SlipField::dissipated, SlipField::opening})
+            here.fields.push_back(field(which));
+        },
+        nullptr, &here.report);
+  }
+  ASSERT_EQ(seen[0].fields.size(), seen[1].fields.size());
+  for (std::size_t n = 0; n < seen[0].fields.size(); ++n) {
+    std::vector<double> found, expected;
+    for (std::size_t cell = 0; cell < seen[0].fields[n].size(); ++cell) {
+      found.push_back(seen[0].fields[n][cell]);
+      expected.push_back(seen[1].fields[n][cell]);
+    }
+    EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0) << n;
+    EXPECT_LT(relative_error(found, expected), 1e-3) << n;
+  }
+  const auto &found = seen[0].report, &expected = seen[1].report;
+  EXPECT_NEAR(found.slip->dissipated, expected.slip->dissipated, 1e-4 * expected.slip->dissipated);
+  EXPECT_NEAR(*found.source_work, *expected.source_work, 1e-4 * *expected.source_work);
+  EXPECT_NEAR(found.energy_left, expected.energy_left, 1e-4 * expected.energy_left);
 }
 
 }  // namespace
