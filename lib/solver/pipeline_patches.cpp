@@ -88,11 +88,11 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
     };
     const auto slipping =
         sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, carry.first);
-    if (!slipping.empty() && !still) {
-      end_.run_patch(stage.time, line, slipping, copy, pitch);
+    if (!slipping.empty()) {
+      if (!still) end_.run_patch(stage.time, line, slipping, copy, pitch);
       if (const auto seen = common(patch.cells, first); looks && !seen.empty())
         end_.look(stage.time, line, seen, copy, pitch);
-      end_.run_patch_after(stage.time, line, slipping, copy, pitch);
+      if (!still) end_.run_patch_after(stage.time, line, slipping, copy, pitch);
     }
     sweep(patch.blocks, second, carry.second);
   }

@@ -17,7 +17,7 @@ class Checkpoint : public Shell {
         "sw-fracture - --box 500:900,600:700 --dip 30 --friction 0.1 --viscosity 4e3 -o m.nc");
   }
   const std::string scene = "sw-shoot m.nc --source 700,50 --wavelet ricker:20 --receivers 0:1500:50,20 ";
-  const std::string shoot = scene + "--time 0.8 --threads 1 ";
+  const std::string shoot = scene + "--time 1.2 --threads 1 ";
   const std::string two_shots = scene + "--time 0.4 --threads 1 --source 300,60 ";
   const std::string often = "--checkpoint c --checkpoint-every 0.01 ";
 
@@ -26,8 +26,8 @@ class Checkpoint : public Shell {
   /// Ends a line by a signal when its first checkpoint is there.
   Ran ended_once_begun(const std::string& line, const std::string& signal) const {
     // A shell's background children ignore INT unless they are jobs.
-    return run("set -m; " + line + "& tool=$!; until [ -e c ]; do sleep 0.01; done; kill -" + signal +
-               " $tool; wait $tool");
+    return run("set -m; " + line + "& tool=$!; until [ -e c ] || ! kill -0 $!; do sleep 0.01; done; kill -" +
+               signal + " $tool; wait $tool");
   }
   /// Ends a line by a signal some seconds after it was begun, or after it has written a checkpoint; its exit
   /// code, what it said in `said`.
@@ -151,8 +151,9 @@ TEST_F(Checkpoint, ShotsThatAreDoneAreNotShotAgain) {
   done(shots + "-o 'whole{shot}.sgy'");
   for (const std::string parallel : {"1", "2", "3"}) {
     const std::string line = shots + seldom + "--shots-in-parallel " + parallel + " -o 'out{shot}.sgy' ";
-    const std::string moment = parallel == "1" ? "until [ -e out1.sgy ]; do sleep 0.01; done; "
-                                               : "until [ -e c.1 ]; do sleep 0.01; done; ";
+    const std::string moment = parallel == "1"
+                                   ? "until [ -e out1.sgy ] || ! kill -0 $!; do sleep 0.01; done; "
+                                   : "until [ -e c.1 ] || ! kill -0 $!; do sleep 0.01; done; ";
     const Ran ran = run("(exec " + line + ") & " + moment + "kill -TERM $!; wait $!");
     ASSERT_EQ(ran.code, 128 + 15) << ran.err;
     const auto first = parallel == "1" ? done("stat -c '%i %y' out1.sgy") : "";
@@ -177,11 +178,11 @@ TEST_F(Checkpoint, AFileOfAFinishedShotThatIsGoneIsMadeAgain) {
        "--snapshots 's{shot}.nc' --every 0.1 -o 'whole{shot}.sgy'; "
        "mv s1.nc whole1.nc; mv s2.nc whole2.nc");
   for (const std::string gone : {"out1.sgy", "s1.nc"}) {
-    const Ran ran =
-        run("(exec " + line +
-            "'out{shot}.sgy') 2> /dev/null & "
-            "while [ ! -e c.shot2 ]; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!; rm " +
-            gone);
+    const Ran ran = run(
+        "(exec " + line +
+        "'out{shot}.sgy') 2> /dev/null & "
+        "while [ ! -e c.shot2 ] && kill -0 $!; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!; rm " +
+        gone);
     const Ran rest = run(line + "'out{shot}.sgy'");
     EXPECT_EQ(rest.code, 0) << rest.err;
     for (const std::string shot : {"1", "2"})
@@ -196,7 +197,8 @@ TEST_F(Checkpoint, TheOlderOneServesToo) {
   const std::string line = shoot + often + "--snapshots s.nc --every 0.05 -o out.sgy ";
   for (const std::string loss : {"mv c.1 c", "rm c"}) {
     EXPECT_EQ(
-        run("(exec " + line + ") & until [ -e c.1 ]; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!")
+        run("(exec " + line +
+            ") & until [ -e c.1 ] || ! kill -0 $!; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!")
             .code,
         128 + 9);
     const Ran rest = run(loss + "; " + line);
@@ -221,9 +223,9 @@ TEST_F(Checkpoint, ADiskWithoutRoomForOneIsSaidAndDoesNotEndTheRun) {
 
 TEST_F(Checkpoint, ASecondRunDoesNotTouchTheCheckpointOfTheFirst) {
   const std::string line = scene + "--time 3 --threads 1 --checkpoint c --checkpoint-every 0.05 -o ";
-  const Ran ran =
-      run("(exec " + line + "first.sgy) 2> first & tool=$!; until [ -e c ]; do sleep 0.01; done; " + line +
-          "second.sgy; code=$?; ls -A > there; kill -KILL $tool; wait $tool; exit $code");
+  const Ran ran = run("(exec " + line +
+                      "first.sgy) 2> first & tool=$!; until [ -e c ] || ! kill -0 $!; do sleep 0.01; done; " +
+                      line + "second.sgy; code=$?; ls -A > there; kill -KILL $tool; wait $tool; exit $code");
   EXPECT_EQ(ran.code, 1);
   EXPECT_EQ(ran.err.substr(0, ran.err.find('\n')),
             "sw-shoot: c: is in use by another run, expected one at a time");
