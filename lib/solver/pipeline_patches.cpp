@@ -53,8 +53,18 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
   };
   if (!wanted({second.first, first.last + beyond})) return nullptr;
   const auto at = layout_.line_index(line);
-  const bool still = quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
-                           {second.first - Kept::behind, first.last + beyond});
+  const bool looks = end_.looks(stage.time, line);
+  const auto look = [&](const Patch& patch, const Real* fields, std::int64_t way) {
+    if (const auto seen = common(patch.cells, first); looks && !seen.empty())
+      end_.look(stage.time, line, seen, fields, way);
+  };
+  if (quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
+            {second.first - Kept::behind, first.last + beyond})) {
+    for (const auto& patch : patches) look(patch, state, layout_.row_pitch());
+    // The next stripe begins with zeros as well as it would go on from them.
+    carry.line = -1;
+    return nullptr;
+  }
   const bool begins =
       carry.line != line || carry.step != stage.time.step || carry.next != second.first || second.first == 0;
   if (!begins)
@@ -75,13 +85,10 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
                   state + row * layout_.row_pitch() + read.last, copy + row * pitch + read.first);
       });
   }
-  const bool looks = end_.looks(stage.time, line);
   for (const auto& patch : patches) {
     const auto sweep = [&](const Columns& all, const Columns& now, Carry<Real>& of_sweep) {
       const auto columns = common(all, now);
-      if (still)
-        of_sweep = {};
-      else if (!columns.empty())
+      if (!columns.empty())
         sweeps_.along_copy(line, {copy, pitch}, columns, begins || columns.first == all.first, stage.part,
                            of_sweep, worker.work);
       return columns;
@@ -89,10 +96,9 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
     const auto slipping =
         sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, carry.first);
     if (!slipping.empty()) {
-      if (!still) end_.run_patch(stage.time, line, slipping, copy, pitch);
-      if (const auto seen = common(patch.cells, first); looks && !seen.empty())
-        end_.look(stage.time, line, seen, copy, pitch);
-      if (!still) end_.run_patch_after(stage.time, line, slipping, copy, pitch);
+      end_.run_patch(stage.time, line, slipping, copy, pitch);
+      look(patch, copy, pitch);
+      end_.run_patch_after(stage.time, line, slipping, copy, pitch);
     }
     sweep(patch.blocks, second, carry.second);
   }
@@ -105,7 +111,7 @@ const Real* Pipeline<D, Real>::work_on_patches(const Stage& stage, std::int64_t 
       std::copy(from, from + first.last - second.last + Kept::behind,
                 carry.fields.data() + row * Kept::width);
     });
-  return still ? nullptr : copy;
+  return copy;
 }
 
 /// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves
