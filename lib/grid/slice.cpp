@@ -35,8 +35,12 @@ CellLayer layer_to_show(const Grid<3>& grid, const std::optional<Slice>& slice) 
               ErrorKind::usage);
 }
 
+std::array<std::size_t, 2> axes_left(int axis) { return {axis == 0 ? 1U : 0U, axis == 2 ? 1U : 2U}; }
+
 std::array<const char*, 2> section_axes(int axis) {
-  return {axis == 0 ? "y" : "x", axis == 2 ? "y" : "depth"};
+  constexpr const char* names[] = {"x", "y", "depth"};
+  const auto [across, down] = axes_left(axis);
+  return {names[across], names[down]};
 }
 
 Grid<3> layer_of(const Grid<3>& grid, int axis, std::int64_t number) {
@@ -57,14 +61,14 @@ Field<3> layer_of(const Field<3>& field, int axis, std::int64_t number) {
 }
 
 Grid<2> section_grid(const Grid<3>& grid, int axis) {
-  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  const auto [across, down] = axes_left(axis);
   return {
       {grid.shape[across], grid.shape[down]}, grid.spacing_m, {grid.origin_m[across], grid.origin_m[down]}};
 }
 
 template <class Value>
 Field<2, Value> section_of(const Field<3, Value>& field, int axis, std::int64_t number) {
-  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  const auto [across, down] = axes_left(axis);
   Field<2, Value> section(section_grid(field.grid(), axis));
   for (std::int64_t n = 0; n < section.grid().size(); ++n) {
     const auto from = section.grid().index(n);

@@ -29,7 +29,9 @@ struct CellLayer {
 /// usage Error for a volume without a plane.
 CellLayer layer_to_show(const Grid<3>& grid, const std::optional<Slice>& slice);
 
-/// Names of the axes that a section across an axis has left, across and down, z as "depth".
+/// The axes that a section across an axis has left: the one that runs across it and the one that runs down.
+std::array<std::size_t, 2> axes_left(int axis);
+/// Their names, z as "depth".
 std::array<const char*, 2> section_axes(int axis);
 
 /// The layer of a grid with this number across an axis: one cell thick.

@@ -42,7 +42,7 @@ Field<D, std::uint8_t> read_codes(const NetcdfFile& file, const Grid<D>& grid, s
 
 /// Sets as a section shows them: their normals without the part across it.
 std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& sets, int axis) {
-  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  const auto [across, down] = axes_left(axis);
   std::vector<FractureSet<2>> seen;
   for (const auto& set : sets) {
     seen.push_back({set.name, {}});

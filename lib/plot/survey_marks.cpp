@@ -4,6 +4,7 @@
 #include <set>
 
 #include "base/error.hpp"
+#include "grid/slice.hpp"
 #include "segy/reader.hpp"
 
 namespace slipwave::plot {
@@ -30,7 +31,7 @@ void draw_marks(Canvas& canvas, const Panel& panel, const std::vector<Point<2>>&
 }  // namespace
 
 SurveyMarks read_survey(segy::Reader& reader, int axis) {
-  const std::size_t across = axis == 0 ? 1 : 0, down = axis == 2 ? 1 : 2;
+  const auto [across, down] = axes_left(axis);
   std::set<Point<2>> sources, receivers;
   segy::Trace trace;
   while (reader.next(trace)) {
