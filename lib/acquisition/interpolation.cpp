@@ -121,7 +121,7 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
                                           int most_cells) {
   std::vector<PointWeight<D>> product{{{}, 1.}};
   for (int axis = 0; axis < D; ++axis) {
-    const double position = (point_m[axis] - grid.origin_m[axis]) / grid.spacing_m - 0.5;
+    const double position = grid.position(axis, point_m[axis]);
     const auto along = axis_weights(position, usable[axis], most_cells);
     std::vector<PointWeight<D>> wider;
     for (const auto& weight : along)

@@ -37,10 +37,11 @@ class Digest {
   }
   template <int D>
   void add(const Grid<D>& grid) {
-    const auto& [shape, spacing_m, origin_m] = grid;
+    const auto& [shape, spacing_m, origin_m, first] = grid;
     for (const auto cells : shape) add(cells);
     add(spacing_m);
     add(origin_m);
+    for (const auto cells : first) add(cells);
   }
   template <int D>
   void add(const SlipSystem<D>& system) {
@@ -127,7 +128,9 @@ const char* name_of(EdgeLaw law) {
 
 template <int D>
 Identity identity_of(const Scene<D>& scene) {
-  const auto& [model, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary] = scene;
+  const auto& [model, part, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary] =
+      scene;
+  if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, passage] = numerics;
   const auto& [components, duration_s, interval_s] = recording;
   const auto& [sources, receivers_m] = survey;

@@ -25,15 +25,24 @@ template <int D>
 struct Grid {
   Index<D> shape{};      // cells along x, [y,] z
   double spacing_m = 0;  // h
-  Point<D> origin_m{};   // the low corner of cell (0, .., 0)
+  Point<D> origin_m{};   // the low corner of cell (0, .., 0), where `first` is 0
+  /// Cells of a larger grid that come before this part of it. Places are counted from the origin of the
+  /// larger one, so that they are the same numbers in it and in all its parts, to the last bit.
+  Index<D> first{};
 
   std::int64_t size() const {
     std::int64_t cells = 1;
     for (auto n : shape) cells *= n;
     return cells;
   }
-  double centre(int axis, std::int64_t i) const { return origin_m[axis] + (double(i) + 0.5) * spacing_m; }
-  double end(int axis) const { return origin_m[axis] + double(shape[axis]) * spacing_m; }
+  double centre(int axis, std::int64_t i) const {
+    return origin_m[axis] + (double(first[axis] + i) + 0.5) * spacing_m;
+  }
+  double end(int axis) const { return origin_m[axis] + double(first[axis] + shape[axis]) * spacing_m; }
+  /// Of a place along an axis, in cells from the centre of cell 0.
+  double position(int axis, double place_m) const {
+    return (place_m - origin_m[axis]) / spacing_m - 0.5 - double(first[axis]);
+  }
   std::int64_t flat(const Index<D>& at) const {
     std::int64_t n = 0;
     for (int axis = D - 1; axis >= 0; --axis) n = n * shape[axis] + at[axis];

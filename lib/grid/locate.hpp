@@ -14,7 +14,7 @@ Index<D> cell_of(const Grid<D>& grid, const Point<D>& point_m) {
   Index<D> at;
   for (std::size_t axis = 0; axis < D; ++axis) {
     const auto cell = std::int64_t(std::floor((point_m[axis] - grid.origin_m[axis]) / grid.spacing_m));
-    at[axis] = std::clamp<std::int64_t>(cell, 0, grid.shape[axis] - 1);
+    at[axis] = std::clamp<std::int64_t>(cell - grid.first[axis], 0, grid.shape[axis] - 1);
   }
   return at;
 }

@@ -12,8 +12,15 @@
 namespace slipwave {
 namespace {
 
+/// Whether the process that computes this part answers for a point.
+template <int D>
+bool answers_for(const Scene<D>& scene, const Point<D>& point) {
+  return scene.part.owns(scene.model.grid(), point);
+}
+
 template <int D>
 void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
+  if (!answers_for(scene, point)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), point)));
   if (!scene.model.medium.is_void(cell)) return;
   throw Error(who + " at " + place_of(scene.model.grid(), std::int64_t(cell)) +
@@ -24,8 +31,9 @@ void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& po
 template <int D>
 void check_moment_in_fluid(const Scene<D>& scene, const Source<D>& source) {
   const auto* moment = std::get_if<MomentTensor<D>>(&source.mechanism);
+  if (!moment || !answers_for(scene, source.position_m)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), source.position_m)));
-  if (!moment || !scene.model.medium.is_fluid(cell)) return;
+  if (!scene.model.medium.is_fluid(cell)) return;
   for (int i = 0; i < D; ++i)
     for (int j = i; j < D; ++j)
       if (moment->tensor(i, j) != (i == j ? moment->tensor(0, 0) : 0))
@@ -172,7 +180,7 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  double fastest = 0;
+  double fastest = scene.part.fastest;
   for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
     if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
   return scene.model.grid().spacing_m / fastest;
@@ -197,11 +205,11 @@ void check(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
   bool any = false;
   for (std::size_t cell = 0; cell < medium.vp.size() && !any; ++cell) any = !medium.is_void(cell);
-  if (!any) throw Error("every cell of the model is void, expected rock or fluid");
+  if (!any && scene.part.is_whole()) throw Error("every cell of the model is void, expected rock or fluid");
   if (scene.survey.sources.empty())
     throw Error(std::string("found no source, expected --source ") + (D == 2 ? "X,Z" : "X,Y,Z"),
                 ErrorKind::usage);
-  check(scene.survey, scene.model.grid());
+  check(scene.survey, scene.part.whole(scene.model.grid()));
   for (const auto& source : scene.survey.sources) {
     const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
     if (wave && D == 3)

@@ -9,6 +9,7 @@
 #include "gather/trace.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
+#include "scene/part.hpp"
 
 namespace slipwave {
 
@@ -50,6 +51,7 @@ struct Recording {
 template <int D>
 struct Scene {
   Model<D> model;
+  Part part;  // of the model that this process computes
   Survey<D> survey;
   EdgeLaws<D> edges;
   Numerics numerics;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/parallel.hpp"
 
@@ -50,16 +51,32 @@ bool Domain<D>::shear() const {
 }
 
 template <int D>
-Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells) {
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells, const Part& part) {
+  constexpr int z = D - 1;
   Domain<D> domain;
   domain.model_grid = domain.grid = medium.grid();
-  domain.edges = edges;
+  domain.part = part;
+  domain.edges = domain.whole_edges = edges;
   for (int axis = 0; axis < D; ++axis) {
     domain.low_zone[axis] = edges[axis][0] == EdgeLaw::absorbing ? zone_cells : 0;
     domain.high_zone[axis] = edges[axis][1] == EdgeLaw::absorbing ? zone_cells : 0;
     domain.grid.shape[axis] += domain.low_zone[axis] + domain.high_zone[axis];
     domain.grid.origin_m[axis] -= double(domain.low_zone[axis]) * domain.grid.spacing_m;
   }
+  // Places are counted from the whole computed grid, zones included.
+  if (part.cut(domain.model_grid, 0)) {
+    domain.grid.first[z] += domain.low_zone[z];
+    domain.grid.shape[z] -= std::exchange(domain.low_zone[z], 0);
+    domain.edges[z][0] = EdgeLaw::absorbing;
+  }
+  if (part.cut(domain.model_grid, 1)) {
+    domain.grid.shape[z] -= std::exchange(domain.high_zone[z], 0);
+    domain.edges[z][1] = EdgeLaw::absorbing;
+  }
+  domain.own = {0, domain.grid.shape[z]};
+  const auto held = domain.model_grid.first[z];
+  if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
+  if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
   for (auto& z : domain.impedance) z = Field<D>(domain.grid);
   for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
@@ -154,13 +171,15 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
 template <int D, class Real>
 double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium) {
   double total = 0;
-  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n)
-    total += energy_of_cell(state, domain, medium, domain.computed_cell(domain.model_grid.index(n)));
+  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
+    const auto at = domain.computed_cell(domain.model_grid.index(n));
+    if (domain.owns(at[D - 1])) total += energy_of_cell(state, domain, medium, at);
+  }
   return total;
 }
 
 template struct Domain<2>;
-template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int);
+template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Part&);
 template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
@@ -169,7 +188,7 @@ template double energy_of_cell(const State<2, double>&, const Domain<2>&, const 
 template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 template struct Domain<3>;
-template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int);
+template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Part&);
 template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);

@@ -4,6 +4,7 @@
 
 #include "model/model.hpp"
 #include "scene/edges.hpp"
+#include "scene/part.hpp"
 #include "solver/span_ends.hpp"
 #include "solver/state.hpp"
 
@@ -13,14 +14,18 @@ namespace slipwave::solver {
 template <int D>
 struct Domain {
   Grid<D> model_grid;
-  Grid<D> grid;          // zones included
-  Index<D> low_zone{};   // cells added below the model along each axis
-  Index<D> high_zone{};  // and above
-  EdgeLaws<D> edges;
+  Grid<D> grid;             // zones included
+  Index<D> low_zone{};      // cells added below the model along each axis
+  Index<D> high_zone{};     // and above
+  EdgeLaws<D> edges;        // absorbing, without a zone, where other processes go on
+  EdgeLaws<D> whole_edges;  // of the whole model
+  Part part;
+  Columns own;                        // rows of the computed grid that this process answers for
   std::array<Field<D>, 2> impedance;  // [wave], kg/(m2 s), 0 where the wave is not carried
 
   /// Whether any cell carries S waves.
   bool shear() const;
+  bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
   /// Cell of the model whose medium a cell of the computed grid has.
   Index<D> model_cell(Index<D> at) const;
   /// Cell of the computed grid of a cell of the model.
@@ -30,8 +35,10 @@ struct Domain {
   }
 };
 
+/// `medium` is of the model or of what this process holds of it; `edges` are those of the whole model.
 template <int D>
-Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells);
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
+                      const Part& part = {});
 
 /// Largest vp in m/s of the cells that are not void.
 template <int D>

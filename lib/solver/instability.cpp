@@ -57,14 +57,15 @@ std::string contact_of(const Medium<D>& medium, std::size_t a, std::size_t b) {
   return largest >= contact_ratio ? "a contact" : "";
 }
 
-/// The free, rigid or mirror edges of the model and its absorbing zones; `at` in cells of the model, outside
+/// The free, rigid or mirror edges of the whole model and its absorbing zones; `at` in cells of it, outside
 /// it in the zones.
 template <int D>
 void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const Index<D>& at) {
   const bool plane = !point_injection(scene.survey.sources[shot - 1]);
+  const auto whole = scene.part.whole(scene.model.grid());
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1}) {
-      const auto past = side ? scene.model.grid().shape[std::size_t(axis)] - 1 - at[std::size_t(axis)]
+      const auto past = side ? whole.shape[std::size_t(axis)] - 1 - at[std::size_t(axis)]
                              : at[std::size_t(axis)];  // cells between it and the edge; negative: outside
       const EdgeLaw law = scene.edges[axis][side];
       const std::string edge = law == EdgeLaw::rigid ? "a rigid edge" : "a mirror";
@@ -123,11 +124,13 @@ std::string surroundings(const Scene<D>& scene, const Domain<D>& domain, std::si
   Index<D> of_model = at;
   for (std::size_t axis = 0; axis < D; ++axis) of_model[axis] -= domain.low_zone[axis];
   Nearby nearby;
-  add_edges(nearby, scene, shot, of_model);
+  Index<D> of_whole = of_model;
+  of_whole[D - 1] += grid.first[D - 1];
+  add_edges(nearby, scene, shot, of_whole);
   add_cells(nearby, scene, of_model);
   const auto& source = scene.survey.sources[shot - 1];
   if (point_injection(source))
-    nearby.add("the source", cells_apart<D>(cell_of(grid, source.position_m), of_model));
+    nearby.add("the source", cells_apart<D>(cell_of(scene.part.whole(grid), source.position_m), of_whole));
   return "vp=" + shown(medium.vp[inside]) + " vs=" + shown(medium.vs[inside]) +
          " rho=" + shown(medium.rho[inside]) + nearby.text(grid.spacing_m);
 }

@@ -44,7 +44,7 @@ std::vector<double> parts_along(int axis, int dimension, int time_order) {
 
 template <int D, class Real>
 MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
-                                    double vp_max, double slow_hz, int time_order)
+                                    double vp_max, double slow_hz, int time_order, Ranks* ranks)
     : layout_(layout), kernels_(stretch_kernels<Real>()) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
@@ -80,7 +80,7 @@ MatchedLayer<D, Real>::MatchedLayer(const Layout<D>& layout, const Domain<D>& do
     const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
     axis.memory = Buffer<Real>(values);
     std::fill(axis.memory.data(), axis.memory.data() + values, Real(0));
-    find_plates(n, domain);
+    find_plates(n, domain, ranks);
   }
 }
 
@@ -98,50 +98,72 @@ std::int64_t MatchedLayer<D, Real>::along_edge(int axis, const Index<D>& at) con
 /// Marks the solid cells along the edges of an axis that lie between two reflectors: edges that do not
 /// absorb, void, strong contacts.
 template <int D, class Real>
-void MatchedLayer<D, Real>::find_plates(int axis, const Domain<D>& domain) {
+void MatchedLayer<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) {
   Index<D> last = layout_.shape();
   for (auto& n : last) --n;
   for (const int side : {0, 1}) {
-    auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
-    plates.assign(std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
+    axes_[std::size_t(axis)].plates[std::size_t(side)].assign(
+        std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
     if ((side ? domain.high_zone : domain.low_zone)[std::size_t(axis)] == 0) continue;
-    for (int across = 0; across < D; ++across) {
+    for (int across = 0; across < D; ++across)
       // A slice one cell thick between mirrors stands for all of the space: no plate.
-      if (across == axis || layout_.shape()[std::size_t(across)] == 1) continue;
-      const auto run_of = [&](Index<D> at) {
-        const auto z = [&](std::int64_t cell) {
-          at[std::size_t(across)] = cell;
-          return std::array<double, 2>{domain.impedance[wave_p](at), domain.impedance[wave_s](at)};
-        };
-        const std::int64_t n = domain.grid.shape[std::size_t(across)];
-        const auto& laws = domain.edges[across];
-        bool begins_at_reflector = laws[0] != EdgeLaw::absorbing;
-        for (std::int64_t begin = 0, cell = 0; cell < n; ++cell) {
-          const bool ends = cell + 1 == n,
-                     reflector = ends ? laws[1] != EdgeLaw::absorbing : reflects(z(cell), z(cell + 1));
-          if (!ends && !reflector) continue;
-          if (begins_at_reflector && reflector)
-            for (std::int64_t inside = begin; inside <= cell; ++inside)
-              if (z(inside)[wave_s] > 0) plates[std::size_t(along_edge(axis, at))] = 1;
-          begins_at_reflector = reflector;
-          begin = cell + 1;
+      if (across != axis && layout_.shape()[std::size_t(across)] > 1)
+        find_plates(axis, side, across, domain, ranks);
+  }
+}
+/// The same of runs across one other axis. What lies along z is collective.
+template <int D, class Real>
+void MatchedLayer<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain,
+                                        Ranks* ranks) {
+  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  const bool shared_out = ranks && across == D - 1;
+  const int other = D == 2 ? axis : 3 - axis - across;  // in 2-D there is none
+  const std::int64_t runs = D == 2 ? 1 : layout_.shape()[std::size_t(other)];
+  const auto place = [&](std::int64_t run, std::int64_t cell) {
+    Index<D> at{};
+    if (D == 3) at[std::size_t(other)] = run;
+    at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
+    at[std::size_t(across)] = cell;
+    return at;
+  };
+  const Columns mine = shared_out ? domain.own : Columns{0, layout_.shape()[std::size_t(across)]};
+  std::vector<double> impedances;  // [cell][run][wave]
+  for (auto cell = mine.first; cell < mine.last; ++cell)
+    for (std::int64_t run = 0; run < runs; ++run)
+      for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance[wave](place(run, cell)));
+  if (shared_out) impedances = joined(ranks, impedances);
+  const std::int64_t cells = std::int64_t(impedances.size()) / (2 * runs);
+  const std::int64_t before = shared_out ? domain.grid.first[std::size_t(across)] : 0;
+  const auto& laws = domain.whole_edges[across];
+  for (std::int64_t run = 0; run < runs; ++run) {
+    const auto z = [&](std::int64_t cell) {
+      const auto first = std::size_t(2 * (cell * runs + run));
+      return std::array<double, 2>{impedances[first], impedances[first + 1]};
+    };
+    bool begins_at_reflector = laws[0] != EdgeLaw::absorbing;
+    for (std::int64_t begin = 0, cell = 0; cell < cells; ++cell) {
+      const bool ends = cell + 1 == cells,
+                 reflector = ends ? laws[1] != EdgeLaw::absorbing : reflects(z(cell), z(cell + 1));
+      if (!ends && !reflector) continue;
+      if (begins_at_reflector && reflector)
+        for (std::int64_t inside = begin; inside <= cell; ++inside) {
+          const auto here = inside - before;
+          if (z(inside)[wave_s] > 0 && here >= 0 && here < layout_.shape()[std::size_t(across)])
+            plates[std::size_t(along_edge(axis, place(run, here)))] = 1;
         }
-      };
-      // Each line across the plane once: from its cell 0.
-      const auto lines = domain.grid.size() / domain.grid.shape[std::size_t(axis)];
-      for (std::int64_t number = 0; number < lines; ++number) {
-        Index<D> at{};
-        std::int64_t rest = number;
-        for (int other = 0; other < D; ++other) {
-          const auto cells = domain.grid.shape[std::size_t(other)];
-          if (other == axis)
-            at[std::size_t(other)] = side ? cells - 1 : 0;
-          else
-            at[std::size_t(other)] = rest % cells, rest /= cells;
-        }
-        if (at[std::size_t(across)] == 0) run_of(at);
-      }
+      begins_at_reflector = reflector;
+      begin = cell + 1;
     }
+  }
+}
+
+/// Of all axes but the last, whose layers lie above and below.
+template <int D, class Real>
+void MatchedLayer<D, Real>::show(const Columns& rows, const std::function<void(Real*, std::int64_t)>& to) {
+  for (int n = 0; n + 1 < D; ++n) {
+    auto& memory = axes_[std::size_t(n)].memory;
+    const std::int64_t a_row = memory.size() / layout_.shape()[D - 1];
+    if (a_row > 0) to(memory.data() + rows.first * a_row, rows.count() * a_row);
   }
 }
 

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/ranks.hpp"
 #include "solver/domain.hpp"
 
 namespace slipwave::solver {
@@ -21,9 +23,9 @@ template <int D, class Real>
 class MatchedLayer {
  public:
   /// `slow_hz`: the frequency below which fields are stretched less and less, that of the source.
-  /// `time_order`: of the splitting the sweeps follow.
+  /// `time_order`: of the splitting the sweeps follow. Collective where there are ranks (may be null).
   MatchedLayer(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
-               int time_order = 2);
+               int time_order = 2, Ranks* ranks = nullptr);
 
   /// Parts of the columns first <= x < last of a line that lie in the layer of this axis, in order; empty
   /// ones where there are less than two.
@@ -34,6 +36,8 @@ class MatchedLayer {
   void stretch(int axis, const Index<D>& line, int field_row, const Columns& columns, Real scale,
                const Real* before, Real* row, bool remember);
   std::int64_t memory_bytes() const;
+  /// Shows what it remembers of these rows, outside the layers above and below them.
+  void show(const Columns& rows, const std::function<void(Real* values, std::int64_t count)>& to);
   /// Hands over what it remembers from one step to the next.
   void keep(Archive& archive) {
     for (auto& axis : axes_) archive.fixed(axis.memory.data(), std::size_t(axis.memory.size()));
@@ -59,7 +63,8 @@ class MatchedLayer {
     bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
   };
   std::int64_t along_edge(int axis, const Index<D>& at) const;
-  void find_plates(int axis, const Domain<D>& domain);
+  void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
+  void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
   Real* memory_of(int axis, const Index<D>& line, int field_row);
 
   Layout<D> layout_;

@@ -61,7 +61,7 @@ Strength strength_of(const Wavelet& wavelet, double duration_s, double dt_s) {
 }  // namespace
 
 template <int D>
-double largest_velocity(const Scene<D>& scene, std::size_t shot) {
+double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   const auto& source = scene.survey.sources[shot - 1];
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
@@ -72,16 +72,20 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot) {
     lightest = std::min(lightest, double(medium.rho[cell]));
     heaviest = std::max(heaviest, double(medium.rho[cell]));
   }
+  lightest = smallest_of(ranks, lightest);
+  heaviest = largest_of(ranks, heaviest);
   // Velocities that all energy of a kind would give to a cell of the lightest material; they add up at most.
   double sum = 0;
   const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
   if (const auto injection = point_injection(source)) {
-    const auto cell = std::size_t(grid.flat(cell_of(grid, source.position_m)));
-    const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
-    const double in_cell =
-        strength.integral_s / volume *
-        (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
-    sum += in_cell * std::sqrt(rho / lightest);
+    if (scene.part.owns(grid, source.position_m)) {
+      const auto cell = std::size_t(grid.flat(cell_of(grid, source.position_m)));
+      const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
+      const double in_cell =
+          strength.integral_s / volume *
+          (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
+      sum += in_cell * std::sqrt(rho / lightest);
+    }
   } else {
     double cells = double(grid.size()), through_edges = 0;
     for (const auto n : grid.shape) through_edges += 2 * cells / double(n);
@@ -89,17 +93,17 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot) {
     sum += std::abs(source.amplitude) * strength.largest *
            std::sqrt(2 * heaviest / lightest * (cells + steps * through_edges));
   }
-  if (scene.slips() && !scene.model.prestress_pa.empty()) {
-    double energy_over_volume = 0;
+  double energy_over_volume = 0;
+  if (scene.slips() && !scene.model.prestress_pa.empty())
     for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
       if (scene.model.fracture[cell] == 0) continue;
+      if (!scene.part.owns(grid, grid.index(std::int64_t(cell))[D - 1])) continue;
       double squares = 0;
       for (const auto& component : scene.model.prestress_pa)
         squares += double(component[cell]) * component[cell];
       energy_over_volume += squares / (double(medium.rho[cell]) * medium.vs[cell] * medium.vs[cell]);
     }
-    sum += std::sqrt(2 * energy_over_volume / lightest);
-  }
+  sum = sum_of(ranks, sum) + std::sqrt(2 * sum_of(ranks, energy_over_volume) / lightest);
   return to_spare * sum;
 }
 
@@ -112,6 +116,7 @@ void Monitor<D, Real>::look(const StepTime& time) const {
   std::vector<char> bad_lines(std::size_t(lines), 0);
   parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
+      if (!domain_.owns(state_.layout.line_index(line)[D - 1])) continue;
       bool bad = false;
       for (int axis = 0; axis < D; ++axis) {
         const Real* v = state_.field_row(state_.layout.line_index(line), FieldRows<D>::velocity(axis));
@@ -188,6 +193,7 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
   parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
       const Index<D> first = domain.computed_cell(domain.model_grid.index(line * nx));
+      if (!domain.owns(first[D - 1])) continue;
       const Real* cells = whole_line(layout.line_number(first)) + first[0];
       auto out = field.line(line);
       for (std::int64_t i = 0; i < nx; ++i) {
@@ -205,8 +211,8 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
   return field;
 }
 
-template double largest_velocity(const Scene<2>&, std::size_t);
-template double largest_velocity(const Scene<3>&, std::size_t);
+template double largest_velocity(const Scene<2>&, std::size_t, Ranks*);
+template double largest_velocity(const Scene<3>&, std::size_t, Ranks*);
 template class Monitor<2, float>;
 template class Monitor<2, double>;
 template class Monitor<3, float>;

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/error.hpp"
+#include "base/ranks.hpp"
 #include "gather/trace.hpp"
 #include "scene/scene.hpp"
 #include "solver/domain.hpp"
@@ -64,9 +65,9 @@ class Monitor {
 ///   moment rate M':    |M'|^2 I^2/(2 rho c^2 V),   c the slowest wave of the source's cell
 ///   plane wave:        rho A^2 w^2 V in each cell, and as much again through the edges in each step
 ///   static stress:     |s|^2 V/(2 rho vs^2) in each cell of a fracture
-/// v^2 = 2 E/(rho_min V).
+/// v^2 = 2 E/(rho_min V). Collective where there are ranks (may be null).
 template <int D>
-double largest_velocity(const Scene<D>& scene, std::size_t shot);
+double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks = nullptr);
 
 /// Where the fields of a line stand whole at the end of a step: cell 0 of row 0.
 template <class Real>

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "base/parallel.hpp"
+#include "solver/parts.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -14,8 +15,6 @@ constexpr std::int64_t usual_stripe = 256;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
 constexpr std::int64_t usual_cells_of_a_plane = 1536;
-/// Steps a pass through memory makes: two are up to a tenth faster than one, more gain nothing.
-constexpr int usual_steps = 2;
 /// Rows of a band, at least. Between bands some rows leave the cache.
 constexpr std::int64_t fewest_band_rows = 32;
 
@@ -37,15 +36,14 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
       splitting_(splitting(D, time_order)),
       dt_s_(dt_s),
       end_(end),
-      steps_a_pass_(passage.steps > 0 ? passage.steps : usual_steps),
+      steps_a_pass_(steps_of_a_pass(passage)),
       stripe_width_(passage.stripe_cells > 0 ? passage.stripe_cells : stripe_for(layout_)),
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
   const auto longest = stages(0, steps_a_pass_);
   longest_ = longest.back().behind + bend_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  band_rows_ = std::max(fewest_band_rows, longest_ + std::int64_t(2) * max_reach);
-  bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
+  cut_into_bands();
   const int threads = parallel_threads();
   const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
   under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
@@ -60,6 +58,26 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
                         {},
                         std::vector<Columns>(2 * longest.size())});
     for (std::int64_t m = 0; m < along_y * carries_a_sweep(); ++m) workers_.back().rings.push_back(ring());
+  }
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::cut_into_bands() {
+  band_rows_ = std::max(fewest_band_rows, longest_ + std::int64_t(2) * max_reach);
+  if (halo_) band_rows_ = std::max(band_rows_, halo_->least_band_rows(longest_));
+  bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
+}
+
+template <int D, class Real>
+void Pipeline<D, Real>::use(Halo<D, Real>* halo) {
+  halo_ = halo;
+  cut_into_bands();
+  // Lines of a band wait for the next stripe.
+  const auto [along_x, along_y, along_z] = counts(stages(0, steps_a_pass_));
+  for (auto& worker : workers_) {
+    worker.carries.resize(std::size_t(along_x * (D == 2 ? carries_a_sweep() : 1)));
+    for (auto n = std::int64_t(worker.rings.size()); n < along_y * carries_a_sweep(); ++n)
+      worker.rings.emplace_back(0, layout_.padded_nx(), sweeps_.ring_rows(), D);
   }
 }
 
@@ -182,11 +200,19 @@ void Pipeline<D, Real>::run_band(std::int64_t number, std::int64_t band, std::in
   if (band == 0) {
     pass.stages = stages(first, last);
     const Box all{{0, rows_}, {0, cut_cells_}}, growth = growth_of_a_step();
-    for (auto& stage : pass.stages) stage.needed = everywhere_ ? all : end_.needed(stage.time, growth);
+    for (auto& stage : pass.stages) {
+      stage.needed = everywhere_ ? all : end_.needed(stage.time, growth);
+      if (!halo_) continue;
+      const auto right = halo_->right_after(stage.time.step - first, growth.rows);
+      stage.needed.rows = {std::max(stage.needed.rows.first, right.first),
+                           std::min(stage.needed.rows.last, right.last)};
+    }
     for (std::int64_t step = first; step < last; ++step) end_.begin({step, dt_s_});
   }
   const bool ends = band + 1 == bands_;
   const Columns rows{band * band_rows_, ends ? rows_ + longest_ : (band + 1) * band_rows_};
+  if (halo_)
+    for (const auto& renewed : halo_->before(rows)) put_right(renewed);
   std::fill(worker.columns.begin(), worker.columns.end(), Columns{});
   for (std::int64_t stripe = 0; stripe < stripes(); ++stripe) {
     for (std::size_t n = 0; n < pass.stages.size(); ++n) {
@@ -197,8 +223,17 @@ void Pipeline<D, Real>::run_band(std::int64_t number, std::int64_t band, std::in
     }
     run_stripe(pass, rows, worker);
   }
+  if (halo_) halo_->after(rows.first - longest_, ends ? rows_ : rows.last - longest_);
   if (ends)
     for (std::int64_t step = first; step < last; ++step) end_.finish({step, dt_s_});
+}
+
+/// Rows that came from neighbours.
+template <int D, class Real>
+void Pipeline<D, Real>::put_right(const Columns& rows) {
+  const auto lines_a_row = layout_.lines() / rows_;
+  for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
+    look_for_active(line, whole_lines());
 }
 
 template <int D, class Real>

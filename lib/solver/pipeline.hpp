@@ -6,6 +6,7 @@
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/active_cells.hpp"
+#include "solver/halo.hpp"
 #include "solver/pass.hpp"
 #include "solver/patches.hpp"
 #include "solver/sweeps.hpp"
@@ -55,6 +56,9 @@ class Pipeline {
   /// Keeps references.
   Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
            EndOfStep<Real>& end, const Passage& passage);
+  /// From now on rows of neighbours are put right before each pass (null: there are none); it must outlive
+  /// this. To be called before the first step.
+  void use(Halo<D, Real>* halo);
   /// From now on these columns end with the step, too (null: none); they must outlive this.
   void use(const Patches<D>* patches);
   /// To be called when fields have been set from outside.
@@ -111,6 +115,8 @@ class Pipeline {
   void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker,
                bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const Columns& columns, UnderWay& pass, Worker& worker);
+  void cut_into_bands();
+  void put_right(const Columns& rows);
   bool quiet(const Columns& rows, const Columns& lines, const Columns& columns) const;
   void look_for_active(std::int64_t line, const Columns& columns);
   std::int64_t carries_a_sweep() const;
@@ -141,6 +147,7 @@ class Pipeline {
   const Layout<D>& layout_;
   ActiveCells<D, Real> active_;
   const Patches<D>* patches_ = nullptr;
+  Halo<D, Real>* halo_ = nullptr;
   bool everywhere_;
   std::vector<SweepPart> splitting_;
   double dt_s_;

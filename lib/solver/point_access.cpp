@@ -106,7 +106,7 @@ void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& 
   auto& across = usable[std::size_t(axis)];
   const std::int64_t last = side ? domain.grid.shape[axis] - 1 : 0;
   if ((side ? across.high : across.low) != last) return;
-  const double position = (point_m[axis] - domain.grid.origin_m[axis]) / domain.grid.spacing_m - 0.5;
+  const double position = domain.grid.position(axis, point_m[axis]);
   auto evenly = axis_weights(position, across);
   (side ? across.above : across.below) = Beyond::odd;
   const auto oddly = axis_weights(position, across);
@@ -116,7 +116,7 @@ void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& 
   if (images == 0) return;
   // The edge's own cells, at the point's place along it.
   Point<D> on_edge = point_m;
-  on_edge[axis] = domain.grid.origin_m[axis] + (double(last) + 0.5) * domain.grid.spacing_m;
+  on_edge[axis] = domain.grid.centre(axis, last);
   for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
     for (const auto& term : edge_slope(domain, at.cell, axis, side, row))
       weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
@@ -162,7 +162,7 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
   auto usable = continued_cells(domain, centre, field_row, false);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = usable[std::size_t(axis)];
-    const double position = (point_m[axis] - domain.grid.origin_m[axis]) / domain.grid.spacing_m - 0.5;
+    const double position = domain.grid.position(axis, point_m[axis]);
     const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
     const bool low = domain.edges[axis][0] == EdgeLaw::free && position < centred_from,
                high = domain.edges[axis][1] == EdgeLaw::free && double(last) - position < centred_from;

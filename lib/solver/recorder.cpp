@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -22,39 +23,61 @@ std::array<double, 3> in_space(const Point<D>& point) {
 }  // namespace
 
 template <int D>
-double water_depth_m(const Medium<D>& medium, const Point<D>& point_m) {
+std::vector<double> water_depths_m(const Medium<D>& medium, const Part& part,
+                                   const std::vector<Point<D>>& points_m, Ranks* ranks) {
   const auto& grid = medium.grid();
-  Index<D> at = cell_of(grid, point_m);
-  std::int64_t fluid = 0;
-  for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1]; ++at[D - 1]) {
-    const auto cell = std::size_t(grid.flat(at));
-    if (medium.is_solid(cell)) break;
-    fluid += medium.is_fluid(cell);
+  std::vector<double>
+      found;  // of each point: cells of fluid down to the first rock, and whether there is one
+  for (const auto& point : points_m) {
+    Index<D> at = cell_of(grid, point);
+    double fluid = 0, rock = 0;
+    for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1] && rock == 0; ++at[D - 1]) {
+      const auto cell = std::size_t(grid.flat(at));
+      if (!part.owns(grid, at[D - 1])) continue;
+      if (medium.is_solid(cell)) rock = 1;
+      fluid += medium.is_fluid(cell);
+    }
+    found.insert(found.end(), {fluid, rock});
   }
-  return double(fluid) * grid.spacing_m;
+  found = joined(ranks, found);
+  std::vector<double> depths;
+  for (std::size_t n = 0; n < points_m.size(); ++n) {
+    double fluid = 0;
+    bool rock = false;
+    for (auto of_part = 2 * n; of_part < found.size() && !rock; of_part += 2 * points_m.size()) {
+      fluid += found[of_part];
+      rock = found[of_part + 1] != 0;
+    }
+    depths.push_back(fluid * grid.spacing_m);
+  }
+  return depths;
 }
 
 template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
-                            std::size_t shot, double unit)
-    : unit_(unit) {
+                            std::size_t shot, double unit, Ranks* ranks)
+    : ranks_(ranks), unit_(unit) {
   const auto& source = scene.survey.sources[shot - 1];
   std::vector<ValueWeight> all;
   gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
   TraceHeader header;
   header.shot = std::int64_t(shot);
   header.source_m = in_space<D>(source.position_m);
-  header.water_depth_source_m = water_depth_m(scene.model.medium, source.position_m);
+  std::vector<Point<D>> points = {source.position_m};
+  points.insert(points.end(), scene.survey.receivers_m.begin(), scene.survey.receivers_m.end());
+  const auto depths = water_depths_m(scene.model.medium, scene.part, points, ranks);
+  header.water_depth_source_m = depths.front();
   for (const Component component : scene.recording.components) {
     header.component = component;
     header.channel = 0;
     for (const auto& receiver : scene.survey.receivers_m) {
       ++header.channel;
       header.receiver_m = in_space<D>(receiver);
-      header.water_depth_receiver_m = water_depth_m(scene.model.medium, receiver);
+      header.water_depth_receiver_m = depths[std::size_t(header.channel)];
       gather_.traces.push_back({header, {}});
       gather_.traces.back().samples.reserve(std::size_t(gather_.axis.count));
       first_weight_.push_back(all.size());
+      if (!domain.part.owns(domain.model_grid, receiver)) continue;
       for (const auto& weight : component_weights<D>(layout, domain, receiver, component))
         all.push_back(weight);
     }
@@ -76,11 +99,11 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
   }
   starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
   for (const auto& weight : all) weights_.push_back(weight.weight);
-  find_box(layout);
+  find_box(layout, domain.grid.first[D - 1]);
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::find_box(const Layout<D>& layout) {
+void Recorder<D, Real>::find_box(const Layout<D>& layout, std::int64_t rows_before) {
   constexpr auto none = std::numeric_limits<std::int64_t>::max();
   box_ = {{none, 0}, {none, 0}};
   const auto hold = [](Columns& range, std::int64_t n) {
@@ -93,6 +116,40 @@ void Recorder<D, Real>::find_box(const Layout<D>& layout) {
       hold(box_.rows, at[D - 1]);
       hold(box_.columns, at[D - 2]);
     }
+  if (!ranks_) return;
+  const bool any = !reads_.empty();
+  constexpr double far = 1e15;
+  const auto first = [&](std::int64_t mine) { return smallest_of(ranks_, any ? double(mine) : far); };
+  const auto last = [&](std::int64_t mine) { return largest_of(ranks_, any ? double(mine) : -far); };
+  const double rows[2] = {first(box_.rows.first + rows_before), last(box_.rows.last + rows_before)};
+  const double columns[2] = {first(box_.columns.first), last(box_.columns.last)};
+  if (rows[0] > rows[1]) return;
+  box_ = {{std::int64_t(rows[0]) - rows_before, std::int64_t(rows[1]) - rows_before},
+          {std::int64_t(columns[0]), std::int64_t(columns[1])}};
+}
+
+/// Traces that no rank but one has weights for are zero on the others.
+template <int D, class Real>
+Gather Recorder<D, Real>::take() {
+  if (!ranks_) return std::move(gather_);
+  std::vector<double> mine;  // number of the trace, samples
+  for (std::size_t n = 0; n < gather_.traces.size(); ++n) {
+    if (first_weight_[n] == first_weight_[n + 1]) continue;
+    const auto& samples = gather_.traces[n].samples;
+    mine.push_back(double(n));
+    mine.push_back(double(samples.size()));
+    mine.insert(mine.end(), samples.begin(), samples.end());
+  }
+  const auto all = joined_on_first(*ranks_, std::as_bytes(std::span<const double>(mine)));
+  std::vector<double> values(all.size() / sizeof(double));
+  std::memcpy(values.data(), all.data(), all.size());
+  for (std::size_t n = 0; n < values.size();) {
+    auto& samples = gather_.traces[std::size_t(values[n])].samples;
+    const auto count = std::size_t(values[n + 1]);
+    samples.assign(values.begin() + std::ptrdiff_t(n + 2), values.begin() + std::ptrdiff_t(n + 2 + count));
+    n += 2 + count;
+  }
+  return std::move(gather_);
 }
 
 template <int D, class Real>
@@ -161,10 +218,12 @@ void Recorder<D, Real>::keep(Archive& archive) {
   }
 }
 
-template double water_depth_m(const Medium<2>&, const Point<2>&);
+template std::vector<double> water_depths_m(const Medium<2>&, const Part&, const std::vector<Point<2>>&,
+                                            Ranks*);
 template class Recorder<2, float>;
 template class Recorder<2, double>;
-template double water_depth_m(const Medium<3>&, const Point<3>&);
+template std::vector<double> water_depths_m(const Medium<3>&, const Part&, const std::vector<Point<3>>&,
+                                            Ranks*);
 template class Recorder<3, float>;
 template class Recorder<3, double>;
 

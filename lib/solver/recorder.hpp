@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/archive.hpp"
+#include "base/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/pass.hpp"
 #include "solver/point_access.hpp"
@@ -14,13 +15,14 @@ namespace slipwave::solver {
 template <int D, class Real>
 class Recorder {
  public:
-  /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step).
+  /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step). Collective where
+  /// there are `ranks` (may be null): each records the receivers in the cells it answers for.
   Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot,
-           double unit);
+           double unit, Ranks* ranks = nullptr);
 
   /// Whether it reads anything of a line.
   bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
-  /// The rows and columns of all it reads, in 3-D the planes and their rows.
+  /// The rows and columns of all that is read, in 3-D the planes and their rows; on all ranks.
   const Box& box() const { return box_; }
   /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
   /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
@@ -35,12 +37,13 @@ class Recorder {
 
   /// Steps after which every sample is known.
   static std::int64_t steps_needed(const Recording& recording, double dt_s);
-  /// Component by component, each in the order of the receivers. Call once, after the last step.
-  Gather take() { return std::move(gather_); }
+  /// Component by component, each in the order of the receivers. Call once, after the last step. Collective
+  /// where there are ranks: the first of them gets what all have recorded.
+  Gather take();
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
-  void find_box(const Layout<D>& layout);
+  void find_box(const Layout<D>& layout, std::int64_t rows_before);
   void interpolate(std::int64_t newest, double dt_s);
   Real* values_of(const StepTime& time) {
     return values_.data() + time.step % Pass::most_steps_under_way * std::int64_t(reads_.size());
@@ -51,6 +54,7 @@ class Recorder {
     std::int64_t column, row;
     std::size_t weight;
   };
+  Ranks* ranks_;
   Gather gather_;
   double unit_;
   std::vector<double> weights_;            // of all traces
@@ -63,9 +67,10 @@ class Recorder {
   std::int64_t next_sample_ = 0;
 };
 
-/// Depth of the fluid above the first rock below a point of the model, m; 0 where the column begins with
-/// rock.
+/// Depths of the fluid above the first rock below these points of the model, m; 0 where the column begins
+/// with rock. Collective where there are ranks (may be null) that hold parts of it.
 template <int D>
-double water_depth_m(const Medium<D>& medium, const Point<D>& point_m);
+std::vector<double> water_depths_m(const Medium<D>& medium, const Part& part,
+                                   const std::vector<Point<D>>& points_m, Ranks* ranks = nullptr);
 
 }  // namespace slipwave::solver

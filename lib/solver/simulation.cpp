@@ -25,7 +25,14 @@ Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps,
 /// Says what became of a shot as exactly as it can be found out.
 template <int D, class Real>
 Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>& step,
-                  const solver::UnsoundFields<D>& seen, bool snapshots) {
+                  const solver::UnsoundFields<D>& seen, bool snapshots, Ranks* ranks) {
+  const auto sound_until = [&](const std::string& what, std::int64_t sound) {
+    const auto dt_s = seen.first().time.dt_s;
+    return Unstable(what, shot, sound_part(step.take_gather(), scene.recording, sound, dt_s),
+                    double(sound) * dt_s);
+  };
+  if (ranks)
+    return sound_until(seen.what(), solver::Monitor<D, Real>::last_before(seen.first().time.step + 1));
   const auto again = solver::first_unsound<D, Real>(scene, shot, seen.first(), snapshots);
   const auto& found = again ? *again : seen;
   const auto& first = found.first();
@@ -39,14 +46,13 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>
             place_of(step.domain().grid, step.domain().grid.flat(first.box[1])) + ", sound " +
             std::to_string(first.time.step + 1 - looked) + " steps before";
   const auto sound = again ? first.time.step : looked;
-  return Unstable(what, shot, sound_part(step.take_gather(), scene.recording, sound, first.time.dt_s),
-                  double(sound) * first.time.dt_s);
+  return sound_until(what, sound);
 }
 
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-                const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
-  solver::Step<D, Real> step(scene, shot, snapshots);
+                const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
+  solver::Step<D, Real> step(scene, shot, snapshots, ranks);
   const Keep keep = [&step](Archive& archive) { step.keep(archive); };
   std::function<bool()> wanted;
   if (pauses) {
@@ -60,7 +66,7 @@ Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progres
       pauses->pause(keep, {step.done(), step.steps()});
     }
   } catch (const solver::UnsoundFields<D>& seen) {
-    throw unstable(scene, shot, step, seen, bool(snapshots));
+    throw unstable(scene, shot, step, seen, bool(snapshots), ranks);
   }
   if (report) *report = step.report();
   return step.take_gather();
@@ -70,10 +76,10 @@ Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progres
 
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
-             const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report) {
+             const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
   return scene.numerics.double_precision
-             ? shoot_as<D, double>(scene, shot, progress, snapshots, pauses, report)
-             : shoot_as<D, float>(scene, shot, progress, snapshots, pauses, report);
+             ? shoot_as<D, double>(scene, shot, progress, snapshots, pauses, report, ranks)
+             : shoot_as<D, float>(scene, shot, progress, snapshots, pauses, report, ranks);
 }
 
 template <int D>
@@ -88,9 +94,9 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
 
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*,
-                      ShotReport*);
+                      ShotReport*, Ranks*);
 template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
 template Gather shoot(const Scene<3>&, std::size_t, const Progress&, const SnapshotSink<3>&, Pauses*,
-                      ShotReport*);
+                      ShotReport*, Ranks*);
 
 }  // namespace slipwave

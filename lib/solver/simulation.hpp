@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
+#include "base/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/pauses.hpp"
 
@@ -60,9 +61,13 @@ class Unstable : public Error {
 /// `pauses` (may be null) can interrupt it between passes through memory and take it up again; that changes
 /// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws Unstable, which
 /// says where, when, in what medium and near which effect the fields were first seen to be so.
+/// `ranks` (may be null): processes that shoot it together, each with its part of the scene, to the last bit
+/// as one would. All of them call this, none with pauses. The first gets the traces and whole fields, the
+/// others traces of zeros and no fields; the report all of them.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
-             const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr);
+             const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr,
+             Ranks* ranks = nullptr);
 
 /// What the fields and the material of a shot take of memory at most, bytes.
 template <int D>

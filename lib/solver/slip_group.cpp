@@ -162,6 +162,14 @@ std::vector<std::vector<Real>*> SlipGroup<D, Real>::memory() {
 }
 
 template <int D, class Real>
+void SlipGroup<D, Real>::show(std::int64_t line, const std::function<void(Real*, std::int64_t)>& to) {
+  for (const auto& stretch : stretches(line))
+    for (auto* const memory : this->memory())
+      for (auto place = stretch.place; place < memory->size(); place += count_)
+        to(memory->data() + place, stretch.last - stretch.first);
+}
+
+template <int D, class Real>
 SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::size_t place) {
   SlipRows<Real> rows{};
   rows.stress = stress;

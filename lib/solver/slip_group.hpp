@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -59,6 +60,8 @@ class SlipGroup {
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
   /// All that changes from step to step.
   std::vector<std::vector<Real>*> memory();
+  /// The same of the cells of a line.
+  void show(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
 
  private:
   void find_stretches(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);

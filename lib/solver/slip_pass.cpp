@@ -177,13 +177,20 @@ Field<D> SlipPass<D, Real>::field(SlipField which) const {
 template <int D, class Real>
 SlipTotals SlipPass<D, Real>::totals() const {
   SlipTotals totals;
-  totals.cells = cells();
   const double volume = std::pow(domain_.grid.spacing_m, D);
-  for (const auto& entries : diary_)
-    for (const auto& entry : entries) {
-      totals.slipped += entry.slip > 0;
-      totals.dissipated += volume * entry.heat / (unit_ * unit_);
-      totals.out_of_waves += volume * entry.out_of_waves / (unit_ * unit_);
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
+      if (!domain_.owns(state_.layout.line_index(line)[D - 1])) continue;
+      for (const auto& stretch : groups_[g].stretches(line))
+        for (auto place = stretch.place; place < stretch.place + std::size_t(stretch.last - stretch.first);
+             ++place) {
+          totals.cells += groups_[g].holds(place);
+          if (diary_.empty()) continue;
+          const auto& entry = diary_[g][place];
+          totals.slipped += entry.slip > 0;
+          totals.dissipated += volume * entry.heat / (unit_ * unit_);
+          totals.out_of_waves += volume * entry.out_of_waves / (unit_ * unit_);
+        }
     }
   return totals;
 }

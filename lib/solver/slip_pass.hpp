@@ -28,6 +28,10 @@ class SlipPass : public Pass {
   std::int64_t cells() const override;
   std::vector<PassEffect> effects() const override;
   void keep(Archive& archive) override;
+  /// Shows what the cells of a line remember from one step to the next, the diary apart.
+  void show(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to) {
+    for (auto& group : groups_) group.show(line, to);
+  }
 
   /// A field of the diary on the model's grid: see SlipField. The scene must keep a diary, but for `opening`.
   Field<D> field(SlipField which) const;

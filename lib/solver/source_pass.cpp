@@ -10,14 +10,25 @@ namespace slipwave::solver {
 
 template <int D, class Real>
 SourcePass<D, Real>::SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
-                                const Source<D>& source, double unit)
+                                const Source<D>& source, double unit, Ranks* ranks)
     : state_(state), domain_(domain), medium_(scene.model.medium), wavelet_(source.wavelet), unit_(unit) {
+  if (domain.part.owns(domain.model_grid, source.position_m)) weigh(source);
+  if (ranks) share(*ranks);
+  find_lines();
+  std::stable_sort(values_.begin(), values_.end(),
+                   [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
+  if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
+}
+
+/// Which values it works on, and how strongly.
+template <int D, class Real>
+void SourcePass<D, Real>::weigh(const Source<D>& source) {
   using Rows = FieldRows<D>;
   const auto injection = *point_injection(source);
-  const auto centre = cell_at(domain, source.position_m);
-  const double rho = medium_.rho(domain.model_cell(centre));
-  const double volume = std::pow(domain.grid.spacing_m, D);
-  const bool fluid = domain.impedance[wave_s](centre) == 0;
+  centre_ = cell_at(domain_, source.position_m);
+  const double rho = medium_.rho(domain_.model_cell(centre_));
+  const double volume = std::pow(domain_.grid.spacing_m, D);
+  const bool fluid = domain_.impedance[wave_s](centre_) == 0;
   // An isotropic source works on all normal stresses through the same cells: it must not make shear of its
   // own.
   const bool isotropic = std::holds_alternative<Explosion>(source.mechanism);
@@ -28,10 +39,28 @@ SourcePass<D, Real>::SourcePass(State<D, Real>& state, const Domain<D>& domain, 
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
   }
-  find_lines(centre);
-  std::stable_sort(values_.begin(), values_.end(),
-                   [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
-  if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
+}
+
+/// Hands what one of the ranks has weighed to all of them; each keeps what lies on its lines.
+template <int D, class Real>
+void SourcePass<D, Real>::share(Ranks& ranks) {
+  const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+  const std::int64_t before = domain_.grid.first[D - 1];
+  std::vector<double> mine;
+  if (!values_.empty())
+    for (int axis = 0; axis < D; ++axis)
+      mine.push_back(double(centre_[std::size_t(axis)] + (axis == D - 1 ? before : 0)));
+  for (const auto& value : values_)
+    mine.insert(mine.end(), {double(value.line + before * lines_a_row), double(value.place), value.weight});
+  const auto all = joined(&ranks, mine);
+  values_.clear();
+  for (int axis = 0; axis < D; ++axis)
+    centre_[std::size_t(axis)] = std::int64_t(all[std::size_t(axis)]) - (axis == D - 1 ? before : 0);
+  for (std::size_t n = D; n < all.size(); n += 3) {
+    const auto line = std::int64_t(all[n]) - before * lines_a_row;
+    if (line >= 0 && line < state_.layout.lines())
+      values_.push_back({line, std::int64_t(all[n + 1]), all[n + 2]});
+  }
 }
 
 template <int D, class Real>
@@ -41,13 +70,14 @@ void SourcePass<D, Real>::run(const StepTime& time, std::int64_t line, const Col
                                 [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
   if (value == values_.end() || value->line != line) return;
   const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
-  const double before = work_.empty() ? 0 : energy_of(line, columns);
+  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(line)[D - 1]);
+  const double before = counts ? energy_of(line, columns) : 0;
   Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
   for (; value != values_.end() && value->line == line; ++value) {
     const std::int64_t x = state_.layout.column(value->place);
     if (x >= columns.first && x < columns.last) fields[value->place] += Real(amount * value->weight);
   }
-  if (!work_.empty()) work_[std::size_t(line)] += energy_of(line, columns) - before;
+  if (counts) work_[std::size_t(line)] += energy_of(line, columns) - before;
 }
 
 /// Of the cells of these columns that the source may reach.
@@ -85,13 +115,13 @@ void SourcePass<D, Real>::add(const Source<D>& source, int row, int like, double
 /// All lines that a source in this cell can reach, wherever in the cell it is: lines that are acted on take
 /// two half sweeps a step, and which ones do must not depend on the place, or it would be heard.
 template <int D, class Real>
-void SourcePass<D, Real>::find_lines(const Index<D>& centre) {
+void SourcePass<D, Real>::find_lines() {
   constexpr std::int64_t reach = widest_stencil / 2;
   lines_ = lines_of(values_);
   for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
     const auto at = state_.layout.line_index(line);
     bool near = true;
-    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre[axis]) <= reach;
+    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach;
     if (near) lines_.push_back(line);
   }
   std::sort(lines_.begin(), lines_.end());

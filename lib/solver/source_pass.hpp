@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "base/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/domain.hpp"
 #include "solver/pass.hpp"
@@ -14,8 +15,11 @@ namespace slipwave::solver {
 template <int D, class Real>
 class SourcePass : public Pass {
  public:
+  /// Collective where there are `ranks` (may be null): the one that answers for the cell of the source weighs
+  /// the cells round it for all. Where no line of this process is near it, lines() is empty and nothing is to
+  /// be run.
   SourcePass(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
-             double unit);
+             double unit, Ranks* ranks = nullptr);
 
   void run(const StepTime& time, std::int64_t line, const Columns& columns) override;
   void run_after(const StepTime& time, std::int64_t line, const Columns& columns) override {
@@ -34,8 +38,10 @@ class SourcePass : public Pass {
   double work() const;
 
  private:
+  void weigh(const Source<D>& source);
+  void share(Ranks& ranks);
   void add(const Source<D>& source, int row, int like, double strength);
-  void find_lines(const Index<D>& centre);
+  void find_lines();
   double energy_of(std::int64_t line, const Columns& columns) const;
 
   State<D, Real>& state_;
@@ -43,6 +49,7 @@ class SourcePass : public Pass {
   const Medium<D>& medium_;
   Wavelet wavelet_;
   double unit_;
+  Index<D> centre_{};  // the cell it is in, on part of the grid maybe beyond it
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> lines_;
   std::vector<double> work_;  // by line; empty: not counted

@@ -17,41 +17,54 @@ constexpr double largest_addition = 1e-20;
 /// source does where it stands then counts as zero, so that the cells in front of the waves are zero and can
 /// be left out (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths are to
 /// stay numbers that can be counted with. The same with slip and without, so that the difference of both is
-/// the work of slip alone.
+/// the work of slip alone. Collective where there are ranks.
 template <int D>
-double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s) {
+double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s, Ranks* ranks) {
   const auto injection = point_injection(source);
   if (!injection || scene.numerics.double_precision) return 1;
   const auto& medium = scene.model.medium;
-  const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
-  const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
   const double volume = std::pow(medium.grid().spacing_m, D);
   double largest = 0;
-  for (int i = 0; i < D; ++i) {
-    largest = std::max(largest, std::abs(injection->force[std::size_t(i)]) / rho);
-    for (int j = 0; j < D; ++j)
-      largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
+  if (scene.part.owns(medium.grid(), source.position_m)) {
+    const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
+    const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
+    for (int i = 0; i < D; ++i) {
+      largest = std::max(largest, std::abs(injection->force[std::size_t(i)]) / rho);
+      for (int j = 0; j < D; ++j)
+        largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
+    }
   }
+  largest = largest_of(ranks, largest);
   if (!(largest > 0)) return 1;
   const double unit = std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest))));
   return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
 }
 
+template <int D>
+bool any_zone(const Scene<D>& scene, const Source<D>& source) {
+  bool any = false;
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
+  return any && zone_cells(scene, source) > 0;
+}
+
 }  // namespace
 
 template <int D, class Real>
-Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots)
-    : dt_s_(time_step_s(scene)),
+Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots, Ranks* ranks)
+    : ranks_(ranks),
+      dt_s_(time_step_s(scene)),
       time_order_(scene.numerics.time_order),
-      medium_(&scene.model.medium),
-      unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_)),
-      domain_(
-          make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]))),
+      scene_(&scene),
+      shot_(shot),
+      unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_, ranks)),
+      domain_(make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
+                          scene.part)),
       state_(make_state<D, Real>(domain_.grid.shape)),
       sweeps_(state_, domain_, scene.numerics.order),
       pipeline_(sweeps_, state_, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage),
       whole_(std::size_t(Pass::most_steps_under_way)),
-      monitor_(state_, domain_, unit_, largest_velocity(scene, shot)),
+      monitor_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)),
       snapshot_every_s_(snapshots ? scene.snapshot_every_s : std::nullopt),
       keeps_diary_(scene.slip_diary),
       duration_s_(scene.recording.duration_s),
@@ -63,6 +76,7 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
     background_->begin(state_);
     pipeline_.find_active_cells();
   }
+  if (ranks_) use_halo();
 }
 
 /// What happens at the end of a step, after the sweeps. Source and slip work partly before and partly after
@@ -71,8 +85,8 @@ template <int D, class Real>
 void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
   const auto& source = scene.survey.sources[shot - 1];
   const auto add = [this](std::unique_ptr<Pass> pass) { passes_.push_back(std::move(pass)); };
-  const double vp_max = fastest_wave(scene.model.medium);
-  const bool zones = domain_.grid.size() > domain_.model_grid.size();
+  const double vp_max = std::max(fastest_wave(scene.model.medium), scene.part.fastest);
+  const bool zones = any_zone(scene, source);
   // Plane waves are known in 2-D only; check(scene) has seen to it.
   if constexpr (D == 2) {
     if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
@@ -82,20 +96,23 @@ void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
   }
   if (!background_ && zones) {
     layer_ = std::make_unique<MatchedLayer<D, Real>>(state_.layout, domain_, dt_s_, vp_max,
-                                                     source.wavelet.nominal_hz(), scene.numerics.time_order);
+                                                     source.wavelet.nominal_hz(), scene.numerics.time_order,
+                                                     ranks_);
     sweeps_.use(layer_.get());
   }
   if (point_injection(source)) {
-    auto pass = std::make_unique<SourcePass<D, Real>>(state_, domain_, scene, source, unit_);
-    source_ = pass.get();
-    add(std::move(pass));
+    auto pass = std::make_unique<SourcePass<D, Real>>(state_, domain_, scene, source, unit_, ranks_);
+    if (!pass->lines().empty()) {
+      source_ = pass.get();
+      add(std::move(pass));
+    }
   }
   if (scene.slips()) {
     auto slip = std::make_unique<SlipPass<D, Real>>(state_, domain_, scene, dt_s_, unit_);
     slip_ = slip.get();
     add(std::move(slip));
   }
-  recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot, unit_);
+  recorder_ = std::make_unique<Recorder<D, Real>>(state_.layout, domain_, scene, shot, unit_, ranks_);
   patches_ = Patches<D>(state_.layout, domain_, scene.model);
   pipeline_.use(&patches_);
   // All that was built from them is there.
@@ -126,7 +143,7 @@ void Step<D, Real>::run_to(std::int64_t last, const Progress& progress, const st
     done_ = pipeline_.run(done_, until, pause);
     const StepTime time{done_ - 1, dt_s_};
     if (snapshot && done_ == until) take_snapshot(time);
-    if (done_ % Monitor<D, Real>::every == 0 || done_ == steps_) look();
+    if (done_ % Monitor<D, Real>::every == 0 || done_ == steps_) look_and_ask();
   }
 }
 
@@ -149,8 +166,8 @@ void Step<D, Real>::take_snapshot(const StepTime& time) {
   };
   snapshots_(time.end_s(), [&](const FieldKey& key) {
     if (const auto* slip = std::get_if<SlipField>(&key))
-      return slip_ ? slip_->field(*slip) : Field<D>(domain_.model_grid);
-    return field_of(state_.layout, domain_, line, std::get<Component>(key), unit_);
+      return joined_field(slip_ ? slip_->field(*slip) : Field<D>(domain_.model_grid));
+    return joined_field(field_of(state_.layout, domain_, line, std::get<Component>(key), unit_));
   });
   snapshot_ = {};
 }
@@ -185,15 +202,6 @@ Box Step<D, Real>::needed(const StepTime& time, const Box& growth) const {
   };
   const Box& read = recorder_->box();
   return {spread(read.rows, growth.rows), spread(read.columns, growth.columns)};
-}
-
-template <int D, class Real>
-ShotReport Step<D, Real>::report() const {
-  ShotReport report;
-  if (slip_) report.slip = slip_->totals();
-  if (source_) report.source_work = source_->work();
-  report.energy_left = energy(state_, domain_, *medium_) / (unit_ * unit_);
-  return report;
 }
 
 template <int D, class Real>

@@ -20,7 +20,9 @@ namespace slipwave::solver {
 template <int D, class Real>
 class Step : private EndOfStep<Real> {
  public:
-  Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots);
+  /// Collective where there are `ranks` (may be null), and so are run_to(), take_gather() and report(); the
+  /// scene is then the part of each.
+  Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots, Ranks* ranks = nullptr);
 
   /// Brings the fields to the end of step last - 1, from where they are, or to where a pass through memory
   /// ends once `pause` says so (it is asked before each, by any thread). `progress` is told of each step.
@@ -30,6 +32,8 @@ class Step : private EndOfStep<Real> {
   std::int64_t done() const { return done_; }
   /// Throws UnsoundFields where they are; between two calls of run_to(), which looks now and then itself.
   void look() const { monitor_.look({done_ - 1, dt_s_}); }
+  /// Ranks look as often, but ask each other less often what they saw: nobody must wait for all for that.
+  static constexpr std::int64_t asked_every = 10 * Monitor<D, Real>::every;
   /// Hands over all that the steps to come depend on; between two calls of run_to().
   void keep(Archive& archive);
   Gather take_gather() { return recorder_->take(); }
@@ -44,6 +48,9 @@ class Step : private EndOfStep<Real> {
 
  private:
   void build_step(const Scene<D>& scene, std::size_t shot);
+  void look_and_ask();
+  void use_halo();
+  Field<D> joined_field(Field<D> mine) const;
   bool snapshot_due(const StepTime& time) const;
   void take_snapshot(const StepTime& time);
 
@@ -66,9 +73,11 @@ class Step : private EndOfStep<Real> {
                        std::int64_t pitch) override;
   void finish(const StepTime& time) override;
 
+  Ranks* ranks_;
   double dt_s_;
   int time_order_;
-  const Medium<D>* medium_;
+  const Scene<D>* scene_;
+  std::size_t shot_;
   double unit_;
   Domain<D> domain_;
   State<D, Real> state_;
@@ -81,6 +90,7 @@ class Step : private EndOfStep<Real> {
   SlipPass<D, Real>* slip_ = nullptr;          // the one of them, null: nothing slips
   std::vector<std::vector<char>> whole_;  // [step under way][line]: its last sweep along x ends with the step
   Patches<D> patches_;
+  std::unique_ptr<Halo<D, Real>> halo_;
   Monitor<D, Real> monitor_;
   std::unique_ptr<Recorder<D, Real>> recorder_;
   Buffer<Real> snapshot_;  // all fields as they stand whole, laid out as the state
@@ -90,6 +100,7 @@ class Step : private EndOfStep<Real> {
   double duration_s_;
   SnapshotSink<D> snapshots_;
   std::int64_t steps_, done_ = 0;
+  std::optional<UnsoundFields<D>> seen_;  // by this rank, while the others do not know yet
   const Progress* progress_ = nullptr;
 };
 

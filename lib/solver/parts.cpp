@@ -1,0 +1,145 @@
+#include "solver/parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/interpolation.hpp"
+#include "grid/locate.hpp"
+#include "scene/splitting.hpp"
+#include "solver/domain.hpp"
+#include "solver/free_edge.hpp"
+#include "solver/kernels.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Two are up to a tenth faster than one, more gain nothing (tests/bench, docs/performance.md).
+constexpr int usual_steps = 2;
+
+}  // namespace
+
+int steps_of_a_pass(const Passage& passage) { return passage.steps > 0 ? passage.steps : usual_steps; }
+
+template <int D>
+std::int64_t spread_of_a_pass(const Scene<D>& scene) {
+  const auto bends = [&](int axis) {
+    const auto& laws = scene.edges[axis];
+    return laws[0] == EdgeLaw::free || laws[1] == EdgeLaw::free ? FreeEdge<D, float>::reach : 0;
+  };
+  std::int64_t of_a_step = 0;
+  for (const auto& sweep : splitting(D, scene.numerics.time_order))
+    of_a_step += sweep.axis == D - 1 ? reach_of(scene.numerics.order) + 1 : bends(sweep.axis);
+  // The first pass of all has a sweep along x more.
+  return steps_of_a_pass(scene.numerics.passage) * of_a_step + bends(0);
+}
+
+template std::int64_t spread_of_a_pass(const Scene<2>&);
+template std::int64_t spread_of_a_pass(const Scene<3>&);
+
+}  // namespace slipwave::solver
+
+namespace slipwave {
+namespace {
+
+/// What points read beyond the row they are in, at most.
+constexpr std::int64_t beside_points = widest_stencil;
+
+template <class Value, int D>
+Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
+  if (field.empty()) return field;
+  Field<D, Value> part(held);
+  const std::int64_t a_row = held.size() / held.shape[D - 1];
+  const auto first = field.begin() + held.first[D - 1] * a_row;
+  std::copy(first, first + held.size(), part.begin());
+  return part;
+}
+
+}  // namespace
+
+template <int D>
+Part part_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count) {
+  constexpr int z = D - 1;
+  const std::int64_t rows = whole.shape[z];
+  if (count == 1) return {};
+  std::int64_t zone = 0;
+  for (const auto& source : scene.survey.sources) {
+    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+      throw Error("found a plane wave and " + std::to_string(count) +
+                      " processes a shot, expected a point source or --ranks-per-shot 1",
+                  ErrorKind::usage);
+    zone = std::max<std::int64_t>(zone, zone_cells(scene, source));
+  }
+  const auto zone_at = [&](int side) { return scene.edges[z][side] == EdgeLaw::absorbing ? zone : 0; };
+  std::vector<std::int64_t> points;  // rows of receivers
+  for (const auto& receiver : scene.survey.receivers_m) points.push_back(cell_of(whole, receiver)[z]);
+  std::sort(points.begin(), points.end());
+  const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
+    const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
+    return near == points.end() || *near >= row + beside_points;
+  };
+  const std::int64_t spread = solver::spread_of_a_pass(scene), least = spread + beside_points;
+  if (rows < count * least)
+    throw Error("found " + std::to_string(count) + " processes a shot for a model of " +
+                    std::to_string(rows) + " rows, expected at most " +
+                    std::to_string(std::max<std::int64_t>(1, rows / least)) + ": each takes " +
+                    std::to_string(least) + " or more",
+                ErrorKind::usage);
+  Part part;
+  part.rows = rows;
+  part.exchanged = spread;
+  const std::int64_t all = zone_at(0) + rows + zone_at(1);
+  std::int64_t before = 0;
+  for (int n = 1; n <= count; ++n) {
+    const std::int64_t most = rows - (count - n) * least;
+    std::int64_t boundary = rows;
+    if (n < count) {
+      const auto even = std::clamp(n * all / count - zone_at(0), before + least, most);
+      boundary = even;
+      for (std::int64_t way = 0; way <= beside_points && !alone(boundary); ++way)
+        for (const auto moved : {even - way, even + way})
+          if (moved >= before + least && moved <= most && alone(moved) && !alone(boundary)) boundary = moved;
+      if (!alone(boundary)) part.exchanged = least;
+    }
+    if (n == number + 1) {
+      part.first = before;
+      part.last = boundary;
+    }
+    before = boundary;
+  }
+  return part;
+}
+
+std::pair<std::int64_t, std::int64_t> rows_held(const Part& part) {
+  const auto beside = std::max(part.exchanged, beside_points);
+  return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
+}
+
+template <int D>
+Scene<D> cut_to(Scene<D> whole, const Part& part) {
+  whole.part = part;
+  if (part.is_whole()) return whole;
+  const auto [first, last] = rows_held(part);
+  auto held = whole.model.grid();
+  held.first[D - 1] = first;
+  held.shape[D - 1] = last - first;
+  auto& model = whole.model;
+  model.medium = {rows_of(model.medium.vp, held), rows_of(model.medium.vs, held),
+                  rows_of(model.medium.rho, held)};
+  model.fracture = rows_of(model.fracture, held);
+  for (auto& component : model.prestress_pa) component = rows_of(component, held);
+  return whole;
+}
+
+template <int D>
+void join(Scene<D>& scene, Ranks& ranks) {
+  scene.part.fastest = largest_of(&ranks, solver::fastest_wave(scene.model.medium));
+}
+
+template Part part_for(const Scene<2>&, const Grid<2>&, int, int);
+template Part part_for(const Scene<3>&, const Grid<3>&, int, int);
+template Scene<2> cut_to(Scene<2>, const Part&);
+template Scene<3> cut_to(Scene<3>, const Part&);
+template void join(Scene<2>&, Ranks&);
+template void join(Scene<3>&, Ranks&);
+
+}  // namespace slipwave

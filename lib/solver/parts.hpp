@@ -1,0 +1,38 @@
+#pragma once
+
+#include <utility>
+
+#include "base/ranks.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave::solver {
+
+/// Steps that a pass through memory makes.
+int steps_of_a_pass(const Passage& passage);
+
+/// Rows (in 3-D planes) by which what is wrong with a cell spreads in a pass through memory at most.
+template <int D>
+std::int64_t spread_of_a_pass(const Scene<D>& scene);
+
+}  // namespace slipwave::solver
+
+namespace slipwave {
+
+/// The rows of a model on this grid that process `number` of `count` answers for: each has about as many
+/// cells to compute as the others, zones included. `scene` needs no model yet. Throws an Error where there
+/// are too few rows for so many, or something that can not be shared out.
+template <int D>
+Part part_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count);
+
+/// The rows of the whole model that the process must hold: first <= row < second.
+std::pair<std::int64_t, std::int64_t> rows_held(const Part& part);
+
+/// Cuts a scene that holds the whole model down to what this process holds of it.
+template <int D>
+Scene<D> cut_to(Scene<D> whole, const Part& part);
+
+/// Collective: tells the parts of a scene what they must know of the whole model.
+template <int D>
+void join(Scene<D>& scene, Ranks& ranks);
+
+}  // namespace slipwave

@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "solver/instability.hpp"
+#include "solver/step.hpp"
+
+// What the ranks that compute the parts of a shot do together, the halo apart.
+namespace slipwave::solver {
+namespace {
+
+/// What all ranks report together.
+ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
+  ShotReport all;
+  const auto sum = [&](double value) { return sum_of(&ranks, value); };
+  const SlipTotals slip = mine.slip.value_or(SlipTotals{});
+  if (sum(mine.slip.has_value()) > 0) all.slip.emplace();
+  const SlipTotals totals = {std::int64_t(sum(double(slip.cells))), std::int64_t(sum(double(slip.slipped))),
+                             sum(slip.dissipated), sum(slip.out_of_waves)};
+  if (all.slip) all.slip = totals;
+  const double work = sum(mine.source_work.value_or(0));
+  if (sum(mine.source_work.has_value()) > 0) all.source_work = work;
+  all.energy_left = sum(mine.energy_left);
+  return all;
+}
+
+}  // namespace
+
+template <int D, class Real>
+void Step<D, Real>::use_halo() {
+  const auto show = [this](const Columns& rows, const auto& to) {
+    if (layer_) layer_->show(rows, to);
+    const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+    for (auto line = rows.first * lines_a_row; slip_ && line < rows.last * lines_a_row; ++line)
+      slip_->show(line, to);
+  };
+  halo_ = std::make_unique<Halo<D, Real>>(*ranks_, domain_, state_, show);
+  pipeline_.use(halo_.get());
+}
+
+/// Looks, and now and then asks the others what they saw: throws on all ranks what was seen first.
+template <int D, class Real>
+void Step<D, Real>::look_and_ask() {
+  if (!ranks_) return look();
+  try {
+    if (!seen_) look();
+  } catch (const UnsoundFields<D>& seen) {
+    seen_.emplace(seen.what() + std::string("; ") + surroundings(*scene_, domain_, shot_, seen.first().at),
+                  seen.first());
+  }
+  if (done_ % asked_every != 0 && done_ != steps_) return;
+  const auto steps = joined(ranks_, {seen_ ? double(seen_->first().time.step) : HUGE_VAL});
+  const auto first = std::min_element(steps.begin(), steps.end());
+  if (std::isinf(*first)) return;
+  const std::string mine = seen_ ? seen_->what() : "";
+  const auto texts = ranks_->all_of(std::as_bytes(std::span<const char>(mine)));
+  const auto& text = texts[std::size_t(first - steps.begin())];
+  Unsound<D> unsound;
+  unsound.time = {std::int64_t(*first), dt_s_};
+  throw UnsoundFields<D>(std::string(reinterpret_cast<const char*>(text.data()), text.size()), unsound);
+}
+
+/// The field of the whole model on the first rank, nothing on the others.
+template <int D, class Real>
+Field<D> Step<D, Real>::joined_field(Field<D> mine) const {
+  if (!ranks_) return mine;
+  const auto a_row = mine.grid().size() / mine.grid().shape[D - 1];
+  const auto& part = domain_.part;
+  const std::span<const float> own(mine.data() + (part.first - mine.grid().first[D - 1]) * a_row,
+                                   std::size_t((part.last - part.first) * a_row));
+  const auto all = joined_on_first(*ranks_, std::as_bytes(own));
+  if (all.empty()) return {};
+  Field<D> whole(part.whole(mine.grid()));
+  std::memcpy(whole.data(), all.data(), all.size());
+  return whole;
+}
+
+template <int D, class Real>
+ShotReport Step<D, Real>::report() const {
+  ShotReport report;
+  if (slip_) report.slip = slip_->totals();
+  if (source_) report.source_work = source_->work();
+  report.energy_left = energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
+  return ranks_ ? of_all(report, *ranks_) : report;
+}
+
+template void Step<2, float>::use_halo();
+template void Step<2, float>::look_and_ask();
+template Field<2> Step<2, float>::joined_field(Field<2>) const;
+template ShotReport Step<2, float>::report() const;
+template void Step<2, double>::use_halo();
+template void Step<2, double>::look_and_ask();
+template Field<2> Step<2, double>::joined_field(Field<2>) const;
+template ShotReport Step<2, double>::report() const;
+template void Step<3, float>::use_halo();
+template void Step<3, float>::look_and_ask();
+template Field<3> Step<3, float>::joined_field(Field<3>) const;
+template ShotReport Step<3, float>::report() const;
+template void Step<3, double>::use_halo();
+template void Step<3, double>::look_and_ask();
+template Field<3> Step<3, double>::joined_field(Field<3>) const;
+template ShotReport Step<3, double>::report() const;
+
+}  // namespace slipwave::solver
