@@ -94,8 +94,8 @@ struct ShotOutput::Underway {
 };
 
 template <int D>
-void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history,
-                           const cli::Context& context) const {
+void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                           const Crew* crew) const {
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
   if (any_trace && !snapshots.empty() && snapshots == traces)
@@ -108,7 +108,7 @@ void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history,
   flush_subnormals();
   Underway<D> run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
   try {
-    shoot_rest(scene, history, context, run);
+    shoot_rest(scene, history, context, run, crew);
   } catch (const Unstable& error) {
     const auto number = std::to_string(number_of(error.shot()));
     const auto kept = keep(scene, error, context, run);
@@ -174,14 +174,16 @@ std::string ShotOutput::keep(const Scene<D>& scene, const Unstable& error, const
 
 template <int D>
 void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                            Underway<D>& run) const {
+                            Underway<D>& run, const Crew* crew) const {
   const auto& entries = run.entries;
   auto& book = run.book;
   auto& files = run.files;
   auto& kept = run.kept;
-  const bool any_trace = !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
-  const auto cut = in_place("--slice", [&] { return cut_of(scene.model.grid(), slice); });
-  const auto shots = scene.survey.sources.size(), at_once = shots_at_once(scene);
+  const bool writes = !crew || crew->leads();
+  const bool any_trace = writes && !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
+  const auto grid = scene.part.whole(scene.model.grid());
+  const auto cut = in_place("--slice", [&] { return cut_of(grid, slice); });
+  const auto shots = scene.survey.sources.size(), at_once = crew ? crew->groups() : shots_at_once(scene);
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };
@@ -211,13 +213,13 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
     for (std::size_t shot = 1; shot <= shots; ++shot)
       if (book.finished(shot)) book.put_away(shot);
   };
-  if (a_file_a_shot) write_files();
+  if (a_file_a_shot && writes) write_files();
   for (std::size_t first = 0; first < open.size(); first += at_once) {
     const std::span<const std::size_t> group(open.data() + first, std::min(at_once, open.size() - first));
     for (const auto shot : group) open_files(shot);
     kept.reset();
-    if (!snapshots.empty())
-      kept.emplace(name_for(snapshots, number_of(group[0]), ""), scene.model.grid(), cut,
+    if (writes && !snapshots.empty())
+      kept.emplace(name_for(snapshots, number_of(group[0]), ""), grid, cut,
                    parse_snapshot_fields<D>(snapshot_fields),
                    SnapshotHistory{"wave fields of shot " + std::to_string(number_of(group[0])),
                                    context.version, history},
@@ -226,25 +228,39 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
         context.progress("shot " + std::to_string(number_of(group.front())) +
                          (group.size() > 1 ? " to " + std::to_string(number_of(group.back())) : ""));
     std::vector<ShotReport> reports(group.size());
-    parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
-      const auto shot = group[std::size_t(n)];
-      const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
-      // The first of those that run together speaks for all.
-      book.finish(shot,
-                  shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
+    if (crew) {
+      const auto sink = kept                ? kept->sink()
+                        : snapshots.empty() ? SnapshotSink<D>()
+                                            : sink_of_helper<D>(parse_snapshot_fields<D>(snapshot_fields));
+      const auto outcomes = crew->shoot(scene, group, writes ? progress : Progress(), sink);
+      for (std::size_t n = 0; n < outcomes.size(); ++n) {
+        book.finish(outcomes[n].shot, outcomes[n].gather);
+        reports[n] = outcomes[n].report;
+      }
+    } else {
+      parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
+        const auto shot = group[std::size_t(n)];
+        const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
+        // The first of those that run together speaks for all.
+        book.finish(
+            shot, shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
                         pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
-    });
+      });
+    }
+    if (!writes) continue;
     for (std::size_t n = 0; scene.slip_diary && n < group.size(); ++n)
       context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n], D));
     if (kept) kept->commit();
     if (a_file_a_shot) write_files();
     if (group.back() != open.back()) book.turn_page();
   }
-  if (!a_file_a_shot) write_files();
+  if (!a_file_a_shot && writes) write_files();
   book.close();
 }
 
-template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&) const;
-template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&) const;
+template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&,
+                                    const Crew*) const;
+template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&,
+                                    const Crew*) const;
 
 }  // namespace slipwave

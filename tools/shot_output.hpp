@@ -8,6 +8,7 @@
 #include "checkpoint/run_book.hpp"
 #include "cli/tool.hpp"
 #include "scene/scene.hpp"
+#include "shot_crew.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
@@ -24,6 +25,7 @@ struct ShotOutput {
   std::optional<double> checkpoint_every_s;
   bool keep_unstable = false;
   int shots_in_parallel = 0;  // 0: as many as there are threads, in most_together_bytes of memory
+  int ranks_per_shot = 0;     // 0: as few processes as leave none without work
 
   /// Whether snapshots hold what slip has done.
   bool wants_slip() const;
@@ -35,9 +37,11 @@ struct ShotOutput {
   /// Shoots every shot of a checked scene and writes what it recorded. Outputs are opened before the run they
   /// belong to, so that a name that can not be written costs no computing. With a checkpoint it goes on where
   /// that was written. Where a shot becomes unstable it throws the Error that says so, after it has put what
-  /// there is under other names if `keep_unstable`.
+  /// there is under other names if `keep_unstable`. With a `crew` (may be null) the scene is what this
+  /// process holds of it, and the process that leads writes.
   template <int D>
-  void shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context) const;
+  void shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                 const Crew* crew = nullptr) const;
 
  private:
   template <int D>
@@ -46,7 +50,7 @@ struct ShotOutput {
   std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
   template <int D>
   void shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                  Underway<D>& run) const;
+                  Underway<D>& run, const Crew* crew) const;
   std::map<std::string, Gather> gathers_by_file(RunBook& book, std::size_t shots) const;
   template <int D>
   std::string keep(const Scene<D>& scene, const Unstable& error, const cli::Context& context,

@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
+#include "solver/parts.hpp"
 
 namespace slipwave {
 namespace {
@@ -100,17 +101,42 @@ std::vector<SlipEffect> ShotSettings::effects_without() const {
 }
 
 template <int D>
+void ShotSettings::check_model(Model<D>& read) const {
+  in_place(model == "-" ? "standard input" : model, [&] { check(read, limits); });
+  for (const auto effect : effects_without()) remove_effect(read, effect);
+  // What is left must still hold together: planes without friction may slip under the static stress.
+  if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
+}
+
+template <int D>
 void ShotSettings::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
-  in_place(model == "-" ? "standard input" : model, [&] { check(scene.model, limits); });
-  for (const auto effect : effects_without()) remove_effect(scene.model, effect);
-  // What is left must still hold together: planes without friction may slip under the static stress.
-  if (!without.empty()) in_place("--without " + without, [&] { check(scene.model, limits); });
+  check_model(scene.model);
   check(scene);
+}
+
+template <int D>
+void ShotSettings::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const {
+  agreed(&all, [&] {
+    if (group) {
+      const auto grid = read_model_grid<D>(file);
+      check(scene.survey, grid);
+      scene.part = part_for(scene, grid, group->number(), group->count());
+      const auto [first, last] = rows_held(scene.part);
+      scene.model = read_model_rows<D>(file, first, last);
+    } else {
+      scene.model = read_model<D>(file);
+    }
+    check_model(scene.model);
+  });
+  if (group) join(scene, *group);
+  agreed(&all, [&] { check(scene); });
 }
 
 template Scene<2> ShotSettings::without_model() const;
 template Scene<3> ShotSettings::without_model() const;
+template void ShotSettings::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&, Ranks*) const;
+template void ShotSettings::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&, Ranks*) const;
 template void ShotSettings::read_model_into(Scene<2>&, const NetcdfFile&) const;
 template void ShotSettings::read_model_into(Scene<3>&, const NetcdfFile&) const;
 

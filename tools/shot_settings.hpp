@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ranks.hpp"
 #include "cli/tool.hpp"
 #include "model/fracture.hpp"
 #include "scene/scene.hpp"
@@ -34,8 +35,14 @@ struct ShotSettings {
   /// Puts the model in and checks both.
   template <int D>
   void read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
+  /// Collective: the same of the part that this process of `all` takes, as one of the `group` (may be null)
+  /// that shoots a shot together. Errors are thrown on all.
+  template <int D>
+  void read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const;
 
  private:
+  template <int D>
+  void check_model(Model<D>& model) const;
   std::vector<SlipEffect> effects_without() const;
 };
 

@@ -50,6 +50,13 @@ std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice) {
 }
 
 template <int D>
+SnapshotSink<D> sink_of_helper(const std::vector<std::string>& fields) {
+  return [fields](double, const FieldReader<D>& field) {
+    for (const auto& name : fields) snapshot_of<D>(name, field);
+  };
+}
+
+template <int D>
 ShotSnapshots<D>::ShotSnapshots(const std::string& path, const Grid<D>& grid,
                                 const std::optional<CellLayer>& cut, const std::vector<std::string>& fields,
                                 const SnapshotHistory& history, const RunBook& book, std::size_t shot)
@@ -83,6 +90,8 @@ RunBook::Mark ShotSnapshots<D>::mark() {
   return [this] { return log_->synchronized(); };
 }
 
+template SnapshotSink<2> sink_of_helper(const std::vector<std::string>&);
+template SnapshotSink<3> sink_of_helper(const std::vector<std::string>&);
 template class ShotSnapshots<2>;
 template class ShotSnapshots<3>;
 

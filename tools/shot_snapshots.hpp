@@ -20,6 +20,10 @@ std::optional<SlipField> slip_field_named(const std::string& name);
 std::optional<CellLayer> cut_of(const Grid<2>& grid, const std::string& slice);
 std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice);
 
+/// Looks at all of these fields and keeps nothing: what processes do that help another one to write them.
+template <int D>
+SnapshotSink<D> sink_of_helper(const std::vector<std::string>& fields);
+
 /// Snapshots of one shot: the file, and with a checkpoint the log that goes with it.
 template <int D>
 class ShotSnapshots {

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "base/netcdf_file.hpp"
 #include "base/output_file.hpp"
+#include "base/ranks_started.hpp"
 #include "cli/tool.hpp"
 #include "model/model_netcdf.hpp"
 #include "shot_output.hpp"
@@ -34,6 +35,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
               "shots shot at once; 0: one a thread as long as 1 GiB holds them");
+  options.add("ranks-per-shot", s.output.ranks_per_shot, "N",
+              "under mpirun: processes that shoot a shot together; 0: as few as leave none without work");
   options.add("first-shot", s.output.first_shot, "N", "number of the first source, the others follow");
   options.add("checkpoint", s.output.checkpoint, "FILE",
               "keep the state of the run here, and go on from it where there is one");
@@ -51,7 +54,7 @@ void declare(cli::Options& options, Settings& s) {
 }
 
 template <int D>
-Scene<D> make_scene(const Settings& s, const NetcdfFile& file) {
+Scene<D> make_scene(const Settings& s) {
   auto scene = s.shot.without_model<D>();
   if (!s.output.snapshots.empty()) {
     if (!s.every_s)
@@ -66,8 +69,20 @@ Scene<D> make_scene(const Settings& s, const NetcdfFile& file) {
   }
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
     throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
-  s.shot.read_model_into(scene, file);
   return scene;
+}
+
+/// What several processes can not do together.
+void check_together(const Settings& s, int count) {
+  const auto refuse = [&](bool given, const std::string& option, const std::string& expected) {
+    if (given)
+      throw Error("found " + option + " and " + std::to_string(count) + " processes, expected " + expected,
+                  ErrorKind::usage);
+  };
+  refuse(!s.output.checkpoint.empty(), "--checkpoint", "it with one process");
+  refuse(s.output.shots_in_parallel > 1, "--shots-in-parallel", "--ranks-per-shot");
+  refuse(s.wanted_error.has_value(), "--error", "what it chooses: one process says that with --plan");
+  refuse(s.shot.model == "-", "a model from standard input", "the name of a file");
 }
 
 /// The cheapest way to compute the scene with the error that is wanted.
@@ -89,8 +104,34 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Cont
 }
 
 template <int D>
+void shoot_together(const Settings& settings, NetcdfFile file, const cli::Context& context, Ranks& ranks) {
+  std::optional<Scene<D>> made;
+  std::optional<Crew> crew;
+  agreed(&ranks, [&] {
+    check_together(settings, ranks.count());
+    made = make_scene<D>(settings);
+  });
+  auto& scene = *made;
+  crew.emplace(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
+               !settings.output.snapshots.empty());
+  settings.shot.read_part_into(scene, file, ranks, crew->group());
+  file.close();
+  std::string mine;
+  for (const auto& sentence : warnings(scene)) mine = sentence;
+  for (const auto& bytes : ranks.all_of(std::as_bytes(std::span<const char>(mine))))
+    if (!bytes.empty()) {
+      context.warn(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+      break;
+    }
+  std::string history = scene.model.history;
+  append_history(history, context.command_line);
+  settings.output.shoot_all(scene, history, context, &*crew);
+}
+
+template <int D>
 void shoot_model(const Settings& settings, NetcdfFile file, const cli::Context& context) {
-  auto scene = make_scene<D>(settings, file);
+  auto scene = make_scene<D>(settings);
+  settings.shot.read_model_into(scene, file);
   file.close();
   if (settings.wanted_error) scene = with_wanted_error(scene, *settings.wanted_error, context);
   for (const auto& sentence : warnings(scene)) context.warn(sentence);
@@ -112,10 +153,53 @@ void shoot_model(const Settings& settings, NetcdfFile file, const cli::Context& 
   settings.output.shoot_all(scene, history, context);
 }
 
-void run(const Settings& settings, const cli::Context& context) {
+void run_alone(const Settings& settings, const cli::Context& context) {
   auto file = NetcdfFile::open(settings.shot.model);
   if (dimension_of(file) == 3) return shoot_model<3>(settings, std::move(file), context);
   shoot_model<2>(settings, std::move(file), context);
+}
+
+void run_together(const Settings& settings, cli::Context context, Ranks& ranks) {
+  if (ranks.number() > 0) {
+    context.quiet = true;
+    context.verbose = false;
+  }
+  std::optional<NetcdfFile> file;
+  agreed(&ranks, [&] { file = NetcdfFile::open(settings.shot.model); });
+  if (dimension_of(*file) == 3) return shoot_together<3>(settings, std::move(*file), context, ranks);
+  shoot_together<2>(settings, std::move(*file), context, ranks);
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  const auto ranks = started_ranks();
+  if (!ranks) return run_alone(settings, context);
+  const bool leads = ranks->number() == 0;
+  // A plan is made of the whole model, and of one process.
+  if (settings.plan) {
+    if (leads) run_alone(settings, context);
+    return;
+  }
+  // A launcher ends all processes when one of them ends with an error: that must wait for the one that says
+  // why, and keeps what there is.
+  const auto end_together = [&](int status) {
+    ranks->all_of({});
+    throw cli::EndSilently{status};
+  };
+  try {
+    return run_together(settings, context, *ranks);
+  } catch (const AgreedError& error) {
+    if (leads) cli::say_error(context.tool, error.what());
+    end_together(int(error.kind()));
+  } catch (const cli::EndSilently& end) {
+    end_together(end.status);
+  } catch (const Error& error) {
+    cli::say_error(context.tool, error.what());
+    if (error.kind() == ErrorKind::unstable) end_together(int(error.kind()));
+    end_all_ranks(int(error.kind()));  // the others do not know, and would wait
+  } catch (const std::bad_alloc&) {
+    cli::say_error(context.tool, "out of memory");
+    end_all_ranks(1);
+  }
 }
 
 }  // namespace

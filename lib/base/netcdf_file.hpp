@@ -86,6 +86,8 @@ class NetcdfFile {
   /// As get<float>, in physical units: scale_factor and add_offset applied, _FillValue and missing_value (or
   /// the library's default fill) as NaN.
   std::vector<float> get_physical(const std::string& variable) const;
+  std::vector<float> get_physical(const std::string& variable, const std::vector<std::size_t>& start,
+                                  const std::vector<std::size_t>& count) const;
 
  private:
   struct Impl;

@@ -169,6 +169,12 @@ std::vector<std::string> NetcdfFile::get_text(const std::string& name) const {
 }
 
 std::vector<float> NetcdfFile::get_physical(const std::string& name) const {
+  const auto shape = variable(name).shape;
+  return get_physical(name, std::vector<std::size_t>(shape.size(), 0), shape);
+}
+
+std::vector<float> NetcdfFile::get_physical(const std::string& name, const std::vector<std::size_t>& start,
+                                            const std::vector<std::size_t>& count) const {
   const auto first = [&](const std::string& attribute) -> std::optional<double> {
     const auto values = number_attribute(name, attribute);
     if (!values || values->empty()) return {};
@@ -179,14 +185,14 @@ std::vector<float> NetcdfFile::get_physical(const std::string& name) const {
   const auto fill = first("_FillValue");
   constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
   if (!scale && !offset) {
-    auto values = get<float>(name);
+    auto values = get<float>(name, start, count);
     const float blank = fill ? float(*fill) : NC_FILL_FLOAT;
     for (auto& value : values) {
       if (value == blank || (missing && value == float(*missing))) value = nothing;
     }
     return values;
   }
-  const auto packed = get<double>(name);
+  const auto packed = get<double>(name, start, count);
   std::vector<float> values(packed.size());
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const bool blank = (fill && packed[i] == *fill) || (missing && packed[i] == *missing);

@@ -17,8 +17,8 @@ namespace po = boost::program_options;
 
 // Not part of the provenance: the bytes of the output do not depend on them.
 const std::set<std::string> without_effect = {
-    "output",           "threads",           "quiet",        "verbose", "checkpoint",
-    "checkpoint-every", "shots-in-parallel", "keep-unstable"};
+    "output",           "threads",           "quiet",          "verbose",      "checkpoint",
+    "checkpoint-every", "shots-in-parallel", "ranks-per-shot", "keep-unstable"};
 // Only sensible on the command line.
 const std::set<std::string> not_in_config = {"help", "version", "config"};
 

@@ -53,6 +53,8 @@ void Context::note(const std::string& sentence) const {
   if (verbose && !quiet) cli::say(tool, sentence);
 }
 
+void say_error(const std::string& tool, const std::string& sentence) { cli::say(tool, sentence); }
+
 int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,
              const std::function<void(const Context&)>& run) {
   occupy_closed_streams();
@@ -84,6 +86,8 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
   } catch (const Error& error) {
     say(info.name, error.what());
     return int(error.kind());
+  } catch (const EndSilently& end) {
+    return end.status;
   } catch (const Interrupted& interrupted) {
     die_of(interrupted.signal_number);
     return 128 + interrupted.signal_number;

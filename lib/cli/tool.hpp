@@ -83,6 +83,14 @@ struct Context {
   Progress progress(const std::string& what) const;
 };
 
+/// Thrown to end a tool with this exit status and without a word: another process says why.
+struct EndSilently {
+  int status = 0;
+};
+
+/// One line on stderr "TOOL: sentence", as errors are said.
+void say_error(const std::string& tool, const std::string& sentence);
+
 /// The body of every main: options, --help, --version, --config, -q, -v, errors to one line and exit codes.
 int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,
              const std::function<void(const Context&)>& run);

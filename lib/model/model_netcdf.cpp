@@ -33,10 +33,22 @@ void check_dimensions(const NetcdfFile& file, const std::string& name) {
   }
 }
 
+/// Where the part of a variable that a grid stands for begins, and its lengths, the slowest axis first.
+template <int D>
+std::array<std::vector<std::size_t>, 2> block_of(const Grid<D>& grid) {
+  std::array<std::vector<std::size_t>, 2> block;
+  for (int axis = D - 1; axis >= 0; --axis) {
+    block[0].push_back(std::size_t(grid.first[std::size_t(axis)]));
+    block[1].push_back(std::size_t(grid.shape[std::size_t(axis)]));
+  }
+  return block;
+}
+
 template <int D>
 Field<D> read_field(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
   check_dimensions<D>(file, name);
-  const auto values = file.get_physical(name);
+  const auto [start, count] = block_of(grid);
+  const auto values = file.get_physical(name, start, count);
   Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
   return field;
@@ -176,16 +188,29 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
 }
 
 template <int D>
-Model<D> read_model(const NetcdfFile& file) {
+Grid<D> read_model_grid(const NetcdfFile& file) {
   check_dimensions<D>(file, "vp");
-  const auto grid = read_grid<D>(file);
+  return read_grid<D>(file);
+}
+
+template <int D>
+Model<D> read_model(const NetcdfFile& file) {
+  return read_model_rows<D>(file, 0, read_model_grid<D>(file).shape[D - 1]);
+}
+
+template <int D>
+Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_t last) {
+  auto grid = read_model_grid<D>(file);
+  grid.first[D - 1] = first;
+  grid.shape[D - 1] = last - first;
   Model<D> model;
   model.medium.vp = read_field(file, grid, "vp");
   model.medium.vs = read_field(file, grid, "vs");
   model.medium.rho = read_field(file, grid, "rho");
   if (file.has_variable("fracture")) {
     check_dimensions<D>(file, "fracture");
-    const auto codes = file.get<std::uint8_t>("fracture");
+    const auto [start, count] = block_of(grid);
+    const auto codes = file.get<std::uint8_t>("fracture", start, count);
     model.fracture = Field<D, std::uint8_t>(grid);
     std::copy(codes.begin(), codes.end(), model.fracture.begin());
     model.fracture_sets = read_fracture_sets<D>(file);
@@ -244,6 +269,10 @@ void append_history(std::string& history, const std::string& command) {
 
 template std::vector<FractureSet<2>> read_fracture_sets<2>(const NetcdfFile&);
 template std::vector<FractureSet<3>> read_fracture_sets<3>(const NetcdfFile&);
+template Grid<2> read_model_grid(const NetcdfFile&);
+template Grid<3> read_model_grid(const NetcdfFile&);
+template Model<2> read_model_rows<2>(const NetcdfFile&, std::int64_t, std::int64_t);
+template Model<3> read_model_rows<3>(const NetcdfFile&, std::int64_t, std::int64_t);
 template Model<2> read_model<2>(const NetcdfFile&);
 template Model<3> read_model<3>(const NetcdfFile&);
 template Model<2> read_model<2>(const std::string&);

@@ -20,6 +20,12 @@ template <int D>
 Model<D> read_model(const std::string& path);
 template <int D>
 Model<D> read_model(const NetcdfFile& file);
+/// What it holds of the rows first <= row < last of the last axis (in 3-D planes), and nothing else.
+template <int D>
+Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_t last);
+/// The grid of all of it.
+template <int D>
+Grid<D> read_model_grid(const NetcdfFile& file);
 
 /// The fracture sets of a model file, and nothing else of it.
 template <int D>

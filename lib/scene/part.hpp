@@ -15,6 +15,7 @@ struct Part {
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are put right by neighbours before each pass through memory.
   std::int64_t exchanged = 0;
+  bool slips = false;  // whether anything slips in any part
   double fastest = 0;  // largest vp of the whole model, m/s
 
   bool is_whole() const { return rows == 0; }

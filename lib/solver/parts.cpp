@@ -133,6 +133,7 @@ Scene<D> cut_to(Scene<D> whole, const Part& part) {
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
   scene.part.fastest = largest_of(&ranks, solver::fastest_wave(scene.model.medium));
+  scene.part.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
 template Part part_for(const Scene<2>&, const Grid<2>&, int, int);

@@ -63,7 +63,7 @@ class Unstable : public Error {
 /// says where, when, in what medium and near which effect the fields were first seen to be so.
 /// `ranks` (may be null): processes that shoot it together, each with its part of the scene, to the last bit
 /// as one would. All of them call this, none with pauses. The first gets the traces and whole fields, the
-/// others traces of zeros and no fields; the report all of them.
+/// others traces of zeros and parts of fields; all get the report.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr,

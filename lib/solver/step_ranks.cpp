@@ -60,7 +60,7 @@ void Step<D, Real>::look_and_ask() {
   throw UnsoundFields<D>(std::string(reinterpret_cast<const char*>(text.data()), text.size()), unsound);
 }
 
-/// The field of the whole model on the first rank, nothing on the others.
+/// The field of the whole model on the first rank, on the others what they hold of it.
 template <int D, class Real>
 Field<D> Step<D, Real>::joined_field(Field<D> mine) const {
   if (!ranks_) return mine;
@@ -69,7 +69,7 @@ Field<D> Step<D, Real>::joined_field(Field<D> mine) const {
   const std::span<const float> own(mine.data() + (part.first - mine.grid().first[D - 1]) * a_row,
                                    std::size_t((part.last - part.first) * a_row));
   const auto all = joined_on_first(*ranks_, std::as_bytes(own));
-  if (all.empty()) return {};
+  if (all.empty()) return mine;
   Field<D> whole(part.whole(mine.grid()));
   std::memcpy(whole.data(), all.data(), all.size());
   return whole;
