@@ -107,10 +107,7 @@ template <int D>
 void shoot_together(const Settings& settings, NetcdfFile file, const cli::Context& context, Ranks& ranks) {
   std::optional<Scene<D>> made;
   std::optional<Crew> crew;
-  agreed(&ranks, [&] {
-    check_together(settings, ranks.count());
-    made = make_scene<D>(settings);
-  });
+  agreed(&ranks, [&] { made = make_scene<D>(settings); });
   auto& scene = *made;
   crew.emplace(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
                !settings.output.snapshots.empty());
@@ -165,7 +162,10 @@ void run_together(const Settings& settings, cli::Context context, Ranks& ranks) 
     context.verbose = false;
   }
   std::optional<NetcdfFile> file;
-  agreed(&ranks, [&] { file = NetcdfFile::open(settings.shot.model); });
+  agreed(&ranks, [&] {
+    check_together(settings, ranks.count());
+    file = NetcdfFile::open(settings.shot.model);
+  });
   if (dimension_of(*file) == 3) return shoot_together<3>(settings, std::move(*file), context, ranks);
   shoot_together<2>(settings, std::move(*file), context, ranks);
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "acquisition/interpolation.hpp"
 #include "base/parallel.hpp"
 #include "cube_extruded.hpp"
 #include "lab.hpp"
@@ -13,12 +14,19 @@ namespace slipwave::solver {
 namespace {
 
 template <int D>
+Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
+  auto part = cut_to(scene, part_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
+  join(part, ranks);
+  return part;
+}
+
+/// What the first of so many ranks gets of the first shot.
+template <int D>
 Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
   const ThreadLimit limit(threads);
   Gather found;
   RanksInThreads::run(count, [&](Ranks& ranks) {
-    auto part = cut_to(scene, part_for(scene, scene.model.grid(), ranks.number(), count));
-    join(part, ranks);
+    const auto part = part_of(scene, ranks);
     check(part);
     auto gather = shoot(part, 1, {}, {}, nullptr, nullptr, &ranks);
     if (ranks.number() == 0) found = std::move(gather);
@@ -85,6 +93,163 @@ TEST(Ranks, RecordTogetherWhatOneProcessDoes) {
         EXPECT_TRUE(all_samples(shared_out(scene, count, threads)) == alone)
             << count << " ranks, " << threads << " threads";
   }
+}
+
+TEST(Ranks, RecordAlongAWholeBoreholeWhatOneProcessDoes) {
+  // Receivers near every row: some read beyond the rows of their rank.
+  auto scene = reef();
+  scene.survey.receivers_m.clear();
+  for (double z = 3; z < 950; z += 7) scene.survey.receivers_m.push_back({223.4, z});
+  const auto part = part_for(scene, scene.model.grid(), 1, 4);
+  EXPECT_GT(part.exchanged, spread_of_a_pass(scene));
+  const auto alone = all_samples(shoot(scene, 1));
+  EXPECT_TRUE(all_samples(shared_out(scene, 4, 3)) == alone);
+  // Where few receivers lie, boundaries keep away from them, and less is exchanged.
+  scene.survey.receivers_m.resize(1);
+  EXPECT_EQ(part_for(scene, scene.model.grid(), 1, 4).exchanged, spread_of_a_pass(scene));
+}
+
+TEST(Ranks, InDoublePrecisionAndUnderStaticStressToo) {
+  auto scene = reef();
+  scene.numerics.double_precision = true;
+  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -0.02F));
+  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 0.005F);
+  EXPECT_TRUE(all_samples(shared_out(scene, 3)) == all_samples(shoot(scene, 1)));
+}
+
+TEST(Ranks, RecordInThreeDimensionsWhatOneProcessDoes) {
+  const Index<3> shape = {34, 22, 120};
+  auto medium = uniform_cube(shape, 5, rock);
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto at = medium.grid().index(n);
+    put(medium, at, reef_at(at[0] + at[1] / 3, shape[0], at[2] / 2));
+  }
+  for (const auto sides : {EdgeLaw::absorbing, EdgeLaw::free}) {
+    auto edges = edges_all_3d(sides);
+    edges[2][0] = EdgeLaw::free;
+    auto scene = scene_of(medium, edges, {91, 57, 303}, "force:1,2,3", "ricker:40",
+                          {{21, 30, 13}, {133, 71.3, 302.2}, {71, 60, 587}},
+                          {Component::vx, Component::vy, Component::syz, Component::p}, 0.06, 0.001);
+    scene.numerics.zone_cells = 6;
+    scene.model.fracture = Field<3, std::uint8_t>(medium.grid());
+    for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+      const auto at = medium.grid().index(n);
+      if (at[2] > 40 && at[0] > 8 && at[0] < 25 && at[1] > 5) scene.model.fracture[std::size_t(n)] = 1;
+    }
+    scene.model.fracture_sets = {{"cracks", {{{0.6, 0, 0.8}, 0.4, 0.001, 1}}}};
+    const auto alone = all_samples(shoot(scene, 1));
+    EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 0);
+    for (const int count : {2, 3})
+      EXPECT_TRUE(all_samples(shared_out(scene, count, count)) == alone) << count << " ranks";
+  }
+}
+
+TEST(Ranks, TakeTheSameSnapshotsAndSayWhereTheEnergyWent) {
+  auto scene = reef();
+  scene.snapshot_every_s = 0.05;
+  scene.slip_diary = true;
+  using Keys = std::vector<FieldKey>;
+  const Keys keys = {Component::vx, Component::p, SlipField::slip, SlipField::opening};
+  std::vector<Field<2>> alone, together;
+  const auto into = [&](std::vector<Field<2>>& all) {
+    return [&](double, const FieldReader<2>& field) {
+      for (const auto& key : keys) all.push_back(field(key));
+    };
+  };
+  ShotReport report;
+  const auto traces = all_samples(shoot<2>(scene, 1, {}, into(alone), nullptr, &report));
+  RanksInThreads::run(3, [&](Ranks& ranks) {
+    const auto part = part_of(scene, ranks);
+    std::vector<Field<2>> of_helper;
+    ShotReport of_all;
+    const auto gather =
+        shoot<2>(part, 1, {}, into(ranks.number() == 0 ? together : of_helper), nullptr, &of_all, &ranks);
+    ASSERT_TRUE(of_all.slip && of_all.source_work);
+    EXPECT_EQ(of_all.slip->cells, report.slip->cells);
+    EXPECT_EQ(of_all.slip->slipped, report.slip->slipped);
+    EXPECT_NEAR(of_all.slip->dissipated / report.slip->dissipated, 1, 1e-9);
+    EXPECT_NEAR(*of_all.source_work / *report.source_work, 1, 1e-9);
+    EXPECT_NEAR(of_all.energy_left / report.energy_left, 1, 1e-9);
+    EXPECT_TRUE(ranks.number() > 0 || all_samples(gather) == traces);
+  });
+  ASSERT_EQ(alone.size(), 3 * keys.size());
+  ASSERT_EQ(together.size(), alone.size());
+  for (std::size_t n = 0; n < alone.size(); ++n) {
+    EXPECT_TRUE(std::equal(alone[n].begin(), alone[n].end(), together[n].begin(), together[n].end())) << n;
+    EXPECT_GT(*std::max_element(alone[n].begin(), alone[n].end()), 0) << n;
+  }
+}
+
+TEST(Ranks, AllSayWhereAShotBecameUnstable) {
+  auto scene = reef();
+  scene.numerics.time_step_s = 2.5 * stable_time_step_s(scene);
+  std::vector<std::string> said(3);
+  std::vector<double> until(3);
+  Gather kept;
+  RanksInThreads::run(3, [&](Ranks& ranks) {
+    const auto number = std::size_t(ranks.number());
+    try {
+      shoot(part_of(scene, ranks), 1, {}, {}, nullptr, nullptr, &ranks);
+    } catch (const Unstable& error) {
+      said[number] = error.what();
+      until[number] = error.sound_until_s();
+      if (number == 0) kept = error.gather();
+    }
+  });
+  EXPECT_NE(said[0].find("became unstable at x="), std::string::npos) << said[0];
+  EXPECT_NE(said[0].find("fracture set"), std::string::npos) << said[0];
+  EXPECT_EQ(said[0], said[1]);
+  EXPECT_EQ(said[0], said[2]);
+  EXPECT_EQ(until[0], until[2]);
+  ASSERT_EQ(kept.traces.size(), 4 * scene.survey.receivers_m.size());
+  for (const auto& trace : kept.traces) EXPECT_EQ(std::int64_t(trace.samples.size()), kept.axis.count);
+}
+
+TEST(Parts, TileTheModelEvenly) {
+  auto scene = reef();
+  scene.model.medium = uniform_medium(4, 1000, 5, rock);
+  scene.model.fracture = {};
+  for (const int count : {2, 3, 7}) {
+    std::int64_t before = 0;
+    for (int number = 0; number < count; ++number) {
+      const auto part = part_for(scene, scene.model.grid(), number, count);
+      EXPECT_EQ(part.first, before);
+      // A zone of 20 rows lies below the last.
+      const auto computed = part.last - part.first + (number + 1 == count ? 20 : 0);
+      EXPECT_NEAR(double(computed), 1020. / count, 2 * widest_stencil) << number << " of " << count;
+      before = part.last;
+    }
+    EXPECT_EQ(before, 1000);
+  }
+}
+
+TEST(Parts, AreRefusedWhereRowsAreTooFew) {
+  auto scene = reef();
+  try {
+    part_for(scene, scene.model.grid(), 0, 50);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(
+        error.what(),
+        "found 50 processes a shot for a model of 190 rows, expected at most 13: each takes 14 or more");
+  }
+  scene.survey.sources[0].mechanism = PlaneWave<2>{};
+  EXPECT_THROW(part_for(scene, scene.model.grid(), 0, 2), Error);
+}
+
+TEST(Ranks, ThrowWhatOneOfThemThrows) {
+  std::vector<std::string> said(3);
+  RanksInThreads::run(3, [&](Ranks& ranks) {
+    try {
+      agreed(&ranks, [&] {
+        if (ranks.number() > 0) throw Error("found " + std::to_string(ranks.number()), ErrorKind::usage);
+      });
+    } catch (const AgreedError& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::usage);
+      said[std::size_t(ranks.number())] = error.what();
+    }
+  });
+  EXPECT_EQ(said, std::vector<std::string>(3, "found 1"));
 }
 
 }  // namespace

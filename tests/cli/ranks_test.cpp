@@ -1,0 +1,112 @@
+#include <string>
+
+#include "shell.hpp"
+
+namespace {
+
+/// sw-shoot under the launcher of an MPI, where there is one.
+class ShotByRanks : public Shell {
+ protected:
+  void SetUp() override {
+    if (launcher.empty()) GTEST_SKIP() << "sw-shoot was built without MPI";
+    done(
+        "sw-layers --size 800x900 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1600:2200 | "
+        "sw-fracture - --box 300:500,200:700 --dip 30 --friction 0.3 --viscosity 0.01 --name cracks -o m.nc");
+  }
+  /// What the launcher itself says is not the tool's.
+  std::string line(int ranks, const std::string& arguments) const {
+    return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 " +
+           launcher + " -n " + std::to_string(ranks) + " sw-shoot " + arguments;
+  }
+  /// Of stderr the lines of the tool.
+  static std::string said(const Ran& ran) {
+    std::string lines;
+    for (std::size_t begin = 0; begin < ran.err.size();) {
+      const auto end = std::min(ran.err.find('\n', begin), ran.err.size() - 1) + 1;
+      if (ran.err.compare(begin, 9, "sw-shoot:") == 0) lines += ran.err.substr(begin, end - begin);
+      begin = end;
+    }
+    return lines;
+  }
+  static const std::string launcher;
+  const std::string shots =
+      "m.nc --source 390,310 --source 200,50 --source 600,600 --wavelet ricker:25 --time 0.2 "
+      "--receivers 0:800:20,10 --receivers 395,20 ";
+};
+
+const std::string ShotByRanks::launcher = SLIPWAVE_MPIRUN;
+
+}  // namespace
+
+TEST_F(ShotByRanks, IsTheSameFileAsOfOneProcess) {
+  done("sw-shoot " + shots + "-o alone.sgy");
+  for (const std::string groups : {"0", "1", "2", "4"}) {
+    const auto ran = run(line(4, shots + "--ranks-per-shot " + groups + " -o together.sgy"));
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(said(ran), "");
+    EXPECT_EQ(done("cmp alone.sgy together.sgy"), "") << groups;
+  }
+  done("sw-shoot " + shots + "-o 'a-{shot}-{component}.sgy'");
+  run(line(2, shots + "-o 'b-{shot}-{component}.sgy'"));
+  for (const std::string name : {"1-vz", "2-p", "3-vx"})
+    done("sw-diff -q a-" + name + ".sgy b-" + name + ".sgy -o d.sgy && cmp <(tail -c +3601 a-" + name +
+         ".sgy) <(tail -c +3601 b-" + name + ".sgy)");
+}
+
+TEST_F(ShotByRanks, TakesTheSameSnapshotsAndSaysTheSame) {
+  const std::string watched =
+      "m.nc --source 390,310 --wavelet ricker:25 --time 0.2 --receivers 10,10 "
+      "--snapshots s.nc --every 0.05 --fields vx,curl,slip --balance -o t.sgy";
+  const auto alone = run("sw-shoot " + watched);
+  done("mv s.nc alone.nc; mv t.sgy alone.sgy");
+  const auto ran = run(line(3, watched));
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(said(ran), alone.err);
+  done("cmp alone.nc s.nc && cmp alone.sgy t.sgy");
+}
+
+TEST_F(ShotByRanks, InThreeDimensionsToo) {
+  done("sw-layers --size 120x100x300 --step 5 --layer 0:3000:1600:2200 --layer 150:4000:2300:2500 -o c.nc");
+  const std::string cube =
+      "c.nc --source 60,52,80 --kind force:1,2,3 --wavelet ricker:40 --time 0.06 "
+      "--receivers 10:110:50,20:80:30,3 --edge-width 6 ";
+  done("sw-shoot " + cube + "-o alone.sgy");
+  const auto ran = run(line(3, cube + "-o together.sgy"));
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  done("cmp alone.sgy together.sgy");
+}
+
+TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
+  const auto expect = [&](const std::string& arguments, int code, const std::string& message) {
+    const auto ran = run(line(3, arguments));
+    EXPECT_EQ(said(ran), "sw-shoot: " + message + "\n") << ran.err;
+    EXPECT_EQ(ran.code, code);
+    EXPECT_EQ(files(), "m.nc");
+  };
+  expect("none.nc --source 1,1 --wavelet ricker:25 --time 1 --receivers 1,1 -o o.sgy", 1,
+         "none.nc: No such file or directory");
+  expect("m.nc --source 900,1 --wavelet ricker:25 --time 1 --receivers 1,1 -o o.sgy", 1,
+         "source 1 at x=900 z=1 lies outside the model, expected x=0..800 z=0..900");
+  expect(
+      "m.nc --source 400,10 --kind plane:0 --top absorbing --wavelet ricker:25 --time 1 --receivers 1,1 "
+      "-o o.sgy",
+      2, "found a plane wave and 3 processes a shot, expected a point source or --ranks-per-shot 1");
+  expect(shots + "--ranks-per-shot 2 -o o.sgy", 2,
+         "found --ranks-per-shot 2 and 3 processes, expected a number that divides them");
+  expect(shots + "--checkpoint c -o o.sgy", 2,
+         "found --checkpoint and 3 processes, expected it with one process");
+  expect("- " + shots.substr(5) + "-o o.sgy", 2,
+         "found a model from standard input and 3 processes, expected the name of a file");
+}
+
+TEST_F(ShotByRanks, KeepsWhatAnUnstableShotRecorded) {
+  // As UnstableRun: beyond single precision while the source acts.
+  const auto ran = run("LD_PRELOAD=" SLIPWAVE_SHIM " SLIPWAVE_FAULT=unit " +
+                       line(2,
+                            "m.nc --source 390,310 --wavelet ricker:25 --time 0.4 --receivers 10,10 "
+                            "--amplitude 1e36 --keep-unstable -o o.sgy"));
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_NE(said(ran).find("the simulation became unstable at x="), std::string::npos) << ran.err;
+  EXPECT_NE(said(ran).find("is in unstable-o.sgy\n"), std::string::npos) << ran.err;
+  EXPECT_EQ(files(), "m.nc unstable-o.sgy");
+}
