@@ -196,9 +196,11 @@ void run(const Settings& settings, const cli::Context& context) {
     cli::say_error(context.tool, error.what());
     if (error.kind() == ErrorKind::unstable) end_together(int(error.kind()));
     end_all_ranks(int(error.kind()));  // the others do not know, and would wait
+    throw cli::EndSilently{int(error.kind())};
   } catch (const std::bad_alloc&) {
     cli::say_error(context.tool, "out of memory");
     end_all_ranks(1);
+    throw cli::EndSilently{1};
   }
 }
 

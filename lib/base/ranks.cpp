@@ -26,13 +26,12 @@ double folded(Ranks* ranks, double mine, const Join& join) {
 }  // namespace
 
 void wait_for(Message& message) {
-  using namespace std::chrono_literals;
   // Most messages are there or nearly so; who waits longer must not take the processor from who computes.
   for (int looks = 0; !message.done(); ++looks) {
     if (looks < 64)
       std::this_thread::yield();
     else
-      std::this_thread::sleep_for(20us);
+      std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
 }
 

@@ -16,6 +16,6 @@ std::unique_ptr<Ranks> started_ranks() {
   return nullptr;
 }
 
-void end_all_ranks(int status) { std::exit(status); }
+void end_all_ranks(int) {}
 
 }  // namespace slipwave

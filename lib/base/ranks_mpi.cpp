@@ -135,7 +135,6 @@ void end_all_ranks(int status) {
   int begun = 0;
   MPI_Initialized(&begun);
   if (begun) MPI_Abort(MPI_COMM_WORLD, status);
-  std::exit(status);
 }
 
 }  // namespace slipwave

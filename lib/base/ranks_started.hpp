@@ -11,7 +11,8 @@ namespace slipwave {
 /// Error where there are several and the program was built without MPI.
 std::unique_ptr<Ranks> started_ranks();
 
-/// Ends all ranks at once, this one with that exit status: for what went wrong on one of them alone.
-[[noreturn]] void end_all_ranks(int status);
+/// Ends all ranks at once, with that exit status, this one too where there are others: for what went wrong on
+/// one of them alone.
+void end_all_ranks(int status);
 
 }  // namespace slipwave
