@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/temporary.hpp"
@@ -74,9 +75,9 @@ std::vector<char> read_all(const std::string& path, std::vector<char> already_re
   }
 }
 
-std::string read_text(const std::string& path) {
+std::string read_text(const std::string& path, std::vector<char> already_read) {
   constexpr std::size_t most = std::size_t(1) << 26;
-  const auto bytes = read_all(path, {}, most);
+  const auto bytes = read_all(path, std::move(already_read), most);
   return {bytes.begin(), bytes.end()};
 }
 

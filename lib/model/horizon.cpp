@@ -7,25 +7,25 @@
 
 #include "base/error.hpp"
 #include "base/input_bytes.hpp"
+#include "base/netcdf_container.hpp"
+#include "base/netcdf_file.hpp"
 #include "base/parse.hpp"
 #include "model/points_file.hpp"
 
 namespace slipwave {
 namespace {
 
-std::vector<Point<2>> read_curve(const std::string& path) {
+std::vector<Point<2>> curve_of(const std::vector<NumberedPoint<2>>& numbered) {
   std::vector<Point<2>> points;
-  for (const auto& point : read_points(path)) {
+  for (const auto& point : numbered) {
     if (!points.empty() && !(point.at[0] > points.back()[0])) {
-      throw Error(shown_input(path) + ": line " + std::to_string(point.line) + ": found x = " +
-                  shown(point.at[0]) + " after " + shown(points.back()[0]) + ", expected x to ascend");
+      throw Error("line " + std::to_string(point.line) + ": found x = " + shown(point.at[0]) + " after " +
+                  shown(points.back()[0]) + ", expected x to ascend");
     }
     points.push_back(point.at);
   }
-  if (points.size() < 2) {
-    throw Error(shown_input(path) + ": found " + std::to_string(points.size()) +
-                " points, expected at least 2");
-  }
+  if (points.size() < 2)
+    throw Error("found " + std::to_string(points.size()) + " points, expected at least 2");
   return points;
 }
 
@@ -64,10 +64,10 @@ Horizon Horizon::parse(std::string_view text, double dip_deg) {
   const auto parts = split(text, ',');
   constexpr std::string_view smooth = "smooth@";
   if (text.starts_with('@')) {
-    horizon.points_ = read_curve(std::string(text.substr(1)));
+    horizon.read(std::string(text.substr(1)));
   } else if (text.starts_with(smooth)) {
-    horizon.points_ = read_curve(std::string(text.substr(smooth.size())));
-    horizon.slopes_ = smooth_slopes(horizon.points_);
+    horizon.smooth_ = true;
+    horizon.read(std::string(text.substr(smooth.size())));
   } else if (parts.front() == "sine") {
     if (parts.size() != 4 && parts.size() != 5) {
       throw Error("found '" + std::string(text) + "', expected sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]",
@@ -87,12 +87,32 @@ Horizon Horizon::parse(std::string_view text, double dip_deg) {
   return horizon;
 }
 
-double Horizon::at(double x_m) const {
+void Horizon::read(const std::string& path) {
+  const InputStart start(path, 8);
+  if (begins_netcdf({start.bytes().data(), start.bytes().size()})) {
+    grid_ = depth_grid_from_netcdf(start.is_regular()
+                                       ? NetcdfFile::open(path)
+                                       : NetcdfFile::open(read_all(path, start.taken()), shown_input(path)));
+    return;
+  }
+  const auto text = read_text(path, start.taken());
+  in_place(shown_input(path), [&] {
+    if (columns_of_text(text) == 3) {
+      grid_ = DepthGrid::of_points(points_of_text<3>(text));
+      return;
+    }
+    points_ = curve_of(points_of_text<2>(text));
+    if (smooth_) slopes_ = smooth_slopes(points_);
+  });
+}
+
+double Horizon::at(double x_m, double y_m) const {
   double depth = depth_m_ + slope_ * x_m;
   if (amplitude_m_ != 0) {
     const double phase = 2 * std::numbers::pi * (x_m / wavelength_m_ + phase_deg_ / 360);
     depth += amplitude_m_ * std::sin(phase);
   }
+  if (grid_) return depth + grid_->at(x_m, y_m, smooth_);
   if (points_.empty()) return depth;
   const auto behind = std::upper_bound(points_.begin(), points_.end(), x_m,
                                        [](double x, const Point<2>& point) { return x < point[0]; });
@@ -109,12 +129,14 @@ double Horizon::at(double x_m) const {
   return depth + width * t * (1 - t) * ((slopes_[n - 1] - slope) * (1 - t) - (slopes_[n] - slope) * t);
 }
 
-double Horizon::from_m() const {
-  return points_.empty() ? -std::numeric_limits<double>::infinity() : points_.front()[0];
+double Horizon::from_m(int axis) const {
+  if (grid_) return (axis == 0 ? grid_->x_m() : grid_->y_m()).front();
+  return points_.empty() || axis != 0 ? -std::numeric_limits<double>::infinity() : points_.front()[0];
 }
 
-double Horizon::to_m() const {
-  return points_.empty() ? std::numeric_limits<double>::infinity() : points_.back()[0];
+double Horizon::to_m(int axis) const {
+  if (grid_) return (axis == 0 ? grid_->x_m() : grid_->y_m()).back();
+  return points_.empty() || axis != 0 ? std::numeric_limits<double>::infinity() : points_.back()[0];
 }
 
 }  // namespace slipwave

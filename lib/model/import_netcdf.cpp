@@ -4,6 +4,7 @@
 #include "base/error.hpp"
 #include "base/netcdf_file.hpp"
 #include "model/import.hpp"
+#include "model/units_netcdf.hpp"
 
 namespace slipwave {
 namespace {
@@ -28,17 +29,6 @@ bool is_depth(const NetcdfFile& file, const std::string& dimension) {
   return file.text_attribute(dimension, "axis") == "Z" || file.text_attribute(dimension, "positive");
 }
 
-/// What one unit of the variable is in SI: `small` units count 1, `large` ones 1000.
-double unit_factor(const NetcdfFile& file, const std::string& variable, const std::vector<std::string>& small,
-                   const std::vector<std::string>& large) {
-  const auto unit = file.text_attribute(variable, "units");
-  if (!unit || unit->empty()) return 1;
-  if (std::find(small.begin(), small.end(), *unit) != small.end()) return 1;
-  if (std::find(large.begin(), large.end(), *unit) != large.end()) return 1000;
-  throw Error(file.shown_name() + ": " + variable + ": found the unit '" + *unit + "', expected " +
-              small.front() + " or " + large.front());
-}
-
 double property_factor(const NetcdfFile& file, const std::string& property, const std::string& variable) {
   if (property == "rho") {
     return unit_factor(file, variable, {"kg m-3", "kg/m3", "kg/m^3", "kg m^-3"},
@@ -54,7 +44,7 @@ struct Axis {
 Axis axis_of(const NetcdfFile& file, const std::string& dimension, std::size_t length) {
   if (!file.has_variable(dimension) || length < 2) return {};
   auto values = file.get<double>(dimension);
-  const double factor = unit_factor(file, dimension, {"m", "meter", "metre", "meters", "metres"}, {"km"});
+  const double factor = length_factor(file, dimension);
   const bool up = file.text_attribute(dimension, "positive") == "up";
   for (auto& value : values) value *= up ? -factor : factor;
   const double step = (values.back() - values.front()) / double(values.size() - 1);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -17,24 +18,75 @@ constexpr double bytes_a_cell = 16;
 
 std::string short_number(double value) { return shown(std::round(value * 1000) / 1000); }
 
-/// Tops of all layers at one x.
-std::vector<double> tops_at(const std::vector<Layer>& layers, double x_m) {
-  std::vector<double> tops;
-  for (const auto& layer : layers) tops.push_back(layer.top.at(x_m));
+/// Tops of all layers at the places of a line along x: [place][layer].
+using Tops = std::vector<std::vector<double>>;
+
+Tops tops_along(const std::vector<Layer>& layers, const std::vector<double>& x_m, double y_m) {
+  Tops tops(x_m.size());
+  for (std::size_t n = 0; n < x_m.size(); ++n) {
+    tops[n].reserve(layers.size());
+    for (const auto& layer : layers) tops[n].push_back(layer.top.at(x_m[n], y_m));
+  }
   return tops;
+}
+
+/// Lines of columns: one in 2-D, as many as cells along y in 3-D.
+template <int D>
+std::int64_t lines_of(const Grid<D>& grid) {
+  return D == 2 ? 1 : grid.shape[1];
+}
+
+/// Where cells have their centres along y; 0 in 2-D, where nothing changes along it.
+template <int D>
+double y_of(const Grid<D>& grid, std::int64_t line) {
+  return D == 2 ? 0. : grid.centre(1, line);
+}
+
+/// Lines that tops differ on: only grids change along y.
+template <int D>
+std::int64_t different_lines(const Grid<D>& grid, const std::vector<Layer>& layers) {
+  const bool grids =
+      std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.top.is_grid(); });
+  return grids ? lines_of(grid) : 1;
+}
+
+/// A curve or grid must reach all columns.
+template <int D>
+void check_reach(const Grid<D>& grid, const Horizon& top) {
+  if (D == 2 && top.is_grid()) {
+    throw Error(
+        "found a grid of depths over x and y in " + top.name() + ", expected points X Z for a model in 2-D",
+        ErrorKind::usage);
+  }
+  for (int axis = 0; axis < D - 1; ++axis) {
+    const double first = grid.centre(axis, 0), last = grid.centre(axis, grid.shape[std::size_t(axis)] - 1);
+    if (top.from_m(axis) <= first && top.to_m(axis) >= last) continue;
+    throw Error(top.name() + " reaches from " + axis_names<D>()[std::size_t(axis)] + " = " +
+                shown(top.from_m(axis)) + " to " + shown(top.to_m(axis)) + " m, expected at least " +
+                shown(first) + " to " + shown(last) + ", the centres of the outer cells");
+  }
+}
+
+/// Does a top lie above the one before it in every column?
+template <int D>
+bool is_above(const Grid<D>& grid, const Layer& layer, const Layer& before) {
+  const std::int64_t lines = different_lines(grid, {layer, before});
+  for (std::int64_t line = 0; line < lines; ++line) {
+    const double y = y_of(grid, line);
+    for (std::int64_t n = 0; n < grid.shape[0]; ++n) {
+      const double x = grid.centre(0, n);
+      if (!(layer.top.at(x, y) < before.top.at(x, y))) return false;
+    }
+  }
+  return true;
 }
 
 template <int D>
 void check_pile(const Grid<D>& grid, const std::vector<Layer>& layers) {
   if (layers.empty()) throw Error("found no layer, expected at least one", ErrorKind::usage);
-  const double first = grid.centre(0, 0), last = grid.centre(0, grid.shape[0] - 1);
   for (std::size_t i = 0; i < layers.size(); ++i) {
     const auto& top = layers[i].top;
-    if (!(top.from_m() <= first && top.to_m() >= last)) {
-      throw Error(top.name() + " reaches from x = " + shown(top.from_m()) + " to " + shown(top.to_m()) +
-                  " m, expected at least " + shown(first) + " to " + shown(last) +
-                  ", the centres of the outer cells");
-    }
+    check_reach(grid, top);
     if (i == 0) continue;
     const auto& before = layers[i - 1].top;
     if (top.is_plane() && before.is_plane()) {
@@ -43,15 +95,28 @@ void check_pile(const Grid<D>& grid, const std::vector<Layer>& layers) {
                       ", expected them from the top down",
                   ErrorKind::usage);
     }
-    bool above = true;
-    for (std::int64_t n = 0; n < grid.shape[0] && above; ++n)
-      above = top.at(grid.centre(0, n)) < before.at(grid.centre(0, n));
-    if (above) {
+    if (is_above(grid, layers[i], layers[i - 1])) {
       throw Error("the layer at " + top.name() + " lies above the one before it, at " + before.name() +
                       ", all along the model; expected them from the top down",
                   ErrorKind::usage);
     }
   }
+}
+
+/// Tops of all layers over a line of columns: at their centres, and at their upright edges at the low and the
+/// high side in y, where edges[n] is before column n and edges[n + 1] beyond it.
+struct LineOfTops {
+  Tops centres, low_edges, high_edges;
+};
+
+template <int D>
+LineOfTops tops_of_line(const Grid<D>& grid, const std::vector<Layer>& layers, std::int64_t line) {
+  const double half = grid.spacing_m / 2, y = y_of(grid, line);
+  std::vector<double> centres, edges;
+  for (std::int64_t n = 0; n < grid.shape[0]; ++n) centres.push_back(grid.centre(0, n));
+  for (std::int64_t n = 0; n <= grid.shape[0]; ++n) edges.push_back(grid.centre(0, n) - half);
+  return {tops_along(layers, centres, y), tops_along(layers, edges, y - half),
+          tops_along(layers, edges, y + half)};
 }
 
 /// "A", "A+K" or "A-K": a value at the top, and what it gains with depth.
@@ -123,29 +188,36 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
   check_pile(grid, layers);
   Medium<D> medium{Field<D>(grid), Field<D>(grid), Field<D>(grid)};
   const double h = grid.spacing_m;
-  const std::int64_t columns = grid.shape[0], lines = grid.size() / columns;
-  std::vector<std::vector<double>> centre_tops, face_tops;  // face_tops[n] is below cell n, [n + 1] beyond it
-  for (std::int64_t n = 0; n < columns; ++n) centre_tops.push_back(tops_at(layers, grid.centre(0, n)));
-  for (std::int64_t n = 0; n <= columns; ++n) face_tops.push_back(tops_at(layers, grid.centre(0, n) - h / 2));
-  std::vector<Cut> cuts(layers.size());
+  const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
+                     different = different_lines(grid, layers);
+  LineOfTops over;
+  std::vector<CutInSpace> cuts(layers.size());
   for (std::int64_t line = 0; line < lines; ++line) {
-    const double z = grid.centre(D - 1, grid.index(line * columns)[D - 1]);
-    for (std::int64_t n = 0; n < columns; ++n) {
-      const auto &tops = centre_tops[n], &low = face_tops[n], &high = face_tops[n + 1];
-      std::size_t centre = layers.size();
-      while (centre > 0 && tops[centre - 1] > z) --centre;
-      if (centre == 0) continue;  // void
-      MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]));
-      bool cut = false;
-      for (std::size_t i = 0; i < layers.size(); ++i) {
-        cuts[i] = {(low[i] - z) / h + 0.5, (high[i] - z) / h + 0.5};
-        cut = cut || (std::min(cuts[i].low, cuts[i].high) < 1 && std::max(cuts[i].low, cuts[i].high) > 0);
+    if (line < different) over = tops_of_line(grid, layers, line);
+    for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
+      const double z = grid.centre(D - 1, row);
+      for (std::int64_t n = 0; n < columns; ++n) {
+        const auto& tops = over.centres[std::size_t(n)];
+        std::size_t centre = layers.size();
+        while (centre > 0 && tops[centre - 1] > z) --centre;
+        if (centre == 0) continue;  // void
+        MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]));
+        bool cut = false;
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+          const auto in_cells = [&](const Tops& edges) {
+            return Cut{(edges[std::size_t(n)][i] - z) / h + 0.5,
+                       (edges[std::size_t(n) + 1][i] - z) / h + 0.5};
+          };
+          cuts[i] = {in_cells(over.low_edges), in_cells(over.high_edges)};
+          cut = cut || (cuts[i].least() < 1 && cuts[i].largest() > 0);
+        }
+        if (average && cut) {
+          const auto shares = shares_of_cell(cuts);
+          for (std::size_t i = 0; i < layers.size(); ++i)
+            mean.add(layers[i].at_depth(z - tops[i]), shares[i]);
+        }
+        put(medium, std::size_t((row * lines + line) * columns + n), mean.mean());
       }
-      if (average && cut) {
-        const auto shares = shares_of_cell(cuts);
-        for (std::size_t i = 0; i < layers.size(); ++i) mean.add(layers[i].at_depth(z - tops[i]), shares[i]);
-      }
-      put(medium, std::size_t(line * columns + n), mean.mean());
     }
   }
   return medium;
@@ -154,21 +226,30 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
 template <int D>
 std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<Layer>& layers) {
   std::vector<std::string> sentences;
+  const std::int64_t lines = different_lines(grid, layers);
   for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
-    double from = 0, to = 0;
-    std::size_t by = 0;  // the layer that first cuts this one off; 0: none
-    for (std::int64_t n = 0; n < grid.shape[0]; ++n) {
-      const double x = grid.centre(0, n), top = layers[i].top.at(x);
-      for (std::size_t k = i + 1; k < layers.size(); ++k) {
-        if (layers[i].top.is_plane() && layers[k].top.is_plane()) continue;
-        if (!(layers[k].top.at(x) < top)) continue;
-        if (by == 0) by = k, from = x;
-        to = x;
+    constexpr double far = std::numeric_limits<double>::infinity();
+    Point<2> from{far, far}, to{-far, -far};  // x and y of the columns where it is cut off
+    std::size_t by = 0;                       // the layer that first cuts this one off; 0: none
+    for (std::int64_t line = 0; line < lines; ++line) {
+      for (std::int64_t n = 0; n < grid.shape[0]; ++n) {
+        const Point<2> at{grid.centre(0, n), y_of(grid, line)};
+        const double top = layers[i].top.at(at[0], at[1]);
+        for (std::size_t k = i + 1; k < layers.size(); ++k) {
+          if (layers[i].top.is_plane() && layers[k].top.is_plane()) continue;
+          if (!(layers[k].top.at(at[0], at[1]) < top)) continue;
+          if (by == 0) by = k;
+          for (std::size_t axis : {0, 1}) {
+            from[axis] = std::min(from[axis], at[axis]);
+            to[axis] = std::max(to[axis], at[axis]);
+          }
+        }
       }
     }
     if (by == 0) continue;
     sentences.push_back("the layer at " + layers[i].top.name() + " is cut off by the one at " +
-                        layers[by].top.name() + " between x=" + shown(from) + " and x=" + shown(to));
+                        layers[by].top.name() + " between x=" + shown(from[0]) + " and x=" + shown(to[0]));
+    if (lines > 1) sentences.back() += ", y=" + shown(from[1]) + " and y=" + shown(to[1]);
   }
   return sentences;
 }

@@ -41,11 +41,13 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 /// cuts them off where its top rises above theirs; what is above the first layer is void. A cell is solid,
 /// fluid or void as the layer at its centre, that is the last one whose top is there or above; its material
 /// is the mean over its parts of that kind, areas being cut off by the tops (theory.md M1, M2; exact for
-/// planes, for curves with their chords across the cell), or with `average` = false that of the centre. Where
+/// planes, for curves with their chords across the cell, for grids with the plane nearest to their depths at
+/// its edges), or with `average` = false that of the centre. Where
 /// properties change with depth, each part has those at the centre of the cell, or at its top if that lies
 /// below the centre. At least one layer, from the top down: planes by their depth at x = 0, and no top may
 /// lie above the one before it all along the model (usage Error). A curve must reach from the first to the
-/// last centre of a cell along x. Values: check().
+/// last centre of a cell along x, a grid along y, too, and wants a model in 3-D (usage Error). Values:
+/// check().
 template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -8,13 +9,21 @@
 namespace slipwave {
 
 /// A point of a text file, and the line it stands on.
+template <int D>
 struct NumberedPoint {
-  Point<2> at{};
+  Point<D> at{};
   int line = 0;
 };
 
-/// The points of a text file, one "X Z" or "X,Z" a line; # begins a comment, empty lines are passed over.
-/// Throws Error naming file and line.
-std::vector<NumberedPoint> read_points(const std::string& path);
+/// The points of a text: "X Z" or "X,Z" a line, in 3-D "X Y Z"; # begins a comment, empty lines are passed
+/// over. Throws Error naming the line.
+template <int D>
+std::vector<NumberedPoint<D>> points_of_text(std::string_view text);
+
+/// Those of a file. Throws Error naming file and line.
+std::vector<NumberedPoint<2>> read_points(const std::string& path);
+
+/// Values on the first line that has any; 0 without one.
+std::size_t columns_of_text(std::string_view text);
 
 }  // namespace slipwave

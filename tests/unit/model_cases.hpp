@@ -1,7 +1,11 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -38,5 +42,20 @@ inline std::string sentence_of(const std::function<void()>& body) {
   }
   return "no error";
 }
+
+/// A text file that is there for one test.
+class TextFile {
+ public:
+  explicit TextFile(const std::string& content)
+      : path_(std::filesystem::temp_directory_path() /
+              ("slipwave_" + std::to_string(getpid()) + "_" + std::to_string(std::uintptr_t(this)))) {
+    std::ofstream(path_) << content;
+  }
+  ~TextFile() { std::filesystem::remove(path_); }
+  std::string path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace slipwave

@@ -1,11 +1,6 @@
 #include "model/horizon.hpp"
 
-#include <unistd.h>
-
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -15,21 +10,6 @@
 using namespace slipwave;
 
 namespace {
-
-/// A text file that is there for one test.
-class TextFile {
- public:
-  explicit TextFile(const std::string& content)
-      : path_(std::filesystem::temp_directory_path() /
-              ("slipwave_" + std::to_string(getpid()) + "_" + std::to_string(std::uintptr_t(this)))) {
-    std::ofstream(path_) << content;
-  }
-  ~TextFile() { std::filesystem::remove(path_); }
-  std::string path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 constexpr double pi = 3.141592653589793;
 
