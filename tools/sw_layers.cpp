@@ -20,14 +20,14 @@ struct Settings {
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.add("size", settings.size, "LXxLZ", "size of the model, m; LXxLYxLZ: in 3-D, the same all along y");
+  options.add("size", settings.size, "LXxLZ", "size of the model, m; LXxLYxLZ: in 3-D");
   options.add("step", settings.step_m, "H", "edge of a cell, m");
   options.add(
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
       "a layer from DEPTH down, from the top one on; DIP in degrees, deepening towards +x, DEPTH at x = 0; "
       "VS 0 is fluid, above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
-      "@FILE of lines \"X Z\", smooth@FILE without kinks; VP, VS, RHO may be A+K or A-K: A at the top, K "
-      "more or less a metre");
+      "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF, smooth@FILE without "
+      "kinks; VP, VS, RHO may be A+K or A-K: A at the top, K more or less a metre");
   options.add("no-average", settings.no_average,
               "cells cut by a top take the material of their centre, not the mean over their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");

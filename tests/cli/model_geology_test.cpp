@@ -42,6 +42,17 @@ TEST_F(ModelGeology, OfLayersFollowsHorizonsFromFiles) {
   EXPECT_TRUE(has(text, "void cells    50\n")) << text;
 }
 
+TEST_F(ModelGeology, OfLayersFollowsGridsInThreeDimensions) {
+  // A roof over y: 40 - 0.3 y down to 10 m in the middle; in each of ten columns along x the same as above.
+  write("roof.xyz", "# x y depth\n0 100 10\n100 0 40\n0 0 40\n100 200 40\n0 200 40\n100 100 10\n");
+  const std::string rest = " --size 100x200x100 --step 10 --layer 70:4000:2000:2500 | sw-info -";
+  const auto text = done("sw-layers --layer @roof.xyz:3000:1500:2200" + rest);
+  EXPECT_TRUE(has(text, "void cells    500\n")) << text;
+  // Through a pipe, too.
+  const auto piped = done("cat roof.xyz | sw-layers --layer @-:3000:1500:2200" + rest);
+  EXPECT_TRUE(has(piped, "void cells    500\n")) << piped;
+}
+
 TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
   const std::string line =
       "sw-layers --size 1000x500 --step 10 --layer 0:1500:0:1000 --layer 200:2000:1000:2000 --layer "

@@ -74,8 +74,12 @@ void read_point_files(const std::string& path) {
     answers("", [&] {
       const auto horizon = Horizon::parse(kind + path, 10);
       expect(horizon.from_m() < horizon.to_m(), "a horizon has no length");
+      const double to_y = horizon.is_grid() ? horizon.to_m(1) : 0,
+                   from_y = horizon.is_grid() ? horizon.from_m(1) : 0;
+      expect(!horizon.is_grid() || from_y < to_y, "a grid has no width");
       for (const double share : {0., 0.3, 1.})
-        horizon.at(horizon.from_m() + share * (horizon.to_m() - horizon.from_m()));
+        horizon.at(horizon.from_m() + share * (horizon.to_m() - horizon.from_m()),
+                   from_y + share * (to_y - from_y));
     });
 }
 
