@@ -89,10 +89,8 @@ Plan<D> plan_as(const Scene<D>& scene) {
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  if constexpr (D == 2) {
-    plan.error = WavesOfScene(scene).expected();
-    plan.computed_share = expected_share(scene);
-  }
+  if constexpr (D == 2) plan.error = WavesOfScene(scene).expected();
+  plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
   plan.instruction_set = solver::instruction_set();
@@ -127,10 +125,9 @@ Report report_of(const Plan<D>& plan) {
                 "P " + shown(100 * plan.error.p, 2) + " %" +
                     (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
   report.count("cells beside contacts", plan.span_ends);
-  if (D == 2)
-    report.text("computed",
-                shown(100 * plan.computed_share, 2) +
-                    " % of all cells in all steps: the others no wave has come to, or none returns from");
+  report.text("computed",
+              shown(100 * plan.computed_share, 2) +
+                  " % of all cells in all steps: the others no wave has come to, or none returns from");
   report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
   report.text("expected time", shown(plan.seconds, 2) + " s of the processor, " +
                                    shown(plan.seconds / plan.threads, 2) + " s on " +

@@ -29,7 +29,7 @@ struct Plan {
   std::string instruction_set;
 };
 
-/// In 3-D errors and the share that is computed are not expected: the plan is of all cells.
+/// In 3-D errors are not expected.
 /// Builds the first shot and runs a few of its steps to see how long they take.
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
