@@ -36,14 +36,14 @@ void declare(cli::Options& options, Settings& s) {
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
               "shots shot at once; 0: one a thread as long as 1 GiB holds them");
   options.add("ranks-per-shot", s.output.ranks_per_shot, "N",
-              "under mpirun: processes that shoot a shot together; 0: as few as leave none without work");
+              "processes of mpirun that shoot a shot together; 0: as few as it takes");
   options.add("first-shot", s.output.first_shot, "N", "number of the first source, the others follow");
   options.add("checkpoint", s.output.checkpoint, "FILE",
               "keep the state of the run here, and go on from it where there is one");
   options.add("checkpoint-every", s.output.checkpoint_every_s, "S",
               "wall-clock time between checkpoints, s [600]");
   options.add("keep-unstable", s.output.keep_unstable,
-              "keep what a run recorded before it became unstable, in files unstable-NAME");
+              "keep what an unstable run recorded before, in files unstable-NAME");
   options.add("error", s.wanted_error, "SHARE",
               "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
   options.add("plan", s.plan, "print what would be computed, and stop");

@@ -7,6 +7,8 @@
 #include "base/parallel.hpp"
 #include "lab.hpp"
 #include "model/marmousi.hpp"
+#include "ranks_in_threads.hpp"
+#include "solver/parts.hpp"
 #include "solver/simulation.hpp"
 
 // Small, but cut into many pieces: a band of the pipeline has some 50 rows.
@@ -97,6 +99,24 @@ TEST(Threads, ShareAShotOfFourthOrderInDoublePrecision) {
   scene.numerics.cfl = 0.7;
   scene.numerics.passage = {1, 16, true};
   expect_the_same_on_threads(scene);
+}
+
+TEST(Threads, OfSeveralRanksRecordWhatOneDoes) {
+  for (const auto sides : {EdgeLaw::absorbing, EdgeLaw::free}) {
+    const auto scene = scene_of(sides, true);
+    const auto alone = samples_of(shoot(scene, 2));
+    for (const int count : {2, 3}) {
+      const ThreadLimit limit(4);
+      std::vector<double> together;
+      RanksInThreads::run(count, [&](Ranks& ranks) {
+        auto part = cut_to(scene, part_for(scene, scene.model.grid(), ranks.number(), count));
+        join(part, ranks);
+        const auto gather = shoot(part, 2, {}, {}, nullptr, nullptr, &ranks);
+        if (ranks.number() == 0) together = samples_of(gather);
+      });
+      EXPECT_TRUE(together == alone) << count << " ranks";
+    }
+  }
 }
 
 TEST(Threads, ShareThePlaneWave) {
