@@ -277,7 +277,7 @@ template <int D, class Real>
 std::int64_t Step<D, Real>::memory_bytes() const {
   return (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
          std::int64_t(state_.stretches.size() * sizeof(Stretch<Real>)) + pipeline_.memory_bytes() +
-         (layer_ ? layer_->memory_bytes() : 0);
+         (layer_ ? layer_->memory_bytes() : 0) + (halo_ ? halo_->memory_bytes() : 0);
 }
 
 template class Step<2, float>;

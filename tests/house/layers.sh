@@ -47,5 +47,6 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     only_in("^netcdf", header, "^lib/.*netcdf[a-z_]*[.][ch]pp$")
     only_in("^boost/", header, "^(lib/cli|tools)/")
     only_in("^cairo", header, "^lib/plot/")
+    only_in("^mpi[.]h", header, "^lib/base/ranks_mpi[.]cpp$")
   }
   END { exit bad }'
