@@ -28,8 +28,6 @@ class Halo {
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
 
-  /// Of the computed grid: rows it answers for.
-  const Columns& own() const { return own_; }
   /// Before a pass comes to these rows: puts right those of them that are the neighbours'. They are returned,
   /// above and below.
   std::array<Columns, 2> before(const Columns& rows);
@@ -39,8 +37,7 @@ class Halo {
   /// Rows of a band, at least, where a pass has so many rows under way: what is handed out or put right then
   /// is not what the next pass or the one before is at.
   std::int64_t least_band_rows(std::int64_t longest) const { return longest + beside_; }
-  /// Rows that are still right after so many steps of a pass, where what
-  /// is wrong spreads by so many rows in each.
+  /// Rows that are still right after so many steps of a pass, where what is wrong spreads by so many in each.
   Columns right_after(std::int64_t steps, const Columns& spread) const;
   std::int64_t memory_bytes() const;
 

@@ -79,6 +79,7 @@ void Pipeline<D, Real>::use(Halo<D, Real>* halo) {
     for (auto n = std::int64_t(worker.rings.size()); n < along_y * carries_a_sweep(); ++n)
       worker.rings.emplace_back(0, layout_.padded_nx(), sweeps_.ring_rows(), D);
   }
+  use(patches_);
 }
 
 template <int D, class Real>
