@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
+#include <set>
 
 #include "base/error.hpp"
 #include "segy/extension.hpp"
@@ -66,6 +68,28 @@ struct ScalarChoice {
   }
 };
 
+/// Where lines of receivers lie that run along one axis, counted along the other.
+class Lines {
+ public:
+  /// Receivers that follow each other belong to a line where nothing but the place along it differs.
+  void see(double along_before, double along, double across_before, double across) {
+    if (along != along_before && across == across_before) places_.insert(across);
+  }
+  /// Half the smallest distance between two lines, at most `widest`. Rounding of coordinates is no distance.
+  double bin(double widest) const {
+    double least = 2 * widest;
+    for (auto at = places_.begin(); at != places_.end(); ++at) {
+      const auto next = std::next(at);
+      if (next != places_.end() && *next - *at >= coordinate_step_m) least = std::min(least, *next - *at);
+    }
+    return least / 2;
+  }
+
+ private:
+  static constexpr double coordinate_step_m = 1e-3;
+  std::set<double> places_;
+};
+
 std::int64_t unit_code(Component component) {
   const std::string unit = unit_of(component);
   if (unit == "Pa") return 1;
@@ -91,6 +115,7 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
   layout.traces = static_cast<std::int64_t>(headers.size());
   ScalarChoice choice;
   double spacing = 0;
+  Lines along_x, along_y;
   std::int64_t in_shot = 0;
   for (std::size_t i = 0; i < headers.size(); ++i) {
     for (const double length : lengths_of(headers[i])) {
@@ -103,16 +128,24 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
     in_shot = same_shot ? in_shot + 1 : 1;
     layout.traces_per_shot = std::max(layout.traces_per_shot, in_shot);
     if (!same_shot || headers[i].component != headers[i - 1].component) continue;
-    const double step = distance(headers[i].receiver_m, headers[i - 1].receiver_m);
+    const auto &receiver = headers[i].receiver_m, &before = headers[i - 1].receiver_m;
+    along_x.see(before[0], receiver[0], before[1], receiver[1]);
+    along_y.see(before[1], receiver[1], before[0], receiver[0]);
+    const double step = distance(receiver, before);
     if (step > 0 && (spacing == 0 || step < spacing)) spacing = step;
   }
   layout.coordinate_scalar = choice.choose();
-  if (spacing > 0) layout.bin_m = spacing / 2;
+  if (spacing > 0) {
+    layout.bin_m = along_y.bin(spacing / 2);
+    layout.bin_y_m = along_x.bin(spacing / 2);
+  }
   return layout;
 }
 
 std::int64_t bin_of(double midpoint_m, double bin_m) {
-  const std::int64_t steps = std::llround(midpoint_m / bin_m);
+  // Midpoints a bin apart get numbers one apart also where they lie between two centres, up to rounding.
+  constexpr double rounding = 1e-6;
+  const std::int64_t steps = std::llround(midpoint_m / bin_m + rounding);
   return steps >= 0 ? steps + 1 : steps;
 }
 
@@ -146,7 +179,7 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("counit", 1);
   words.set("cdpx", word(mid_x));
   words.set("cdpy", word(mid_y));
-  words.set("iline", bin_of(mid_y, layout.bin_m));
+  words.set("iline", bin_of(mid_y, layout.bin_y_m));
   words.set("xline", bin_of(mid_x, layout.bin_m));
   words.set("sp", header.shot);
   words.set("spscal", 1);

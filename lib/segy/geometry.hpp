@@ -19,15 +19,17 @@ Component component_of_code(std::int64_t code);
 /// What all trace headers of a file share.
 struct SurveyLayout {
   int coordinate_scalar = 1;         // 1, -10, -100 or -1000
-  double bin_m = 1;                  // width of a midpoint bin
+  double bin_m = 1;                  // width of a midpoint bin along x
+  double bin_y_m = 1;                // and along y
   std::int64_t traces_per_shot = 1;  // of the shot that has most
   std::int64_t traces = 0;           // 0: not known beforehand
 };
 
 /// The coarsest scalar of 1, -10, -100, -1000 that keeps every coordinate, depth and midpoint exactly; where
 /// none does, the finest whose words fit 32 bits. Bins are half the smallest distance between receivers of
-/// consecutive traces of a shot (1 m where there is only one receiver). Throws Error when a coordinate is not
-/// finite or does not fit 32 bits in whole metres.
+/// consecutive traces of a shot (1 m where there is only one receiver), across lines of receivers at most
+/// half the smallest distance between two of them: no line has the number of another. Throws Error when a
+/// coordinate is not finite or does not fit 32 bits in whole metres.
 SurveyLayout layout_of(std::span<const TraceHeader> headers);
 
 /// Number of the bin of width bin_m whose centre is nearest to the midpoint: 1 for 0 m, 2 for bin_m, ...

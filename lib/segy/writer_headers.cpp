@@ -164,7 +164,7 @@ std::vector<std::string> convention_entries(std::span<const Component> component
   entries.push_back("  midpoint x 181 y 185, midpoint bin 21 and 193, shot 9, channel 13");
   entries.push_back("Lengths in metres, scalar (bytes 69 and 71) " +
                     std::to_string(layout.coordinate_scalar) + ", midpoint bins of " + shown(layout.bin_m) +
-                    " m");
+                    (layout.bin_y_m == layout.bin_m ? "" : " x " + shown(layout.bin_y_m)) + " m");
   return entries;
 }
 

@@ -109,6 +109,52 @@ TEST(SurveyLayout, TakesHalfTheReceiverSpacingForBins) {
   EXPECT_EQ(layout.traces, 8);
 }
 
+TEST(SurveyLayout, GivesCloseLinesNumbersOfTheirOwn) {
+  // Lines 4 m apart of receivers every 25 m, the source between them; and the same turned by 90 degrees.
+  for (const std::size_t along : {0U, 1U})
+    for (const double from : {0., -8., 3., 10.1}) {
+      std::vector<TraceHeader> headers;
+      for (int line = 0; line < 7; ++line)
+        for (int n = 0; n < 5; ++n) {
+          TraceHeader header = header_at(0, 0);
+          header.source_m[along] = 60;
+          header.source_m[1 - along] = from + 9;
+          header.receiver_m[along] = 25. * n;
+          header.receiver_m[1 - along] = from + 4. * line;
+          headers.push_back(header);
+        }
+      const SurveyLayout layout = layout_of(headers);
+      EXPECT_EQ(along == 0 ? layout.bin_m : layout.bin_y_m, 12.5);
+      EXPECT_NEAR(along == 0 ? layout.bin_y_m : layout.bin_m, 2, 1e-12);
+      std::vector<std::int64_t> numbers;
+      for (std::size_t trace = 0; trace < headers.size(); trace += 5) {
+        const TraceWords words = words_from_si(headers[trace], layout);
+        numbers.push_back(along == 0 ? words.get("iline") : words.get("xline"));
+      }
+      for (std::size_t line = 1; line < numbers.size(); ++line) {
+        const bool passes_zero = numbers[line - 1] < 0 && numbers[line] > 0;  // there is no bin 0
+        EXPECT_EQ(numbers[line] - numbers[line - 1], passes_zero ? 2 : 1) << from << ", line " << line;
+      }
+    }
+}
+
+TEST(SurveyLayout, TakesLinesFarApartAndSingleReceiversAsOneLine) {
+  std::vector<TraceHeader> headers;
+  for (const double y : {0., 100.})
+    for (int n = 0; n < 3; ++n) {
+      headers.push_back(header_at(0, 25. * n));
+      headers.back().receiver_m[1] = y;
+    }
+  EXPECT_EQ(layout_of(headers).bin_y_m, 12.5);
+  // A crooked line: nothing but noise across it.
+  headers.clear();
+  for (int n = 0; n < 6; ++n) {
+    headers.push_back(header_at(0, 25. * n));
+    headers.back().receiver_m[1] = 0.1 * (n % 3);
+  }
+  EXPECT_NEAR(layout_of(headers).bin_y_m, 12.5, 1e-3);
+}
+
 TEST(SurveyLayout, NumbersBinsWithoutAZero) {
   EXPECT_EQ(bin_of(0, 5), 1);
   EXPECT_EQ(bin_of(5, 5), 2);
