@@ -55,6 +55,23 @@ Bytes with_everything(const Bytes& plain, std::int64_t samples, bool counted) {
   return bytes;
 }
 
+/// A shot into three lines of receivers on either side of y = 0: inline and crossline numbers, negative ones,
+/// too.
+Gather area_gather(std::int64_t samples) {
+  Gather gather{{samples, 0.002, 0}, {}};
+  for (const Component component : {Component::vy, Component::syz, Component::sxy})
+    for (int channel = 0; channel < 6; ++channel) {
+      slipwave::Trace trace;
+      trace.header.channel = channel + 1;
+      trace.header.component = component;
+      trace.header.source_m = {20, -3.5, 7.5};
+      trace.header.receiver_m = {-10. + 25 * (channel % 2), -8. + 4 * (channel / 2), 2.5};
+      for (std::int64_t n = 0; n < samples; ++n) trace.samples.push_back(double((5 * n + channel) % 17));
+      gather.traces.push_back(trace);
+    }
+  return gather;
+}
+
 /// A word of one of the layouts, by its number, and where it stands in a file.
 struct Place {
   Field field;
@@ -71,10 +88,10 @@ void add_places(std::vector<Place>& places, std::size_t from) {
 
 std::vector<Seed> seeds(std::int64_t samples) {
   const Scratch scratch;
-  const Gather gather = survey_gather(samples, 1);
+  const Gather gather = survey_gather(samples, 1), area = area_gather(samples);
   std::vector<Seed> all;
-  const auto add = [&](const std::string& name, const FileFormat& format) {
-    write_file(scratch.file("seed"), gather, format);
+  const auto add = [&](const std::string& name, const Gather& of, const FileFormat& format) {
+    write_file(scratch.file("seed"), of, format);
     all.push_back({name, bytes_of(scratch.file("seed"))});
   };
   for (const SampleFormat& format : sample_formats())
@@ -82,10 +99,15 @@ std::vector<Seed> seeds(std::int64_t samples) {
       for (int revision = format.since == 2 ? 2 : 0; revision <= 2; ++revision) {
         const auto encoding = (format.code + revision) % 2 == 0 ? TextEncoding::ebcdic : TextEncoding::ascii;
         add(std::string(format.name) + "-" + name_of(endian) + "-" + std::to_string(revision) + ".sgy",
-            {format.code, revision, endian, encoding, false});
+            gather, {format.code, revision, endian, encoding, false});
       }
   for (const Endian endian : {Endian::big, Endian::little})
-    add(std::string(name_of(endian)) + ".su", {5, 1, endian, TextEncoding::ebcdic, true});
+    add(std::string(name_of(endian)) + ".su", gather, {5, 1, endian, TextEncoding::ebcdic, true});
+  for (const Endian endian : {Endian::big, Endian::little})
+    for (const int revision : {1, 2})
+      add("area-" + std::string(name_of(endian)) + "-" + std::to_string(revision) + ".sgy", area,
+          {5, revision, endian, TextEncoding::ebcdic, false});
+  add("area.su", area, {5, 1, Endian::little, TextEncoding::ebcdic, true});
   write_file(scratch.file("seed"), gather, {5, 2, Endian::big, TextEncoding::ebcdic, false});
   const Bytes plain = bytes_of(scratch.file("seed"));
   all.push_back({"counted.sgy", with_everything(plain, samples, true)});

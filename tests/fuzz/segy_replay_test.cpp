@@ -1,5 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <set>
+
+#include "segy/reader.hpp"
+#include "segy_shared.hpp"
 #include "segy_target.hpp"
 
 // What the fuzzer looks for, from fixed seeds: damage of every kind gives an answer or an error. Run under
@@ -14,6 +18,26 @@ TEST(Reader, AnswersForEverySeed) {
   EXPECT_GT(all.size(), 40U);
   for (const Seed& seed : all)
     for (const As as : {As::file, As::pipe}) examine(seed.bytes, as);
+}
+
+TEST(Seeds, OfAreasHaveInlineAndCrosslineNumbersOfBothSigns) {
+  int areas = 0;
+  for (const Seed& seed : seeds(5)) {
+    if (!seed.name.starts_with("area-")) continue;
+    ++areas;
+    const Scratch scratch;
+    put_bytes(scratch.file(seed.name), seed.bytes);
+    Reader reader(scratch.file(seed.name));
+    std::set<std::int64_t> inlines, crosslines;
+    for (Trace trace; reader.next(trace);) {
+      inlines.insert(trace.words.get("iline"));
+      crosslines.insert(trace.words.get("xline"));
+    }
+    // Midpoints at y = -5.75 -3.75 -1.75 m in bins of 2 m, at x = 5 and 17.5 m in bins of 12.5 m.
+    EXPECT_EQ(inlines, (std::set<std::int64_t>{-3, -2, -1})) << seed.name;
+    EXPECT_EQ(crosslines, (std::set<std::int64_t>{1, 2})) << seed.name;
+  }
+  EXPECT_EQ(areas, 4);
 }
 
 TEST(Reader, AnswersForEveryCutWithin8000BytesAndSomeBeyond) {
