@@ -126,6 +126,11 @@ void read_notations(const std::string& text) {
   answers("", [&] { finite(parse_box<2>(text).high_m); });
   answers("", [&] { finite(parse_size<2>(text)); });
   answers("", [&] { parse_shape<3>(text); });
+  answers("", [&] { finite(parse_point<3>(text)); });
+  answers("", [&] { finite(parse_box<3>(text).high_m); });
+  answers("", [&] { finite(parse_size<3>(text)); });
+  answers("", [&] { parse_ellipse<3>(text).contains({1, 2, 3}); });
+  answers("", [&] { parse_slab<3>(text).contains({1, 2, 3}); });
   answers("", [&] { parse_ellipse(text).contains({1, 2}); });
   answers("", [&] { parse_slab(text).contains({1, 2}); });
   answers("", [&] { parse_time_window(text); });
