@@ -1,5 +1,7 @@
 #include "solver/state.hpp"
 
+#include <sys/mman.h>
+
 #include <cstring>
 
 #include "base/parallel.hpp"
@@ -10,6 +12,11 @@ namespace {
 std::int64_t rounded_up(std::int64_t n, std::int64_t to) { return (n + to - 1) / to * to; }
 
 }  // namespace
+
+void prefer_large_pages(void* first, std::size_t bytes) {
+  // Where the system has none, all stays as it is.
+  (void)madvise(first, bytes, MADV_HUGEPAGE);
+}
 
 template <int D>
 Layout<D>::Layout(const Index<D>& shape, int rows_a_line) : shape_(shape) {

@@ -10,21 +10,30 @@
 
 namespace slipwave::solver {
 
+/// Asks the system for large pages where it has not been touched yet; all it may do is to run faster (3-D by
+/// 3 %: each sweep along z reads from as many pages as it reads planes).
+void prefer_large_pages(void* first, std::size_t bytes);
+
 /// Memory aligned for the widest vectors, zeroed by the threads that will use it.
 template <class Real>
 class Buffer {
  public:
   Buffer() = default;
-  explicit Buffer(std::int64_t count)
-      : values_(static_cast<Real*>(::operator new(std::size_t(count) * sizeof(Real), alignment))),
-        count_(count) {}
+  explicit Buffer(std::int64_t count) : count_(count) {
+    const auto bytes = std::size_t(count) * sizeof(Real);
+    const bool large = bytes >= 2 * std::size_t(page);
+    const auto alignment = large ? page : line;
+    values_ = {static_cast<Real*>(::operator new(bytes, alignment)), Free{alignment}};
+    if (large) prefer_large_pages(values_.get(), bytes);
+  }
   Real* data() { return values_.get(); }
   const Real* data() const { return values_.get(); }
   std::int64_t size() const { return count_; }
 
  private:
-  static constexpr std::align_val_t alignment{64};
+  static constexpr std::align_val_t line{64}, page{std::size_t(1) << 21};
   struct Free {
+    std::align_val_t alignment = line;
     void operator()(Real* values) const { ::operator delete(values, alignment); }
   };
   std::unique_ptr<Real[], Free> values_;
