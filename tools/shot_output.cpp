@@ -94,8 +94,7 @@ struct ShotOutput::Underway {
 };
 
 template <int D>
-void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                           const Crew* crew) const {
+void ShotOutput::check_run(const Scene<D>& scene, const cli::Context& context) const {
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
   if (any_trace && !snapshots.empty() && snapshots == traces)
@@ -104,6 +103,12 @@ void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, co
   if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
     throw Error("found --keep-unstable and an output to standard output, expected the name of a file",
                 ErrorKind::usage);
+  in_place("--slice", [&] { cut_of(scene.part.whole(scene.model.grid()), slice); });
+}
+
+template <int D>
+void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                           const Crew* crew) const {
   // Samples are written alike whether anything was computed before, or all came from a checkpoint.
   flush_subnormals();
   Underway<D> run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
@@ -182,7 +187,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
   const bool writes = !crew || crew->leads();
   const bool any_trace = writes && !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
   const auto grid = scene.part.whole(scene.model.grid());
-  const auto cut = in_place("--slice", [&] { return cut_of(grid, slice); });
+  const auto cut = cut_of(grid, slice);
   const auto shots = scene.survey.sources.size(), at_once = crew ? crew->groups() : shots_at_once(scene);
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
@@ -258,6 +263,8 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
   book.close();
 }
 
+template void ShotOutput::check_run(const Scene<2>&, const cli::Context&) const;
+template void ShotOutput::check_run(const Scene<3>&, const cli::Context&) const;
 template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&,
                                     const Crew*) const;
 template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&,

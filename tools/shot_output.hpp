@@ -32,6 +32,9 @@ struct ShotOutput {
   /// Throws a usage Error when the names can not hold all shots.
   template <int D>
   void check(std::size_t shots) const;
+  /// Throws an Error on what the outputs of a checked scene can not hold, and warns of what they lose.
+  template <int D>
+  void check_run(const Scene<D>& scene, const cli::Context& context) const;
   static constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
   static constexpr double usual_checkpoint_every_s = 600;
   /// Shoots every shot of a checked scene and writes what it recorded. Outputs are opened before the run they

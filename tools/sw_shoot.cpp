@@ -105,14 +105,13 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Cont
 
 template <int D>
 void shoot_together(const Settings& settings, NetcdfFile file, const cli::Context& context, Ranks& ranks) {
-  std::optional<Scene<D>> made;
-  std::optional<Crew> crew;
-  agreed(&ranks, [&] { made = make_scene<D>(settings); });
-  auto& scene = *made;
-  crew.emplace(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
-               !settings.output.snapshots.empty());
-  settings.shot.read_part_into(scene, file, ranks, crew->group());
+  Scene<D> scene;
+  agreed(&ranks, [&] { scene = make_scene<D>(settings); });
+  const Crew crew(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
+                  !settings.output.snapshots.empty());
+  settings.shot.read_part_into(scene, file, ranks, crew.group());
   file.close();
+  agreed(&ranks, [&] { settings.output.check_run(scene, context); });
   std::string mine;
   for (const auto& sentence : warnings(scene)) mine = sentence;
   for (const auto& bytes : ranks.all_of(std::as_bytes(std::span<const char>(mine))))
@@ -122,7 +121,7 @@ void shoot_together(const Settings& settings, NetcdfFile file, const cli::Contex
     }
   std::string history = scene.model.history;
   append_history(history, context.command_line);
-  settings.output.shoot_all(scene, history, context, &*crew);
+  settings.output.shoot_all(scene, history, context, &crew);
 }
 
 template <int D>
@@ -145,6 +144,7 @@ void shoot_model(const Settings& settings, NetcdfFile file, const cli::Context& 
     out.write(text.data(), text.size());
     return out.commit();
   }
+  settings.output.check_run(scene, context);
   std::string history = scene.model.history;
   append_history(history, context.command_line);
   settings.output.shoot_all(scene, history, context);

@@ -34,6 +34,12 @@ void register_effects() {
     what.plane_wave = true;
   });
   add("slip in 1 % of the cells", [](Case& what) { what.slipping = 0.01; });
+  // What patches of a line cost beside their cells is much where they are short.
+  for (const double share : {0., 0.01})
+    add(std::string(share > 0 ? "slip in 1 %" : "none") + ", 3000 x 3000 cells", [share](Case& what) {
+      what.nx = what.nz = 3000;
+      what.slipping = share;
+    });
   add("slip in 10 % of the cells", [](Case& what) { what.slipping = 0.1; });
   add("slip in all cells", [](Case& what) { what.slipping = 1; });
   const auto add_slip = [&](const std::string& kind, const auto& change) {

@@ -93,6 +93,8 @@ TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
       2, "found a plane wave and 3 processes a shot, expected a point source or --ranks-per-shot 1");
   expect(shots + "--ranks-per-shot 2 -o o.sgy", 2,
          "found --ranks-per-shot 2 and 3 processes, expected a number that divides them");
+  expect(shots + "--keep-unstable", 2,
+         "found --keep-unstable and an output to standard output, expected the name of a file");
   expect(shots + "--checkpoint c -o o.sgy", 2,
          "found --checkpoint and 3 processes, expected it with one process");
   expect("- " + shots.substr(5) + "-o o.sgy", 2,
