@@ -24,15 +24,21 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
-    const BentAt<D> bent = [&domain, axis](Index<D> at, int side) {
-      at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
-      return !edge_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
-    };
-    for (const Wave wave : {wave_p, wave_s})
-      ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_, bent);
     for (const int side : {0, 1})
       if (reach_ > 0) free_edges_[axis][side] = FreeEdge<D, Real>(state.layout, domain, axis, side);
   }
+  // Each looks at all cells: as long as some twenty steps take one thread.
+  parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto n = begin; n < end; ++n) {
+      const int axis = int(n / 2);
+      const auto wave = Wave(n % 2);
+      const BentAt<D> bent = [&domain, axis](Index<D> at, int side) {
+        at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
+        return !edge_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
+      };
+      ends_[axis][wave] = SpanEnds(domain.impedance[wave], edges_, axis, wave, reach_, bent);
+    }
+  });
 }
 
 template <int D, class Real>
