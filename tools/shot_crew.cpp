@@ -14,6 +14,7 @@ class Parcel : public Archive {
   Parcel() = default;
   explicit Parcel(std::span<const std::byte> packed) : packed_(packed.begin(), packed.end()), reads_(true) {}
   void bytes(void* first, std::size_t count) override {
+    if (count == 0) return;
     if (reads_) {
       std::memcpy(first, packed_.data() + read_, count);
       read_ += count;

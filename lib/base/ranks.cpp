@@ -41,7 +41,7 @@ std::vector<double> joined(Ranks* ranks, const std::vector<double>& mine) {
   for (const auto& bytes : ranks->all_of(bytes_of(mine))) {
     const auto before = all.size();
     all.resize(before + bytes.size() / sizeof(double));
-    std::memcpy(all.data() + before, bytes.data(), bytes.size());
+    if (!bytes.empty()) std::memcpy(all.data() + before, bytes.data(), bytes.size());
   }
   return all;
 }

@@ -142,7 +142,7 @@ Gather Recorder<D, Real>::take() {
   }
   const auto all = joined_on_first(*ranks_, std::as_bytes(std::span<const double>(mine)));
   std::vector<double> values(all.size() / sizeof(double));
-  std::memcpy(values.data(), all.data(), all.size());
+  if (!all.empty()) std::memcpy(values.data(), all.data(), all.size());
   for (std::size_t n = 0; n < values.size();) {
     auto& samples = gather_.traces[std::size_t(values[n])].samples;
     const auto count = std::size_t(values[n + 1]);
