@@ -114,9 +114,9 @@ void shoot_together(const Settings& settings, NetcdfFile file, const cli::Contex
   agreed(&ranks, [&] { settings.output.check_run(scene, context); });
   std::string mine;
   for (const auto& sentence : warnings(scene)) mine = sentence;
-  for (const auto& bytes : ranks.all_of(std::as_bytes(std::span<const char>(mine))))
-    if (!bytes.empty()) {
-      context.warn(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  for (const auto& sentence : texts_of_all(ranks, mine))
+    if (!sentence.empty()) {
+      context.warn(sentence);
       break;
     }
   std::string history = scene.model.history;

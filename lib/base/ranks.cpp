@@ -77,6 +77,13 @@ std::vector<std::byte> joined_on_first(Ranks& ranks, std::span<const std::byte> 
   return all;
 }
 
+std::vector<std::string> texts_of_all(Ranks& ranks, const std::string& mine) {
+  std::vector<std::string> texts;
+  for (const auto& bytes : ranks.all_of(std::as_bytes(std::span<const char>(mine))))
+    texts.emplace_back(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return texts;
+}
+
 void agreed(Ranks* ranks, const std::function<void()>& what) {
   if (!ranks) return what();
   std::string text;  // its kind and its sentence
@@ -85,11 +92,8 @@ void agreed(Ranks* ranks, const std::function<void()>& what) {
   } catch (const Error& error) {
     text = char('0' + int(error.kind())) + std::string(error.what());
   }
-  for (const auto& bytes : ranks->all_of(std::as_bytes(std::span<const char>(text)))) {
-    if (bytes.empty()) continue;
-    const std::string first(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    throw AgreedError(first.substr(1), ErrorKind(first[0] - '0'));
-  }
+  for (const auto& first : texts_of_all(*ranks, text))
+    if (!first.empty()) throw AgreedError(first.substr(1), ErrorKind(first[0] - '0'));
 }
 
 }  // namespace slipwave

@@ -50,6 +50,9 @@ double sum_of(Ranks* ranks, double mine);
 std::vector<double> joined(Ranks* ranks, const std::vector<double>& mine);
 /// Collective: the same on the first rank alone, nothing on the others; of any size.
 std::vector<std::byte> joined_on_first(Ranks& ranks, std::span<const std::byte> mine);
+/// Collective: what the ranks say, by their numbers, on all of them.
+std::vector<std::string> texts_of_all(Ranks& ranks, const std::string& mine);
+
 /// An error that all ranks know of and throw.
 class AgreedError : public Error {
  public:

@@ -12,15 +12,9 @@
 namespace slipwave {
 namespace {
 
-/// Whether the process that computes this part answers for a point.
-template <int D>
-bool answers_for(const Scene<D>& scene, const Point<D>& point) {
-  return scene.part.owns(scene.model.grid(), point);
-}
-
 template <int D>
 void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
-  if (!answers_for(scene, point)) return;
+  if (!scene.part.owns(scene.model.grid(), point)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), point)));
   if (!scene.model.medium.is_void(cell)) return;
   throw Error(who + " at " + place_of(scene.model.grid(), std::int64_t(cell)) +
@@ -31,7 +25,7 @@ void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& po
 template <int D>
 void check_moment_in_fluid(const Scene<D>& scene, const Source<D>& source) {
   const auto* moment = std::get_if<MomentTensor<D>>(&source.mechanism);
-  if (!moment || !answers_for(scene, source.position_m)) return;
+  if (!moment || !scene.part.owns(scene.model.grid(), source.position_m)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), source.position_m)));
   if (!scene.model.medium.is_fluid(cell)) return;
   for (int i = 0; i < D; ++i)

@@ -52,12 +52,10 @@ void Step<D, Real>::look_and_ask() {
   const auto steps = joined(ranks_, {seen_ ? double(seen_->first().time.step) : HUGE_VAL});
   const auto first = std::min_element(steps.begin(), steps.end());
   if (std::isinf(*first)) return;
-  const std::string mine = seen_ ? seen_->what() : "";
-  const auto texts = ranks_->all_of(std::as_bytes(std::span<const char>(mine)));
-  const auto& text = texts[std::size_t(first - steps.begin())];
+  const auto texts = texts_of_all(*ranks_, seen_ ? seen_->what() : "");
   Unsound<D> unsound;
   unsound.time = {std::int64_t(*first), dt_s_};
-  throw UnsoundFields<D>(std::string(reinterpret_cast<const char*>(text.data()), text.size()), unsound);
+  throw UnsoundFields<D>(texts[std::size_t(first - steps.begin())], unsound);
 }
 
 /// The field of the whole model on the first rank, on the others what they hold of it.
