@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "model/model.hpp"
@@ -26,6 +27,8 @@ struct Domain {
   /// Whether any cell carries S waves.
   bool shear() const;
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
+  /// Rows of neighbours that it holds on either side, at most.
+  std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
   /// Cell of the model whose medium a cell of the computed grid has.
   Index<D> model_cell(Index<D> at) const;
   /// Cell of the computed grid of a cell of the model.

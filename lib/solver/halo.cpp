@@ -9,7 +9,6 @@ template <int D, class Real>
 Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Show& memory)
     : ranks_(ranks), own_(domain.own), exchanged_(domain.part.exchanged) {
   const std::int64_t rows = domain.grid.shape[D - 1];
-  beside_ = std::max(own_.first, rows - own_.last);
   auto& [above, below] = sides_;
   above.rows_in = {own_.first - exchanged_, own_.first};
   above.rows_out = {own_.first, own_.first + exchanged_};

@@ -34,9 +34,6 @@ class Halo {
   /// When a pass has brought all rows before `now` to its end, and had those before `earlier` at the last
   /// call: hands those to the neighbours that they wait for.
   void after(std::int64_t earlier, std::int64_t now);
-  /// Rows of a band, at least, where a pass has so many rows under way: what is handed out or put right then
-  /// is not what the next pass or the one before is at.
-  std::int64_t least_band_rows(std::int64_t longest) const { return longest + beside_; }
   /// Rows that are still right after so many steps of a pass, where what is wrong spreads by so many in each.
   Columns right_after(std::int64_t steps, const Columns& spread) const;
   std::int64_t memory_bytes() const;
@@ -61,7 +58,7 @@ class Halo {
 
   Ranks& ranks_;
   Columns own_;
-  std::int64_t exchanged_, beside_;
+  std::int64_t exchanged_;
   std::array<Side, 2> sides_;  // above and below
 };
 

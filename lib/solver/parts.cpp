@@ -5,7 +5,6 @@
 
 #include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
-#include "scene/splitting.hpp"
 #include "solver/domain.hpp"
 #include "solver/free_edge.hpp"
 #include "solver/kernels.hpp"
@@ -21,17 +20,30 @@ constexpr int usual_steps = 2;
 int steps_of_a_pass(const Passage& passage) { return passage.steps > 0 ? passage.steps : usual_steps; }
 
 template <int D>
-std::int64_t spread_of_a_pass(const Scene<D>& scene) {
-  const auto bends = [&](int axis) {
-    const auto& laws = scene.edges[axis];
-    return laws[0] == EdgeLaw::free || laws[1] == EdgeLaw::free ? FreeEdge<D, float>::reach : 0;
-  };
-  std::int64_t of_a_step = 0;
-  for (const auto& sweep : splitting(D, scene.numerics.time_order))
-    of_a_step += sweep.axis == D - 1 ? reach_of(scene.numerics.order) + 1 : bends(sweep.axis);
-  // The first pass of all has a sweep along x more.
-  return steps_of_a_pass(scene.numerics.passage) * of_a_step + bends(0);
+std::int64_t spread_of_a_step(const std::vector<SweepPart>& splitting, int axis, std::int64_t reach,
+                              const std::array<std::int64_t, std::size_t(D)>& bends) {
+  std::int64_t cells = 0;
+  for (const auto& sweep : splitting)
+    cells += sweep.axis == axis ? reach + 1 : bends[std::size_t(sweep.axis)];
+  return cells;
 }
+
+template <int D>
+std::int64_t spread_of_a_pass(const Scene<D>& scene) {
+  std::array<std::int64_t, std::size_t(D)> bends{};
+  for (int axis = 0; axis < D; ++axis)
+    for (const EdgeLaw law : scene.edges[axis])
+      if (law == EdgeLaw::free) bends[std::size_t(axis)] = FreeEdge<D, float>::reach;
+  const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
+                                             reach_of(scene.numerics.order), bends);
+  // The first pass of all has a sweep along x more.
+  return steps_of_a_pass(scene.numerics.passage) * of_a_step + bends[0];
+}
+
+template std::int64_t spread_of_a_step<2>(const std::vector<SweepPart>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 2>&);
+template std::int64_t spread_of_a_step<3>(const std::vector<SweepPart>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 3>&);
 
 template std::int64_t spread_of_a_pass(const Scene<2>&);
 template std::int64_t spread_of_a_pass(const Scene<3>&);

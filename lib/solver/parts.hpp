@@ -1,14 +1,23 @@
 #pragma once
 
+#include <array>
 #include <utility>
+#include <vector>
 
 #include "base/ranks.hpp"
 #include "scene/scene.hpp"
+#include "scene/splitting.hpp"
 
 namespace slipwave::solver {
 
 /// Steps that a pass through memory makes.
 int steps_of_a_pass(const Passage& passage);
+
+/// Cells by which the fields of a cell spread along an axis in a step at most: a sweep along it reads `reach`
+/// more, free edges of the others `bends` (by axis).
+template <int D>
+std::int64_t spread_of_a_step(const std::vector<SweepPart>& splitting, int axis, std::int64_t reach,
+                              const std::array<std::int64_t, std::size_t(D)>& bends);
 
 /// Rows (in 3-D planes) by which what is wrong with a cell spreads in a pass through memory at most.
 template <int D>

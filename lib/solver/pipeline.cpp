@@ -28,7 +28,7 @@ std::int64_t stripe_for(const Layout<D>& layout) {
 
 template <int D, class Real>
 Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
-                            EndOfStep<Real>& end, const Passage& passage)
+                            EndOfStep<Real>& end, const Passage& passage, std::int64_t rows_beside)
     : sweeps_(sweeps),
       layout_(state.layout),
       active_(state),
@@ -43,7 +43,9 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
   const auto longest = stages(0, steps_a_pass_);
   longest_ = longest.back().behind + bend_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  cut_into_bands();
+  // What is handed to neighbours or put right is then not what the pass behind or the one before is at.
+  band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
+  bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
   const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
   under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
@@ -59,27 +61,6 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
                         std::vector<Columns>(2 * longest.size())});
     for (std::int64_t m = 0; m < along_y * carries_a_sweep(); ++m) workers_.back().rings.push_back(ring());
   }
-}
-
-template <int D, class Real>
-void Pipeline<D, Real>::cut_into_bands() {
-  band_rows_ = std::max(fewest_band_rows, longest_ + std::int64_t(2) * max_reach);
-  if (halo_) band_rows_ = std::max(band_rows_, halo_->least_band_rows(longest_));
-  bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
-}
-
-template <int D, class Real>
-void Pipeline<D, Real>::use(Halo<D, Real>* halo) {
-  halo_ = halo;
-  cut_into_bands();
-  // Lines of a band wait for the next stripe.
-  const auto [along_x, along_y, along_z] = counts(stages(0, steps_a_pass_));
-  for (auto& worker : workers_) {
-    worker.carries.resize(std::size_t(along_x * (D == 2 ? carries_a_sweep() : 1)));
-    for (auto n = std::int64_t(worker.rings.size()); n < along_y * carries_a_sweep(); ++n)
-      worker.rings.emplace_back(0, layout_.padded_nx(), sweeps_.ring_rows(), D);
-  }
-  use(patches_);
 }
 
 template <int D, class Real>
@@ -245,12 +226,10 @@ void Pipeline<D, Real>::find_active_cells() {
 /// By how many rows and columns (in 3-D planes and rows) the fields of a cell spread in a step at most.
 template <int D, class Real>
 Box Pipeline<D, Real>::growth_of_a_step() const {
-  const auto sweep = sweeps_.reach() + 1;
-  std::int64_t rows = 0, columns = 0;
-  for (const auto& part : splitting_) {
-    rows += part.axis == D - 1 ? sweep : bend_rows(part.axis);
-    columns += part.axis == D - 2 ? sweep : bend_rows(part.axis);
-  }
+  std::array<std::int64_t, std::size_t(D)> bends;
+  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = bend_rows(axis);
+  const auto along = [&](int axis) { return spread_of_a_step<D>(splitting_, axis, sweeps_.reach(), bends); };
+  const auto rows = along(D - 1), columns = along(D - 2);
   return {{rows, rows}, {columns, columns}};
 }
 

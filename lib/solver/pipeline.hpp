@@ -53,12 +53,12 @@ class EndOfStep {
 template <int D, class Real>
 class Pipeline {
  public:
-  /// Keeps references.
+  /// Keeps references. `rows_beside`: of neighbours, held on either side at most.
   Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order, double dt_s,
-           EndOfStep<Real>& end, const Passage& passage);
+           EndOfStep<Real>& end, const Passage& passage, std::int64_t rows_beside = 0);
   /// From now on rows of neighbours are put right before each pass (null: there are none); it must outlive
   /// this. To be called before the first step.
-  void use(Halo<D, Real>* halo);
+  void use(Halo<D, Real>* halo) { halo_ = halo; }
   /// From now on these columns end with the step, too (null: none); they must outlive this.
   void use(const Patches<D>* patches);
   /// To be called when fields have been set from outside.
@@ -115,7 +115,6 @@ class Pipeline {
   void along_x(std::int64_t line, const Columns& columns, Real part, Carry<Real>& carry, Worker& worker,
                bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const Columns& columns, UnderWay& pass, Worker& worker);
-  void cut_into_bands();
   void put_right(const Columns& rows);
   bool quiet(const Columns& rows, const Columns& lines, const Columns& columns) const;
   void look_for_active(std::int64_t line, const Columns& columns);
