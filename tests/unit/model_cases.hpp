@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -19,6 +20,14 @@ inline Grid<2> grid_of(std::int64_t nx, std::int64_t nz, double spacing_m) {
   grid.shape = {nx, nz};
   grid.spacing_m = spacing_m;
   return grid;
+}
+
+/// Of all cells, kg (2-D: kg per metre).
+template <int D>
+double mass_of(const Medium<D>& medium) {
+  double mass = 0;
+  for (const double rho : medium.rho) mass += rho;
+  return mass * std::pow(medium.grid().spacing_m, D);
 }
 
 /// Rock below `fluid_rows` rows of water.

@@ -55,12 +55,6 @@ std::string refused(const std::string& content) {
 const Layer soft{-1, 2500, 1200, 2000};
 const std::string hard = ":4500:2250:2500";
 
-double mass_of(const Medium<3>& medium) {
-  double mass = 0;
-  for (const double rho : medium.rho) mass += rho;
-  return mass * std::pow(medium.grid().spacing_m, 3);
-}
-
 }  // namespace
 
 TEST(GridHorizon, IsBilinearBetweenNodesAndLevelBeyond) {

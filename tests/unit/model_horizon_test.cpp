@@ -13,12 +13,6 @@ namespace {
 
 constexpr double pi = 3.141592653589793;
 
-double mass_of(const Medium<2>& medium) {
-  double mass = 0;
-  for (const double rho : medium.rho) mass += rho;
-  return mass * std::pow(medium.grid().spacing_m, 2);
-}
-
 }  // namespace
 
 TEST(Horizon, OfASineHasItsMeanItsCrestsAndItsPhase) {
