@@ -51,12 +51,15 @@ fill() {
   done
 }
 longest_pause=$((900 + 40 * shots)) # ms, between kills
+kill_one() {
+  session=$(cat "$work/session")
+  tool=$([ -z "$session" ] || pgrep -s "$session" '^sw-' | shuf -n 1)
+  [ -n "$tool" ] && kill -KILL "$tool" 2>/dev/null && echo "$tool" >>"$work/kills"
+}
 kill_some() {
   while [ -e "$work/disturbing" ]; do
     pause 200 "$longest_pause"
-    session=$(cat "$work/session")
-    tool=$([ -z "$session" ] || pgrep -s "$session" '^sw-' | shuf -n 1)
-    if [ -n "$tool" ] && kill -KILL "$tool" 2>/dev/null; then echo "$tool" >>"$work/kills"; fi
+    until kill_one || [ ! -e "$work/disturbing" ]; do sleep 0.01; done
   done
 }
 
@@ -95,8 +98,8 @@ fi
 kill_some &
 helpers="$helpers $!"
 round=0
-wanted=$((shots / 3 + 3)) # failures, or it was no trial
-while [ "$round" -lt $((5 * wanted)) ]; do
+wanted=$((shots / 3 + 3)) # failures, and a kill, or it was no trial
+while [ "$round" -lt $((100 * wanted)) ]; do
   round=$((round + 1))
   (
     case $((round % 4)) in
@@ -115,7 +118,7 @@ while [ "$round" -lt $((5 * wanted)) ]; do
   words
   [ "$status" -eq 0 ] || break
   if [ "$done" -eq 0 ]; then
-    [ "$(wc -l <"$work/failures")" -lt "$wanted" ] || break
+    if [ "$(wc -l <"$work/failures")" -ge "$wanted" ] && [ -s "$work/kills" ]; then break; fi
     rm -rf "$out"
   elif [ ! -s "$work/failed" ] && ! grep -q '^make' "$work/told"; then
     broken "in round $round make failed without a word"
