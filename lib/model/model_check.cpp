@@ -45,16 +45,16 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
                ", expected both 0 in void or a density");
   }
   if (vp == 0) refuse(medium.grid(), cell, "vp", "is 0, expected a speed above zero outside void");
-  const std::string start = "is " + shown_float(vs) + ", expected ";
+  const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {
     const double limit = vp * std::sqrt(0.75);
     if (vs * slack >= limit) {
       refuse(medium.grid(), cell, "vs",
-             start + "below vp sqrt(3)/2 = " + shown_float(limit) + " (positive bulk modulus)");
+             found() + "below vp sqrt(3)/2 = " + shown_float(limit) + " (positive bulk modulus)");
     }
   } else if (vs > vp / std::sqrt(2.0) * slack) {
     refuse(medium.grid(), cell, "vs",
-           start + "at most vp/sqrt(2) = " + shown_float(vp / std::sqrt(2.0)) +
+           found() + "at most vp/sqrt(2) = " + shown_float(vp / std::sqrt(2.0)) +
                " (lambda < 0 needs --allow-auxetic)");
   }
 }
