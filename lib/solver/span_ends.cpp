@@ -93,6 +93,39 @@ bool carried_near(const Walk<D>& z, int reach) {
   return false;
 }
 
+/// Marks the cells of a line that may need more than the bulk kernel: where the impedance jumps within
+/// `reach` cells along the axis, and at the ends of the axis. Most cells are seen here to need nothing, many
+/// at once.
+template <int D>
+void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
+          std::vector<std::int32_t>& marks) {
+  const auto& shape = impedance.grid().shape;
+  const std::int64_t nx = shape[0], first = line * nx;
+  const auto at = impedance.grid().index(first);
+  std::int64_t stride = 1;
+  for (std::size_t a = 0; a < std::size_t(axis); ++a) stride *= shape[a];
+  const float* const z = impedance.data() + first;
+  // Less than any ratio that counts, whatever rounding makes of it.
+  constexpr auto plain_ratio = float(contrast_ratio * 0.99);
+  const auto compare = [&](std::int64_t begin, std::int64_t end, std::int64_t one, std::int64_t other) {
+    for (auto x = begin; x < end; ++x) {
+      const float a = z[x + one * stride], b = z[x + other * stride];
+      marks[std::size_t(x)] |= std::int32_t(a > plain_ratio * b) | std::int32_t(b > plain_ratio * a);
+    }
+  };
+  const auto place = at[std::size_t(axis)], count = shape[std::size_t(axis)];
+  const bool near_ends = axis != 0 && (place < reach || place + reach >= count);
+  std::fill(marks.begin(), marks.end(), near_ends);
+  if (near_ends) return;
+  const std::int64_t beside = axis == 0 ? std::min<std::int64_t>(reach, nx) : 0;
+  std::fill(marks.begin(), marks.begin() + beside, 1);
+  std::fill(marks.end() - beside, marks.end(), 1);
+  for (std::int64_t n = 1; n <= reach; ++n) {
+    compare(beside, nx - beside, n - 1, n);
+    compare(beside, nx - beside, 1 - n, -n);
+  }
+}
+
 /// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
 /// more, and so does a single cell between a contact and another end: with more, random media of single cells
 /// and a crust of one cell grew at order 5 and 7 (docs/theory.md).
@@ -158,8 +191,11 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
   starts_.assign(1, 0);
+  std::vector<std::int32_t> marks(std::size_t(nx), 0);
   for (std::int64_t line = 0; line < lines; ++line) {
+    mark(impedance, line, axis, reach, marks);
     for (std::int64_t x = 0; x < nx; ++x) {
+      if (marks[std::size_t(x)] == 0) continue;
       const auto at = grid.index(line * nx + x);
       const Walk<D> down(impedance, at, axis, -1), up(impedance, at, axis, +1);
       constexpr auto on = Continuation::none;
