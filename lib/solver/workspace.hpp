@@ -53,28 +53,29 @@ class Ring {
   Buffer<Real> values_;
 };
 
-/// Rows of memory that are asked for before they are needed, one after each loop over a piece: stripes are
-/// too short for the processor to guess what comes next, and all at once they would wait for each other.
+/// Rows of memory that are asked for before they are needed, half a row after each loop over a piece: stripes
+/// are too short for the processor to guess what comes next, and more at once would wait for each other.
 template <class Real>
 class Coming {
  public:
   void clear() { left_ = 0; }
   /// `count` rows of `width` values, `pitch` apart.
   void add(const Real* first, std::int64_t width, std::int64_t pitch, int count) {
-    for (int row = 0; row < count; ++row) rows_[left_++] = first + row * pitch;
-    width_ = width;
+    half_ = (width + 1) / 2;
+    for (int row = 0; row < count; ++row)
+      for (const std::int64_t from : {std::int64_t(0), half_}) halves_[left_++] = first + row * pitch + from;
   }
   void ask_for_one() {
     if (left_ == 0) return;
-    const Real* const row = rows_[--left_];
-    for (std::int64_t x = 0; x < width_; x += 64 / std::int64_t(sizeof(Real))) __builtin_prefetch(row + x);
+    const Real* const half = halves_[--left_];
+    for (std::int64_t x = 0; x < half_; x += 64 / std::int64_t(sizeof(Real))) __builtin_prefetch(half + x);
   }
 
  private:
-  static constexpr int most = 16;
-  const Real* rows_[most] = {};
+  static constexpr int most = 16;  // of eight rows, fields and material
+  const Real* halves_[most] = {};
   int left_ = 0;
-  std::int64_t width_ = 0;
+  std::int64_t half_ = 0;
 };
 
 /// Scratch memory of one thread for pieces of at most `widest` columns of `pairs` pairs.
