@@ -26,6 +26,7 @@ class AbsorbingZones : public Pass {
   std::int64_t cells() const override;
   bool stirs(const StepTime&, std::int64_t) const override { return background_ != nullptr; }
   std::span<const std::int64_t> lines() const override { return lines_; }
+  bool works_beside() const override { return lines_.empty(); }
   void keep(Archive& archive) override {
     if (background_) background_->keep(archive);
   }

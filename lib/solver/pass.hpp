@@ -43,6 +43,8 @@ class Pass {
   /// Lines whose fields it changes or needs whole at the end of a step, sweeps along x included. On all other
   /// lines the half sweeps along x of neighbouring steps are one. Only asked where acts() says so.
   virtual std::span<const std::int64_t> lines() const { return {}; }
+  /// Whether it works on other lines too, where what two half sweeps have become comes to it as one.
+  virtual bool works_beside() const { return false; }
   /// Whether it may make something of a line that is zero.
   virtual bool stirs(const StepTime&, std::int64_t) const { return false; }
   /// Whether it does anything at that instant.

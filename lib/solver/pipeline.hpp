@@ -23,6 +23,8 @@ class EndOfStep {
   /// Whether the line's last sweep along x ends with the step. Otherwise it is one with the first of the
   /// next.
   virtual bool whole(const StepTime& time, std::int64_t line) const = 0;
+  /// Whether run() and run_after() do anything to lines that are not whole.
+  virtual bool works_beside() const = 0;
   /// Whether the fields of a line that is not whole are looked at.
   virtual bool looks(const StepTime& time, std::int64_t line) const = 0;
   /// Shows the fields as they are at the end of the step: cell 0 of row 0 and the way to the next row.

@@ -213,10 +213,11 @@ void Pipeline<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const
     sweep_beside_patches(line, first, 2 * stage.part, carry, worker);
   else
     along_x(line, first, 2 * stage.part, carry, worker);
-  passes([&] {
-    end_.run(time, line, first);
-    end_.run_after(time, line, first);
-  });
+  if (end_.works_beside())
+    passes([&] {
+      end_.run(time, line, first);
+      end_.run_after(time, line, first);
+    });
   if (patch) put_patches(line, second, patch, worker.strip_pitch);
 }
 

@@ -85,7 +85,10 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
 template <int D, class Real>
 void Step<D, Real>::build_step(const Scene<D>& scene, std::size_t shot) {
   const auto& source = scene.survey.sources[shot - 1];
-  const auto add = [this](std::unique_ptr<Pass> pass) { passes_.push_back(std::move(pass)); };
+  const auto add = [this](std::unique_ptr<Pass> pass) {
+    works_beside_ |= pass->works_beside();
+    passes_.push_back(std::move(pass));
+  };
   const double vp_max = std::max(fastest_wave(scene.model.medium), scene.part.fastest);
   const bool zones = any_zone(scene, source);
   // Plane waves are known in 2-D only; check(scene) has seen to it.
@@ -226,17 +229,17 @@ void Step<D, Real>::look(const StepTime& time, std::int64_t line, const Columns&
 
 template <int D, class Real>
 void Step<D, Real>::run(const StepTime& time, std::int64_t line, const Columns& columns) {
-  const bool slips = whole(time, line);
+  const bool all = whole(time, line);
   for (const auto& pass : passes_)
-    if (slips || pass.get() != slip_) pass->run(time, line, columns);
+    if (all || pass->works_beside()) pass->run(time, line, columns);
 }
 
 template <int D, class Real>
 void Step<D, Real>::run_after(const StepTime& time, std::int64_t line, const Columns& columns) {
   // The other way round: what came last before looking comes first after it.
-  const bool slips = whole(time, line);
+  const bool all = whole(time, line);
   for (auto pass = passes_.rbegin(); pass != passes_.rend(); ++pass)
-    if (slips || pass->get() != slip_) (*pass)->run_after(time, line, columns);
+    if (all || (*pass)->works_beside()) (*pass)->run_after(time, line, columns);
 }
 
 template <int D, class Real>

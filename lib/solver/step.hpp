@@ -58,6 +58,7 @@ class Step : private EndOfStep<Real> {
   bool whole(const StepTime& time, std::int64_t line) const override {
     return whole_[std::size_t(time.step % Pass::most_steps_under_way)][std::size_t(line)];
   }
+  bool works_beside() const override { return works_beside_; }
   bool looks(const StepTime& time, std::int64_t line) const override {
     return time.step == snapshot_step_ || recorder_->reads(line);
   }
@@ -89,6 +90,7 @@ class Step : private EndOfStep<Real> {
   SourcePass<D, Real>* source_ = nullptr;      // one of them, null: no point source
   SlipPass<D, Real>* slip_ = nullptr;          // the one of them, null: nothing slips
   std::vector<std::vector<char>> whole_;  // [step under way][line]: its last sweep along x ends with the step
+  bool works_beside_ = false;
   Patches<D> patches_;
   std::unique_ptr<Halo<D, Real>> halo_;
   Monitor<D, Real> monitor_;

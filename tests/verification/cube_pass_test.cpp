@@ -13,6 +13,7 @@ class Nothing : public EndOfStep<Real> {
  public:
   void begin(const StepTime&) override {}
   bool whole(const StepTime&, std::int64_t) const override { return false; }
+  bool works_beside() const override { return false; }
   bool looks(const StepTime&, std::int64_t) const override { return false; }
   void look(const StepTime&, std::int64_t, const Columns&, const Real*, std::int64_t) override {}
   bool stirs(const StepTime&, std::int64_t) const override { return false; }
