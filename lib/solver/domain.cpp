@@ -78,11 +78,20 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
   if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
   for (auto& z : domain.impedance) z = Field<D>(domain.grid);
-  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
-    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
-    domain.impedance[wave_p][std::size_t(n)] = medium.rho[cell] * medium.vp[cell];
-    domain.impedance[wave_s][std::size_t(n)] = medium.rho[cell] * medium.vs[cell];
-  }
+  const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
+  parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      auto first = domain.model_cell(domain.grid.index(line * nx));
+      first[0] = 0;
+      const std::int64_t of_line = domain.model_grid.flat(first);
+      for (std::int64_t x = 0; x < nx; ++x) {
+        const auto cell =
+            std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
+        domain.impedance[wave_p][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vp[cell];
+        domain.impedance[wave_s][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vs[cell];
+      }
+    }
+  });
   return domain;
 }
 

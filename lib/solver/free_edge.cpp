@@ -90,11 +90,11 @@ FreeEdge<D, Real>::FreeEdge(const Layout<D>& layout, const Domain<D>& domain, in
       padded_nx_(layout.padded_nx()),
       shape_(layout.shape()) {
   const Layout<D> material(shape_, material_rows);
-  Index<D> first{};
-  first[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
-  for (std::int64_t n = 0; n < domain.grid.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
-    const Index<D> at = domain.grid.index(n);
-    if (at[std::size_t(axis)] != first[std::size_t(axis)]) continue;
+  Grid<D> edge = domain.grid;
+  edge.shape[std::size_t(axis)] = 1;
+  for (std::int64_t n = 0; n < edge.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
+    Index<D> at = edge.index(n);
+    at[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
     int pair = 0;
     const auto add = [&](int row, int impedance_row) {
       const auto terms = edge_slope(domain, at, axis, side, row);

@@ -27,7 +27,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (const int side : {0, 1})
       if (reach_ > 0) free_edges_[axis][side] = FreeEdge<D, Real>(state.layout, domain, axis, side);
   }
-  // Each looks at all cells: as long as some twenty steps take one thread.
+  // Each looks at all cells.
   parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
