@@ -50,8 +50,8 @@ struct MaterialRows {
   const Real *b, *zp, *zs;
 };
 
-/// Fields of a stretch of cells that a sweep changes; update_p leaves those of S alone. Those of the third
-/// axis are not used in 2-D.
+/// Fields of a stretch of cells that a sweep changes; those of S where no cell carries shear and those of
+/// the third axis in 2-D are not used.
 template <class Real>
 struct SweptRows {
   Real *v, *s, *passive, *vt, *st;
@@ -64,38 +64,32 @@ struct StretchFactors {
   const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
 };
 
+/// Inner loops of a sweep at and between the faces of n neighbouring cells of one line, see Kernels. `lo` and
+/// `hi` are the faces before and behind each cell.
+template <class Real>
+struct FaceKernels {
+  /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
+  /// above (hi) meet (E8), of all pairs, with one division.
+  void (*meet)(std::int64_t n, const Leaving<Real>& up, const Leaving<Real>& down,
+               const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
+  /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], passive normal stresses += lambda dt/h [v*];
+  /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
+  void (*update)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+                 const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+};
+
 /// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
-/// x), `lo` and `hi` are the faces before and behind each cell. Cells beyond the medium carry b = Z = 0 and
-/// stay as they are. A sweep back in time, scale < 0, is one forward in time of -v (E19): `leave` and the
-/// updates turn the sign of v, and faces hold -v*.
+/// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
+/// forward in time of -v (E19): `leave` and the updates turn the sign of v, and faces hold -v*.
 template <class Real>
 struct Kernels {
   /// What leaves every cell upwards and downwards within the time step (theory.md (E6), (E7)):
   /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
   void (*leave)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
                 const Real* b, Real scale, Real* up, Real* down);
-  /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
-  /// above (hi) meet (E8), of both pairs, with one division.
-  void (*meet)(std::int64_t n, const Real* up_p, const Real* down_p, const Real* up_s, const Real* down_s,
-               const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
-  /// The same of the P pair alone.
-  void (*meet_p)(std::int64_t n, const Real* up_p, const Real* down_p, const MaterialRows<Real>& lo,
-                 const MaterialRows<Real>& hi, const Faces<Real>& faces);
-  /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], the passive normal stress += lambda dt/h [v*];
-  /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
-  void (*update)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-                 const MaterialRows<Real>& material, const SweptRows<Real>& rows);
-  /// The same where no cell carries shear.
-  void (*update_p)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-                   const MaterialRows<Real>& material, const SweptRows<Real>& rows);
-  /// In 3-D: of P and both S pairs; the updates change two passive normal stresses.
-  void (*meet_3d)(std::int64_t n, const Leaving<Real>& up, const Leaving<Real>& down,
-                  const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
-  void (*update_3d)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-                    const MaterialRows<Real>& material, const SweptRows<Real>& rows);
-  void (*update_p_3d)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-                      const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  /// By dimension (2-D, 3-D) and whether any cell carries shear.
+  FaceKernels<Real> face[2][2];
 };
 
 /// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;

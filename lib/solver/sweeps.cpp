@@ -106,19 +106,6 @@ void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& co
   }
 }
 
-template <int D, class Real>
-void Sweeps<D, Real>::meet(std::int64_t n, bool uniform, const Leaving<Real>& up, const Leaving<Real>& down,
-                           const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                           const Faces<Real>& faces) const {
-  const auto& kernels = *kernels_[uniform];
-  if (shear_ && D == 3)
-    kernels.meet_3d(n, up, down, lo, hi, faces);
-  else if (shear_)
-    kernels.meet(n, up.up_p, down.down_p, up.up_s, down.down_s, lo, hi, faces);
-  else
-    kernels.meet_p(n, up.up_p, down.down_p, lo, hi, faces);
-}
-
 /// Brings these columns forward; the faces begin with the first of them.
 template <int D, class Real>
 void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& columns, Real* fields,
@@ -138,11 +125,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& colu
   if constexpr (D == 3)
     swept = {begin(0), begin(1), begin(2), begin(4), begin(5), begin(3), begin(6), begin(7)};
   const auto* stretch = state_.stretch(state_.layout.line_number(line), columns.first, columns.last);
-  const auto& kernels = *kernels_[stretch != nullptr];
   const auto material = stretch ? stretch->rows() : state_.material_from(line, columns.first);
-  const auto change = D == 2 ? (shear_ ? kernels.update : kernels.update_p)
-                             : (shear_ ? kernels.update_3d : kernels.update_p_3d);
-  change(columns.count(), scale, lo, hi, material, swept);
+  face_kernels(stretch != nullptr).update(columns.count(), scale, lo, hi, material, swept);
   work.coming().ask_for_one();
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)

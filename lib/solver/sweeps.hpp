@@ -114,8 +114,7 @@ class Sweeps {
   void send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
                 std::int64_t pitch, std::int64_t stride, Real scale, const Leaving<Real>& leaving,
                 Coming<Real>& coming) const;
-  void meet(std::int64_t n, bool uniform, const Leaving<Real>& up, const Leaving<Real>& down,
-            const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces) const;
+  const FaceKernels<Real>& face_kernels(bool uniform) const { return kernels_[uniform]->face[D - 2][shear_]; }
   void update(int axis, const Index<D>& line, const Columns& columns, Real* fields, std::int64_t pitch,
               Real scale, const Faces<Real>& lo, const Faces<Real>& hi, Workspace<Real>& work, bool remember);
   void enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,

@@ -144,8 +144,9 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
     const auto here = shifted(first, part.first - piece.leave.first);
     const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
     const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
-    meet(part.count(), stretch, shifted(here, -1), here, lo,
-         stretch ? lo : state_.material_from(at, part.first), faces.at(part.first - base));
+    face_kernels(stretch).meet(part.count(), shifted(here, -1), here, lo,
+                               stretch ? lo : state_.material_from(at, part.first),
+                               faces.at(part.first - base));
   }
   work.coming().ask_for_one();
   const auto lo = faces.at(piece.update.first - base);
@@ -178,8 +179,8 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     };
     const auto *lo = stretch(row - 1), *hi = stretch(row);
     const bool uniform = lo && hi;
-    meet(n, uniform, above, here, uniform ? lo->rows() : state_.material_from(line(row - 1), x),
-         uniform ? hi->rows() : state_.material_from(line(row), x), ring.faces(row, x));
+    face_kernels(uniform).meet(n, above, here, uniform ? lo->rows() : state_.material_from(line(row - 1), x),
+                               uniform ? hi->rows() : state_.material_from(line(row), x), ring.faces(row, x));
   }
   work.coming().ask_for_one();
   const std::int64_t done = step - rows_behind();

@@ -42,18 +42,20 @@ enum class Part { leave, meet, update, sweep };
 template <class Real>
 void run(benchmark::State& state, Part part, int order, bool uniform) {
   const auto& kernels = solver::kernels<Real>(order, uniform);
+  const auto& face = kernels.face[0][1];
   Rows<Real> rows;
   const auto leave = [&](int v, int s, int z, int to) {
     kernels.leave(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1, Real(1),
                   rows.leaving(to) - 1, rows.leaving(to + 1) - 1);
   };
   const auto meet = [&] {
-    kernels.meet(cells + 1, rows.leaving(0) - 1, rows.leaving(1), rows.leaving(2) - 1, rows.leaving(3),
-                 rows.material(-1), rows.material(0), rows.faces());
+    face.meet(cells + 1, {rows.leaving(0) - 1, rows.leaving(1) - 1, rows.leaving(2) - 1, rows.leaving(3) - 1},
+              {rows.leaving(0), rows.leaving(1), rows.leaving(2), rows.leaving(3)}, rows.material(-1),
+              rows.material(0), rows.faces());
   };
   const auto update = [&] {
-    kernels.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
-                   {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
+    face.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
+                {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };
   const double least = least_seconds(state, [&] {
     for (std::int64_t n = 0; n < repeats; ++n) {

@@ -93,13 +93,15 @@ want() {
           need("leave<" (2 * reach + 1) ", true, " real ">", sums)
           need("leave<" (2 * reach + 1) ", false, " real ">", sums + weights)
         }
-        need("meet<true, " real ">", 12); need("meet<false, " real ">", 20)
-        need("meet_p<true, " real ">", 6); need("meet_p<false, " real ">", 9)
-        need("update<true, " real ">", 14); need("update<false, " real ">", 22)
-        need("update_p<true, " real ">", 7); need("update_p<false, " real ">", 11)
-        need("meet_3d<true, " real ">", 18); need("meet_3d<false, " real ">", 26)
-        need("update_3d<true, " real ">", 21); need("update_3d<false, " real ">", 29)
-        need("update_p_3d<true, " real ">", 8); need("update_p_3d<false, " real ">", 12)
+        # By S pairs.
+        need("meet<true, 0, " real ">", 6); need("meet<false, 0, " real ">", 9)
+        need("meet<true, 1, " real ">", 12); need("meet<false, 1, " real ">", 20)
+        need("meet<true, 2, " real ">", 18); need("meet<false, 2, " real ">", 26)
+        # By dimension and shear.
+        need("update<true, 2, false, " real ">", 7); need("update<false, 2, false, " real ">", 11)
+        need("update<true, 2, true, " real ">", 14); need("update<false, 2, true, " real ">", 22)
+        need("update<true, 3, false, " real ">", 8); need("update<false, 3, false, " real ">", 12)
+        need("update<true, 3, true, " real ">", 21); need("update<false, 3, true, " real ">", 29)
         # Along and across, with and without memory of the change.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"

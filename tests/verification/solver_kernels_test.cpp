@@ -2,6 +2,8 @@
 
 #include <cstring>
 #include <random>
+#include <tuple>
+#include <vector>
 
 #include "solver/kernels.hpp"
 
@@ -23,19 +25,29 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
   const auto b = constant(4.1e-8), zp = constant(1.17e7), zs = constant(5.3e6);
   const MaterialRows<Real> material{b.data(), zp.data(), zs.data()};
   auto vp = row(1e-3), sp = row(1e4), passive = row(1e4), vs = row(1e-3), ss = row(1e4);
-  std::vector<std::vector<Real>> rows(12, row(0));
-  const auto at = [&](int number) { return rows[std::size_t(number)].data() + gap; };
+  auto passive2 = row(1e4), vs2 = row(1e-3), ss2 = row(1e4);
+  std::vector<std::vector<Real>> rows(6, row(0));
+  const auto leaving = [&](int number) { return rows[std::size_t(number)].data() + gap; };
   const auto& kernel = kernels<Real>(order, uniform);
-  kernel.leave(n, 1, vp.data() + gap, sp.data() + gap, zp.data(), b.data(), scale, at(0), at(1));
-  kernel.leave(n, 1, vs.data() + gap, ss.data() + gap, zs.data(), b.data(), scale, at(2), at(3));
-  kernel.meet(n, at(0), at(1), at(2), at(3), material, material, {at(4), at(5), at(6), at(7)});
-  kernel.meet_p(n, at(0), at(1), material, material, {at(8), at(9), nullptr, nullptr});
-  const Faces<Real> lo{at(4), at(5), at(6), at(7)}, hi{at(5), at(8), at(7), at(9)};
-  const SweptRows<Real> swept{vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap,
-                              ss.data() + gap};
-  kernel.update(n, scale, lo, hi, material, swept);
-  kernel.update_p(n, scale, lo, hi, material, swept);
-  for (const auto* changed : {&vp, &sp, &passive, &vs, &ss}) rows.push_back(*changed);
+  int left = 0;
+  for (const auto& [v, s, z] : {std::tuple(&vp, &sp, &zp), {&vs, &ss, &zs}, {&vs2, &ss2, &zs}}) {
+    kernel.leave(n, 1, v->data() + gap, s->data() + gap, z->data(), b.data(), scale, leaving(left),
+                 leaving(left + 1));
+    left += 2;
+  }
+  const Leaving<Real> all_left{leaving(0), leaving(1), leaving(2), leaving(3), leaving(4), leaving(5)};
+  for (const auto& of_dimension : kernel.face)
+    for (const auto& face : of_dimension) {
+      std::vector<std::vector<Real>> met(6, row(0));
+      const auto at = [&](int number) { return met[std::size_t(number)].data() + gap; };
+      const Faces<Real> hi{at(0), at(1), at(2), at(3), at(4), at(5)}, lo = hi.at(-1);
+      face.meet(n, all_left, all_left, material, material, hi);
+      face.update(n, scale, lo, hi, material,
+                  {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
+                   passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
+      rows.insert(rows.end(), met.begin(), met.end());
+    }
+  for (const auto* changed : {&vp, &sp, &passive, &passive2, &vs, &ss, &vs2, &ss2}) rows.push_back(*changed);
   std::vector<Real> all;
   for (const auto& values : rows) all.insert(all.end(), values.begin(), values.end());
   return all;
