@@ -114,8 +114,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& colu
   const auto& rows = changed_[axis];
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
-  std::array<Columns, 2> covered;
-  if (layer_) covered = layer_->covered(axis, line, columns);
+  // Made in place: a copy would wait for all that loops before this have written.
+  const auto covered = layer_ ? layer_->covered(axis, line, columns) : std::array<Columns, 2>{};
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)
       std::copy(field(n) + part.first, field(n) + part.last, work.before(n) + part.first - columns.first);
