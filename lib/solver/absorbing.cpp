@@ -8,7 +8,7 @@ namespace slipwave::solver {
 template <int D, class Real>
 AbsorbingZones<D, Real>::AbsorbingZones(State<D, Real>& state, const Domain<D>& domain, double dt_s,
                                         double vp_max, Background<D, Real>* background)
-    : state_(state), domain_(domain), background_(background) {
+    : state_(state), domain_(domain), background_(background), kernels_(damp_kernels<Real>()) {
   for (int axis = 0; axis < D; ++axis) {
     const auto factors = zone_factors(domain, axis, dt_s, vp_max);
     factors_[std::size_t(axis)].assign(factors.begin(), factors.end());
@@ -24,21 +24,22 @@ std::int64_t AbsorbingZones<D, Real>::cells() const {
   return domain_.grid.size() - domain_.model_grid.size();
 }
 
-/// Cells of one line that share the zone and factor of an axis other than x.
+/// Cells of one line that share the zone and, of an axis other than x, the factor.
 template <int D, class Real>
 void AbsorbingZones<D, Real>::damp(const StepTime& time, int axis, int side, const Index<D>& line,
                                    const Columns& columns, Real factor) {
-  constexpr std::int64_t piece = 64;
-  Real target[piece] = {};
-  for (int row = 0; row < FieldRows<D>::count && !columns.empty(); ++row) {
-    Real* u = state_.field_row(line, row);
-    for (std::int64_t first = columns.first; first < columns.last; first += piece) {
-      const std::int64_t n = std::min(piece, columns.last - first);
-      if (background_) background_->values(time, axis, side, line, first, n, row, target);
-      const Real* along = factors_[0].data() + first;
-      for (std::int64_t i = 0; i < n; ++i)
-        u[first + i] = target[i] + (axis == 0 ? along[i] : factor) * (u[first + i] - target[i]);
-    }
+  constexpr std::int64_t piece = 128;
+  constexpr int rows = FieldRows<D>::count;
+  const Real nothing[rows] = {};
+  Real room[piece * rows];
+  for (std::int64_t first = columns.first; first < columns.last; first += piece) {
+    const std::int64_t n = std::min(piece, columns.last - first);
+    IncomingValues<Real> target{nothing, 1, false};
+    if (background_) target = background_->values(time, axis, side, line, first, n, room);
+    const auto loop = kernels_.damp[axis == 0][target.by_cell];
+    const Real* const factors = axis == 0 ? factors_[0].data() + first : &factor;
+    for (int row = 0; row < rows; ++row)
+      loop(n, factors, target.values + row * target.pitch, state_.field_row(line, row) + first);
   }
 }
 

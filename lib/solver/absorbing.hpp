@@ -38,6 +38,7 @@ class AbsorbingZones : public Pass {
   State<D, Real>& state_;
   const Domain<D>& domain_;
   Background<D, Real>* background_;
+  const DampKernels<Real>& kernels_;
   std::array<std::vector<Real>, D> factors_;
   std::vector<std::int64_t> lines_;
 };

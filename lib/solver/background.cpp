@@ -16,10 +16,11 @@ constexpr double zone_power = 2.5;
 /// The outermost cells take the background outright: that is how an incoming wave enters.
 constexpr std::int64_t zone_given = max_reach;
 
+using Rows = FieldRows<2>;
+
 /// The closed form: every field is a constant times the wavelet at the time the front has passed the cell.
 class PlaneForm {
  public:
-  using Rows = FieldRows<2>;
   PlaneForm(const Source<2>& source, double vp, double vs, double rho)
       : wavelet_(source.wavelet), origin_(source.position_m) {
     const auto direction = std::get<PlaneWave<2>>(source.mechanism).direction;
@@ -32,12 +33,19 @@ class PlaneForm {
     factor_[Rows::normal_stress(1)] = strain * (lambda + 2 * mu * direction[1] * direction[1]);
     factor_[Rows::shear_stress(0, 1)] = strain * 2 * mu * direction[0] * direction[1];
   }
-  double value(int row, double x, double z, double t) const {
-    return factor_[std::size_t(row)] *
-           wavelet_(t - (x - origin_[0]) * slowness_[0] - (z - origin_[1]) * slowness_[1]);
+  /// What all fields are multiples of, at most 1.
+  double wave(double x, double z, double t) const { return wavelet_(phase(x, z, t)); }
+  double factor(int row) const { return factor_[std::size_t(row)]; }
+  /// Whether the wave is nowhere between two points.
+  bool is_still(const Point<2>& one, const Point<2>& other, double t) const {
+    const double at_one = phase(one[0], one[1], t), at_other = phase(other[0], other[1], t);
+    return std::max(at_one, at_other) < 0 || std::min(at_one, at_other) > wavelet_.duration_s();
   }
 
  private:
+  double phase(double x, double z, double t) const {
+    return t - (x - origin_[0]) * slowness_[0] - (z - origin_[1]) * slowness_[1];
+  }
   Wavelet wavelet_;
   Point<2> origin_, slowness_;
   std::array<double, 5> factor_{};
@@ -48,26 +56,55 @@ template <class Real>
 void begin_with(const PlaneForm& form, const Grid<2>& grid, State<2, Real>& state) {
   Index<2> line{};
   for (line[1] = 0; line[1] < grid.shape[1]; ++line[1])
-    for (int row = 0; row < FieldRows<2>::count; ++row) {
-      Real* u = state.field_row(line, row);
-      for (std::int64_t i = 0; i < grid.shape[0]; ++i)
-        u[i] = Real(form.value(row, grid.centre(0, i), grid.centre(1, line[1]), 0));
+    for (std::int64_t i = 0; i < grid.shape[0]; ++i) {
+      const double wave = form.wave(grid.centre(0, i), grid.centre(1, line[1]), 0);
+      for (int row = 0; row < Rows::count; ++row)
+        state.field_row(line, row)[i] = Real(form.factor(row) * wave);
     }
 }
 
+/// A column of cells laid down: what is along z is along x, where cells follow each other in memory.
 Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   const auto& grid = medium.grid();
-  Grid<2> narrow = grid;
-  narrow.shape[0] = 1;
-  narrow.origin_m[0] += double(x) * grid.spacing_m;
-  Medium<2> column{Field<2>(narrow), Field<2>(narrow), Field<2>(narrow)};
+  const Grid<2> lying{{grid.shape[1], 1},
+                      grid.spacing_m,
+                      {grid.origin_m[1], grid.origin_m[0]},
+                      {grid.first[1], grid.first[0]}};
+  Medium<2> column{Field<2>(lying), Field<2>(lying), Field<2>(lying)};
   for (std::int64_t k = 0; k < grid.shape[1]; ++k) {
-    column.vp({0, k}) = medium.vp({x, k});
-    column.vs({0, k}) = medium.vs({x, k});
-    column.rho({0, k}) = medium.rho({x, k});
+    column.vp({k, 0}) = medium.vp({x, k});
+    column.vs({k, 0}) = medium.vs({x, k});
+    column.rho({k, 0}) = medium.rho({x, k});
   }
   return column;
 }
+
+/// The row of a column laid down that holds this row.
+int row_lying(int row) {
+  for (const int axis : {0, 1}) {
+    if (row == Rows::velocity(axis)) return Rows::velocity(1 - axis);
+    if (row == Rows::normal_stress(axis)) return Rows::normal_stress(1 - axis);
+  }
+  return row;
+}
+
+/// Values of all rows in the cells of a column at the ends of the steps under way.
+template <class Real>
+class ColumnValues {
+ public:
+  explicit ColumnValues(std::int64_t cells) : cells_(cells) {
+    for (auto& values : kept_) values.assign(std::size_t(cells * Rows::count), 0);
+  }
+  Real* row(std::int64_t step, int row) { return of(step).data() + row * cells_; }
+  IncomingValues<Real> at(std::int64_t step, std::int64_t cell) const {
+    return {kept_[std::size_t(step % Pass::most_steps_under_way)].data() + cell, cells_, false};
+  }
+
+ private:
+  std::vector<Real>& of(std::int64_t step) { return kept_[std::size_t(step % Pass::most_steps_under_way)]; }
+  std::int64_t cells_;
+  std::array<std::vector<Real>, std::size_t(Pass::most_steps_under_way)> kept_;  // [row][cell]
+};
 
 /// A vertical wave in a column of cells whose neighbours are all alike: sweeps along z alone, with the main
 /// grid's own scheme, zones and incoming wave.
@@ -80,51 +117,56 @@ class Column {
         domain_(make_domain(medium_, edges_of(scene), zone_cells)),
         state_(make_state<2, Real>(domain_.grid.shape)),
         sweeps_(state_, domain_, scene.numerics.order),
+        work_(sweeps_.make_workspace(state_.layout.padded_nx())),
         splitting_(splitting(2, scene.numerics.time_order)),
-        factors_(zone_factors(domain_, 1, dt_s, vp_max)),
-        form_(form) {
+        factors_(zone_factors(domain_, 0, dt_s, vp_max)),
+        values_(domain_.grid.shape[0]) {
     fill_material(state_, domain_, medium_, dt_s);
-    begin_with(form_, domain_.grid, state_);
-  }
-  /// `from_top`: the wave comes in through the top zone, else through the bottom one.
-  void advance(std::int64_t step, double t, bool from_top) {
-    for (const auto& sweep : splitting_)
-      if (sweep.axis == 1) sweeps_.along(1, Real(sweep.part));
-    const auto last = std::int64_t(factors_.size()) - 1;
-    for (std::int64_t k = 0; k <= last; ++k) {
-      const double factor = factors_[std::size_t(k)];
-      if (factor == 1) continue;
-      const bool entry = from_top == (k < last / 2);
-      for (int row = 0; row < FieldRows<2>::count; ++row) {
-        Real& u = state_.field_row({0, k}, row)[0];
-        const double target = entry ? form_.value(row, 0, domain_.grid.centre(1, k), t) : 0;
-        u = Real(target + factor * (double(u) - target));
-      }
+    for (std::int64_t k = 0; k < domain_.grid.shape[0]; ++k) {
+      const double wave = form.wave(0, domain_.grid.centre(0, k), 0);
+      for (int row = 0; row < Rows::count; ++row) field(row)[k] = Real(form.factor(row) * wave);
     }
-    auto& now = kept_[std::size_t(step % Pass::most_steps_under_way)];
-    now.clear();
-    for (std::int64_t k = 0; k <= last; ++k)
-      for (int row = 0; row < FieldRows<2>::count; ++row) now.push_back(state_.field_row({0, k}, row)[0]);
+  }
+  /// `incoming`: the wave at the end of that step in the zones, 0 where it only leaves.
+  void advance(std::int64_t step, const PlaneForm& form, const std::vector<double>& incoming) {
+    const Columns all{0, domain_.grid.shape[0]};
+    for (const auto& sweep : splitting_)
+      if (sweep.axis == 1) {
+        if (sweeps_.bends(0)) sweeps_.keep(0, 0, all);
+        sweeps_.measure_sides(0);
+        sweeps_.along_x(0, all, Real(sweep.part), carry_, work_);
+      }
+    for (int row = 0; row < Rows::count; ++row) {
+      Real* const u = field(row);
+      for (std::int64_t k = 0; k < all.last; ++k) {
+        const double factor = factors_[std::size_t(k)];
+        if (factor == 1) continue;
+        const double target = form.factor(row) * incoming[std::size_t(k)];
+        u[k] = Real(target + factor * (double(u[k]) - target));
+      }
+      std::copy(u, u + all.last, values_.row(step, row));
+    }
   }
   void keep(Archive& archive) { archive.fixed(state_.fields.data(), std::size_t(state_.fields.size())); }
-  Real value(std::int64_t step, std::int64_t k, int row) const {
-    return kept_[std::size_t(step % Pass::most_steps_under_way)][std::size_t(k * FieldRows<2>::count + row)];
-  }
+  const ColumnValues<Real>& values() const { return values_; }
 
  private:
   static EdgeLaws<2> edges_of(const Scene<2>& scene) {
     EdgeLaws<2> edges = scene.edges;
-    edges[0] = {EdgeLaw::mirror, EdgeLaw::mirror};
+    edges[0] = edges[1];
+    edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
     return edges;
   }
+  Real* field(int row) { return state_.field_row({0, 0}, row_lying(row)); }
   Medium<2> medium_;
   Domain<2> domain_;
   State<2, Real> state_;
   Sweeps<2, Real> sweeps_;
+  Workspace<Real> work_;
+  Carry<Real> carry_{};
   std::vector<SweepPart> splitting_;
   std::vector<double> factors_;
-  PlaneForm form_;
-  std::array<std::vector<Real>, std::size_t(Pass::most_steps_under_way)> kept_;  // [step][cell][row]
+  ColumnValues<Real> values_;
 };
 
 /// A wave travelling straight down or up.
@@ -133,7 +175,12 @@ class VerticalWave : public Background<2, Real> {
  public:
   VerticalWave(const Scene<2>& scene, const PlaneForm& form, const Domain<2>& domain, bool from_top,
                double dt_s, double vp_max)
-      : form_(form), grid_(domain.grid), from_top_(from_top) {
+      : form_(form),
+        grid_(domain.grid),
+        entry_(from_top ? Columns{0, domain.low_zone[1]}
+                        : Columns{grid_.shape[1] - domain.high_zone[1], grid_.shape[1]}),
+        incoming_(std::size_t(grid_.shape[1]), 0.),
+        values_(grid_.shape[1]) {
     const std::int64_t last = domain.model_grid.shape[0] - 1;
     for (const int side : {0, 1})
       if (domain.edges[0][side] == EdgeLaw::absorbing)
@@ -143,17 +190,19 @@ class VerticalWave : public Background<2, Real> {
   }
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime& time) override {
+    for (std::int64_t k = entry_.first; k < entry_.last; ++k) {
+      const double wave = form_.wave(0, grid_.centre(1, k), time.end_s());
+      incoming_[std::size_t(k)] = wave;
+      for (int row = 0; row < Rows::count; ++row)
+        values_.row(time.step, row)[k] = Real(form_.factor(row) * wave);
+    }
     for (auto& column : columns_)
-      if (column) column->advance(time.step, time.end_s(), from_top_);
+      if (column) column->advance(time.step, form_, incoming_);
   }
-  void values(const StepTime& time, int axis, int side, const Index<2>& line, std::int64_t,
-              std::int64_t count, int field_row, Real* out) const override {
-    double value = 0;
-    if (axis == 0)
-      value = columns_[std::size_t(side)]->value(time.step, line[1], field_row);
-    else if (from_top_ == (side == 0))
-      value = form_.value(field_row, 0, grid_.centre(1, line[1]), time.end_s());
-    std::fill(out, out + count, Real(value));
+  IncomingValues<Real> values(const StepTime& time, int axis, int side, const Index<2>& line, std::int64_t,
+                              std::int64_t, Real*) const override {
+    const auto& values = axis == 0 ? columns_[std::size_t(side)]->values() : values_;
+    return values.at(time.step, line[1]);
   }
   bool needs_whole_step() const override { return false; }
   void keep(Archive& archive) override {
@@ -164,7 +213,9 @@ class VerticalWave : public Background<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
-  bool from_top_;
+  Columns entry_;                 // lines of the zone it comes through
+  std::vector<double> incoming_;  // of each line at the end of the newest step
+  ColumnValues<Real> values_;     // in the zones above and below
   std::array<std::unique_ptr<Column<Real>>, 2> columns_;
 };
 
@@ -175,11 +226,16 @@ class ObliqueWave : public Background<2, Real> {
   ObliqueWave(const PlaneForm& form, const Domain<2>& domain) : form_(form), grid_(domain.grid) {}
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
   void advance(const StepTime&) override {}
-  void values(const StepTime& time, int, int, const Index<2>& line, std::int64_t x_first, std::int64_t count,
-              int field_row, Real* out) const override {
-    const double z = grid_.centre(1, line[1]);
-    for (std::int64_t i = 0; i < count; ++i)
-      out[i] = Real(form_.value(field_row, grid_.centre(0, x_first + i), z, time.end_s()));
+  IncomingValues<Real> values(const StepTime& time, int, int, const Index<2>& line, std::int64_t x_first,
+                              std::int64_t count, Real* room) const override {
+    const double z = grid_.centre(1, line[1]), t = time.end_s();
+    const auto x = [&](std::int64_t i) { return grid_.centre(0, x_first + i); };
+    if (form_.is_still({x(0), z}, {x(count - 1), z}, t)) return {still_.data(), 1, false};
+    for (std::int64_t i = 0; i < count; ++i) {
+      const double wave = form_.wave(x(i), z, t);
+      for (int row = 0; row < Rows::count; ++row) room[row * count + i] = Real(form_.factor(row) * wave);
+    }
+    return {room, count, true};
   }
   bool needs_whole_step() const override { return true; }
   void keep(Archive&) override {}
@@ -187,6 +243,7 @@ class ObliqueWave : public Background<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
+  std::array<Real, Rows::count> still_{};
 };
 
 }  // namespace

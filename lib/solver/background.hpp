@@ -8,6 +8,14 @@
 
 namespace slipwave::solver {
 
+/// Values of all field rows in some cells of a line: of each row one for all cells, or one a cell.
+template <class Real>
+struct IncomingValues {
+  const Real* values;  // of row 0
+  std::int64_t pitch;  // to the next row
+  bool by_cell;
+};
+
 /// The wave field that comes in from outside, known in the absorbing zones: what the zones damp the fields
 /// to. In scenes without such a wave there is none and the zones damp to zero.
 template <int D, class Real>
@@ -18,10 +26,11 @@ class Background {
   virtual void begin(State<D, Real>& state) = 0;
   /// Brings it to time.end_s(), step after step. It still knows the steps under way (Pass).
   virtual void advance(const StepTime& time) = 0;
-  /// Its values at that step of one field row in `count` cells of a line from x_first on, which lie in the
-  /// zone of `axis`, `side` (0 low, 1 high).
-  virtual void values(const StepTime& time, int axis, int side, const Index<D>& line, std::int64_t x_first,
-                      std::int64_t count, int field_row, Real* out) const = 0;
+  /// Its values at that step in `count` cells of a line from x_first on, which lie in the zone of `axis`,
+  /// `side` (0 low, 1 high). They last until another line of the same number of a step `most_steps_under_way`
+  /// later, or stand in `room`, for `count` cells of all rows.
+  virtual IncomingValues<Real> values(const StepTime& time, int axis, int side, const Index<D>& line,
+                                      std::int64_t x_first, std::int64_t count, Real* room) const = 0;
   /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
   virtual bool needs_whole_step() const = 0;
   /// Hands over what it remembers from one step to the next; called when no step is under way.

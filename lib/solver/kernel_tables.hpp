@@ -11,6 +11,7 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   StretchKernels<Real> stretch;
+  DampKernels<Real> damp;
   const SlipTables<Real>& (*slip)(Real);
 };
 

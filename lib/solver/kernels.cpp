@@ -61,6 +61,11 @@ const StretchKernels<Real>& stretch_kernels() {
 }
 
 template <class Real>
+const DampKernels<Real>& damp_kernels() {
+  return best_tables<Real>().damp;
+}
+
+template <class Real>
 SlipKernels<Real> slip_kernels(const SlipCase& of) {
   return best_tables<Real>().slip(Real()).of(of);
 }
@@ -79,5 +84,7 @@ template const Kernels<float>& kernels<float>(int, bool);
 template const Kernels<double>& kernels<double>(int, bool);
 template const StretchKernels<float>& stretch_kernels<float>();
 template const StretchKernels<double>& stretch_kernels<double>();
+template const DampKernels<float>& damp_kernels<float>();
+template const DampKernels<double>& damp_kernels<double>();
 
 }  // namespace slipwave::solver

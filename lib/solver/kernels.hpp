@@ -104,12 +104,21 @@ struct StretchKernels {
                  Real* now, Real* phi, bool remember);
 };
 
+/// Loops of the absorbing zones: now = target + factor (now - target).
+template <class Real>
+struct DampKernels {
+  /// By whether there is one factor a cell, else one for all, and by the same of targets.
+  void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
+};
+
 /// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
 /// stretches of one material, of which only the first cell is read; they give the same bits.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);
 template <class Real>
 const StretchKernels<Real>& stretch_kernels();
+template <class Real>
+const DampKernels<Real>& damp_kernels();
 
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
 const char* instruction_set();
@@ -118,5 +127,7 @@ extern template const Kernels<float>& kernels<float>(int, bool);
 extern template const Kernels<double>& kernels<double>(int, bool);
 extern template const StretchKernels<float>& stretch_kernels<float>();
 extern template const StretchKernels<double>& stretch_kernels<double>();
+extern template const DampKernels<float>& damp_kernels<float>();
+extern template const DampKernels<double>& damp_kernels<double>();
 
 }  // namespace slipwave::solver

@@ -106,6 +106,8 @@ want() {
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
           need("stretch_in<" along ", true, " real ">", 11); need("stretch_in<" along ", false, " real ">", 8)
+          # One factor and target a cell, or one of all.
+          need("damp_in<" along ", true, " real ">", 3); need("damp_in<" along ", false, " real ">", 3)
         }
       }
       if (!bad) printf "%s: %d kernels on vectors of %d bits\n", level, kernels, width
