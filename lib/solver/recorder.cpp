@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
-#include <numeric>
-#include <tuple>
 
 #include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
@@ -19,6 +16,23 @@ std::array<double, 3> in_space(const Point<D>& point) {
   if constexpr (D == 2) return {point[0], 0, point[1]};
   if constexpr (D == 3) return point;
 }
+
+/// A sum of products as four sums that do not wait for each other.
+class SideBySide {
+ public:
+  template <class Real>
+  void add(const double* weights, const Real* values, std::int64_t count) {
+    std::int64_t n = 0;
+    for (; n + width <= count; n += width)
+      for (int i = 0; i < width; ++i) sums_[i] += weights[n + i] * double(values[n + i]);
+    for (; n < count; ++n) sums_[0] += weights[n] * double(values[n]);
+  }
+  double total() const { return (sums_[0] + sums_[1]) + (sums_[2] + sums_[3]); }
+
+ private:
+  static constexpr int width = 4;
+  double sums_[width] = {};
+};
 
 }  // namespace
 
@@ -58,7 +72,7 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
                             std::size_t shot, double unit, Ranks* ranks)
     : ranks_(ranks), unit_(unit) {
   const auto& source = scene.survey.sources[shot - 1];
-  std::vector<ValueWeight> all;
+  std::vector<std::vector<ValueWeight>> of_traces;
   gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
   TraceHeader header;
   header.shot = std::int64_t(shot);
@@ -76,56 +90,15 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
       header.water_depth_receiver_m = depths[std::size_t(header.channel)];
       gather_.traces.push_back({header, {}});
       gather_.traces.back().samples.reserve(std::size_t(gather_.axis.count));
-      first_weight_.push_back(all.size());
-      if (!domain.part.owns(domain.model_grid, receiver)) continue;
-      for (const auto& weight : component_weights<D>(layout, domain, receiver, component))
-        all.push_back(weight);
+      of_traces.emplace_back();
+      if (domain.part.owns(domain.model_grid, receiver))
+        of_traces.back() = component_weights<D>(layout, domain, receiver, component);
     }
   }
-  first_weight_.push_back(all.size());
   history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
-  values_.assign(std::size_t(Pass::most_steps_under_way) * all.size(), 0);
-  std::vector<std::size_t> order(all.size());
-  std::iota(order.begin(), order.end(), std::size_t(0));
-  std::sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
-    const auto key = [&](std::size_t n) {
-      return std::tuple(all[n].line, layout.column(all[n].place), all[n].place, n);
-    };
-    return key(one) < key(other);
-  });
-  for (const auto n : order) {
-    starts_.resize(std::size_t(all[n].line) + 1, reads_.size());
-    reads_.push_back({layout.column(all[n].place), all[n].place / layout.row_pitch(), n});
-  }
-  starts_.resize(std::size_t(layout.lines()) + 1, reads_.size());
-  for (const auto& weight : all) weights_.push_back(weight.weight);
+  sums_.resize(gather_.traces.size());
+  read_all(layout, of_traces);
   find_box(layout, domain.grid.first[D - 1]);
-}
-
-template <int D, class Real>
-void Recorder<D, Real>::find_box(const Layout<D>& layout, std::int64_t rows_before) {
-  constexpr auto none = std::numeric_limits<std::int64_t>::max();
-  box_ = {{none, 0}, {none, 0}};
-  const auto hold = [](Columns& range, std::int64_t n) {
-    range = {std::min(range.first, n), std::max(range.last, n + 1)};
-  };
-  for (std::int64_t line = 0; line < layout.lines(); ++line)
-    for (auto n = starts_[std::size_t(line)]; n < starts_[std::size_t(line) + 1]; ++n) {
-      auto at = layout.line_index(line);
-      at[0] = reads_[n].column;
-      hold(box_.rows, at[D - 1]);
-      hold(box_.columns, at[D - 2]);
-    }
-  if (!ranks_) return;
-  const bool any = !reads_.empty();
-  constexpr double far = 1e15;
-  const auto first = [&](std::int64_t mine) { return smallest_of(ranks_, any ? double(mine) : far); };
-  const auto last = [&](std::int64_t mine) { return largest_of(ranks_, any ? double(mine) : -far); };
-  const double rows[2] = {first(box_.rows.first + rows_before), last(box_.rows.last + rows_before)};
-  const double columns[2] = {first(box_.columns.first), last(box_.columns.last)};
-  if (rows[0] > rows[1]) return;
-  box_ = {{std::int64_t(rows[0]) - rows_before, std::int64_t(rows[1]) - rows_before},
-          {std::int64_t(columns[0]), std::int64_t(columns[1])}};
 }
 
 /// Traces that no rank but one has weights for are zero on the others.
@@ -134,7 +107,7 @@ Gather Recorder<D, Real>::take() {
   if (!ranks_) return std::move(gather_);
   std::vector<double> mine;  // number of the trace, samples
   for (std::size_t n = 0; n < gather_.traces.size(); ++n) {
-    if (first_weight_[n] == first_weight_[n + 1]) continue;
+    if (first_term_[n] == first_term_[n + 1]) continue;
     const auto& samples = gather_.traces[n].samples;
     mine.push_back(double(n));
     mine.push_back(double(samples.size()));
@@ -159,29 +132,51 @@ std::int64_t Recorder<D, Real>::steps_needed(const Recording& recording, double 
 }
 
 template <int D, class Real>
+bool Recorder<D, Real>::wants(const StepTime& time) const {
+  const std::int64_t instant = time.step + 1;
+  // The first sample that may still need it, or one before it.
+  const double first = double(instant - kept / 2) * time.dt_s / gather_.axis.interval_s;
+  for (auto n = std::max<std::int64_t>(0, std::int64_t(std::floor(first)) - 1); n < gather_.axis.count; ++n) {
+    const auto before = steps_before(n, time.dt_s);
+    if (before - kept / 2 + 1 > instant) return false;
+    if (before + kept / 2 >= instant) return true;
+  }
+  return false;
+}
+
+template <int D, class Real>
 void Recorder<D, Real>::sample(const StepTime& time, std::int64_t line, const Columns& columns,
                                const Real* fields, std::int64_t pitch) {
-  const auto end = reads_.begin() + std::ptrdiff_t(starts_[std::size_t(line) + 1]);
-  auto read = reads_.begin() + std::ptrdiff_t(starts_[std::size_t(line)]);
-  if (read == end) return;
+  if (!reads(time, line)) return;
   Real* const values = values_of(time);
-  read = std::lower_bound(read, end, columns.first,
-                          [](const Read& one, std::int64_t column) { return one.column < column; });
-  for (; read != end && read->column < columns.last; ++read)
-    values[read->weight] = fields[read->row * pitch + read->column];
+  for (auto n = starts_[std::size_t(line)]; n < starts_[std::size_t(line) + 1]; ++n) {
+    const auto end = runs_.begin() + std::ptrdiff_t(rows_[n].last);
+    auto run = std::partition_point(runs_.begin() + std::ptrdiff_t(rows_[n].first), end,
+                                    [&](const Run& one) { return one.last <= columns.first; });
+    const Real* const row = fields + rows_[n].row * pitch;
+    for (; run != end && run->first < columns.last; ++run) {
+      const auto first = std::max(run->first, columns.first), last = std::min(run->last, columns.last);
+      std::copy(row + first, row + last, values + run->value + first - run->first);
+    }
+  }
 }
 
 template <int D, class Real>
 void Recorder<D, Real>::finish(const StepTime& time) {
   const auto traces = gather_.traces.size();
   const std::int64_t instant = time.step + 1;
-  double* const now = history_.data() + instant % kept * std::int64_t(traces);
-  const Real* const values = values_of(time);
-  for (std::size_t trace = 0; trace < traces; ++trace) {
-    double sum = 0;
-    for (auto n = first_weight_[trace]; n < first_weight_[trace + 1]; ++n)
-      sum += weights_[n] * double(values[n]);
-    now[trace] = sum / unit_;
+  if (wants(time)) {
+    double* const now = history_.data() + instant % kept * std::int64_t(traces);
+    const Real* const values = values_of(time);
+    const double* weights = weights_.data();
+    for (std::size_t trace = 0; trace < traces; ++trace) {
+      SideBySide sum;
+      for (auto n = first_term_[trace]; n < first_term_[trace + 1]; ++n) {
+        sum.add(weights, values + terms_[n].value, terms_[n].count);
+        weights += terms_[n].count;
+      }
+      now[trace] = sum.total() / unit_;
+    }
   }
   interpolate(instant, time.dt_s);
 }
@@ -191,18 +186,18 @@ template <int D, class Real>
 void Recorder<D, Real>::interpolate(std::int64_t newest, double dt_s) {
   const auto traces = gather_.traces.size();
   for (; next_sample_ < gather_.axis.count; ++next_sample_) {
-    const double position = double(next_sample_) * gather_.axis.interval_s / dt_s;
-    if (std::int64_t(std::floor(position)) + kept / 2 > newest) return;
-    const auto weights = time_weights(position, newest - kept + 1, newest);
-    for (std::size_t trace = 0; trace < traces; ++trace) {
-      double sum = 0;
-      for (int n = 0; n < weights.count; ++n) {
-        const std::int64_t instant = weights.first + n;
-        if (instant >= 0)
-          sum += weights.weights[std::size_t(n)] * history_[std::size_t(instant % kept) * traces + trace];
-      }
-      gather_.traces[trace].samples.push_back(sum);
+    if (steps_before(next_sample_, dt_s) + kept / 2 > newest) return;
+    const auto weights = time_weights(steps_at(next_sample_, dt_s), newest - kept + 1, newest);
+    std::fill(sums_.begin(), sums_.end(), 0.);
+    for (int n = 0; n < weights.count; ++n) {
+      const std::int64_t instant = weights.first + n;
+      if (instant < 0) continue;
+      const double weight = weights.weights[std::size_t(n)];
+      const double* const then = history_.data() + instant % kept * std::int64_t(traces);
+      for (std::size_t trace = 0; trace < traces; ++trace) sums_[trace] += weight * then[trace];
     }
+    for (std::size_t trace = 0; trace < traces; ++trace)
+      gather_.traces[trace].samples.push_back(sums_[trace]);
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "base/archive.hpp"
@@ -20,8 +21,10 @@ class Recorder {
   Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot,
            double unit, Ranks* ranks = nullptr);
 
-  /// Whether it reads anything of a line.
-  bool reads(std::int64_t line) const { return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1]; }
+  /// Whether it reads anything of a line at the end of that step.
+  bool reads(const StepTime& time, std::int64_t line) const {
+    return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && wants(time);
+  }
   /// The rows and columns of all that is read, in 3-D the planes and their rows; on all ranks.
   const Box& box() const { return box_; }
   /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
@@ -43,27 +46,50 @@ class Recorder {
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
+  void read_all(const Layout<D>& layout, const std::vector<std::vector<ValueWeight>>& of_traces);
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
+  /// Whether any sample is made of the end of that step.
+  bool wants(const StepTime& time) const;
+  /// When a sample is taken, in steps, and the last step that has ended before.
+  double steps_at(std::int64_t sample, double dt_s) const {
+    return double(sample) * gather_.axis.interval_s / dt_s;
+  }
+  std::int64_t steps_before(std::int64_t sample, double dt_s) const {
+    return std::int64_t(std::floor(steps_at(sample, dt_s)));
+  }
   void interpolate(std::int64_t newest, double dt_s);
   Real* values_of(const StepTime& time) {
-    return values_.data() + time.step % Pass::most_steps_under_way * std::int64_t(reads_.size());
+    return values_.data() + time.step % Pass::most_steps_under_way * values_a_step_;
   }
 
-  /// A value that is read: where, and which of the weights it belongs to.
-  struct Read {
-    std::int64_t column, row;
-    std::size_t weight;
+  /// Neighbouring cells of a row that any trace reads, once however many traces do.
+  struct Run {
+    std::int64_t first, last;  // columns
+    std::int64_t value;        // place of the first among those of a step
+  };
+  /// Those of one row of a line.
+  struct RowRuns {
+    int row;
+    std::size_t first, last;  // in runs_
+  };
+  /// Values next to each other that a trace has weights for.
+  struct Term {
+    std::int64_t value, count;
   };
   Ranks* ranks_;
   Gather gather_;
   double unit_;
-  std::vector<double> weights_;            // of all traces
-  std::vector<std::size_t> first_weight_;  // of each trace, and the end
-  std::vector<Read> reads_;                // by line, then column
-  std::vector<std::size_t> starts_;        // of each line in reads_, and the end
+  std::vector<double> weights_;          // of all traces, in the order of their terms
+  std::vector<Term> terms_;              // of all traces
+  std::vector<std::size_t> first_term_;  // of each trace, and the end
+  std::vector<Run> runs_;                // by line, row, column
+  std::vector<RowRuns> rows_;            // by line, row
+  std::vector<std::size_t> starts_;      // of each line in rows_, and the end
   Box box_;
-  std::vector<Real> values_;     // [step modulo those under way][weight]
-  std::vector<double> history_;  // [instant modulo kept][trace]
+  std::int64_t values_a_step_ = 0;
+  std::vector<Real> values_;     // [step modulo those under way][value]
+  std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples are made of
+  std::vector<double> sums_;     // of a sample, one a trace
   std::int64_t next_sample_ = 0;
 };
 

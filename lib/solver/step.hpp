@@ -60,7 +60,7 @@ class Step : private EndOfStep<Real> {
   }
   bool works_beside() const override { return works_beside_; }
   bool looks(const StepTime& time, std::int64_t line) const override {
-    return time.step == snapshot_step_ || recorder_->reads(line);
+    return time.step == snapshot_step_ || recorder_->reads(time, line);
   }
   bool stirs(const StepTime& time, std::int64_t line) const override;
   Box needed(const StepTime& time, const Box& growth) const override;
