@@ -120,5 +120,31 @@ TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
   }
 }
 
+TEST(PlaneWave, IsTheSameWithAbsorbingSidesAsWithMirrorsHoweverShallowTheModel) {
+  // Zones of 40 cells above and, where there are any, below and beside 12 cells.
+  for (const auto bottom : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
+    auto scene = plane_scene(uniform_medium(20, 12, 5, rock), 0, {0, -160}, 0.2);
+    scene.edges[1][1] = bottom;
+    scene.survey.receivers_m = {{3, 31.2}, {52, 8.3}};
+    check(scene);
+    const auto in_zones = shoot(scene, 1);
+    scene.edges[0] = {EdgeLaw::mirror, EdgeLaw::mirror};
+    const auto in_mirrors = shoot(scene, 1);
+    for (std::size_t n = 0; n < in_zones.traces.size(); ++n) {
+      const double unit = n < 4 ? 0.002 : rock.rho * rock.vp * 0.002;
+      double largest = 0;
+      for (std::size_t t = 0; t < in_zones.traces[n].samples.size(); ++t) {
+        const double expected = in_mirrors.traces[n].samples[t];
+        largest = std::max(largest, std::abs(expected));
+        // The rounding of single precision, some hundred steps long.
+        EXPECT_LT(std::abs(in_zones.traces[n].samples[t] - expected), 1e-5 * unit) << "trace " << n;
+      }
+      if (n == 2) {
+        EXPECT_GT(largest, 0.5 * unit);
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipwave::solver

@@ -110,5 +110,35 @@ TEST(ExplosionInWater, IsItselfAndItsImageAtEveryDepthBelowTheSurface) {
     }
 }
 
+TEST(SourceAndReceivers, RecordRarelyWhatTheyRecordOften) {
+  // Binary fractions of a second: the instants of both are the same numbers. Steps take 0.9 ms.
+  constexpr double instant = 1. / 16384;
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(60, 50, 5, {5000, 2200, 2200});
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+  scene.survey.sources = {{{120, 90}, parse_mechanism<2>("force:1,2"), parse_wavelet("ricker:40"), 1e6}};
+  // Sharing cells, alone, on a centre, below the surface.
+  scene.survey.receivers_m = {{101.3, 151.2}, {104.1, 151.2}, {250.9, 33.3}, {62.5, 112.5}, {31, 1.5}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  const auto every = [&](std::int64_t instants) {
+    scene.recording = {{Component::vx, Component::vz, Component::p}, 0.25, double(instants) * instant};
+    check(scene);
+    return shoot(scene, 1);
+  };
+  const auto often = every(1);
+  for (const std::int64_t instants : {4, 16, 128, 256, 1024}) {
+    const auto rarely = every(instants);
+    ASSERT_EQ(rarely.traces.size(), often.traces.size());
+    for (std::size_t n = 0; n < often.traces.size(); ++n) {
+      const auto& samples = rarely.traces[n].samples;
+      ASSERT_GE(samples.size(), 4U);
+      for (std::size_t t = 0; t < samples.size(); ++t)
+        ASSERT_EQ(samples[t], often.traces[n].samples[t * std::size_t(instants)])
+            << "every " << instants << ", trace " << n << ", sample " << t;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipwave::solver
