@@ -1,12 +1,15 @@
 #!/bin/sh
-# completion.sh TOOL OUTPUT: writes the bash completion of a tool, made from what its --help says.
+# completion.sh TOOL OUTPUT [EMULATOR...]: writes the bash completion of a tool, made from what its --help says.
 #   a|b|c                 one of them
 #   NAME                  one of those that the text ends in, "...: a, b, c"
 #   LIST                  several of those that the text ends in, "...: a, b, c" or "of a, b, c"
 #   FILE, MODEL, ..., -o  file names; every other value is the user's own
 set -eu
-tool=$(basename "$1")
-help=$("$1" --help)
+program=$1
+output=$2
+shift 2
+tool=$(basename "$program")
+help=$("$@" "$program" --help)
 printf '%s\n' "$help" | awk -v tool="$tool" '
   # "a, b, c" behind a word of the text, up to the end of the clause; nothing where the list goes on as "...".
   function names_in(text) {
@@ -95,5 +98,5 @@ printf '%s\n' "$help" | awk -v tool="$tool" '
     print "  fi"
     print "}"
     print "complete -o default -F _" name " " tool
-  }' > "$2.part"
-mv "$2.part" "$2"
+  }' > "$output.part"
+mv "$output.part" "$output"
