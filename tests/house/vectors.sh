@@ -7,23 +7,34 @@
 # may be done otherwise.
 set -eu
 build=$1
-if ! command -v objdump >/dev/null 2>&1; then
-  echo "skipped: no objdump"
-  exit 77
+# Of what machine the objects are, which need not be this one: that word of the ELF header.
+object=$(find "$build/lib/solver" -path '*kernels_generic.dir*' -name 'kernels_level.cpp.o')
+if [ -z "$object" ]; then
+  echo "no object of kernels_level.cpp in $build"
+  exit 1
 fi
-case $(uname -m) in
-  x86_64 | amd64) ;;
+objdump=objdump
+case $(od -An -tu1 -j18 -N1 "$object") in
+  *62) levels='generic=128 x86_64_v2=128 x86_64_v3=256 x86_64_v4=512' ;;
+  *183)
+    levels='generic=128'
+    if [ "$(uname -m)" != aarch64 ]; then objdump=aarch64-linux-gnu-objdump; fi
+    ;;
   *)
-    echo "skipped: knows the instructions of x86-64 only"
+    echo "skipped: knows the instructions of x86-64 and 64-bit ARM only"
     exit 77
     ;;
 esac
+if ! command -v "$objdump" >/dev/null 2>&1; then
+  echo "skipped: no $objdump"
+  exit 77
+fi
 status=0
 
 # loops OBJECT: a line "KERNEL<tab>WIDTH<tab>OPERATIONS" for each innermost loop: bits of its widest vectors and the
 # additions and multiplications done with those. Every kernel has a line with zeros, too.
 loops() {
-  objdump -d -C --no-show-raw-insn "$1" | awk '
+  "$objdump" -d -C --no-show-raw-insn "$1" | awk '
     function close_function(  n, from, i, width, done) {
       gsub(/slipwave::|solver::|\(anonymous namespace\)::/, "", name)
       sub(/^[^<]*</, "", name)
@@ -63,7 +74,15 @@ loops() {
       if ($2 ~ /^vfn?m(add|sub)[0-9]*p[sd]$/) flops[count] = 2
       # A sign is turned, or a number doubled, in other ways too: only these count.
       if (flops[count]) bits[count] = /%zmm/ ? 512 : /%ymm/ ? 256 : 128
-      if ($2 ~ /^j/) target[count] = $3
+      # ARM: vectors of four or two numbers; jumps name what they look at before the place.
+      if ($3 ~ /^v[0-9]+[.](4s|2d),$/) {
+        if ($2 ~ /^f(add|sub|mul|div)$/) flops[count] = 1
+        if ($2 ~ /^fml[as]$/) flops[count] = 2
+        if (flops[count]) bits[count] = 128
+      }
+      if ($2 ~ /^(j|b$|b[.])/) target[count] = $3
+      if ($2 ~ /^cbn?z$/) target[count] = $4
+      if ($2 ~ /^tbn?z$/) target[count] = $5
       ++count
     }
     END { close_function() }'
@@ -139,7 +158,7 @@ want_slip() {
     }' || status=1
 }
 
-for level in generic=128 x86_64_v2=128 x86_64_v3=256 x86_64_v4=512; do
+for level in $levels; do
   for of in kernels slip; do
     object=$(find "$build/lib/solver" -path "*kernels_${level%=*}.dir*" -name "${of}_level.cpp.o")
     if [ -z "$object" ]; then
