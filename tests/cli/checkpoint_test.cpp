@@ -17,8 +17,8 @@ class Checkpoint : public Shell {
         "sw-fracture - --box 500:900,600:700 --dip 30 --friction 0.1 --viscosity 4e3 -o m.nc");
   }
   const std::string scene = "sw-shoot m.nc --source 700,50 --wavelet ricker:20 --receivers 0:1500:50,20 ";
-  const std::string shoot = scene + "--time 1.2 --threads 1 ";
-  const std::string two_shots = scene + "--time 0.4 --threads 1 --source 300,60 ";
+  const std::string shoot = scene + "--time 1.6 --threads 1 ";
+  const std::string two_shots = scene + "--time 0.6 --threads 1 --source 300,60 ";
   const std::string often = "--checkpoint c --checkpoint-every 0.01 ";
 
   const std::string seldom = "--checkpoint c --checkpoint-every 0.1 ";
@@ -147,7 +147,7 @@ TEST_F(Checkpoint, NothingIsStreamedBeforeAllIsDone) {
 }
 
 TEST_F(Checkpoint, ShotsThatAreDoneAreNotShotAgain) {
-  const std::string shots = scene + "--time 0.4 --threads 3 --source 300,60 --source 900,70 ";
+  const std::string shots = scene + "--time 1.2 --threads 3 --source 300,60 --source 900,70 ";
   done(shots + "-o 'whole{shot}.sgy'");
   for (const std::string parallel : {"1", "2", "3"}) {
     const std::string line = shots + seldom + "--shots-in-parallel " + parallel + " -o 'out{shot}.sgy' ";
