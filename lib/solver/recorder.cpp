@@ -135,11 +135,12 @@ template <int D, class Real>
 bool Recorder<D, Real>::wants(const StepTime& time) const {
   const std::int64_t instant = time.step + 1;
   // The first sample that may still need it, or one before it.
-  const double first = double(instant - kept / 2) * time.dt_s / gather_.axis.interval_s;
+  constexpr std::int64_t half = kept / 2;
+  const double first = double(instant - half) * time.dt_s / gather_.axis.interval_s;
   for (auto n = std::max<std::int64_t>(0, std::int64_t(std::floor(first)) - 1); n < gather_.axis.count; ++n) {
     const auto before = steps_before(n, time.dt_s);
-    if (before - kept / 2 + 1 > instant) return false;
-    if (before + kept / 2 >= instant) return true;
+    if (before - half + 1 > instant) return false;
+    if (before + half >= instant) return true;
   }
   return false;
 }
