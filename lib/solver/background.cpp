@@ -95,13 +95,13 @@ class ColumnValues {
   explicit ColumnValues(std::int64_t cells) : cells_(cells) {
     for (auto& values : kept_) values.assign(std::size_t(cells * Rows::count), 0);
   }
-  Real* row(std::int64_t step, int row) { return of(step).data() + row * cells_; }
+  Real* row(std::int64_t step, int row) { return kept_[slot(step)].data() + row * cells_; }
   IncomingValues<Real> at(std::int64_t step, std::int64_t cell) const {
-    return {kept_[std::size_t(step % Pass::most_steps_under_way)].data() + cell, cells_, false};
+    return {kept_[slot(step)].data() + cell, cells_, false};
   }
 
  private:
-  std::vector<Real>& of(std::int64_t step) { return kept_[std::size_t(step % Pass::most_steps_under_way)]; }
+  static std::size_t slot(std::int64_t step) { return std::size_t(step % Pass::most_steps_under_way); }
   std::int64_t cells_;
   std::array<std::vector<Real>, std::size_t(Pass::most_steps_under_way)> kept_;  // [row][cell]
 };
