@@ -19,7 +19,7 @@ constexpr std::int64_t finest = D == 2 ? 128 : 48;
 /// When waves have gone over n cells, numbers that are not zero are ahead of them by head_start n/(n + half)
 /// cells (measured: ComputedShare.IsAsExpected, CubeComputedShare.IsAsExpected). In 3-D waves weaken faster.
 template <int D>
-constexpr double head_start = D == 2 ? 115 : 50;
+constexpr double head_start = D == 2 ? 115 : 60;
 template <int D>
 constexpr double half = D == 2 ? 12 : 40;
 
