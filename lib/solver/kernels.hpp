@@ -78,6 +78,21 @@ struct FaceKernels {
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 
+/// What a row of a sweep across the lines needs where nothing comes between its loops, in 2-D: `fields` and
+/// `here` are of the row that sends out, `below` of the one before; `done`, that is brought forward, lies
+/// max(reach, 1) rows behind. Of material row b, the others material_pitch apart; of what a ring keeps the
+/// first row, the others ring_pitch apart: up of P and, at 3, of S; faces as in Faces. Before and behind
+/// `done` are lo and hi.
+template <class Real>
+struct AcrossRows {
+  SweptRows<Real> fields;
+  std::int64_t stride, material_pitch, ring_pitch;
+  const Real *below, *here, *done;
+  const Real* up_from;
+  Real *up_to, *faces;
+  const Real *lo, *hi;
+};
+
 /// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
 /// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
@@ -90,6 +105,9 @@ struct Kernels {
                 const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   FaceKernels<Real> face[2][2];
+  /// All of a row across: leave, meet and update, in 2-D, of solid (null where stretches are of one
+  /// material).
+  void (*across)(std::int64_t n, Real scale, const AcrossRows<Real>& rows);
 };
 
 /// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;

@@ -1,5 +1,6 @@
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
+#include "solver/across_row.hpp"
 #include "solver/kernel_tables.hpp"
 #include "solver/reconstruction.hpp"
 
@@ -150,7 +151,8 @@ constexpr FaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>, upda
 template <int Order, bool Uniform, class Real>
 constexpr Kernels<Real> table = {leave<Order, Uniform, Real>,
                                  {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
-                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}}};
+                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
+                                 Uniform ? nullptr : across<Order, Real>};
 
 template <bool Uniform, class Real>
 const Kernels<Real>* of_order(int order) {

@@ -117,6 +117,8 @@ class Sweeps {
   const FaceKernels<Real>& face_kernels(bool uniform) const { return kernels_[uniform]->face[D - 2][shear_]; }
   void update(int axis, const Index<D>& line, const Columns& columns, Real* fields, std::int64_t pitch,
               Real scale, const Faces<Real>& lo, const Faces<Real>& hi, Workspace<Real>& work, bool remember);
+  bool across_at_once(int axis, const Index<D>& at, std::int64_t row, const Columns& columns, Real scale,
+                      Ring<Real>& ring, Workspace<Real>& work);
   void enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
                 const Leaving<Real>& entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
