@@ -78,15 +78,15 @@ struct FaceKernels {
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 
-/// What a row of a sweep across the lines needs where nothing comes between its loops, in 2-D: `fields` and
-/// `here` are of the row that sends out, `below` of the one before; `done`, that is brought forward, lies
-/// max(reach, 1) rows behind. Of material row b, the others material_pitch apart; of what a ring keeps the
-/// first row, the others ring_pitch apart: up of P and, at 3, of S; faces as in Faces. Before and behind
-/// `done` are lo and hi.
+/// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
+/// its `fields` and its material `here`, with `below` that of the row before; what left that one upwards
+/// (up_from) and will leave this one (up_to), P and up_pitch on S; the faces between both. The row `done`,
+/// that is brought forward, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
+/// material and faces the first rows, the others a pitch apart.
 template <class Real>
 struct AcrossRows {
   SweptRows<Real> fields;
-  std::int64_t stride, material_pitch, ring_pitch;
+  std::int64_t stride, material_pitch, up_pitch, face_pitch;
   const Real *below, *here, *done;
   const Real* up_from;
   Real *up_to, *faces;

@@ -36,10 +36,6 @@ void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, co
     leave_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
 }
 
-/// Where neither side carries a wave up = down = 0: this makes that 0/none instead of 0/0. Its square is
-/// still a number.
-constexpr double none = 1e-15;
-
 /// Of the P pair and so many S pairs: the common division is that of all.
 template <bool Uniform, int Shears, class Real>
 void meet(std::int64_t n, const Leaving<Real>& below, const Leaving<Real>& above,

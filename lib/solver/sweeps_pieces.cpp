@@ -190,46 +190,44 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
            ring.faces(done, x), ring.faces(done + 1, x), work, true);
 }
 
-/// A row across in one loop, where that makes the same of it: nothing comes between its parts. Whether it
-/// did.
+/// A row across in one loop, unless something comes between its parts: then it does nothing.
 template <int D, class Real>
 bool Sweeps<D, Real>::across_at_once(int axis, const Index<D>& at, std::int64_t row, const Columns& columns,
                                      Real scale, Ring<Real>& ring, Workspace<Real>& work) {
-  if constexpr (D == 2) {
-    const auto& layout = state_.layout;
-    const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
-    if (!shear_ || done < 0 || row >= layout.shape()[axis]) return false;
-    Index<D> here = at, below = at, brought = at;
-    here[axis] = row, below[axis] = row - 1, brought[axis] = done;
-    const auto number = layout.line_number(here);
-    if (state_.stretch(number, x, columns.last)) return false;
-    for (const auto& ends : ends_[axis])
-      if (ends.any(number, columns)) return false;
-    if (layer_)
-      for (const auto& part : layer_->covered(axis, brought, columns))
-        if (!part.empty()) return false;
-    const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
-    const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
-    work.coming().ask_for_one();
-    work.coming().ask_for_one();
-    kernels_[false]->across(columns.count(), scale,
-                            {{field(0), field(1), field(2), field(3), field(4)},
-                             layout.stride(axis),
-                             state_.material_layout.row_pitch(),
-                             ring.pitch(),
-                             material(below),
-                             material(here),
-                             material(brought),
-                             ring.leaving(row - 1, x).up_p,
-                             ring.leaving(row, x).up_p,
-                             ring.faces(row, x).v_p,
-                             ring.faces(done, x).v_p,
-                             ring.faces(done + 1, x).v_p});
-    work.coming().ask_for_one();
-    work.coming().ask_for_one();
-    return true;
-  }
-  return false;
+  const auto& layout = state_.layout;
+  const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
+  if (D != 2 || !shear_ || done < 0 || row >= layout.shape()[axis]) return false;
+  Index<D> here = at, below = at, brought = at;
+  here[axis] = row, below[axis] = row - 1, brought[axis] = done;
+  const auto number = layout.line_number(here);
+  // One material is better off with loops of its own.
+  if (state_.stretch(number, x, columns.last)) return false;
+  for (const auto& ends : ends_[axis])
+    if (ends.any(number, columns)) return false;
+  if (layer_)
+    for (const auto& part : layer_->covered(axis, brought, columns))
+      if (!part.empty()) return false;
+  const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
+  const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
+  const auto from = ring.leaving(row - 1, x), to = ring.leaving(row, x);
+  const auto faces = ring.faces(row, x);
+  work.coming().ask_for_one(), work.coming().ask_for_one();
+  kernels_[false]->across(columns.count(), scale,
+                          {{field(0), field(1), field(2), field(3), field(4)},
+                           layout.stride(axis),
+                           state_.material_layout.row_pitch(),
+                           to.up(1) - to.up(0),
+                           faces.s_p - faces.v_p,
+                           material(below),
+                           material(here),
+                           material(brought),
+                           from.up(0),
+                           to.up(0),
+                           faces.v_p,
+                           ring.faces(done, x).v_p,
+                           ring.faces(done + 1, x).v_p});
+  work.coming().ask_for_one(), work.coming().ask_for_one();
+  return true;
 }
 
 template <int D, class Real>

@@ -42,8 +42,6 @@ class Ring {
     return {at(first, x),     at(first + 1, x), at(first + 2, x),
             at(first + 3, x), at(first + 4, x), at(first + 5, x)};
   }
-  /// From a row of it to the next: up of P, of the other pairs 3 rows on; faces in their order.
-  std::int64_t pitch() const { return pitch_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
  private:

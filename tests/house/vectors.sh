@@ -111,6 +111,8 @@ want() {
           weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : 32)
           need("leave<" (2 * reach + 1) ", true, " real ">", sums)
           need("leave<" (2 * reach + 1) ", false, " real ">", sums + weights)
+          # Two pairs, meet and update, of which the first product is one.
+          need("across<" (2 * reach + 1) ", " real ">", 2 * (sums + weights) + 20 + 21)
         }
         # By S pairs.
         need("meet<true, 0, " real ">", 6); need("meet<false, 0, " real ">", 9)

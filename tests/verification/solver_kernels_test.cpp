@@ -100,14 +100,15 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
   Ring<Real> ring(0, n, int(behind) + 1);
   const auto& kernel = kernels<Real>(order, false);
   for (std::int64_t row = 0; row < rows; ++row) {
-    const auto here = ring.leaving(row, 0), above = ring.leaving(row - 1 + 2, 0);
+    const auto here = ring.leaving(row, 0), above = ring.leaving(row + 1, 0);
     const auto of = rows_of(row);
     const auto done = row - behind;
     if (at_once && done >= 0) {
-      kernel.across(
-          n, scale,
-          {swept(row), stride, pitch, ring.pitch(), rows_of(row - 1).b, of.b, rows_of(done).b, above.up_p,
-           here.up_p, ring.faces(row, 0).v_p, ring.faces(done, 0).v_p, ring.faces(done + 1, 0).v_p});
+      const auto faces = ring.faces(row, 0);
+      kernel.across(n, scale,
+                    {swept(row), stride, pitch, here.up_s - here.up_p, faces.s_p - faces.v_p,
+                     rows_of(row - 1).b, of.b, rows_of(done).b, above.up_p, here.up_p, faces.v_p,
+                     ring.faces(done, 0).v_p, ring.faces(done + 1, 0).v_p});
       continue;
     }
     kernel.leave(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up_p, here.down_p);
