@@ -146,6 +146,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
     }
   });
   find_stretches(state);
+  state.insides = find_insides(state);
 }
 
 template <int D, class Real>

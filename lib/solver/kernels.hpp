@@ -27,21 +27,26 @@ struct Box {
   }
 };
 
-/// Values at faces: of the P pair (v_n, s_nn), the S pair (v_t, s_nt) and, in 3-D, the other S pair; in 2-D
-/// its pointers are not used.
+/// Values at faces by pair: 0 P (v_n, s_nn), 1 and in 3-D 2 the S pairs (v_t, s_nt). Rows a pitch apart, so
+/// that it travels in registers: what has just been written piece by piece can not be read at once as a
+/// whole.
 template <class Real>
 struct Faces {
-  Real *v_p, *s_p, *v_s, *s_s, *v_s2 = v_s, *s_s2 = s_s;
-  Faces at(std::int64_t i) const { return {v_p + i, s_p + i, v_s + i, s_s + i, v_s2 + i, s_s2 + i}; }
+  Real* first;
+  std::int64_t pitch;
+  Real* v(int pair) const { return first + 2 * pair * pitch; }
+  Real* s(int pair) const { return first + (2 * pair + 1) * pitch; }
+  Faces at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
-/// What leaves cells up and down along the axis, of the P and the S pairs.
+/// What leaves cells up and down along the axis, by pair, in rows as in Faces.
 template <class Real>
 struct Leaving {
-  Real *up_p, *down_p, *up_s, *down_s, *up_s2 = up_s, *down_s2 = down_s;
-  /// By pair: 0 P, 1 and 2 S.
-  Real* up(int pair) const { return pair == 0 ? up_p : pair == 1 ? up_s : up_s2; }
-  Real* down(int pair) const { return pair == 0 ? down_p : pair == 1 ? down_s : down_s2; }
+  Real* first;
+  std::int64_t pitch;
+  Real* up(int pair) const { return first + 2 * pair * pitch; }
+  Real* down(int pair) const { return first + (2 * pair + 1) * pitch; }
+  Leaving at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
 /// Material of a stretch of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
@@ -70,11 +75,15 @@ template <class Real>
 struct FaceKernels {
   /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
   /// above (hi) meet (E8), of all pairs, with one division.
-  void (*meet)(std::int64_t n, const Leaving<Real>& up, const Leaving<Real>& down,
-               const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces);
+  void (*meet)(std::int64_t n, Leaving<Real> up, Leaving<Real> down, const MaterialRows<Real>& lo,
+               const MaterialRows<Real>& hi, Faces<Real> faces);
   /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], passive normal stresses += lambda dt/h [v*];
   /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
-  void (*update)(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
+  void (*update)(std::int64_t n, Real scale, Faces<Real> lo, Faces<Real> hi,
+                 const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  /// Both in one for cells of the first one's material with neighbours of that material, from what leaves
+  /// them and the neighbours below and above: there (E8) and (E9) come to (E9a).
+  void (*inside)(std::int64_t n, Real scale, Leaving<Real> below, Leaving<Real> here, Leaving<Real> above,
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 

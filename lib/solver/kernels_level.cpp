@@ -38,16 +38,16 @@ void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, co
 
 /// Of the P pair and so many S pairs: the common division is that of all.
 template <bool Uniform, int Shears, class Real>
-void meet(std::int64_t n, const Leaving<Real>& below, const Leaving<Real>& above,
-          const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Faces<Real>& faces) {
+void meet(std::int64_t n, Leaving<Real> below, Leaving<Real> above, const MaterialRows<Real>& lo,
+          const MaterialRows<Real>& hi, Faces<Real> faces) {
   const Real *zp_lo = lo.zp, *zp_hi = hi.zp, *zs_lo = lo.zs, *zs_hi = hi.zs;
   const Real zp_lo0 = zp_lo[0], zp_hi0 = zp_hi[0], zs_lo0 = zs_lo[0], zs_hi0 = zs_hi[0];
-  const Real* __restrict up_p = below.up_p, * __restrict down_p = above.down_p;
-  const Real* __restrict up_s = below.up_s, * __restrict down_s = above.down_s;
-  const Real* __restrict up_s2 = below.up_s2, * __restrict down_s2 = above.down_s2;
-  Real* __restrict v_p = faces.v_p, * __restrict s_p = faces.s_p;
-  Real* __restrict v_s = faces.v_s, * __restrict s_s = faces.s_s;
-  Real* __restrict v_s2 = faces.v_s2, * __restrict s_s2 = faces.s_s2;
+  const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0);
+  const Real* __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
+  const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
+  Real* __restrict v_p = faces.v(0), * __restrict s_p = faces.s(0);
+  Real* __restrict v_s = faces.v(1), * __restrict s_s = faces.s(1);
+  Real* __restrict v_s2 = faces.v(2), * __restrict s_s2 = faces.s(2);
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real p_lo = Uniform ? zp_lo0 : zp_lo[i], p_hi = Uniform ? zp_hi0 : zp_hi[i];
@@ -70,12 +70,12 @@ void meet(std::int64_t n, const Leaving<Real>& below, const Leaving<Real>& above
 }
 
 template <bool Uniform, int D, bool Shear, class Real>
-void update(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-            const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+void update(std::int64_t n, Real scale, Faces<Real> lo, Faces<Real> hi, const MaterialRows<Real>& material,
+            const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale;
-  const Real* __restrict v_lo = lo.v_p, * __restrict s_lo = lo.s_p, * __restrict w_lo = lo.v_s, * __restrict t_lo = lo.s_s;
-  const Real* __restrict v_hi = hi.v_p, * __restrict s_hi = hi.s_p, * __restrict w_hi = hi.v_s, * __restrict t_hi = hi.s_s;
-  const Real* __restrict w2_lo = lo.v_s2, * __restrict t2_lo = lo.s_s2, * __restrict w2_hi = hi.v_s2, * __restrict t2_hi = hi.s_s2;
+  const Real* __restrict v_lo = lo.v(0), * __restrict s_lo = lo.s(0), * __restrict w_lo = lo.v(1), * __restrict t_lo = lo.s(1);
+  const Real* __restrict v_hi = hi.v(0), * __restrict s_hi = hi.s(0), * __restrict w_hi = hi.v(1), * __restrict t_hi = hi.s(1);
+  const Real* __restrict w2_lo = lo.v(2), * __restrict t2_lo = lo.s(2), * __restrict w2_hi = hi.v(2), * __restrict t2_hi = hi.s(2);
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
   const Real b0 = b[0], zp0 = zp[0], zs0 = zs[0];
   Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
@@ -98,6 +98,42 @@ void update(std::int64_t n, Real scale, const Faces<Real>& lo, const Faces<Real>
     if constexpr (Shear && D == 3) {
       vt2[i] += moved * (t2_hi[i] - t2_lo[i]);
       st2[i] += s_modulus * (w2_hi[i] - w2_lo[i]);
+    }
+  }
+}
+
+template <int D, bool Shear, class Real>
+void inside(std::int64_t n, Real scale, Leaving<Real> below, Leaving<Real> here, Leaving<Real> above,
+            const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+  const Real size = scale < 0 ? -scale : scale, b = material.b[0], zp = material.zp[0];
+  const Real zs = Shear ? material.zs[0] : Real(0), moved = Real(0.5) * (scale * b), strained = size * b;
+  const Real p_modulus = strained * zp * zp, s_modulus = strained * zs * zs;
+  const Real along = p_modulus - 2 * s_modulus;
+  // Divided by first, as at faces: in front of the waves all vanishes that is too small a velocity.
+  const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
+  // A fluid carries no shear.
+  const Real moved_s = zs > 0 ? moved : Real(0);
+  const Real* __restrict up_lo = below.up(0), * __restrict up = here.up(0), * __restrict down = here.down(0), * __restrict down_hi = above.down(0);
+  const Real* __restrict sup_lo = below.up(1), * __restrict sup = here.up(1), * __restrict sdown = here.down(1), * __restrict sdown_hi = above.down(1);
+  const Real* __restrict tup_lo = below.up(2), * __restrict tup = here.up(2), * __restrict tdown = here.down(2), * __restrict tdown_hi = above.down(2);
+  Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
+  Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real ups = up[i] - up_lo[i], downs = down_hi[i] - down[i], dv = (downs + ups) * over_zp;
+    v[i] += moved * (downs - ups);
+    s[i] += p_modulus * dv;
+    passive[i] += along * dv;
+    if constexpr (D == 3) passive2[i] += along * dv;
+    if constexpr (Shear) {
+      const Real s_ups = sup[i] - sup_lo[i], s_downs = sdown_hi[i] - sdown[i];
+      vt[i] += moved_s * (s_downs - s_ups);
+      st[i] += s_modulus * ((s_downs + s_ups) * over_zs);
+    }
+    if constexpr (Shear && D == 3) {
+      const Real t_ups = tup[i] - tup_lo[i], t_downs = tdown_hi[i] - tdown[i];
+      vt2[i] += moved_s * (t_downs - t_ups);
+      st2[i] += s_modulus * ((t_downs + t_ups) * over_zs);
     }
   }
 }
@@ -142,7 +178,8 @@ void damp_in(std::int64_t n, const Real* __restrict factor, const Real* __restri
 }
 
 template <bool Uniform, int D, bool Shear, class Real>
-constexpr FaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>, update<Uniform, D, Shear, Real>};
+constexpr FaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>, update<Uniform, D, Shear, Real>,
+                                    inside<D, Shear, Real>};
 
 template <int Order, bool Uniform, class Real>
 constexpr Kernels<Real> table = {leave<Order, Uniform, Real>,

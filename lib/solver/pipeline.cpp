@@ -49,9 +49,9 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
   const int threads = parallel_threads();
   const auto most = std::int64_t(Pass::most_steps_under_way / steps_a_pass_);
   under_way_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
-  const auto ring = [&] { return Ring<Real>(0, layout_.padded_nx(), sweeps.ring_rows(), D); };
+  const auto ring = [&](int axis) { return sweeps.make_ring(axis, 0, layout_.padded_nx()); };
   for (auto& pass : under_way_)
-    for (std::int64_t n = 0; n < along_z * (D == 2 ? 1 : cut_cells_); ++n) pass.rings.push_back(ring());
+    for (std::int64_t n = 0; n < along_z * (D == 2 ? 1 : cut_cells_); ++n) pass.rings.push_back(ring(D - 1));
   std::int64_t widest = layout_.padded_nx();
   if (D == 2) widest = std::min(stripe_width_ * 2 + longest.front().ahead, widest);
   for (int n = 0; n < parallel_workers(); ++n) {
@@ -59,7 +59,7 @@ Pipeline<D, Real>::Pipeline(Sweeps<D, Real>& sweeps, const State<D, Real>& state
                         std::vector<Carry<Real>>(std::size_t(along_x * (D == 2 ? carries_a_sweep() : 1))),
                         {},
                         std::vector<Columns>(2 * longest.size())});
-    for (std::int64_t m = 0; m < along_y * carries_a_sweep(); ++m) workers_.back().rings.push_back(ring());
+    for (std::int64_t m = 0; m < along_y * carries_a_sweep(); ++m) workers_.back().rings.push_back(ring(1));
   }
 }
 

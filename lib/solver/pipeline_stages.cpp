@@ -51,8 +51,10 @@ void Pipeline<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, std::in
     }
   }
   row -= side_rows;
+  // The first cells of the next stripe come of what this one leaves, too.
+  const std::int64_t left = D == 2 ? Sweeps<D, Real>::lag + 1 : 0;
   if (row < 0 || row >= rows_ ||
-      !stage.needed.meets({row, row + 1}, {columns[D == 2 && ends ? 1 : 0].first, columns->last}))
+      !stage.needed.meets({row, row + 1}, {columns[D == 2 && ends ? 1 : 0].first, columns->last + left}))
     return;
   const auto carry = [&](int sweep) -> Carry<Real>& {
     const auto number = stage.number + sweep;
@@ -91,7 +93,8 @@ void Pipeline<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, const 
     if (low || high) sweeps_.measure_flanks(row);
     for (auto step = steps.first; step < steps.last; ++step) {
       const auto done = step - behind;
-      if (quiet({row - flank_rows, row + flank_rows + 1}, {done - 1, step + 1}, whole_lines())) {
+      if (quiet({row - flank_rows, row + flank_rows + 1}, {done - 1 - sweeps_.reach(), step + 1},
+                whole_lines())) {
         sweeps_.pass_over(step, whole_lines(), ring);
         continue;
       }
@@ -127,7 +130,8 @@ void Pipeline<D, Real>::along_z(const Stage& stage, std::int64_t step, const Col
   constexpr auto lag = Sweeps<D, Real>::lag;
   const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeEdge<D, Real>::reach;
   if (!stage.needed.meets({done, step + 1}, columns)) return;
-  const Columns rows{done - 1, step + 1};
+  // All that row `done` comes of, also rows that have been brought forward since.
+  const Columns rows{done - 1 - sweeps_.reach(), step + 1};
   const auto measure = [&] {
     sweeps_.measure_ends(step, {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "grid/field.hpp"
+#include "solver/insides.hpp"
 #include "solver/kernels.hpp"
 
 namespace slipwave::solver {
@@ -115,6 +116,8 @@ struct State {
   /// a stretch read nothing else of the material.
   std::vector<Stretch<Real>> stretches;
   std::vector<std::size_t> first_stretch;
+  /// By axis, of these stretches.
+  std::array<Insides, D> insides;
 
   Real* field_row(const Index<D>& at, int row) {
     return fields.data() + layout.line(at) + row * layout.row_pitch();
@@ -133,14 +136,22 @@ struct State {
     const Real* b = material_row(line, row_b) + x;
     return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
   }
+  std::span<const Stretch<Real>> stretches_of(std::int64_t line) const {
+    const auto first = first_stretch[std::size_t(line)];
+    return {stretches.data() + first, first_stretch[std::size_t(line) + 1] - first};
+  }
   /// The stretch that holds all cells first <= x < last of a line, null where there is none.
   const Stretch<Real>* stretch(std::int64_t line, std::int64_t first, std::int64_t last) const {
-    const auto end = first_stretch[std::size_t(line) + 1];
-    for (auto n = first_stretch[std::size_t(line)]; n < end && stretches[n].first <= first; ++n)
-      if (last <= stretches[n].last) return &stretches[n];
+    for (const auto& of : stretches_of(line)) {
+      if (of.first > first) break;
+      if (last <= of.last) return &of;
+    }
     return nullptr;
   }
 };
+
+template <int D, class Real>
+std::array<Insides, std::size_t(D)> find_insides(const State<D, Real>& state);
 
 /// State with zero fields and zero material, memory touched first by the threads that own its lines.
 template <int D, class Real>

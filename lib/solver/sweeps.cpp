@@ -47,6 +47,14 @@ Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
 }
 
 template <int D, class Real>
+Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t width) const {
+  const int waiting = int(rows_behind() - reach_);
+  // Faces need what leaves two rows. Without them it is kept until its row is brought forward.
+  const int leaving = state_.insides[std::size_t(axis)].empty() ? 2 : waiting + 2;
+  return Ring<Real>(first, width, leaving, waiting + 1, D);
+}
+
+template <int D, class Real>
 std::int64_t Sweeps<D, Real>::span_end_cells() const {
   std::size_t cells = 0;
   for (const auto& axis : ends_)
@@ -85,8 +93,8 @@ auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
 /// What leaves the cells of these columns; `leaving` begins with the first of them.
 template <int D, class Real>
 void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
-                               std::int64_t pitch, std::int64_t stride, Real scale,
-                               const Leaving<Real>& leaving, Coming<Real>& coming) const {
+                               std::int64_t pitch, std::int64_t stride, Real scale, Leaving<Real> leaving,
+                               Coming<Real>& coming) const {
   const auto number = state_.layout.line_number(line);
   const auto* stretch = state_.stretch(number, columns.first, columns.last);
   const auto material = stretch ? stretch->rows() : state_.material_from(line, columns.first);
@@ -106,11 +114,11 @@ void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& co
   }
 }
 
-/// Brings these columns forward; the faces begin with the first of them.
+/// Brings these columns forward.
 template <int D, class Real>
 void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& columns, Real* fields,
-                             std::int64_t pitch, Real scale, const Faces<Real>& lo, const Faces<Real>& hi,
-                             Workspace<Real>& work, bool remember) {
+                             std::int64_t pitch, Real scale, const Flux& flux, Workspace<Real>& work,
+                             bool remember) {
   const auto& rows = changed_[axis];
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
@@ -119,14 +127,27 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const Columns& colu
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)
       std::copy(field(n) + part.first, field(n) + part.last, work.before(n) + part.first - columns.first);
-  const auto begin = [&](int n) { return field(n) + columns.first; };
-  SweptRows<Real> swept{};
-  if constexpr (D == 2) swept = {begin(0), begin(1), begin(2), begin(3), begin(4)};
-  if constexpr (D == 3)
-    swept = {begin(0), begin(1), begin(2), begin(4), begin(5), begin(3), begin(6), begin(7)};
-  const auto* stretch = state_.stretch(state_.layout.line_number(line), columns.first, columns.last);
-  const auto material = stretch ? stretch->rows() : state_.material_from(line, columns.first);
-  face_kernels(stretch != nullptr).update(columns.count(), scale, lo, hi, material, swept);
+  const auto swept = [&](std::int64_t x) -> SweptRows<Real> {
+    const auto at = [&](int n) { return field(n) + x; };
+    if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
+    if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
+  };
+  const auto number = state_.layout.line_number(line);
+  const auto stretch_of = [&](const Columns& part) { return state_.stretch(number, part.first, part.last); };
+  const auto inside = [&](const Columns& part) {
+    const auto from = part.first - columns.first;
+    // Its material is known without looking for it in memory.
+    face_kernels(true).inside(part.count(), scale, flux.below.at(from), flux.here.at(from),
+                              flux.above.at(from), stretch_of(part)->rows(), swept(part.first));
+  };
+  const auto between_faces = [&](const Columns& part) {
+    const auto from = part.first - columns.first;
+    const auto* stretch = stretch_of(part);
+    face_kernels(stretch != nullptr)
+        .update(part.count(), scale, flux.lo.at(from), flux.hi.at(from),
+                stretch ? stretch->rows() : state_.material_from(line, part.first), swept(part.first));
+  };
+  tell_apart(state_.insides[std::size_t(axis)].of(number), 0, columns, inside, between_faces);
   work.coming().ask_for_one();
   for (const auto& part : covered)
     for (int n = 0; n < row_count && !part.empty(); ++n)
@@ -162,7 +183,7 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
     for (std::int64_t n = begin; n < end; ++n) {
       const auto stripe = n % stripes;
       const Columns columns{stripe * stripe_width, std::min((stripe + 1) * stripe_width, nx)};
-      Ring<Real> ring(columns.first, columns.count(), ring_rows(), D);
+      auto ring = make_ring(axis, columns.first, columns.count());
       Index<D> at{};
       if (D == 3) at[std::size_t(3 - axis)] = n / stripes;
       for (std::int64_t step = 0; step < rows + rows_behind(); ++step)

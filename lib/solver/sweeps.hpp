@@ -63,7 +63,8 @@ class Sweeps {
   void pass_over(std::int64_t step, const Columns& columns, Ring<Real>& ring) const;
   /// Rows that a sweep across still needs behind the newest one.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
-  int ring_rows() const { return std::max(reach_, 1) + 1; }
+  /// For a sweep along that axis of columns from `first` on, once the material is there.
+  Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
   /// Whether free edges of an axis bend the fields: sweeps along it then need the velocities there of
   /// FreeEdge::reach cells on all sides as they were before the sweep.
@@ -112,15 +113,20 @@ class Sweeps {
              Workspace<Real>& work);
   void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
   void send_out(int axis, const Index<D>& line, const Columns& columns, const Real* fields,
-                std::int64_t pitch, std::int64_t stride, Real scale, const Leaving<Real>& leaving,
+                std::int64_t pitch, std::int64_t stride, Real scale, Leaving<Real> leaving,
                 Coming<Real>& coming) const;
   const FaceKernels<Real>& face_kernels(bool uniform) const { return kernels_[uniform]->face[D - 2][shear_]; }
+  /// What brings cells forward, beginning with the first of them: faces before and behind them, what leaves
+  /// them and their neighbours.
+  struct Flux {
+    Faces<Real> lo, hi;
+    Leaving<Real> below, here, above;
+  };
   void update(int axis, const Index<D>& line, const Columns& columns, Real* fields, std::int64_t pitch,
-              Real scale, const Faces<Real>& lo, const Faces<Real>& hi, Workspace<Real>& work, bool remember);
+              Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
   bool across_at_once(int axis, const Index<D>& at, std::int64_t row, const Columns& columns, Real scale,
                       Ring<Real>& ring, Workspace<Real>& work);
-  void enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
-                const Leaving<Real>& entering) const;
+  void enter_at(int axis, int side, std::int64_t n, Leaving<Real> leaving, Leaving<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const Columns& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;

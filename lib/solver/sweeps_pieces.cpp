@@ -1,16 +1,11 @@
 #include <algorithm>
+#include <cstring>
 
 #include "solver/sweeps.hpp"
 
 // Pieces of sweeps: along x a stretch of a line, along other axes a row of a stripe of columns.
 namespace slipwave::solver {
 namespace {
-
-template <class Real>
-Leaving<Real> shifted(const Leaving<Real>& from, std::int64_t cells) {
-  return {from.up_p + cells,   from.down_p + cells, from.up_s + cells,
-          from.down_s + cells, from.up_s2 + cells,  from.down_s2 + cells};
-}
 
 /// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
 /// the edge is part of the law (fill_material).
@@ -35,8 +30,8 @@ void Sweeps<D, Real>::expect(std::int64_t line, const Columns& columns, Coming<R
 
 /// At the low edge what goes up comes from what went down, at the high one the other way round.
 template <int D, class Real>
-void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, const Leaving<Real>& leaving,
-                               const Leaving<Real>& entering) const {
+void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, Leaving<Real> leaving,
+                               Leaving<Real> entering) const {
   const EdgeLaw law = edges_[axis][side];
   for (int p = 0; p < D; ++p)
     enter(law, pairs_[axis][p].wave, n, side ? leaving.up(p) : leaving.down(p),
@@ -81,18 +76,23 @@ void Sweeps<D, Real>::go_on(const Piece& piece, bool begins, bool ends, Real sca
   const auto faces = work.faces();
   const auto leaving = work.leaving();
   const std::int64_t last = piece.leave.last - std::min(piece.leave.first, piece.update.first);
-  const auto waiting = [&](auto&& copy) {
-    copy(faces.v_p, carry.v[0]), copy(faces.s_p, carry.s[0]);
-    copy(faces.v_s, carry.v[1]), copy(faces.s_s, carry.s[1]);
-    if (D == 3) copy(faces.v_s2, carry.v[2]), copy(faces.s_s2, carry.s[2]);
+  // Of the cells that wait their faces, what leaves them and what leaves the one before upwards.
+  const bool insides = !state_.insides[0].empty();
+  const auto waiting = [&](std::int64_t from, auto&& copy) {
+    for (int p = 0; p < D; ++p) {
+      copy(faces.v(p) + from, carry.v[p]);
+      copy(faces.s(p) + from, carry.s[p]);
+      if (insides) copy(leaving.up(p) + from - 1, carry.up[p]);
+      if (insides) copy(leaving.down(p) + from, carry.down[p]);
+      copy(leaving.up(p) + from + lag - 1, carry.last_up[p]);
+    }
   };
-  if (!begins) waiting([](Real* to, const Real* from) { std::copy(from, from + lag, to); });
-  for (int p = 0; p < D && piece.leave.first > 0; ++p)
-    leaving.up(p)[begins ? -1 : lag - 1] = begins ? Real(0) : carry.up[p];
+  // Of known size, so that nothing is called for it.
+  if (!begins) waiting(0, [](Real* to, const auto& kept) { std::memcpy(to, kept, sizeof kept); });
+  for (int p = 0; begins && p < D && piece.leave.first > 0; ++p) leaving.up(p)[-1] = 0;
   sweep_piece(piece, scale, work);
   if (ends) return;
-  waiting([last](const Real* from, Real* to) { std::copy(from + last - lag, from + last, to); });
-  for (int p = 0; p < D; ++p) carry.up[p] = leaving.up(p)[last - 1];
+  waiting(last - lag, [](const Real* from, auto& kept) { std::memcpy(kept, from, sizeof kept); });
 }
 
 template <int D, class Real>
@@ -121,36 +121,42 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   const std::int64_t nx = state_.layout.shape()[0], base = std::min(piece.leave.first, piece.update.first);
   const bool begins = piece.leave.first == 0, ends = piece.leave.last >= nx;
   const Index<D> at = state_.layout.line_index(piece.line);
-  const auto first = shifted(work.leaving(), piece.leave.first - base);
+  const auto first = work.leaving().at(piece.leave.first - base);
   if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
   if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
   send_out(0, at, piece.leave, piece.fields, piece.pitch, 1, scale, first, work.coming());
-  if (begins) enter_at(0, 0, 1, first, shifted(first, -1));
+  if (begins) enter_at(0, 0, 1, first, first.at(-1));
   Columns met = piece.leave;
   if (ends) {
-    const auto beyond = shifted(first, nx - piece.leave.first);
+    const auto beyond = first.at(nx - piece.leave.first);
     met.last += lag;  // where the row fills whole blocks its last face is in the next one
     for (int p = 0; p < D; ++p)
       for (Real* const zero : {beyond.up(p), beyond.down(p)}) std::fill(zero, zero + met.last - nx, Real(0));
-    enter_at(0, 1, 1, shifted(beyond, -1), beyond);
+    enter_at(0, 1, 1, beyond.at(-1), beyond);
   }
   // The faces at the ends of a line have other material on one side.
   const std::int64_t inner_first = begins ? std::min(lag, met.last) : met.first;
   const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : met.last;
   const auto faces = work.faces();
-  for (const Columns& part :
-       {Columns{met.first, inner_first}, Columns{inner_first, inner_last}, Columns{inner_last, met.last}}) {
-    if (part.empty()) continue;
-    const auto here = shifted(first, part.first - piece.leave.first);
+  const auto meet = [&](const Columns& part) {
+    const auto here = first.at(part.first - piece.leave.first);
     const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
     const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
-    face_kernels(stretch).meet(part.count(), shifted(here, -1), here, lo,
+    face_kernels(stretch).meet(part.count(), here.at(-1), here, lo,
                                stretch ? lo : state_.material_from(at, part.first),
                                faces.at(part.first - base));
-  }
+  };
+  const auto insides = state_.insides[0].of(piece.line);
+  for (const Columns& part :
+       {Columns{met.first, inner_first}, Columns{inner_first, inner_last}, Columns{inner_last, met.last}})
+    // The first face of a run is that of the cell before it, too.
+    tell_apart(
+        insides, 1, part, [](const Columns&) {}, meet);
   work.coming().ask_for_one();
+  const auto here = work.leaving().at(piece.update.first - base);
   const auto lo = faces.at(piece.update.first - base);
-  update(0, at, piece.update, piece.fields, piece.pitch, scale, lo, lo.at(1), work, piece.remember);
+  update(0, at, piece.update, piece.fields, piece.pitch, scale, {lo, lo.at(1), here.at(-1), here, here.at(1)},
+         work, piece.remember);
 }
 
 template <int D, class Real>
@@ -175,59 +181,39 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.leaving(row - 1, x), here = ring.leaving(row, x);
     if (row == 0) enter_at(axis, 0, n, here, above);
     if (row == rows) enter_at(axis, 1, n, above, here);
-    const auto stretch = [&](std::int64_t k) {
-      return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), x, x + n) : nullptr;
+    const auto inside = [&](std::int64_t k) {
+      return k >= 0 && k < rows ? state_.insides[std::size_t(axis)].of(layout.line_number(line(k)))
+                                : std::span<const Columns>();
     };
-    const auto *lo = stretch(row - 1), *hi = stretch(row);
-    const bool uniform = lo && hi;
-    face_kernels(uniform).meet(n, above, here, uniform ? lo->rows() : state_.material_from(line(row - 1), x),
-                               uniform ? hi->rows() : state_.material_from(line(row), x), ring.faces(row, x));
+    const auto meet = [&](const Columns& part) {
+      const auto stretch = [&](std::int64_t k) {
+        return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), part.first, part.last)
+                                  : nullptr;
+      };
+      const auto *lo = stretch(row - 1), *hi = stretch(row);
+      const bool uniform = lo && hi;
+      const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
+      face_kernels(uniform).meet(part.count(), above.at(part.first - x), here.at(part.first - x),
+                                 uniform ? lo->rows() : from(row - 1), uniform ? hi->rows() : from(row),
+                                 ring.faces(row, part.first));
+    };
+    // Faces between cells that need none are left out.
+    const auto below = inside(row - 1);
+    tell_apart(
+        inside(row), 0, wide,
+        [&](const Columns& part) {
+          tell_apart(
+              below, 0, part, [](const Columns&) {}, meet);
+        },
+        meet);
   }
   work.coming().ask_for_one();
   const std::int64_t done = step - rows_behind();
   if (done >= 0 && done < rows)
     update(axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
-           ring.faces(done, x), ring.faces(done + 1, x), work, true);
-}
-
-/// A row across in one loop, unless something comes between its parts: then it does nothing.
-template <int D, class Real>
-bool Sweeps<D, Real>::across_at_once(int axis, const Index<D>& at, std::int64_t row, const Columns& columns,
-                                     Real scale, Ring<Real>& ring, Workspace<Real>& work) {
-  const auto& layout = state_.layout;
-  const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
-  if (D != 2 || !shear_ || done < 0 || row >= layout.shape()[axis]) return false;
-  Index<D> here = at, below = at, brought = at;
-  here[axis] = row, below[axis] = row - 1, brought[axis] = done;
-  const auto number = layout.line_number(here);
-  // One material is better off with loops of its own.
-  if (state_.stretch(number, x, columns.last)) return false;
-  for (const auto& ends : ends_[axis])
-    if (ends.any(number, columns)) return false;
-  if (layer_)
-    for (const auto& part : layer_->covered(axis, brought, columns))
-      if (!part.empty()) return false;
-  const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
-  const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
-  const auto from = ring.leaving(row - 1, x), to = ring.leaving(row, x);
-  const auto faces = ring.faces(row, x);
-  work.coming().ask_for_one(), work.coming().ask_for_one();
-  kernels_[false]->across(columns.count(), scale,
-                          {{field(0), field(1), field(2), field(3), field(4)},
-                           layout.stride(axis),
-                           state_.material_layout.row_pitch(),
-                           to.up(1) - to.up(0),
-                           faces.s_p - faces.v_p,
-                           material(below),
-                           material(here),
-                           material(brought),
-                           from.up(0),
-                           to.up(0),
-                           faces.v_p,
-                           ring.faces(done, x).v_p,
-                           ring.faces(done + 1, x).v_p});
-  work.coming().ask_for_one(), work.coming().ask_for_one();
-  return true;
+           {ring.faces(done, x), ring.faces(done + 1, x), ring.leaving(done - 1, x), ring.leaving(done, x),
+            ring.leaving(done + 1, x)},
+           work, true);
 }
 
 template <int D, class Real>
@@ -239,9 +225,8 @@ void Sweeps<D, Real>::pass_over(std::int64_t step, const Columns& columns, Ring<
   const auto leaving = ring.leaving(row, columns.first);
   const auto faces = ring.faces(row, columns.first);
   const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
-  for (int p = 0; p < D; ++p) clear(leaving.up(p));
-  for (Real* const zero : {faces.v_p, faces.s_p, faces.v_s, faces.s_s}) clear(zero);
-  if (D == 3) clear(faces.v_s2), clear(faces.s_s2);
+  for (int p = 0; p < D; ++p)
+    for (Real* const zero : {leaving.up(p), leaving.down(p), faces.v(p), faces.s(p)}) clear(zero);
 }
 
 template void Sweeps<2, float>::pass_over(std::int64_t, const Columns&, Ring<float>&) const;

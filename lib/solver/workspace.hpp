@@ -6,50 +6,48 @@
 
 namespace slipwave::solver {
 
-/// What a piece of a sweep along x leaves for the next one of the line: what leaves its last cell upwards and
-/// the faces of the cells that wait for it.
+/// What a piece of a sweep along x leaves for the next one of the line: the faces of the cells that wait for
+/// it, what leaves the last of them upwards and, where faces are left out, what leaves each of them and,
+/// upwards, the cell before them.
 template <class Real>
 struct Carry {
-  static constexpr std::int64_t faces = 16;
+  static constexpr std::int64_t cells = 16;
   static constexpr int most_pairs = 3;
-  Real up[most_pairs];
-  Real v[most_pairs][faces], s[most_pairs][faces];
+  Real last_up[most_pairs][1], up[most_pairs][cells], down[most_pairs][cells];
+  Real v[most_pairs][cells], s[most_pairs][cells];
 };
 
-/// What a sweep across the rows keeps between them: what leaves the newest row upwards (and the one before),
-/// and the faces of the rows that are still to be brought forward. Columns from `first` on, of `pairs` pairs
+/// What a sweep across the rows keeps between them: faces of so many rows, of those that are still to be
+/// brought forward, and what leaves the newest rows, at least two. Columns from `first` on, of `pairs` pairs
 /// (2, in 3-D 3).
 template <class Real>
 class Ring {
  public:
-  Ring(std::int64_t first, std::int64_t width, int face_rows, int pairs = 2)
+  Ring(std::int64_t first, std::int64_t width, int leaving_rows, int face_rows, int pairs)
       : first_(first),
         pitch_(width + 2 * gap),
+        leaving_rows_(leaving_rows),
         face_rows_(face_rows),
         pairs_(pairs),
-        values_(pitch_ * rows(face_rows, pairs)) {
+        values_(pitch_ * 2 * pairs * (leaving_rows + face_rows)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
-  /// From column x on. What leaves downwards is met at once: there is one row of it.
+  /// From column x on, of row -1 or a later one.
   Leaving<Real> leaving(std::int64_t row, std::int64_t x) {
-    const int turn = int(row & 1);
-    if (pairs_ == 2) return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x)};
-    return {at(turn, x), at(2, x), at(3 + turn, x), at(5, x), at(6 + turn, x), at(8, x)};
+    const int first = 2 * pairs_ * int((row + 1) % leaving_rows_);
+    return {at(first, x), pitch_};
   }
   Faces<Real> faces(std::int64_t row, std::int64_t x) {
-    const int first = 3 * pairs_ + 2 * pairs_ * int(row % face_rows_);
-    if (pairs_ == 2) return {at(first, x), at(first + 1, x), at(first + 2, x), at(first + 3, x)};
-    return {at(first, x),     at(first + 1, x), at(first + 2, x),
-            at(first + 3, x), at(first + 4, x), at(first + 5, x)};
+    const int first = 2 * pairs_ * (leaving_rows_ + int(row % face_rows_));
+    return {at(first, x), pitch_};
   }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
  private:
   static constexpr std::int64_t gap = 16;
-  static int rows(int face_rows, int pairs) { return (3 + 2 * face_rows) * pairs; }
   Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
   std::int64_t first_, pitch_;
-  int face_rows_, pairs_;
+  int leaving_rows_, face_rows_, pairs_;
   Buffer<Real> values_;
 };
 
@@ -86,14 +84,8 @@ class Workspace {
       : pitch_(widest + 6 * gap), pairs_(pairs), values_(pitch_ * (4 * pairs + most_changed + field_rows)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
-  Leaving<Real> leaving() {
-    if (pairs_ == 2) return {row(0), row(1), row(2), row(3)};
-    return {row(0), row(1), row(2), row(3), row(8), row(9)};
-  }
-  Faces<Real> faces() {
-    if (pairs_ == 2) return {row(4), row(5), row(6), row(7)};
-    return {row(4), row(5), row(6), row(7), row(10), row(11)};
-  }
+  Leaving<Real> leaving() { return {row(0), pitch_}; }
+  Faces<Real> faces() { return {row(2 * pairs_), pitch_}; }
   /// Fields as they were, while the matched layer needs them.
   Real* before(int n) { return row(4 * pairs_ + n); }
   /// A copy of all fields of a piece.

@@ -28,8 +28,8 @@ class Rows {
   Real* row(int n) { return values_.data() + n * pitch + gap; }
   solver::MaterialRows<Real> material(std::int64_t i) { return {row(5) + i, row(6) + i, row(7) + i}; }
   /// Faces between the cells: what lies before cell i stands at i.
-  solver::Faces<Real> faces() { return {row(8), row(9), row(10), row(11)}; }
-  Real* leaving(int n) { return row(12 + n); }
+  solver::Faces<Real> faces() { return {row(8), pitch}; }
+  solver::Leaving<Real> leaving() { return {row(12), pitch}; }
 
  private:
   static constexpr int count = 16;
@@ -37,32 +37,38 @@ class Rows {
   std::vector<Real> values_;
 };
 
-enum class Part { leave, meet, update, sweep };
+enum class Part { leave, meet, update, inside, sweep };
 
 template <class Real>
 void run(benchmark::State& state, Part part, int order, bool uniform) {
   const auto& kernels = solver::kernels<Real>(order, uniform);
   const auto& face = kernels.face[0][1];
   Rows<Real> rows;
-  const auto leave = [&](int v, int s, int z, int to) {
+  const auto leave = [&](int v, int s, int z, int pair) {
     kernels.leave(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1, Real(1),
-                  rows.leaving(to) - 1, rows.leaving(to + 1) - 1);
+                  rows.leaving().up(pair) - 1, rows.leaving().down(pair) - 1);
   };
   const auto meet = [&] {
-    face.meet(cells + 1, {rows.leaving(0) - 1, rows.leaving(1) - 1, rows.leaving(2) - 1, rows.leaving(3) - 1},
-              {rows.leaving(0), rows.leaving(1), rows.leaving(2), rows.leaving(3)}, rows.material(-1),
-              rows.material(0), rows.faces());
+    face.meet(cells + 1, rows.leaving().at(-1), rows.leaving(), rows.material(-1), rows.material(0),
+              rows.faces());
   };
   const auto update = [&] {
     face.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
                 {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };
+  const auto inside = [&] {
+    const auto here = rows.leaving();
+    face.inside(cells, Real(1), here.at(-1), here, here.at(1), rows.material(0),
+                {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
+  };
+  const bool all = part == Part::sweep;
   const double least = least_seconds(state, [&] {
     for (std::int64_t n = 0; n < repeats; ++n) {
-      if (part == Part::leave || part == Part::sweep) leave(0, 1, 6, 0);
-      if (part == Part::leave || part == Part::sweep) leave(3, 4, 7, 2);
-      if (part == Part::meet || part == Part::sweep) meet();
-      if (part == Part::update || part == Part::sweep) update();
+      if (part == Part::leave || all) leave(0, 1, 6, 0);
+      if (part == Part::leave || all) leave(3, 4, 7, 1);
+      if (part == Part::meet || (all && !uniform)) meet();
+      if (part == Part::update || (all && !uniform)) update();
+      if (part == Part::inside || (all && uniform)) inside();
       benchmark::ClobberMemory();
     }
   });
@@ -90,6 +96,7 @@ void add_all() {
     }
     add<Real>("meet", Part::meet, 5, uniform);
     add<Real>("update", Part::update, 5, uniform);
+    if (uniform) add<Real>("inside", Part::inside, 5, uniform);
   }
 }
 

@@ -142,6 +142,12 @@ Scene<2> too_strong(double amplitude) {
   scene.survey.sources[0].position_m = {602.5, 552.5};
   scene.survey.sources[0].amplitude = amplitude;
   scene.numerics.double_precision = true;
+  // What is reckoned at faces overflows before fields do; in wide stretches of one material nothing is.
+  auto& medium = scene.model.medium;
+  const auto& shape = medium.grid().shape;
+  for (std::int64_t k = 0; k < shape[1]; ++k)
+    for (std::int64_t i = k % 2; i < shape[0]; i += 32)
+      if (medium.vs({i, k}) > 0) medium.vp({i, k}) *= 0.999F;
   return scene;
 }
 
