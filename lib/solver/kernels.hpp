@@ -87,6 +87,21 @@ struct FaceKernels {
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
 };
 
+/// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
+/// its `fields` and its material `here`, with `below` that of the row before; what left that one upwards
+/// (up_from) and will leave this one (up_to), P and up_pitch on S; the faces between both. The row `done`,
+/// that is brought forward, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
+/// material and faces the first rows, the others a pitch apart.
+template <class Real>
+struct AcrossRows {
+  SweptRows<Real> fields;
+  std::int64_t stride, material_pitch, up_pitch, face_pitch;
+  const Real *below, *here, *done;
+  const Real* up_from;
+  Real *up_to, *faces;
+  const Real *lo, *hi;
+};
+
 /// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
 /// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
@@ -99,6 +114,9 @@ struct Kernels {
                 const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   FaceKernels<Real> face[2][2];
+  /// All of a row across: leave, meet and update, in 2-D, of solid (null where stretches are of one
+  /// material).
+  void (*across)(std::int64_t n, Real scale, const AcrossRows<Real>& rows);
 };
 
 /// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;

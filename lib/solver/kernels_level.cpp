@@ -1,5 +1,6 @@
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
+#include "solver/across_row.hpp"
 #include "solver/kernel_tables.hpp"
 #include "solver/reconstruction.hpp"
 
@@ -34,10 +35,6 @@ void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, co
   else
     leave_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
 }
-
-/// Where neither side carries a wave up = down = 0: this makes that 0/none instead of 0/0. Its square is
-/// still a number.
-constexpr double none = 1e-15;
 
 /// Of the P pair and so many S pairs: the common division is that of all.
 template <bool Uniform, int Shears, class Real>
@@ -187,7 +184,8 @@ constexpr FaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>, upda
 template <int Order, bool Uniform, class Real>
 constexpr Kernels<Real> table = {leave<Order, Uniform, Real>,
                                  {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
-                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}}};
+                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
+                                 Uniform ? nullptr : across<Order, Real>};
 
 template <bool Uniform, class Real>
 const Kernels<Real>* of_order(int order) {

@@ -1,9 +1,8 @@
 #pragma once
 
 /// Reconstruction of what a cell sends through its two faces (theory.md (E4), (E5)): weights of the sums and
-/// differences of its neighbours, polynomials in the Courant number a by way of q = a (1 - a). Plain named
-/// scalars: both compilers vectorise it. No standard header here: this is compiled once for each instruction
-/// set.
+/// differences of its neighbours, polynomials in the Courant number a. Plain named scalars: both compilers
+/// vectorise it. No standard header here: this is compiled once for each instruction set.
 namespace slipwave::solver {
 
 /// Weights of the even part, e0 u_0 + e1 (u_-1 + u_1) + ..., and of the odd part, o1 (u_1 - u_-1) + ..., of
@@ -14,26 +13,36 @@ template <int Order, class Real>
   e0 = 1;
   e1 = e2 = e3 = o1 = o2 = o3 = 0;
   if constexpr (Order > 1) {
-    const Real left = 1 - a, q = a * left, bent = left - 2 * q;
+    // All but e0 have the factor 1 - a, so they are exactly 0 where a = 1. What a neighbour further out adds
+    // to the weights of the order below are multiples (alternating binomial coefficients) of its own two:
+    // hardly anything is reckoned twice.
+    const Real left = Real(1. / 4) - Real(1. / 4) * a;
     if constexpr (Order == 3) {
-      e1 = Real(1. / 12) * bent;
-      o1 = Real(1. / 4) * left;
+      e1 = left * (Real(1. / 3) - Real(2. / 3) * a);
+      o1 = left;
       e0 = 1 - 2 * e1;
-    } else if constexpr (Order == 5) {
-      e1 = bent * (Real(7. / 60) + q * Real(1. / 60));
-      e2 = bent * (Real(-1. / 120) + q * Real(-1. / 240));
-      o1 = left * (Real(1. / 3) + q * Real(1. / 24));
-      o2 = left * (Real(-1. / 24) + q * Real(-1. / 48));
-      e0 = 1 - 2 * (e1 + e2);
     } else {
-      static_assert(Order == 7);
-      e1 = bent * (Real(113. / 840) + q * (Real(1. / 35) + q * Real(1. / 672)));
-      e2 = bent * (Real(-13. / 840) + q * (Real(-1. / 112) + q * Real(-1. / 1680)));
-      e3 = bent * (Real(1. / 840) + q * (Real(1. / 1260) + q * Real(1. / 10080)));
-      o1 = left * (Real(3. / 8) + q * (Real(5. / 72) + q * Real(1. / 288)));
-      o2 = left * (Real(-3. / 40) + q * (Real(-31. / 720) + q * Real(-1. / 360)));
-      o3 = left * (Real(1. / 120) + q * (Real(1. / 180) + q * Real(1. / 1440)));
-      e0 = 1 - 2 * (e1 + e2 + e3);
+      // The factors q + 2 and, of order 7, q + 6.
+      const Real q = a * left, more = Real(1. / 6) + Real(1. / 3) * q, odd = left * more;
+      if constexpr (Order == 5) {
+        const Real bent = left * (Real(1. / 5) - Real(2. / 5) * a), even = bent * more;
+        e1 = bent * (Real(5. / 3) + 4 * more);
+        e2 = -even;
+        o1 = left + 2 * odd;
+        o2 = -odd;
+        e0 = 1 - 2 * (e1 - even);
+      } else {
+        static_assert(Order == 7);
+        const Real bent = left * (Real(1. / 7) - Real(2. / 7) * a), even = bent * more;
+        const Real most = Real(1. / 5) + Real(2. / 15) * q;
+        e1 = bent * (Real(7. / 3) + more * (Real(28. / 5) + 15 * most));
+        e2 = even * (Real(-7. / 5) - 6 * most);
+        e3 = even * most;
+        o3 = odd * most;
+        o2 = -odd - 4 * o3;
+        o1 = left + 2 * odd + 5 * o3;
+        e0 = 1 - 2 * (e1 + e2 + e3);
+      }
     }
   }
 }
@@ -43,22 +52,33 @@ template <int Order, class Real>
 template <int Order, class Real>
 [[gnu::always_inline]] inline void even_odd(const Real* u, long stride, Real e0, Real e1, Real e2, Real e3,
                                             Real o1, Real o2, Real o3, Real& even, Real& odd) {
-  even = e0 * u[0];
-  odd = 0;
-  if constexpr (Order >= 3) {
-    const Real low = u[-stride], high = u[stride];
-    even += e1 * (low + high);
-    odd = o1 * (high - low);
-  }
-  if constexpr (Order >= 5) {
-    const Real low = u[-2 * stride], high = u[2 * stride];
-    even += e2 * (low + high);
-    odd += o2 * (high - low);
-  }
-  if constexpr (Order >= 7) {
-    const Real low = u[-3 * stride], high = u[3 * stride];
-    even += e3 * (low + high);
-    odd += o3 * (high - low);
+  // e0 is known last of the weights: nothing but one sum waits for it.
+  const Real own = u[0];
+  if constexpr (Order == 1) {
+    even = e0 * own;
+    odd = 0;
+  } else {
+    const Real low = u[-stride], high = u[stride], sum = low + high, difference = high - low;
+    if constexpr (Order == 3) {
+      even = e1 * sum + e0 * own;
+      odd = o1 * difference;
+    } else {
+      const Real low2 = u[-2 * stride], high2 = u[2 * stride], sum2 = low2 + high2,
+                 difference2 = high2 - low2;
+      if constexpr (Order == 5) {
+        odd = o2 * difference2;
+        even = e2 * sum2;
+      } else {
+        const Real low3 = u[-3 * stride], high3 = u[3 * stride];
+        odd = o3 * (high3 - low3);
+        even = e3 * (low3 + high3);
+        odd = o2 * difference2 + odd;
+        even = e2 * sum2 + even;
+      }
+      odd = o1 * difference + odd;
+      even = e1 * sum + even;
+      even = e0 * own + even;
+    }
   }
 }
 

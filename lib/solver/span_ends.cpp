@@ -222,6 +222,13 @@ SpanEnds::SpanEnds(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis
   }
 }
 
+bool SpanEnds::any_of_line(std::int64_t line, const Columns& columns) const {
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  const auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
+                                     [](const SpanEnd& end, std::int64_t x) { return end.x < x; });
+  return cell != stop && cell->x < columns.last;
+}
+
 template <class Real>
 void SpanEnds::correct_line(int order, std::int64_t line, const Columns& columns, std::int64_t stride,
                             const Real* v, const Real* s, const MaterialRows<Real>& material, Real scale,

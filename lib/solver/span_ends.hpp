@@ -69,6 +69,10 @@ class SpanEnds {
            const BentAt<D>& bent);
 
   std::size_t size() const { return cells_.size(); }
+  /// Whether it would correct anything of these columns.
+  bool any(std::int64_t line, const Columns& columns) const {
+    return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && any_of_line(line, columns);
+  }
   /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
   /// first.
   template <class Real>
@@ -79,6 +83,7 @@ class SpanEnds {
   }
 
  private:
+  bool any_of_line(std::int64_t line, const Columns& columns) const;
   template <class Real>
   void correct_line(int order, std::int64_t line, const Columns& columns, std::int64_t stride, const Real* v,
                     const Real* s, const MaterialRows<Real>& material, Real scale, Real* up,

@@ -124,6 +124,8 @@ class Sweeps {
   };
   void update(int axis, const Index<D>& line, const Columns& columns, Real* fields, std::int64_t pitch,
               Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
+  bool across_at_once(int axis, const Index<D>& at, std::int64_t row, const Columns& columns, Real scale,
+                      Ring<Real>& ring, Workspace<Real>& work);
   void enter_at(int axis, int side, std::int64_t n, Leaving<Real> leaving, Leaving<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const Columns& columns, Real scale);

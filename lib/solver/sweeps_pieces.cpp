@@ -172,6 +172,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
   };
   if (row == 0) fill_ghost_rows(axis, at, 0, wide, scale);
   if (row == std::max<std::int64_t>(0, rows - reach_)) fill_ghost_rows(axis, at, 1, wide, scale);
+  if (across_at_once(axis, at, row, wide, scale, ring, work)) return;
   const std::int64_t x = wide.first, n = wide.count();
   if (row >= 0 && row < rows)
     send_out(axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(), layout.stride(axis),

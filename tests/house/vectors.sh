@@ -106,11 +106,13 @@ want() {
         real = reals[r]
         for (reach = 0; reach <= 3; ++reach) {
           # Of the two fields of a pair: the own value, then of each neighbour sum, difference and their parts. Of the
-          # weights: the Courant number, q and its kin, two polynomials a neighbour, the one of the own value.
+          # weights: the Courant number 2, then as reconstruction.hpp makes them.
           sums = reach == 0 ? 3 : 2 * 6 * reach + 6
-          weights = reach == 0 ? 0 : 2 + 4 + (reach + 1) + 2 * reach * (2 * (reach - 1) + 1)
+          weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : 32)
           need("leave<" (2 * reach + 1) ", true, " real ">", sums)
           need("leave<" (2 * reach + 1) ", false, " real ">", sums + weights)
+          # Two pairs, meet and update, of which the first product is one.
+          need("across<" (2 * reach + 1) ", " real ">", 2 * (sums + weights) + 20 + 21)
         }
         # By S pairs.
         need("meet<true, 0, " real ">", 6); need("meet<false, 0, " real ">", 9)

@@ -63,14 +63,18 @@ TEST(Insides, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
                (axis == 0 || (around(i, k - 1) >= stretch && around(i, k + 1) >= stretch));
       };
       for (std::int64_t i = 0; i < nx; ++i) {
-        if (inside[std::size_t(i)]) EXPECT_TRUE(alone(i)) << axis << ": " << i << ' ' << k;
+        if (inside[std::size_t(i)]) {
+          EXPECT_TRUE(alone(i)) << axis << ": " << i << ' ' << k;
+        }
         inside_in_all += inside[std::size_t(i)];
       }
       // None is left out that could be one: two whole blocks of such cells.
       for (std::int64_t i = 0; i + 2 * block <= nx; i += block) {
         bool all = true;
         for (auto j = i; j < i + 2 * block; ++j) all &= same(j, k, i, k) && alone(j) && long_enough(j);
-        if (all) EXPECT_TRUE(inside[std::size_t(i)]) << axis << ": " << i << ' ' << k;
+        if (all) {
+          EXPECT_TRUE(inside[std::size_t(i)]) << axis << ": " << i << ' ' << k;
+        }
       }
     }
     EXPECT_GT(inside_in_all, nx * nz / 2);

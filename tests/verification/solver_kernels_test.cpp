@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "solver/kernels.hpp"
+#include "solver/workspace.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -63,6 +65,74 @@ TEST(Kernels, OfOneMaterialGiveTheSameBits) {
         for (const std::int64_t n : {256, 16, 37}) {
           const auto any = written<Real>(order, false, scale, n), one = written<Real>(order, true, scale, n);
           EXPECT_EQ(std::memcmp(any.data(), one.data(), any.size() * sizeof(Real)), 0)
+              << "order " << order << ", scale " << scale << ", " << n << " cells";
+        }
+  };
+  compare(float());
+  compare(double());
+}
+
+/// Fields after a sweep across some rows of random material, the first of them by loops of their own.
+template <class Real>
+std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t n) {
+  constexpr std::int64_t rows = 12, gap = 16;
+  constexpr int field_rows = 5;
+  const std::int64_t reach = reach_of(order), behind = std::max<std::int64_t>(reach, 1), pitch = n + gap;
+  std::mt19937 engine(11);
+  const auto values = [&](std::int64_t count, double least, double most) {
+    std::uniform_real_distribution<double> random(least, most);
+    std::vector<Real> all(std::size_t(count * pitch));
+    for (auto& value : all) value = Real(random(engine));
+    return all;
+  };
+  auto fields = values((rows + 2 * max_reach) * field_rows, -1, 1);
+  // Those of one line follow each other: b, then both impedances.
+  auto material = values(rows * 3, 0.4, 0.8);
+  const std::int64_t stride = field_rows * pitch;
+  const auto field = [&](std::int64_t row, int number) {
+    return fields.data() + (row + max_reach) * stride + number * pitch;
+  };
+  const auto rows_of = [&](std::int64_t row) {
+    const Real* const b = material.data() + 3 * row * pitch;
+    return MaterialRows<Real>{b, b + pitch, b + 2 * pitch};
+  };
+  const auto swept = [&](std::int64_t row) {
+    return SweptRows<Real>{field(row, 1), field(row, 3), field(row, 2), field(row, 0), field(row, 4)};
+  };
+  Ring<Real> ring(0, n, 2, int(behind) + 1, 2);
+  const auto& kernel = kernels<Real>(order, false);
+  for (std::int64_t row = 0; row < rows; ++row) {
+    const auto here = ring.leaving(row, 0), above = ring.leaving(row + 1, 0);
+    const auto of = rows_of(row);
+    const auto done = row - behind;
+    if (at_once && done >= 0) {
+      const auto faces = ring.faces(row, 0);
+      kernel.across(n, scale,
+                    {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b,
+                     of.b, rows_of(done).b, above.up(0), here.up(0), faces.first, ring.faces(done, 0).first,
+                     ring.faces(done + 1, 0).first});
+      continue;
+    }
+    kernel.leave(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up(0), here.down(0));
+    kernel.leave(n, stride, field(row, 0), field(row, 4), of.zs, of.b, scale, here.up(1), here.down(1));
+    if (row == 0) continue;
+    kernel.face[0][1].meet(n, above, here, rows_of(row - 1), of, ring.faces(row, 0));
+    if (done >= 0)
+      kernel.face[0][1].update(n, scale, ring.faces(done, 0), ring.faces(done + 1, 0), rows_of(done),
+                               swept(done));
+  }
+  return fields;
+}
+
+TEST(Kernels, OfARowAcrossAtOnceGiveTheSameBits) {
+  const auto compare = [](auto real) {
+    using Real = decltype(real);
+    for (const int order : orders)
+      for (const Real scale : {Real(1), Real(0.5), Real(-0.25)})
+        for (const std::int64_t n : {256, 16, 37}) {
+          const auto apart = swept_across<Real>(order, false, scale, n);
+          const auto at_once = swept_across<Real>(order, true, scale, n);
+          EXPECT_EQ(std::memcmp(apart.data(), at_once.data(), apart.size() * sizeof(Real)), 0)
               << "order " << order << ", scale " << scale << ", " << n << " cells";
         }
   };
