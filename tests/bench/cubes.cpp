@@ -7,6 +7,7 @@
 #include "base/parallel.hpp"
 #include "bench.hpp"
 #include "measure.hpp"
+#include "run.hpp"
 #include "scenes.hpp"
 #include "solver/step.hpp"
 
@@ -48,12 +49,8 @@ Scene<3> make_scene(const Cube& what) {
 /// Floating-point operations on a cell in a step, counted as in run.cpp: three pairs a sweep, five sweeps of
 /// which the two along x are one.
 int flops_a_cell_step(int order, bool uniform) {
-  const int m = solver::reach_of(order);
-  const int weights = m == 0 ? 0 : 2 + 4 + (m + 1) + 2 * m * (2 * (m - 1) + 1);
-  const int sums = m == 0 ? 0 : 2 * (1 + 6 * m - 1);
-  const int leave = sums + (m == 0 ? 3 : 6) + (uniform ? 0 : weights);
-  const int meet = 18 + (uniform ? 0 : 10), update = 22 + (uniform ? 0 : 10);
-  return 4 * (3 * leave + meet + update);
+  const int others = uniform ? 13 + 2 * 9 : 18 + 10 + 22 + 10;
+  return 4 * (3 * flops_of_leaving(order, uniform) + others);
 }
 
 void register_cube(const std::string& name, const Cube& what) {

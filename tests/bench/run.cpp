@@ -41,23 +41,31 @@ std::int64_t Shot::memory_bytes() const {
   return std::visit([](const auto& step) { return step->memory_bytes(); }, impl_->step);
 }
 
-int flops_a_cell_step(int order, bool uniform, bool fluid) {
+int flops_of_leaving(int order, bool uniform) {
   const int m = solver::reach_of(order);
-  // Of one pair of fields in one sweep, as written in reconstruction.hpp.
+  // As written in reconstruction.hpp.
   // Courant number 2, then by neighbours on each side as they are reckoned there.
   constexpr int weights_by_reach[] = {0, 2 + 7, 2 + 18, 2 + 32};
-  const int weights = weights_by_reach[m];
   // Of each of two fields: e0 u, sum, times, plus; difference, times, plus but for the first.
   const int sums = m == 0 ? 0 : 2 * (1 + 6 * m - 1);
-  const int leave = sums + (m == 0 ? 3 : 6) + (uniform ? 0 : weights);
-  // Riemann: v* 2, s* 4 a pair; sums of impedances 2 a pair, the common division 4 (of one pair 1).
+  return sums + (m == 0 ? 3 : 6) + (uniform ? 0 : weights_by_reach[m]);
+}
+
+int flops_a_cell_step(int order, bool uniform, bool fluid) {
   const int pairs = fluid ? 1 : 2;
-  const int meet = 6 * pairs + (uniform ? 0 : 2 * pairs + (fluid ? 1 : 4));
-  // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one product for both), v_t 3, s_nt 3; the
-  // moduli where they differ from cell to cell.
-  const int update = fluid ? 7 + (uniform ? 0 : 4) : 14 + (uniform ? 0 : 8);
+  int others = 0;
+  if (uniform) {
+    // Differences of what leaves up and down, v* 2, v 3, stresses 2 each; of S v* 2, v 3, stress 2.
+    others = 11 + (fluid ? 0 : 9);
+  } else {
+    // Riemann: v* 2, s* 4 a pair; sums of impedances 2 a pair, the common division 4 (of one pair 1).
+    const int meet = 8 * pairs + (fluid ? 1 : 4);
+    // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one product for both), v_t 3, s_nt 3; the
+    // moduli.
+    others = meet + (fluid ? 7 + 4 : 14 + 8);
+  }
   // Sweeps along x of neighbouring steps are one: two sweeps a step.
-  return 2 * (pairs * leave + meet + update);
+  return 2 * (pairs * flops_of_leaving(order, uniform) + others);
 }
 
 int bytes_a_cell_step(const Case& what) {

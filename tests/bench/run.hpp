@@ -22,7 +22,9 @@ class Shot {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Floating-point operations on a cell in a step of second order in time, counted by hand (run.cpp).
+/// Floating-point operations, counted by hand (run.cpp): on a cell in one sweep, of one pair of fields, for
+/// what leaves it; and on a cell in a step of second order in time.
+int flops_of_leaving(int order, bool uniform);
 int flops_a_cell_step(int order, bool uniform, bool fluid);
 /// Bytes of a cell that a step must move: fields read and written, material read unless it is uniform.
 int bytes_a_cell_step(const Case& what);
