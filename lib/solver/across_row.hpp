@@ -6,11 +6,12 @@
 // No standard header here: this is compiled once for each instruction set, and the linker could keep one copy
 // for everybody.
 namespace slipwave::solver {
-namespace {
 
 /// Where neither side carries a wave up = down = 0: this makes that 0/none instead of 0/0. Its square is
 /// still a number.
-constexpr double none = 1e-15;
+inline constexpr double none = 1e-15;
+
+namespace {
 
 /// A row of a sweep across in one loop. It must say what leave, meet and update say, in the same words: then
 /// it gives the same bits (Kernels.OfARowAcrossAtOnceGiveTheSameBits). What leaves downwards and half of the

@@ -34,8 +34,8 @@ template <class Real>
 struct Faces {
   Real* first;
   std::int64_t pitch;
-  Real* v(int pair) const { return first + 2 * pair * pitch; }
-  Real* s(int pair) const { return first + (2 * pair + 1) * pitch; }
+  Real* v(int pair) const { return first + pitch * 2 * pair; }
+  Real* s(int pair) const { return first + pitch * (2 * pair + 1); }
   Faces at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
@@ -44,8 +44,8 @@ template <class Real>
 struct Leaving {
   Real* first;
   std::int64_t pitch;
-  Real* up(int pair) const { return first + 2 * pair * pitch; }
-  Real* down(int pair) const { return first + (2 * pair + 1) * pitch; }
+  Real* up(int pair) const { return first + pitch * 2 * pair; }
+  Real* down(int pair) const { return first + pitch * (2 * pair + 1); }
   Leaving at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
