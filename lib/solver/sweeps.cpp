@@ -96,19 +96,27 @@ void Sweeps<D, Real>::send_out(int axis, const Index<D>& line, const Columns& co
                                std::int64_t pitch, std::int64_t stride, Real scale, Leaving<Real> leaving,
                                Coming<Real>& coming) const {
   const auto number = state_.layout.line_number(line);
-  const auto* stretch = state_.stretch(number, columns.first, columns.last);
-  const auto material = stretch ? stretch->rows() : state_.material_from(line, columns.first);
-  const auto& leave = kernels_[stretch != nullptr]->leave;
-  const auto& all = pairs_[axis];
+  const std::int64_t nx = state_.layout.shape()[0];
+  // What fills up the last block of a line is of no material: it would keep all of a piece from being of one.
+  const Columns whole{columns.first,
+                      columns.last > nx ? std::max(columns.first, nx / lag * lag) : columns.last};
+  const auto leave = [&](const Pair& pair, const Columns& part, Real* up, Real* down) {
+    if (part.empty()) return;
+    const auto* stretch = state_.stretch(number, part.first, part.last);
+    const auto material = stretch ? stretch->rows() : state_.material_from(line, part.first);
+    const auto from = part.first - columns.first;
+    kernels_[stretch != nullptr]->leave(
+        part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
+        pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up + from, down + from);
+  };
   for (int p = 0; p < pair_count(); ++p) {
-    const Pair& pair = all[p];
-    const Real* v = fields + pair.v * pitch + columns.first;
-    const Real* s = fields + pair.s * pitch + columns.first;
-    const Real* z = pair.wave == wave_p ? material.zp : material.zs;
+    const Pair& pair = pairs_[axis][p];
     Real* const up = leaving.up(p);
     Real* const down = leaving.down(p);
-    leave(columns.count(), stride, v, s, z, material.b, scale, up, down);
-    ends_[axis][pair.wave].correct(order_, number, columns, stride, v, s,
+    leave(pair, whole, up, down);
+    leave(pair, {whole.last, columns.last}, up, down);
+    ends_[axis][pair.wave].correct(order_, number, columns, stride, fields + pair.v * pitch + columns.first,
+                                   fields + pair.s * pitch + columns.first,
                                    state_.material_from(line, columns.first), scale, up, down);
     coming.ask_for_one();
   }
