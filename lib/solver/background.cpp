@@ -115,13 +115,12 @@ class Column {
          double vp_max)
       : medium_(column_of(scene.model.medium, x)),
         domain_(make_domain(medium_, edges_of(scene), zone_cells)),
-        state_(make_state<2, Real>(domain_.grid.shape)),
+        state_(make_filled_state<2, Real>(domain_, medium_, dt_s)),
         sweeps_(state_, domain_, scene.numerics.order),
         work_(sweeps_.make_workspace(state_.layout.padded_nx())),
         splitting_(splitting(2, scene.numerics.time_order)),
         factors_(zone_factors(domain_, 0, dt_s, vp_max)),
         values_(domain_.grid.shape[0]) {
-    fill_material(state_, domain_, medium_, dt_s);
     for (std::int64_t k = 0; k < domain_.grid.shape[0]; ++k) {
       const double wave = form.wave(0, domain_.grid.centre(0, k), 0);
       for (int row = 0; row < Rows::count; ++row) field(row)[k] = Real(form.factor(row) * wave);

@@ -50,6 +50,13 @@ double fastest_wave(const Medium<D>& medium);
 /// Writes b, impedances and Courant numbers of every cell and of the ghosts beyond the edges into the state.
 template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s);
+/// A state with zero fields and that material.
+template <int D, class Real>
+State<D, Real> make_filled_state(const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
+  auto state = make_state<D, Real>(domain.grid.shape);
+  fill_material(state, domain, medium, dt_s);
+  return state;
+}
 
 /// Kinetic and elastic energy of a cell of the computed grid, J (2-D: J per metre).
 template <int D, class Real>

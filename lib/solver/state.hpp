@@ -136,6 +136,7 @@ struct State {
     const Real* b = material_row(line, row_b) + x;
     return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
   }
+  /// Those of a line, in the order of its cells.
   std::span<const Stretch<Real>> stretches_of(std::int64_t line) const {
     const auto first = first_stretch[std::size_t(line)];
     return {stretches.data() + first, first_stretch[std::size_t(line) + 1] - first};
@@ -150,6 +151,7 @@ struct State {
   }
 };
 
+/// By axis, of a state whose stretches are known.
 template <int D, class Real>
 std::array<Insides, std::size_t(D)> find_insides(const State<D, Real>& state);
 

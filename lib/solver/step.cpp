@@ -48,13 +48,6 @@ bool any_zone(const Scene<D>& scene, const Source<D>& source) {
   return any && zone_cells(scene, source) > 0;
 }
 
-template <int D, class Real>
-State<D, Real> filled_state(const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
-  auto state = make_state<D, Real>(domain.grid.shape);
-  fill_material(state, domain, medium, dt_s);
-  return state;
-}
-
 }  // namespace
 
 template <int D, class Real>
@@ -67,7 +60,7 @@ Step<D, Real>::Step(const Scene<D>& scene, std::size_t shot, const SnapshotSink<
       unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_, ranks)),
       domain_(make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                           scene.part)),
-      state_(filled_state<D, Real>(domain_, scene.model.medium, dt_s_)),
+      state_(make_filled_state<D, Real>(domain_, scene.model.medium, dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
       pipeline_(sweeps_, state_, scene.numerics.time_order, dt_s_, *this, scene.numerics.passage,
                 domain_.rows_beside()),

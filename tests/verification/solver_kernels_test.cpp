@@ -57,19 +57,28 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
   return all;
 }
 
-TEST(Kernels, OfOneMaterialGiveTheSameBits) {
-  const auto compare = [](auto real) {
+/// values_of(real, order, second way, scale, cells) both ways, of all orders and precisions.
+template <class ValuesOf>
+void expect_same_bits(const ValuesOf& values_of) {
+  const auto compare = [&](auto real) {
     using Real = decltype(real);
     for (const int order : orders)
       for (const Real scale : {Real(1), Real(0.5), Real(-0.25)})
         for (const std::int64_t n : {256, 16, 37}) {
-          const auto any = written<Real>(order, false, scale, n), one = written<Real>(order, true, scale, n);
-          EXPECT_EQ(std::memcmp(any.data(), one.data(), any.size() * sizeof(Real)), 0)
+          const auto one = values_of(real, order, false, scale, n),
+                     other = values_of(real, order, true, scale, n);
+          EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(Real)), 0)
               << "order " << order << ", scale " << scale << ", " << n << " cells";
         }
   };
   compare(float());
   compare(double());
+}
+
+TEST(Kernels, OfOneMaterialGiveTheSameBits) {
+  expect_same_bits([](auto real, int order, bool uniform, auto scale, std::int64_t n) {
+    return written<decltype(real)>(order, uniform, scale, n);
+  });
 }
 
 /// Fields after a sweep across some rows of random material, the first of them by loops of their own.
@@ -125,19 +134,9 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
 }
 
 TEST(Kernels, OfARowAcrossAtOnceGiveTheSameBits) {
-  const auto compare = [](auto real) {
-    using Real = decltype(real);
-    for (const int order : orders)
-      for (const Real scale : {Real(1), Real(0.5), Real(-0.25)})
-        for (const std::int64_t n : {256, 16, 37}) {
-          const auto apart = swept_across<Real>(order, false, scale, n);
-          const auto at_once = swept_across<Real>(order, true, scale, n);
-          EXPECT_EQ(std::memcmp(apart.data(), at_once.data(), apart.size() * sizeof(Real)), 0)
-              << "order " << order << ", scale " << scale << ", " << n << " cells";
-        }
-  };
-  compare(float());
-  compare(double());
+  expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
+    return swept_across<decltype(real)>(order, at_once, scale, n);
+  });
 }
 
 /// Fields that a sweep leaves in cells of one material, by way of faces or without; all reckoned from the
