@@ -36,7 +36,7 @@ struct Finding {
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.files, "FILE");
   options.require("FILE");
-  options.add("json", settings.json, "one JSON object a line for each file");
+  options.add("json", settings.json, "one JSON object per file and line");
   settings.traces.declare(options);
 }
 
@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-info", "Says what is in models, snapshots, gathers and tables of accuracy.", "[options] FILE...",
+      {"sw-info", "Describes models, snapshots, gathers and tables of accuracy.", "[options] FILE...",
        "sw-info model.nc gather.sgy"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });
