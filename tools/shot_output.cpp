@@ -8,10 +8,10 @@
 #include <span>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
-#include "base/parallel.hpp"
 #include "base/parse.hpp"
+#include "io/output_file.hpp"
 #include "output/snapshot_netcdf.hpp"
+#include "parallel/threads.hpp"
 #include "segy/writer.hpp"
 #include "segy/writer_headers.hpp"
 #include "shot_balance.hpp"
@@ -52,9 +52,9 @@ std::size_t ShotOutput::shots_at_once(const Scene<D>& scene) const {
 }
 
 template <int D>
-RunBook ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
-                              const cli::Context& context) const {
-  RunBook::Settings settings;
+RunState ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
+                               const cli::Context& context) const {
+  RunState::Settings settings;
   settings.path = checkpoint;
   settings.shots = scene.survey.sources.size();
   settings.first_shot = std::size_t(first_shot);
@@ -69,12 +69,12 @@ RunBook ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
     settings.identity.push_back({"first shot", std::to_string(first_shot)});
     settings.identity.push_back({"command line or history of the model", history, false});
   }
-  return RunBook(std::move(settings));
+  return RunState(std::move(settings));
 }
 
 /// Whether the files that a finished shot has to itself are where they were put.
 template <int D>
-bool ShotOutput::in_place_still(const Scene<D>& scene, RunBook& book, std::size_t shot) const {
+bool ShotOutput::in_place_still(const Scene<D>& scene, RunState& book, std::size_t shot) const {
   const auto there = [](const std::string& path) { return path == "-" || access(path.c_str(), F_OK) == 0; };
   const std::size_t number = number_of(shot);
   bool all = snapshots.empty() || there(name_for(snapshots, number, ""));
@@ -88,7 +88,7 @@ bool ShotOutput::in_place_still(const Scene<D>& scene, RunBook& book, std::size_
 template <int D>
 struct ShotOutput::Underway {
   std::vector<std::string> entries;  // of the textual headers
-  RunBook book;
+  RunState book;
   TraceFiles files;
   std::optional<ShotSnapshots<D>> kept;
 };
@@ -103,12 +103,12 @@ void ShotOutput::check_run(const Scene<D>& scene, const cli::Context& context) c
   if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
     throw Error("found --keep-unstable and an output to standard output, expected the name of a file",
                 ErrorKind::usage);
-  in_place("--slice", [&] { cut_of(scene.part.whole(scene.model.grid()), slice); });
+  in_place("--slice", [&] { cut_of(scene.subdomain.whole(scene.model.grid()), slice); });
 }
 
 template <int D>
 void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                           const Crew* crew) const {
+                           const RankGroups* crew) const {
   // Samples are written alike whether anything was computed before, or all came from a checkpoint.
   flush_subnormals();
   Underway<D> run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
@@ -126,7 +126,7 @@ void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, co
 }
 
 /// The traces of all shots that are in the book, taken out of it, by the names of their files.
-std::map<std::string, Gather> ShotOutput::gathers_by_file(RunBook& book, std::size_t shots) const {
+std::map<std::string, Gather> ShotOutput::gathers_by_file(RunState& book, std::size_t shots) const {
   std::map<std::string, Gather> gathers;
   for (std::size_t shot = 1; shot <= shots; ++shot) {
     Gather* const gather = book.gather(shot);
@@ -179,14 +179,14 @@ std::string ShotOutput::keep(const Scene<D>& scene, const Unstable& error, const
 
 template <int D>
 void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                            Underway<D>& run, const Crew* crew) const {
+                            Underway<D>& run, const RankGroups* crew) const {
   const auto& entries = run.entries;
   auto& book = run.book;
   auto& files = run.files;
   auto& kept = run.kept;
   const bool writes = !crew || crew->leads();
   const bool any_trace = writes && !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
-  const auto grid = scene.part.whole(scene.model.grid());
+  const auto grid = scene.subdomain.whole(scene.model.grid());
   const auto cut = cut_of(grid, slice);
   const auto shots = scene.survey.sources.size(), at_once = crew ? crew->groups() : shots_at_once(scene);
   const auto name_of_file = [&](std::size_t shot, Component component) {
@@ -216,7 +216,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
     }
     files.clear();
     for (std::size_t shot = 1; shot <= shots; ++shot)
-      if (book.finished(shot)) book.put_away(shot);
+      if (book.finished(shot)) book.release(shot);
   };
   if (a_file_a_shot && writes) write_files();
   for (std::size_t first = 0; first < open.size(); first += at_once) {
@@ -245,7 +245,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
     } else {
       parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
         const auto shot = group[std::size_t(n)];
-        const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
+        const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunState::Mark());
         // The first of those that run together speaks for all.
         book.finish(
             shot, shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
@@ -257,7 +257,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
       context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n], D));
     if (kept) kept->commit();
     if (a_file_a_shot) write_files();
-    if (group.back() != open.back()) book.turn_page();
+    if (group.back() != open.back()) book.checkpoint_if_due();
   }
   if (!a_file_a_shot && writes) write_files();
   book.close();
@@ -266,8 +266,8 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
 template void ShotOutput::check_run(const Scene<2>&, const cli::Context&) const;
 template void ShotOutput::check_run(const Scene<3>&, const cli::Context&) const;
 template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&,
-                                    const Crew*) const;
+                                    const RankGroups*) const;
 template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&,
-                                    const Crew*) const;
+                                    const RankGroups*) const;
 
 }  // namespace slipwave

@@ -9,7 +9,7 @@
 #include "gather/trace.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
-#include "scene/part.hpp"
+#include "scene/subdomain.hpp"
 
 namespace slipwave {
 
@@ -21,7 +21,7 @@ const char* name_of(SlipCorrection correction);
 enum class SlipField { slip, slip_rate, dissipated, opening };
 
 /// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
-struct Passage {
+struct Tiling {
   int steps = 0;            // time steps in one pass
   int stripe_cells = 0;     // columns swept together, a multiple of 16
   bool everywhere = false;  // compute also where nothing has come to, and whatever nobody will see
@@ -36,7 +36,7 @@ struct Numerics {
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
   int time_order = 2;  // of the splitting in time: 2, 4
-  Passage passage;
+  Tiling tiling;
 };
 
 /// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included.
@@ -51,7 +51,7 @@ struct Recording {
 template <int D>
 struct Scene {
   Model<D> model;
-  Part part;  // of the model that this process computes
+  Subdomain subdomain;  // of the model that this process computes
   Survey<D> survey;
   EdgeLaws<D> edges;
   Numerics numerics;

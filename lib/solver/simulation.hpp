@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/progress.hpp"
-#include "base/ranks.hpp"
+#include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/pauses.hpp"
 
@@ -74,7 +74,7 @@ template <int D>
 std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
 
 /// One pass of a time step and the share of the computed cells it works on.
-struct PlannedPass {
+struct PlannedEntry {
   std::string name;
   double share = 0;
 };

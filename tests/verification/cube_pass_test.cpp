@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "base/parallel.hpp"
 #include "cube.hpp"
-#include "solver/pipeline.hpp"
+#include "parallel/threads.hpp"
+#include "solver/schedule/tiled.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -13,13 +13,13 @@ class Nothing : public EndOfStep<Real> {
  public:
   void begin(const StepTime&) override {}
   bool whole(const StepTime&, std::int64_t) const override { return false; }
-  bool works_beside() const override { return false; }
+  bool acts_between_steps() const override { return false; }
   bool looks(const StepTime&, std::int64_t) const override { return false; }
-  void look(const StepTime&, std::int64_t, const Columns&, const Real*, std::int64_t) override {}
-  bool stirs(const StepTime&, std::int64_t) const override { return false; }
+  void look(const StepTime&, std::int64_t, const IndexRange&, const Real*, std::int64_t) override {}
+  bool injects(const StepTime&, std::int64_t) const override { return false; }
   Box needed(const StepTime&, const Box&) const override { return {{0, 1 << 20}, {0, 1 << 20}}; }
-  void run(const StepTime&, std::int64_t, const Columns&) override {}
-  void run_after(const StepTime&, std::int64_t, const Columns&) override {}
+  void run(const StepTime&, std::int64_t, const IndexRange&) override {}
+  void run_after_record(const StepTime&, std::int64_t, const IndexRange&) override {}
   void finish(const StepTime&) override {}
 };
 
@@ -28,11 +28,11 @@ class Nothing : public EndOfStep<Real> {
 template <class Real>
 void sweep_by_sweep(Cube<Real>& cube, std::int64_t steps, int time_order) {
   const auto parts = splitting(3, time_order);
-  cube.sweep(0, parts.front().part);
+  cube.sweep(0, parts.front().fraction);
   for (std::int64_t n = 0; n < steps; ++n) {
     for (std::size_t inner = 1; inner + 1 < parts.size(); ++inner)
-      cube.sweep(parts[inner].axis, parts[inner].part);
-    cube.sweep(0, 2 * parts.front().part);
+      cube.sweep(parts[inner].axis, parts[inner].fraction);
+    cube.sweep(0, 2 * parts.front().fraction);
   }
 }
 
@@ -65,17 +65,17 @@ TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
     one.shake(1);
     sweep_by_sweep(one, steps, time_order);
     const auto expected = fields_of(one);
-    for (const auto& [passage, threads] : {std::pair(Passage{1, 100, true}, 3), std::pair(Passage{2, 7}, 1),
-                                           std::pair(Passage{3, 12, true}, 3), std::pair(Passage{0, 0}, 1)}) {
+    for (const auto& [tiling, threads] : {std::pair(Tiling{1, 100, true}, 3), std::pair(Tiling{2, 7}, 1),
+                                          std::pair(Tiling{3, 12, true}, 3), std::pair(Tiling{0, 0}, 1)}) {
       const ThreadLimit limit(threads);
       Cube<float> cube(medium, edges, order, dt_s, time_order);
       cube.shake(1);
       Nothing<float> nothing;
-      Pipeline<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, passage);
+      TiledExecutor<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, tiling);
       pipeline.find_active_cells();
       pipeline.run(0, steps);
       EXPECT_TRUE(fields_of(cube) == expected)
-          << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+          << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
     }
   }
 }

@@ -3,8 +3,8 @@
 #include <random>
 
 #include "cube_extruded.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -180,7 +180,7 @@ TEST(BlockMedium, OnlyTakesEnergy) {
     const auto edges = edges_all_3d(EdgeLaw::rigid);
     Cube<double> cube(scene.model.medium, edges, 5, dt_s);
     const auto domain = make_domain(scene.model.medium, edges, 1);
-    SlipPass<3, double> slip(cube.state(), domain, scene, dt_s);
+    Slip<3, double> slip(cube.state(), domain, scene, dt_s);
     cube.shake(4);
     double least = cube.energy(), lost = 0;
     for (std::int64_t step = 0; step < 20; ++step) {

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "lab.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -42,7 +42,7 @@ TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
         scene->numerics.correction = correction;
         labs.push_back(std::make_unique<L>(scene->model.medium, edges_all(EdgeLaw::rigid), 5, dt_s));
         auto& lab = *labs.back();
-        SlipPass<2, double> slip(lab.state(), lab.domain(), *scene, dt_s);
+        Slip<2, double> slip(lab.state(), lab.domain(), *scene, dt_s);
         std::mt19937 random(3);
         for (std::int64_t k = 0; k < 20; ++k)
           for (std::int64_t i = 0; i < 24; ++i)
@@ -91,7 +91,7 @@ Passed passed(double peak_pa, std::int64_t cells, double h, int order, double st
       scene.model.prestress_pa.emplace_back(scene.model.grid(), c < 2 ? float(still_pa) : 0.f);
   const double dt_s = 0.9 * h / rock.vp, z_p = rock.rho * rock.vp;
   L lab(scene.model.medium, edges_all(EdgeLaw::rigid), order, dt_s);
-  SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+  Slip<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
   const double share = 1 - 2 * (rock.vs / rock.vp) * (rock.vs / rock.vp);
   for (std::int64_t k = 0; k < std::int64_t(depth_m / h); ++k)
     for (const std::int64_t i : {0, 1}) {

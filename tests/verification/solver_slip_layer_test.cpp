@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "slip_layer.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -31,7 +31,7 @@ Waves solved(const Setup& setup, double h, std::vector<double>& times_s) {
   const double dt_s = courant_p * h / rock.vp;
   using L = Lab<double>;
   L lab(scene.model.medium, edges_all(EdgeLaw::rigid), setup.order, dt_s);
-  const auto slip = std::make_unique<SlipPass<2, double>>(lab.state(), lab.domain(), scene, dt_s);
+  const auto slip = std::make_unique<Slip<2, double>>(lab.state(), lab.domain(), scene, dt_s);
   for (std::int64_t k = 0; k < cells; ++k)
     for (const std::int64_t i : {0, 1}) {
       const double tau = incident((wave_at_m - lab.grid().centre(1, k)) / rock.vs);

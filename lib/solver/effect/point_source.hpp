@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "parallel/ranks.hpp"
+#include "scene/scene.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/point_weights.hpp"
+
+namespace slipwave::solver {
+
+/// What a point source puts in, half before and half after the recorder, so that the
+/// fields it sees lie in the middle (trapezoidal rule in time). Keeps references.
+template <int D, class Real>
+class PointSource : public Effect {
+ public:
+  /// Collective where there are `ranks` (may be null): the one that answers for the cell of the source weighs
+  /// the cells round it for all. Where no line of this process is near it, lines() is empty and nothing is to
+  /// be run.
+  PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
+              double unit, Ranks* ranks = nullptr);
+
+  void run(const StepTime& time, std::int64_t line, const IndexRange& columns) override;
+  void run_after_record(const StepTime& time, std::int64_t line, const IndexRange& columns) override {
+    run(time, line, columns);
+  }
+  std::string name() const override { return "source"; }
+  std::int64_t cells() const override { return std::int64_t(values_.size()); }
+  std::span<const std::int64_t> lines() const override { return lines_; }
+  bool injects(const StepTime& time, std::int64_t line) const override {
+    return active(time) && line >= lines_.front() && line <= lines_.back();
+  }
+  void serialize(Archive& archive) override { archive.fixed(work_); }
+  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+
+  /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
+  double work() const;
+
+ private:
+  void weigh(const Source<D>& source);
+  void share(Ranks& ranks);
+  void add(const Source<D>& source, int row, int like, double strength);
+  void find_lines();
+  double energy_of(std::int64_t line, const IndexRange& columns) const;
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  const Medium<D>& medium_;
+  Wavelet wavelet_;
+  double unit_;
+  Index<D> centre_{};  // the cell it is in, on part of the grid maybe beyond it
+  std::vector<ValueWeight> values_;
+  std::vector<std::int64_t> lines_;
+  std::vector<double> work_;  // by line; empty: not counted
+};
+
+}  // namespace slipwave::solver
