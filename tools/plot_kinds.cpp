@@ -53,7 +53,7 @@ Input open_input(const std::string& path, const PlotSettings& settings) {
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (!settings.traces.su && !segy::looks_like_segy(bytes))
     throw Error(shown_input(path) + ": is " +
-                (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+                (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +
                 ", expected a model, snapshots, spectra, errors or a gather");
   return input;
 }

@@ -123,7 +123,7 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   if (options.su || options.endian || options.format || segy::looks_like_segy(bytes, size))
     return look_at_traces(path, options, start.taken());
   throw Error(shown_input(path) + ": is " +
-              (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+              (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +
               ", expected a model, snapshots or a gather");
 }
 

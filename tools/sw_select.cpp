@@ -37,7 +37,7 @@ std::optional<Expression> condition_of(const std::string& text) {
   return in_place("--where", [&] {
     Expression condition(text);
     if (condition.kind() != Expression::Kind::truth)
-      throw Error("'" + text + "' is no condition, expected one like offset>=100", ErrorKind::usage);
+      throw Error("'" + text + "' is not a condition; use one like offset>=100", ErrorKind::usage);
     return condition;
   });
 }

@@ -58,8 +58,7 @@ template <int D>
 Scene<D> make_scene(const Settings& s) {
   auto scene = s.shot.without_model<D>();
   if (!s.output.snapshots.empty()) {
-    if (!s.every_s)
-      throw Error("found --snapshots without --every, expected the time between them", ErrorKind::usage);
+    if (!s.every_s) throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
     scene.snapshot_every_s = s.every_s;
   }
   scene.slip_diary = s.balance || (!s.output.snapshots.empty() && s.output.wants_slip());
@@ -69,7 +68,7 @@ Scene<D> make_scene(const Settings& s) {
     if (s.output.keep_unstable && !output.empty()) expect_other_files(unstable_name(output), {s.shot.model});
   }
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
-    throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
+    throw Error("nothing to record: give --receivers or --snapshots", ErrorKind::usage);
   return scene;
 }
 
@@ -101,7 +100,7 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Cont
     check(chosen);
     return chosen;
   }
-  throw Error("found --error with a model in 3-D, expected one in 2-D", ErrorKind::usage);
+  throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
 }
 
 template <int D>

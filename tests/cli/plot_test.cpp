@@ -131,7 +131,7 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   };
   refused("none.nc -o x.png", 1, "none.nc: No such file or directory");
   refused("notes.txt -o x.png", 1,
-          "notes.txt: is no netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
+          "notes.txt: is not a netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
           "or a gather");
   refused("m.nc -o x.gif", 2, "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg");
   refused("m.nc --map jet -o x.png", 2,
