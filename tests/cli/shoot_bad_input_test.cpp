@@ -55,7 +55,7 @@ TEST_F(ShootBadInput, WavesTooShortForTheGridAreAWarningThatSaysTheCost) {
   const Ran ran = run(line);
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(ran.err.compare(0, 24, "sw-shoot: warning: only "), 0) << ran.err;
-  EXPECT_NE(ran.err.find("cells per shortest S wavelength"), std::string::npos);
+  EXPECT_NE(ran.err.find("cells per shortest P wavelength"), std::string::npos);
   EXPECT_NE(ran.err.find(" % per wavelength. Use cells of "), std::string::npos);
   EXPECT_NE(ran.err.find(" times the cost) or --error\n"), std::string::npos);
   done(line + "-q");
