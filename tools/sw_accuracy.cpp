@@ -104,7 +104,7 @@ Scene<2> make_scene(const Settings& s) {
                                     {!s.shot.receivers.empty(), "--receivers"},
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
-      throw Error("found no " + std::string(name) + ", expected it, or --case full-space", ErrorKind::usage);
+      throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);
   auto scene = s.shot.without_model<2>();
   s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model));
   return scene;
@@ -117,7 +117,7 @@ void run(const Settings& s, const cli::Context& context) {
   const bool built_in = !s.built_in.empty();
   expect_other_files(s.output, {s.shot.model});
   if (built_in && s.shot.model != "-")
-    throw Error("found --case and a model, " + s.shot.model + ", expected one of them", ErrorKind::usage);
+    throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);
   const auto scene = built_in ? full_space_case() : make_scene(s);
   const auto ladder = ladder_of(s, scene);
   // A name that can not be written costs no computing.

@@ -64,7 +64,7 @@ FilterSteps steps_of(const Settings& settings, const SampleAxis& axis) {
 
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.zero_delay && settings.wavelet.empty())
-    throw Error("--zero-delay: found no --convolve, expected one", ErrorKind::usage);
+    throw Error("--zero-delay needs --convolve", ErrorKind::usage);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   const SampleAxis& axis = reader.axis_with_interval();
   TraceFilter filter(axis, steps_of(settings, axis));

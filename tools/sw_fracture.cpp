@@ -100,13 +100,12 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
     normals.push_back(in_place("--normal", [&] { return unit_normal<D>(parse_point<D>(text)); }));
   }
   if (settings.block && normals.size() != 1) {
-    throw Error("found --block and " + std::to_string(normals.size()) +
-                    " of --dip and --normal, expected one of them with --block",
+    throw Error("--block needs exactly one --dip or --normal, found " + std::to_string(normals.size()),
                 ErrorKind::usage);
   }
   if (settings.block) add_across<D>(normals);
   if (normals.empty() || normals.size() > D) {
-    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected " +
+    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, give " +
                     (D == 2 ? "one or two" : "one to three"),
                 ErrorKind::usage);
   }
@@ -119,12 +118,12 @@ RegionIn<D> region_of(const Settings& settings) {
       !settings.box.empty() + !settings.polygon.empty() + !settings.ellipse.empty() + !settings.slab.empty();
   if (given != 1) {
     throw Error(
-        "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, expected one of them",
+        "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, give exactly one",
         ErrorKind::usage);
   }
   if (!settings.polygon.empty()) {
     if constexpr (D == 2) return read_polygon(settings.polygon);
-    throw Error("found --polygon with a model in 3-D, expected --box, --ellipse or --slab", ErrorKind::usage);
+    throw Error("--polygon needs a model in 2-D; in 3-D use --box, --ellipse or --slab", ErrorKind::usage);
   }
   if (!settings.ellipse.empty())
     return in_place("--ellipse", [&] { return parse_ellipse<D>(settings.ellipse); });
@@ -137,7 +136,7 @@ template <int D>
 RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const Point<D>& normal) {
   if (settings.count == 0) {
     if (settings.body.empty()) return region;
-    throw Error("found --body without --count, expected both", ErrorKind::usage);
+    throw Error("--body needs --count, the number of slabs", ErrorKind::usage);
   }
   const auto& low = region.bounds.low_m;
   const auto& high = region.bounds.high_m;

@@ -70,7 +70,7 @@ void check_choices(const Settings& settings) {
     throw Error("--step: found " + shown(*settings.step_m) + ", expected it above zero", ErrorKind::usage);
   }
   if ((settings.vp == "-") + (settings.vs == "-") + (settings.rho == "-") > 1) {
-    throw Error("found - more than once, expected one input on standard input", ErrorKind::usage);
+    throw Error("found - more than once; only one input can be standard input", ErrorKind::usage);
   }
 }
 
@@ -89,8 +89,7 @@ Field<2> read_raw(const Settings& settings, const std::string& path) {
 
 Field<2> read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken) {
   if (!settings.step_m) {
-    throw Error(shown_input(path) + ": a SEG-Y model does not say its cells' size; expected --step",
-                ErrorKind::usage);
+    throw Error(shown_input(path) + ": a SEG-Y model has no cell size; give --step", ErrorKind::usage);
   }
   segy::Reader reader(path, {}, {taken.begin(), taken.end()});
   std::vector<std::vector<double>> columns;

@@ -67,8 +67,7 @@ void run(const Settings& settings, const cli::Context& context) {
   const auto condition = condition_of(settings.where);
   std::optional<TimeWindow> window;
   if (!settings.time.empty()) window = in_place("--time", [&] { return parse_time_window(settings.time); });
-  if (!condition && !window)
-    throw Error("found neither --where nor --time, expected one of them", ErrorKind::usage);
+  if (!condition && !window) throw Error("nothing to select: give --where or --time", ErrorKind::usage);
   std::optional<SelectionCounts> counts;
   if (condition) counts = counts_of(settings, *condition);
   segy::Reader reader(settings.input, settings.input_options.read_options());

@@ -74,15 +74,15 @@ Scene<D> make_scene(const Settings& s) {
 
 /// What several processes can not do together.
 void check_together(const Settings& s, int count) {
-  const auto refuse = [&](bool given, const std::string& option, const std::string& expected) {
+  const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
     if (given)
-      throw Error("found " + option + " and " + std::to_string(count) + " processes, expected " + expected,
+      throw Error(option + " does not work with " + std::to_string(count) + " processes; " + remedy,
                   ErrorKind::usage);
   };
-  refuse(!s.output.checkpoint.empty(), "--checkpoint", "it with one process");
-  refuse(s.output.shots_in_parallel > 1, "--shots-in-parallel", "--ranks-per-shot");
-  refuse(s.wanted_error.has_value(), "--error", "what it chooses: one process says that with --plan");
-  refuse(s.shot.model == "-", "a model from standard input", "the name of a file");
+  refuse(!s.output.checkpoint.empty(), "--checkpoint", "use one");
+  refuse(s.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
+  refuse(s.wanted_error.has_value(), "--error", "use --plan with one process, then give what it chooses");
+  refuse(s.shot.model == "-", "a model from standard input", "give the name of a file");
 }
 
 /// The cheapest way to compute the scene with the error that is wanted.

@@ -100,8 +100,7 @@ void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, c
 
 void run(Settings& settings, const cli::Context& context) {
   if (settings.fk && settings.each)
-    throw Error("found --fk and --each, expected one of them: a gather makes one f-k spectrum",
-                ErrorKind::usage);
+    throw Error("--fk and --each exclude each other: a gather has one f-k spectrum", ErrorKind::usage);
   settings.spectrum.window = window_named(settings.window);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);

@@ -47,7 +47,7 @@ TEST_F(Cube, IsFracturedInBoxesEllipsoidsAndSlabs) {
   expect_refused("sw-fracture m.nc --box 0:50,0:50 --dip 0 " + planes + "-o no.nc", 2,
                  "sw-fracture: --box: found '0:50,0:50', expected a box X0:X1,Y0:Y1,Z0:Z1");
   expect_refused("sw-fracture m.nc --polygon p --dip 0 " + planes + "-o no.nc", 2,
-                 "sw-fracture: found --polygon with a model in 3-D, expected --box, --ellipse or --slab");
+                 "sw-fracture: --polygon needs a model in 2-D; in 3-D use --box, --ellipse or --slab");
 }
 
 TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
