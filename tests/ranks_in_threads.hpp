@@ -11,7 +11,7 @@
 #include <thread>
 #include <tuple>
 
-#include "base/ranks.hpp"
+#include "parallel/ranks.hpp"
 
 namespace slipwave {
 
@@ -96,7 +96,7 @@ class RanksInThreads {
       post_->all_here.arrive_and_wait();
       return all;
     }
-    std::unique_ptr<Ranks> with_colour(int colour) override {
+    std::unique_ptr<Ranks> split(int colour) override {
       const auto all = all_of(std::as_bytes(std::span<const int>(&colour, 1)));
       int alike = 0, before = 0;
       for (int n = 0; n < count(); ++n) {

@@ -36,7 +36,7 @@ class Parcel : public Archive {
   bool reads_ = false;
 };
 
-void hand_over(Archive& archive, Crew::Outcome& outcome) {
+void hand_over(Archive& archive, RankGroups::Outcome& outcome) {
   archive.value(outcome.shot);
   archive.value(outcome.report);
   archive.flag(outcome.stable);
@@ -52,14 +52,14 @@ void hand_over(Archive& archive, Crew::Outcome& outcome) {
 
 int ranks_a_shot(int all, int wanted, std::size_t shots, bool one_shot_at_a_time) {
   if (wanted < 0 || (wanted > 0 && all % wanted != 0))
-    throw AgreedError("found --ranks-per-shot " + std::to_string(wanted) + " and " + std::to_string(all) +
-                          " processes, expected a number that divides them",
-                      ErrorKind::usage);
+    throw CollectiveError("found --ranks-per-shot " + std::to_string(wanted) + " and " + std::to_string(all) +
+                              " processes, expected a number that divides them",
+                          ErrorKind::usage);
   if (one_shot_at_a_time) {
     if (wanted > 0 && wanted != all)
-      throw AgreedError("found --snapshots and --ranks-per-shot " + std::to_string(wanted) + " of " +
-                            std::to_string(all) + " processes, expected all of them at one shot",
-                        ErrorKind::usage);
+      throw CollectiveError("found --snapshots and --ranks-per-shot " + std::to_string(wanted) + " of " +
+                                std::to_string(all) + " processes, expected all of them at one shot",
+                            ErrorKind::usage);
     return all;
   }
   if (wanted > 0) return wanted;
@@ -69,17 +69,19 @@ int ranks_a_shot(int all, int wanted, std::size_t shots, bool one_shot_at_a_time
 
 }  // namespace
 
-Crew::Crew(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time) : all_(all) {
+RankGroups::RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time)
+    : all_(all) {
   const int in_group = ranks_a_shot(all.count(), ranks_per_shot, shots, one_shot_at_a_time);
   groups_ = std::size_t(all.count() / in_group);
   number_ = std::size_t(all.number() / in_group);
-  auto group = all.with_colour(int(number_));
+  auto group = all.split(int(number_));
   if (in_group > 1) group_ = std::move(group);
 }
 
 template <int D>
-std::vector<Crew::Outcome> Crew::shoot(const Scene<D>& scene, std::span<const std::size_t> shots,
-                                       const Progress& progress, const SnapshotSink<D>& snapshots) const {
+std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<D>& scene, std::span<const std::size_t> shots,
+                                                   const Progress& progress,
+                                                   const SnapshotSink<D>& snapshots) const {
   Outcome mine;
   if (number_ < shots.size()) {
     mine.shot = shots[number_];
@@ -96,7 +98,7 @@ std::vector<Crew::Outcome> Crew::shoot(const Scene<D>& scene, std::span<const st
   Parcel out;
   if (mine.shot > 0 && (!group_ || group_->number() == 0)) hand_over(out, mine);
   const bool all_stable = smallest_of(&all_, mine.stable ? 1 : 0) == 1;
-  Parcel in(joined_on_first(all_, out.packed()));
+  Parcel in(gather_on_first(all_, out.packed()));
   if (!all_stable && !leads()) throw cli::EndSilently{int(ErrorKind::unstable)};
   std::vector<Outcome> outcomes;
   while (leads() && !in.at_end()) hand_over(in, outcomes.emplace_back());
@@ -106,9 +108,9 @@ std::vector<Crew::Outcome> Crew::shoot(const Scene<D>& scene, std::span<const st
   return outcomes;
 }
 
-template std::vector<Crew::Outcome> Crew::shoot(const Scene<2>&, std::span<const std::size_t>,
-                                                const Progress&, const SnapshotSink<2>&) const;
-template std::vector<Crew::Outcome> Crew::shoot(const Scene<3>&, std::span<const std::size_t>,
-                                                const Progress&, const SnapshotSink<3>&) const;
+template std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<2>&, std::span<const std::size_t>,
+                                                            const Progress&, const SnapshotSink<2>&) const;
+template std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<3>&, std::span<const std::size_t>,
+                                                            const Progress&, const SnapshotSink<3>&) const;
 
 }  // namespace slipwave

@@ -3,18 +3,18 @@
 #include <memory>
 #include <span>
 
-#include "base/ranks.hpp"
+#include "parallel/ranks.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave {
 
 /// The processes that shoot a survey together: groups of them, each of which shoots a shot at a time. The
 /// first of all gets what was recorded and writes it.
-class Crew {
+class RankGroups {
  public:
   /// Collective. `ranks_per_shot` of them form a group; 0: as few as leave none of them without work, all
   /// where `one_shot_at_a_time`. Throws a usage Error where they do not divide all evenly.
-  Crew(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time);
+  RankGroups(Ranks& all, int ranks_per_shot, std::size_t shots, bool one_shot_at_a_time);
 
   /// Whether this is the one that writes.
   bool leads() const { return all_.number() == 0; }

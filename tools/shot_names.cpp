@@ -85,9 +85,9 @@ std::vector<std::string> entries_of(const Scene<D>& scene, const std::string& hi
           ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
           shown(source.wavelet.delay_s()) + " s",
       "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
-          shown(time_step_s(scene)) + " s, grid " + shown(scene.part.whole(scene.model.grid())) +
-          (scene.slips() || scene.part.slips ? std::string(", slip: ") + name_of(n.correction)
-                                             : std::string(", no slip")),
+          shown(time_step_s(scene)) + " s, grid " + shown(scene.subdomain.whole(scene.model.grid())) +
+          (scene.slips() || scene.subdomain.slips ? std::string(", slip: ") + name_of(n.correction)
+                                                  : std::string(", no slip")),
   };
   for (std::size_t begin = 0; begin < history.size();) {
     const auto end = std::min(history.find('\n', begin), history.size());

@@ -7,10 +7,10 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
-#include "base/parallel.hpp"
 #include "base/parse.hpp"
+#include "io/output_file.hpp"
 #include "output/snapshot_netcdf.hpp"
+#include "parallel/threads.hpp"
 #include "segy/writer.hpp"
 #include "segy/writer_headers.hpp"
 #include "shot_balance.hpp"
@@ -51,9 +51,9 @@ std::size_t ShotOutput::shots_at_once(const Scene<D>& scene) const {
 }
 
 template <int D>
-RunBook ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
-                              const cli::Context& context) const {
-  RunBook::Settings settings;
+RunState ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
+                               const cli::Context& context) const {
+  RunState::Settings settings;
   settings.path = checkpoint;
   settings.shots = scene.survey.sources.size();
   settings.first_shot = std::size_t(first_shot);
@@ -68,12 +68,12 @@ RunBook ShotOutput::open_book(const Scene<D>& scene, const std::string& history,
     settings.identity.push_back({"first shot", std::to_string(first_shot)});
     settings.identity.push_back({"command line or history of the model", history, false});
   }
-  return RunBook(std::move(settings));
+  return RunState(std::move(settings));
 }
 
 /// Whether the files that a finished shot has to itself are where they were put.
 template <int D>
-bool ShotOutput::in_place_still(const Scene<D>& scene, RunBook& book, std::size_t shot) const {
+bool ShotOutput::in_place_still(const Scene<D>& scene, RunState& book, std::size_t shot) const {
   const auto there = [](const std::string& path) { return path == "-" || access(path.c_str(), F_OK) == 0; };
   const std::size_t number = number_of(shot);
   bool all = snapshots.empty() || there(name_for(snapshots, number, ""));
@@ -87,7 +87,7 @@ bool ShotOutput::in_place_still(const Scene<D>& scene, RunBook& book, std::size_
 template <int D>
 struct ShotOutput::Underway {
   std::vector<std::string> entries;  // of the textual headers
-  RunBook book;
+  RunState book;
   TraceFiles files;
   std::optional<ShotSnapshots<D>> kept;
 };
@@ -102,12 +102,12 @@ void ShotOutput::check_run(const Scene<D>& scene, const cli::Context& context) c
   if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
     throw Error("found --keep-unstable and an output to standard output, expected the name of a file",
                 ErrorKind::usage);
-  in_place("--slice", [&] { cut_of(scene.part.whole(scene.model.grid()), slice); });
+  in_place("--slice", [&] { cut_of(scene.subdomain.whole(scene.model.grid()), slice); });
 }
 
 template <int D>
 void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                           const Crew* crew) const {
+                           const RankGroups* crew) const {
   // Samples are written alike whether anything was computed before, or all came from a checkpoint.
   flush_subnormals();
   Underway<D> run{entries_of(scene, history, context.version), open_book(scene, history, context), {}, {}};
@@ -125,7 +125,7 @@ void ShotOutput::shoot_all(const Scene<D>& scene, const std::string& history, co
 }
 
 /// The traces of all shots that are in the book, taken out of it, by the names of their files.
-std::map<std::string, Gather> ShotOutput::gathers_by_file(RunBook& book, std::size_t shots) const {
+std::map<std::string, Gather> ShotOutput::gathers_by_file(RunState& book, std::size_t shots) const {
   std::map<std::string, Gather> gathers;
   for (std::size_t shot = 1; shot <= shots; ++shot) {
     Gather* const gather = book.gather(shot);
@@ -178,7 +178,7 @@ std::string ShotOutput::keep(const Scene<D>& scene, const Unstable& error, const
 
 /// Shots that are still to be shot: those that the book does not hold and whose files are not in place.
 template <int D>
-std::vector<std::size_t> ShotOutput::open_shots(const Scene<D>& scene, RunBook& book) const {
+std::vector<std::size_t> ShotOutput::open_shots(const Scene<D>& scene, RunState& book) const {
   std::vector<std::size_t> open;
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
     if (book.finished(shot) && !in_place_still(scene, book, shot)) book.forget(shot);
@@ -210,14 +210,14 @@ void ShotOutput::write_files(const Scene<D>& scene, Underway<D>& run) const {
   }
   run.files.clear();
   for (std::size_t shot = 1; shot <= shots; ++shot)
-    if (run.book.finished(shot)) run.book.put_away(shot);
+    if (run.book.finished(shot)) run.book.release(shot);
 }
 
 /// Shoots shots at the same time, into the book and the snapshots; what became of their energy.
 template <int D>
 std::vector<ShotReport> ShotOutput::shoot_group(const Scene<D>& scene, std::span<const std::size_t> group,
                                                 const Progress& progress, Underway<D>& run,
-                                                const Crew* crew) const {
+                                                const RankGroups* crew) const {
   auto& book = run.book;
   auto& kept = run.kept;
   std::vector<ShotReport> reports(group.size());
@@ -234,7 +234,7 @@ std::vector<ShotReport> ShotOutput::shoot_group(const Scene<D>& scene, std::span
   }
   parallel_jobs(std::int64_t(group.size()), int(shots_at_once(scene)), [&](std::int64_t n) {
     const auto shot = group[std::size_t(n)];
-    const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunBook::Mark());
+    const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunState::Mark());
     // The first of those that run together speaks for all.
     book.finish(shot,
                 shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
@@ -245,11 +245,11 @@ std::vector<ShotReport> ShotOutput::shoot_group(const Scene<D>& scene, std::span
 
 template <int D>
 void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                            Underway<D>& run, const Crew* crew) const {
+                            Underway<D>& run, const RankGroups* crew) const {
   auto& book = run.book;
   auto& kept = run.kept;
   const bool writes = !crew || crew->leads(), a_file_a_shot = holds(traces, "{shot}");
-  const auto grid = scene.part.whole(scene.model.grid());
+  const auto grid = scene.subdomain.whole(scene.model.grid());
   const auto cut = cut_of(grid, slice);
   const auto at_once = crew ? crew->groups() : shots_at_once(scene);
   if (!book.goes_on_at().empty()) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
@@ -275,7 +275,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
       context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n], D));
     if (kept) kept->commit();
     if (a_file_a_shot) write_files(scene, run);
-    if (group.back() != open.back()) book.turn_page();
+    if (group.back() != open.back()) book.checkpoint_if_due();
   }
   if (!a_file_a_shot && writes) write_files(scene, run);
   book.close();
@@ -284,8 +284,8 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
 template void ShotOutput::check_run(const Scene<2>&, const cli::Context&) const;
 template void ShotOutput::check_run(const Scene<3>&, const cli::Context&) const;
 template void ShotOutput::shoot_all(const Scene<2>&, const std::string&, const cli::Context&,
-                                    const Crew*) const;
+                                    const RankGroups*) const;
 template void ShotOutput::shoot_all(const Scene<3>&, const std::string&, const cli::Context&,
-                                    const Crew*) const;
+                                    const RankGroups*) const;
 
 }  // namespace slipwave

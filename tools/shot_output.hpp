@@ -45,7 +45,7 @@ struct ShotOutput {
   /// process holds of it, and the process that leads writes.
   template <int D>
   void shoot_all(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                 const Crew* crew = nullptr) const;
+                 const RankGroups* crew = nullptr) const;
 
  private:
   template <int D>
@@ -54,26 +54,27 @@ struct ShotOutput {
   std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
   template <int D>
   void shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                  Underway<D>& run, const Crew* crew) const;
+                  Underway<D>& run, const RankGroups* crew) const;
   template <int D>
-  std::vector<std::size_t> open_shots(const Scene<D>& scene, RunBook& book) const;
+  std::vector<std::size_t> open_shots(const Scene<D>& scene, RunState& book) const;
   template <int D>
   void open_files(const Scene<D>& scene, std::size_t shot, Underway<D>& run) const;
   template <int D>
   void write_files(const Scene<D>& scene, Underway<D>& run) const;
   template <int D>
   std::vector<ShotReport> shoot_group(const Scene<D>& scene, std::span<const std::size_t> group,
-                                      const Progress& progress, Underway<D>& run, const Crew* crew) const;
-  std::map<std::string, Gather> gathers_by_file(RunBook& book, std::size_t shots) const;
+                                      const Progress& progress, Underway<D>& run,
+                                      const RankGroups* crew) const;
+  std::map<std::string, Gather> gathers_by_file(RunState& book, std::size_t shots) const;
   template <int D>
   std::string keep(const Scene<D>& scene, const Unstable& error, const cli::Context& context,
                    Underway<D>& run) const;
   template <int D>
   std::size_t shots_at_once(const Scene<D>& scene) const;
   template <int D>
-  RunBook open_book(const Scene<D>& scene, const std::string& history, const cli::Context& context) const;
+  RunState open_book(const Scene<D>& scene, const std::string& history, const cli::Context& context) const;
   template <int D>
-  bool in_place_still(const Scene<D>& scene, RunBook& book, std::size_t shot) const;
+  bool in_place_still(const Scene<D>& scene, RunState& book, std::size_t shot) const;
 };
 
 /// A name for a shot (as messages number it) and a component.

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
-#include "solver/parts.hpp"
+#include "solver/schedule/subdomains.hpp"
 
 namespace slipwave {
 namespace {
@@ -117,12 +117,12 @@ void ShotSettings::read_model_into(Scene<D>& scene, const NetcdfFile& file) cons
 
 template <int D>
 void ShotSettings::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const {
-  agreed(&all, [&] {
+  collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
       check(scene.survey, grid);
-      scene.part = part_for(scene, grid, group->number(), group->count());
-      const auto [first, last] = rows_held(scene.part);
+      scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
+      const auto [first, last] = rows_held(scene.subdomain);
       scene.model = read_model_rows<D>(file, first, last);
     } else {
       scene.model = read_model<D>(file);
@@ -130,7 +130,7 @@ void ShotSettings::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks
     check_model(scene.model);
   });
   if (group) join(scene, *group);
-  agreed(&all, [&] { check(scene); });
+  collective_try(&all, [&] { check(scene); });
 }
 
 template Scene<2> ShotSettings::without_model() const;

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "base/ranks.hpp"
 #include "cli/tool.hpp"
 #include "model/fracture.hpp"
+#include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {

@@ -59,7 +59,7 @@ SnapshotSink<D> sink_of_helper(const std::vector<std::string>& fields) {
 template <int D>
 ShotSnapshots<D>::ShotSnapshots(const std::string& path, const Grid<D>& grid,
                                 const std::optional<CellLayer>& cut, const std::vector<std::string>& fields,
-                                const SnapshotHistory& history, const RunBook& book, std::size_t shot)
+                                const SnapshotHistory& history, const RunState& book, std::size_t shot)
     : cut_(cut), writer_(path, cut_grid(grid, cut), fields, history) {
   if (book.keeps_checkpoints())
     log_.emplace(book.snapshot_log(shot), cut_grid(grid, cut), fields.size(), book.snapshots_of(shot),
@@ -85,7 +85,7 @@ SnapshotSink<D> ShotSnapshots<D>::sink() {
 }
 
 template <int D>
-RunBook::Mark ShotSnapshots<D>::mark() {
+RunState::Mark ShotSnapshots<D>::mark() {
   if (!log_) return {};
   return [this] { return log_->synchronized(); };
 }

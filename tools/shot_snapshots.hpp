@@ -29,10 +29,10 @@ template <int D>
 class ShotSnapshots {
  public:
   ShotSnapshots(const std::string& path, const Grid<D>& grid, const std::optional<CellLayer>& cut,
-                const std::vector<std::string>& fields, const SnapshotHistory& history, const RunBook& book,
+                const std::vector<std::string>& fields, const SnapshotHistory& history, const RunState& book,
                 std::size_t shot);
   SnapshotSink<D> sink();
-  RunBook::Mark mark();
+  RunState::Mark mark();
   void commit() { writer_.commit(); }
   void commit_as(const std::string& path) { writer_.commit_as(path); }
 

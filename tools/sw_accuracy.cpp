@@ -3,9 +3,9 @@
 #include "accuracy/cases.hpp"
 #include "accuracy/ladder.hpp"
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "shot_settings.hpp"
 

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/comparison.hpp"
+#include "io/output_file.hpp"
 #include "trace_pair.hpp"
 
 using namespace slipwave;

@@ -1,8 +1,8 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
+#include "io/output_file.hpp"
 #include "segy/conversion.hpp"
 
 using namespace slipwave;

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/difference.hpp"
+#include "io/output_file.hpp"
 #include "segy/writer.hpp"
 #include "trace_pair.hpp"
 #include "traces/float_difference.hpp"

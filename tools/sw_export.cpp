@@ -3,10 +3,10 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
+#include "io/input_bytes.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "output/snapshot_reader.hpp"

@@ -5,9 +5,9 @@
 
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/trace_filter.hpp"
+#include "io/output_file.hpp"
 #include "segy/reader.hpp"
 #include "segy/writer.hpp"
 #include "trace_input.hpp"

@@ -1,10 +1,10 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/prestress.hpp"

@@ -1,12 +1,12 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "base/netcdf_container.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "io/input_bytes.hpp"
+#include "io/netcdf_container.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "model/import.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"

@@ -1,7 +1,7 @@
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "io/output_file.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
 

@@ -1,11 +1,11 @@
 #include "base/error.hpp"
-#include "base/output_file.hpp"
-#include "base/parallel.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "io/output_file.hpp"
 #include "model/layers.hpp"
 #include "model/marmousi.hpp"
 #include "model/model_netcdf.hpp"
+#include "parallel/threads.hpp"
 
 using namespace slipwave;
 

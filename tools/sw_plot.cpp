@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
+#include "io/output_file.hpp"
 #include "plot_kinds.hpp"
 
 using namespace slipwave;

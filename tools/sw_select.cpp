@@ -3,9 +3,9 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
+#include "io/input_bytes.hpp"
+#include "io/output_file.hpp"
 #include "segy/conversion.hpp"
 #include "trace_input.hpp"
 #include "traces/expression.hpp"

@@ -3,11 +3,11 @@
 #include "accuracy/choice.hpp"
 #include "accuracy/plan.hpp"
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
-#include "base/ranks_started.hpp"
 #include "cli/tool.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "parallel/ranks_started.hpp"
 #include "shot_output.hpp"
 #include "shot_settings.hpp"
 
@@ -106,15 +106,15 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Cont
 template <int D>
 void shoot_together(const Settings& settings, NetcdfFile file, const cli::Context& context, Ranks& ranks) {
   Scene<D> scene;
-  agreed(&ranks, [&] { scene = make_scene<D>(settings); });
-  const Crew crew(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
-                  !settings.output.snapshots.empty());
+  collective_try(&ranks, [&] { scene = make_scene<D>(settings); });
+  const RankGroups crew(ranks, settings.output.ranks_per_shot, scene.survey.sources.size(),
+                        !settings.output.snapshots.empty());
   settings.shot.read_part_into(scene, file, ranks, crew.group());
   file.close();
-  agreed(&ranks, [&] { settings.output.check_run(scene, context); });
+  collective_try(&ranks, [&] { settings.output.check_run(scene, context); });
   std::string mine;
   for (const auto& sentence : warnings(scene)) mine = sentence;
-  for (const auto& sentence : texts_of_all(ranks, mine))
+  for (const auto& sentence : allgather_texts(ranks, mine))
     if (!sentence.empty()) {
       context.warn(sentence);
       break;
@@ -162,7 +162,7 @@ void run_together(const Settings& settings, cli::Context context, Ranks& ranks) 
     context.verbose = false;
   }
   std::optional<NetcdfFile> file;
-  agreed(&ranks, [&] {
+  collective_try(&ranks, [&] {
     check_together(settings, ranks.count());
     file = NetcdfFile::open(settings.shot.model);
   });
@@ -187,7 +187,7 @@ void run(const Settings& settings, const cli::Context& context) {
   };
   try {
     return run_together(settings, context, *ranks);
-  } catch (const AgreedError& error) {
+  } catch (const CollectiveError& error) {
     if (leads) cli::say_error(context.tool, error.what());
     end_together(int(error.kind()));
   } catch (const cli::EndSilently& end) {

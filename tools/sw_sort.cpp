@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
-#include "base/temporary.hpp"
 #include "cli/tool.hpp"
+#include "io/output_file.hpp"
+#include "io/temporary.hpp"
 #include "segy/conversion.hpp"
 #include "trace_input.hpp"
 #include "traces/sorting.hpp"

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
 #include "cli/tool.hpp"
 #include "gather/fk_file.hpp"
 #include "gather/spectrum.hpp"
 #include "gather/spectrum_file.hpp"
+#include "io/output_file.hpp"
 #include "segy/reader.hpp"
 #include "trace_input.hpp"
 

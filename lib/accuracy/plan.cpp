@@ -7,10 +7,10 @@
 
 #include "accuracy/reached.hpp"
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "base/processor_time.hpp"
-#include "solver/dispersion.hpp"
-#include "solver/step.hpp"
+#include "parallel/threads.hpp"
+#include "solver/shot_simulation.hpp"
+#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave {
 namespace {
@@ -45,7 +45,7 @@ std::array<double, 2> slowest_of_each(const Medium<D>& medium) {
 
 /// Processor time of a step: the median of several.
 template <int D, class Real>
-double seconds_of_step(solver::Step<D, Real>& step) {
+double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
   constexpr std::int64_t warm_up = 2, most = 15;
   constexpr double enough_s = 0.6;
   std::vector<double> seconds;
@@ -67,9 +67,9 @@ template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
   // Steps are timed as they are when waves are everywhere.
   Scene<D> everywhere = scene;
-  everywhere.numerics.passage.everywhere = true;
+  everywhere.numerics.tiling.everywhere = true;
   const double start = processor_time_s();
-  solver::Step<D, Real> step(everywhere, 1, [](double, const FieldReader<D>&) {});
+  solver::ShotSimulation<D, Real> step(everywhere, 1, [](double, const FieldReader<D>&) {});
   const double build_s = processor_time_s() - start;
   Plan<D> plan;
   plan.computed = step.domain().grid;
@@ -77,7 +77,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.courant = plan.time_step_s / stable_time_step_s(scene);
   plan.steps = step.steps();
   plan.passes = step.planned();
-  plan.span_ends = step.sweeps().span_end_cells();
+  plan.span_ends = step.sweeps().interface_stencil_cells();
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
   plan.slowest = slowest_wave(scene.model.medium);

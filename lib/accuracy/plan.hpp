@@ -13,7 +13,7 @@ struct Plan {
   double time_step_s = 0;
   double courant = 0;  // vp_max dt/h
   std::int64_t steps = 0;
-  std::vector<PlannedPass> passes;
+  std::vector<PlannedEntry> passes;
   std::int64_t span_ends = 0;  // cells beside contacts, voids and span ends, all directions and waves
   std::int64_t memory_bytes = 0;
   double highest_hz = 0;

@@ -7,8 +7,8 @@
 
 #include "grid/locate.hpp"
 #include "scene/splitting.hpp"
-#include "solver/kernels.hpp"
-#include "solver/recorder.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/record/recorder.hpp"
 
 namespace slipwave {
 namespace {

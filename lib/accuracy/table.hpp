@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
+#include "io/output_file.hpp"
 
 namespace slipwave {
 

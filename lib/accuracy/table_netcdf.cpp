@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave {
 namespace {

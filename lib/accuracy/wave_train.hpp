@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "acquisition/wavelet.hpp"
-#include "solver/dispersion.hpp"
+#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave {
 

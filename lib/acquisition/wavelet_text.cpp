@@ -5,8 +5,8 @@
 
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
 #include "base/parse.hpp"
+#include "io/input_bytes.hpp"
 
 namespace slipwave {
 

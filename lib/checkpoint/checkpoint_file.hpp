@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/archive.hpp"
-#include "base/temporary.hpp"
 #include "checkpoint/checksum.hpp"
+#include "io/temporary.hpp"
 
 namespace slipwave {
 

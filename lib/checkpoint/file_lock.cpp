@@ -7,7 +7,7 @@
 #include <cerrno>
 
 #include "base/error.hpp"
-#include "base/temporary.hpp"
+#include "io/temporary.hpp"
 
 namespace slipwave {
 FileLock::FileLock(std::string path, const std::string& what) : path_(std::move(path)) {

@@ -131,10 +131,10 @@ Identity identity_of(const Scene<D>& scene) {
   const auto& [model, part, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary] =
       scene;
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
-  const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, passage] = numerics;
+  const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, tiling] = numerics;
   const auto& [components, duration_s, interval_s] = recording;
   const auto& [sources, receivers_m] = survey;
-  static_assert(std::is_same_v<std::remove_cvref_t<decltype(passage)>, Passage>);  // changes no result
+  static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);  // changes no result
   const double step_s = given_step_s ? *given_step_s : time_step_s(scene);
   std::string recorded;
   for (const auto component : components)
@@ -180,7 +180,7 @@ std::optional<std::string> difference_of(const Identity& found, const Identity& 
   return {};
 }
 
-void keep(Archive& archive, Identity& identity) {
+void serialize(Archive& archive, Identity& identity) {
   identity.resize(archive.count(identity.size(), 17));
   for (auto& [name, value, in_words] : identity) {
     archive.text(name);

@@ -27,7 +27,7 @@ Identity identity_of(const Scene<D>& scene);
 /// order 5"; nothing where they are the same.
 std::optional<std::string> difference_of(const Identity& found, const Identity& expected);
 
-void keep(Archive& archive, Identity& identity);
+void serialize(Archive& archive, Identity& identity);
 
 extern template Identity identity_of(const Scene<2>&);
 extern template Identity identity_of(const Scene<3>&);

@@ -68,12 +68,12 @@ std::string place_words(std::size_t shot, const ShotPlace& place) {
 }  // namespace
 
 /// What a running shot asks and tells the book.
-class RunBook::ShotPauses : public Pauses {
+class RunState::ShotPauses : public Pauses {
  public:
-  ShotPauses(RunBook& book, std::size_t shot)
+  ShotPauses(RunState& book, std::size_t shot)
       : book_(book), shot_(shot), exceptions_(std::uncaught_exceptions()) {}
   ~ShotPauses() override { book_.leave(shot_, std::uncaught_exceptions() > exceptions_); }
-  void begin(const Keep& keep) override {
+  void begin(const Serialize& keep) override {
     const std::lock_guard lock(book_.mutex_);
     const auto left = book_.left_off_.find(shot_);
     if (left == book_.left_off_.end()) return;
@@ -81,15 +81,15 @@ class RunBook::ShotPauses : public Pauses {
     book_.left_off_.erase(left);
   }
   bool wanted() override { return book_.wanted(); }
-  void pause(const Keep& keep, const ShotPlace& place) override { book_.pause(shot_, keep, place); }
+  void pause(const Serialize& keep, const ShotPlace& place) override { book_.pause(shot_, keep, place); }
 
  private:
-  RunBook& book_;
+  RunState& book_;
   std::size_t shot_;
   int exceptions_;
 };
 
-RunBook::RunBook(Settings settings) : settings_(std::move(settings)) {
+RunState::RunState(Settings settings) : settings_(std::move(settings)) {
   if (!keeps_checkpoints()) return;
   lock_.emplace(settings_.path + ".lock", settings_.path);
   const auto there = [](const std::string& path) {
@@ -106,13 +106,13 @@ RunBook::RunBook(Settings settings) : settings_(std::move(settings)) {
   watch_.emplace();
 }
 
-RunBook::Clock::duration RunBook::in_ticks(double seconds) {
+RunState::Clock::duration RunState::in_ticks(double seconds) {
   constexpr double longest_s = 1e9;  // more would not fit the clock
   return std::chrono::duration_cast<Clock::duration>(
       std::chrono::duration<double>(std::min(seconds, longest_s)));
 }
 
-void RunBook::read(const std::string& path) {
+void RunState::read(const std::string& path) {
   try {
     reader_ = std::make_unique<CheckpointReader>(path);
   } catch (const Error& error) {
@@ -122,7 +122,7 @@ void RunBook::read(const std::string& path) {
   }
   auto content = reader_->content();
   Identity found;
-  in_place(path, [&] { slipwave::keep(content, found); });
+  in_place(path, [&] { slipwave::serialize(content, found); });
   if (const auto difference = difference_of(found, settings_.identity))
     throw Error(path + ": is of a run with " + *difference + "; remove it to begin anew");
   keep_finished(content);
@@ -144,7 +144,7 @@ void RunBook::read(const std::string& path) {
   goes_on_at_ = description();
 }
 
-std::string RunBook::description() const {
+std::string RunState::description() const {
   std::string words;
   if (settings_.shots > 1)
     words = std::to_string(finished_.size()) + " of " + std::to_string(settings_.shots) + " shots done";
@@ -157,43 +157,43 @@ std::string RunBook::description() const {
   return words.empty() ? "the shot done" : words;
 }
 
-Gather* RunBook::gather(std::size_t shot) {
+Gather* RunState::gather(std::size_t shot) {
   const auto found = finished_.find(shot);
   return found != finished_.end() && found->second ? &*found->second : nullptr;
 }
 
-void RunBook::finish(std::size_t shot, Gather gather) {
+void RunState::finish(std::size_t shot, Gather gather) {
   const std::lock_guard lock(mutex_);
   finished_[shot] = std::move(gather);
 }
 
-void RunBook::put_away(std::size_t shot) { finished_[shot].reset(); }
+void RunState::release(std::size_t shot) { finished_[shot].reset(); }
 
-std::string RunBook::snapshot_log(std::size_t shot) const {
+std::string RunState::snapshot_log(std::size_t shot) const {
   return settings_.path + ".shot" + std::to_string(shot);
 }
 
-SnapshotMark RunBook::snapshots_of(std::size_t shot) const {
+SnapshotMark RunState::snapshots_of(std::size_t shot) const {
   const auto left = left_off_.find(shot);
   return left == left_off_.end() ? SnapshotMark() : left->second.snapshots;
 }
 
-std::unique_ptr<Pauses> RunBook::pauses_of(std::size_t shot, Mark mark) {
+std::unique_ptr<Pauses> RunState::pauses_of(std::size_t shot, Mark mark) {
   if (!keeps_checkpoints()) return nullptr;
   const std::lock_guard lock(mutex_);
   running_[shot].mark = std::move(mark);
   return std::make_unique<ShotPauses>(*this, shot);
 }
 
-bool RunBook::wanted() const {
+bool RunState::wanted() const {
   return !failed_ && (watch_->noted() != 0 || Clock::now().time_since_epoch().count() >= due_);
 }
 
-bool RunBook::all_wait() const {
+bool RunState::all_wait() const {
   return std::all_of(running_.begin(), running_.end(), [](const auto& one) { return one.second.waits; });
 }
 
-void RunBook::pause(std::size_t shot, const Keep& keep, const ShotPlace& place) {
+void RunState::pause(std::size_t shot, const Serialize& keep, const ShotPlace& place) {
   std::unique_lock lock(mutex_);
   auto& self = running_.at(shot);
   self.keep = keep;
@@ -211,14 +211,14 @@ void RunBook::pause(std::size_t shot, const Keep& keep, const ShotPlace& place) 
 }
 
 /// A shot has ended, one way or the other; others may wait for it.
-void RunBook::leave(std::size_t shot, bool failed) {
+void RunState::leave(std::size_t shot, bool failed) {
   const std::lock_guard lock(mutex_);
   if (failed) failed_ = true;
   running_.erase(shot);
   turned_.notify_all();
 }
 
-void RunBook::turn_page() {
+void RunState::checkpoint_if_due() {
   if (!keeps_checkpoints() || !wanted()) return;
   const std::lock_guard lock(mutex_);
   write_page();
@@ -226,7 +226,7 @@ void RunBook::turn_page() {
 }
 
 /// While all shots wait. A checkpoint that can not be written does not end the run: the older one is there.
-void RunBook::write_page() {
+void RunState::write_page() {
   ends_ = watch_->noted();
   const std::string ended = ends_ == 0 ? "" : "ended by signal " + std::to_string(ends_);
   try {
@@ -242,10 +242,10 @@ void RunBook::write_page() {
   turned_.notify_all();
 }
 
-void RunBook::write() {
+void RunState::write() {
   CheckpointWriter out(settings_.path);
   std::set<std::size_t> logs;
-  slipwave::keep(out, settings_.identity);
+  slipwave::serialize(out, settings_.identity);
   keep_finished(out);
   out.count(running_.size() + left_off_.size(), 1);
   const auto announce = [&](std::uint64_t shot, ShotPlace place, SnapshotMark snapshots,
@@ -273,7 +273,7 @@ void RunBook::write() {
   older_logs_ = std::exchange(logs_, logs);
 }
 
-void RunBook::keep_finished(Archive& archive) {
+void RunState::keep_finished(Archive& archive) {
   std::vector<std::uint64_t> shots;
   for (const auto& [shot, gather] : finished_) shots.push_back(shot);
   archive.values(shots);
@@ -286,7 +286,7 @@ void RunBook::keep_finished(Archive& archive) {
   }
 }
 
-void RunBook::close() {
+void RunState::close() {
   if (!keeps_checkpoints()) return;
   unlink(older_checkpoint(settings_.path).c_str());
   unlink(settings_.path.c_str());

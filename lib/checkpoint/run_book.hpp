@@ -24,7 +24,7 @@ namespace slipwave {
 /// The book of a run: which of its shots are finished and what they recorded, and with a checkpoint also
 /// where the others are. Shots may run at the same time; all of them pause while a checkpoint is written. It
 /// is written when `every_s` have passed since the last, and when a signal asks the run to end.
-class RunBook {
+class RunState {
  public:
   struct Settings {
     std::string path;  // of the checkpoint; empty: there is none
@@ -36,7 +36,7 @@ class RunBook {
   };
   /// Opens the book where a run of the same identity left it. Throws an Error naming the file when there is
   /// one that is damaged, of another run or in use by one, or none can be written there.
-  explicit RunBook(Settings settings);
+  explicit RunState(Settings settings);
 
   bool keeps_checkpoints() const { return !settings_.path.empty(); }
   /// "1 of 5 shots done, shot 2 at step 120 of 400": where the run goes on; empty where it begins.
@@ -50,7 +50,7 @@ class RunBook {
   /// A shot has come to its end.
   void finish(std::size_t shot, Gather gather);
   /// What it recorded is in files of its own, and need not be kept any more.
-  void put_away(std::size_t shot);
+  void release(std::size_t shot);
 
   /// Where the snapshots of a shot are logged, and how many of them an earlier run has taken.
   std::string snapshot_log(std::size_t shot) const;
@@ -61,14 +61,14 @@ class RunBook {
   std::unique_ptr<Pauses> pauses_of(std::size_t shot, Mark mark = {});
 
   /// Between shots: writes a checkpoint where it is time, and ends the run where a signal asks for that.
-  void turn_page();
+  void checkpoint_if_due();
   /// All outputs are in place: nothing has to be remembered any more.
   void close();
 
  private:
   class ShotPauses;
   struct Running {
-    Keep keep;
+    Serialize keep;
     ShotPlace place;
     Mark mark;
     bool waits = false;
@@ -88,7 +88,7 @@ class RunBook {
   void keep_finished(Archive& archive);
   std::string description() const;
   bool wanted() const;
-  void pause(std::size_t shot, const Keep& keep, const ShotPlace& place);
+  void pause(std::size_t shot, const Serialize& keep, const ShotPlace& place);
   void leave(std::size_t shot, bool failed);
   bool all_wait() const;
 

@@ -9,7 +9,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "base/temporary.hpp"
+#include "io/temporary.hpp"
 
 namespace slipwave {
 namespace {

@@ -6,9 +6,9 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
 #include "base/nearest.hpp"
 #include "base/parse.hpp"
+#include "io/input_bytes.hpp"
 
 namespace slipwave::cli {
 namespace {

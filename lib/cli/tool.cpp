@@ -9,10 +9,10 @@
 
 #include "base/error.hpp"
 #include "base/interruption.hpp"
-#include "base/output_file.hpp"
-#include "base/parallel.hpp"
 #include "cli/parser.hpp"
 #include "cli/version.hpp"
+#include "io/output_file.hpp"
+#include "parallel/threads.hpp"
 
 namespace slipwave::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave {
 namespace {

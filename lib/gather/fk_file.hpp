@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "gather/fk_spectrum.hpp"
+#include "io/output_file.hpp"
 
 namespace slipwave {
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "gather/spectrum.hpp"
 #include "gather/trace.hpp"
+#include "io/output_file.hpp"
 
 namespace slipwave {
 

@@ -2,8 +2,8 @@
 #include <set>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
 #include "gather/spectrum_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave {
 namespace {

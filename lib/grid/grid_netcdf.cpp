@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave {
 namespace {

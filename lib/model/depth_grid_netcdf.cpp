@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/depth_grid.hpp"
 #include "model/units_netcdf.hpp"
 

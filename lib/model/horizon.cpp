@@ -6,10 +6,10 @@
 #include <numbers>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
-#include "base/netcdf_container.hpp"
-#include "base/netcdf_file.hpp"
 #include "base/parse.hpp"
+#include "io/input_bytes.hpp"
+#include "io/netcdf_container.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/points_file.hpp"
 
 namespace slipwave {

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/import.hpp"
 #include "model/units_netcdf.hpp"
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/parallel.hpp"
 #include "model/marmousi_strata.hpp"
+#include "parallel/threads.hpp"
 
 namespace slipwave {
 namespace {

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "model/prestress.hpp"
 
 namespace slipwave {

@@ -1,8 +1,8 @@
 #include "model/points_file.hpp"
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
 #include "base/parse.hpp"
+#include "io/input_bytes.hpp"
 
 namespace slipwave {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
+#include "io/input_bytes.hpp"
 #include "model/frame.hpp"
 #include "model/points_file.hpp"
 

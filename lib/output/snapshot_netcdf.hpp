@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "grid/field.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 
 namespace slipwave {
 

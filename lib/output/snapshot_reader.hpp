@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
 #include "grid/field.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave {
 

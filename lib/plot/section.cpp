@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 
 namespace slipwave::plot {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
 #include "gather/spectrum_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace slipwave::plot {
 namespace {

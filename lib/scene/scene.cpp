@@ -14,7 +14,7 @@ namespace {
 
 template <int D>
 void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
-  if (!scene.part.owns(scene.model.grid(), point)) return;
+  if (!scene.subdomain.owns(scene.model.grid(), point)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), point)));
   if (!scene.model.medium.is_void(cell)) return;
   throw Error(who + " at " + place_of(scene.model.grid(), std::int64_t(cell)) +
@@ -25,7 +25,7 @@ void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& po
 template <int D>
 void check_moment_in_fluid(const Scene<D>& scene, const Source<D>& source) {
   const auto* moment = std::get_if<MomentTensor<D>>(&source.mechanism);
-  if (!moment || !scene.part.owns(scene.model.grid(), source.position_m)) return;
+  if (!moment || !scene.subdomain.owns(scene.model.grid(), source.position_m)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), source.position_m)));
   if (!scene.model.medium.is_fluid(cell)) return;
   for (int i = 0; i < D; ++i)
@@ -174,7 +174,7 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  double fastest = scene.part.fastest;
+  double fastest = scene.subdomain.fastest;
   for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
     if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
   return scene.model.grid().spacing_m / fastest;
@@ -199,11 +199,12 @@ void check(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
   bool any = false;
   for (std::size_t cell = 0; cell < medium.vp.size() && !any; ++cell) any = !medium.is_void(cell);
-  if (!any && scene.part.is_whole()) throw Error("every cell of the model is void, expected rock or fluid");
+  if (!any && scene.subdomain.is_whole())
+    throw Error("every cell of the model is void, expected rock or fluid");
   if (scene.survey.sources.empty())
     throw Error(std::string("found no source, expected --source ") + (D == 2 ? "X,Z" : "X,Y,Z"),
                 ErrorKind::usage);
-  check(scene.survey, scene.part.whole(scene.model.grid()));
+  check(scene.survey, scene.subdomain.whole(scene.model.grid()));
   for (const auto& source : scene.survey.sources) {
     const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
     if (wave && D == 3)

@@ -9,7 +9,7 @@
 #include "gather/trace.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
-#include "scene/part.hpp"
+#include "scene/subdomain.hpp"
 
 namespace slipwave {
 
@@ -20,11 +20,12 @@ const char* name_of(SlipCorrection correction);
 /// turned into heat, J/m3, and the strain by which planes stand open.
 enum class SlipField { slip, slip_rate, dissipated, opening };
 
-/// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
-struct Passage {
-  int steps = 0;            // time steps in one pass
+/// How time steps are executed; it changes speed, never a result. 0: as measured best.
+struct Tiling {
+  int steps = 0;            // time steps in one time tile
   int stripe_cells = 0;     // columns swept together, a multiple of 16
-  bool everywhere = false;  // compute also where nothing has come to, and whatever nobody will see
+  bool everywhere = false;  // compute also where no wave has come to, and whatever nobody will see
+  bool plain = false;       // no tiles: each sweep and effect on the whole grid, one after the other
 };
 
 /// How the scene is computed. Defaults are those of sw-shoot.
@@ -36,7 +37,7 @@ struct Numerics {
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
   int time_order = 2;  // of the splitting in time: 2, 4
-  Passage passage;
+  Tiling tiling;
 };
 
 /// What is recorded at the receivers: traces of every component from t = 0 to duration, ends included.
@@ -51,7 +52,7 @@ struct Recording {
 template <int D>
 struct Scene {
   Model<D> model;
-  Part part;  // of the model that this process computes
+  Subdomain subdomain;  // of the model that this process computes
   Survey<D> survey;
   EdgeLaws<D> edges;
   Numerics numerics;

@@ -20,15 +20,15 @@ std::vector<double> half_of_stages(int time_order) {
 
 }  // namespace
 
-std::vector<SweepPart> splitting(int dimension, int time_order) {
+std::vector<SweepFraction> splitting(int dimension, int time_order) {
   auto stages = half_of_stages(time_order);
   for (auto n = stages.size(); n > 0; --n) stages.push_back(stages[n - 1]);
-  std::vector<SweepPart> sweeps;
+  std::vector<SweepFraction> sweeps;
   for (std::size_t n = 0; n < stages.size(); ++n)
     for (int turn = 0; turn < dimension; ++turn) {
       const int axis = n % 2 == 0 ? turn : dimension - 1 - turn;
       if (!sweeps.empty() && sweeps.back().axis == axis)
-        sweeps.back().part += stages[n];
+        sweeps.back().fraction += stages[n];
       else
         sweeps.push_back({axis, stages[n]});
     }

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "base/error.hpp"
-#include "base/input_bytes.hpp"
+#include "io/input_bytes.hpp"
 
 namespace slipwave::segy {
 namespace {

@@ -7,8 +7,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "gather/trace.hpp"
+#include "io/output_file.hpp"
 #include "segy/geometry.hpp"
 #include "segy/reader.hpp"
 #include "segy/text.hpp"

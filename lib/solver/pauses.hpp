@@ -8,7 +8,7 @@
 namespace slipwave {
 
 /// Hands over all that the steps to come of a shot depend on.
-using Keep = std::function<void(Archive&)>;
+using Serialize = std::function<void(Archive&)>;
 
 /// Where a shot is.
 struct ShotPlace {
@@ -20,11 +20,11 @@ class Pauses {
  public:
   virtual ~Pauses() = default;
   /// Before the first step: may fill the shot with what an earlier run of it has kept.
-  virtual void begin(const Keep& keep) = 0;
+  virtual void begin(const Serialize& keep) = 0;
   /// Whether to pause as soon as may be. Asked before each pass, by any thread.
   virtual bool wanted() = 0;
   /// No step is under way. What it throws ends the shot.
-  virtual void pause(const Keep& keep, const ShotPlace& place) = 0;
+  virtual void pause(const Serialize& keep, const ShotPlace& place) = 0;
 };
 
 }  // namespace slipwave

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "solver/instability.hpp"
-#include "solver/step.hpp"
+#include "solver/divergence.hpp"
+#include "solver/shot_simulation.hpp"
 
 namespace slipwave {
 namespace {
@@ -24,19 +24,19 @@ Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps,
 
 /// Says what became of a shot as exactly as it can be found out.
 template <int D, class Real>
-Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>& step,
-                  const solver::UnsoundFields<D>& seen, bool snapshots, Ranks* ranks) {
+Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulation<D, Real>& step,
+                  const solver::DivergedFields<D>& seen, bool snapshots, Ranks* ranks) {
   const auto sound_until = [&](const std::string& what, std::int64_t sound) {
     const auto dt_s = seen.first().time.dt_s;
     return Unstable(what, shot, sound_part(step.take_gather(), scene.recording, sound, dt_s),
                     double(sound) * dt_s);
   };
   if (ranks)
-    return sound_until(seen.what(), solver::Monitor<D, Real>::last_before(seen.first().time.step + 1));
-  const auto again = solver::first_unsound<D, Real>(scene, shot, seen.first(), snapshots);
+    return sound_until(seen.what(), solver::StabilityCheck<D, Real>::last_before(seen.first().time.step + 1));
+  const auto again = solver::first_divergence<D, Real>(scene, shot, seen.first(), snapshots);
   const auto& found = again ? *again : seen;
   const auto& first = found.first();
-  const auto looked = solver::Monitor<D, Real>::last_before(first.time.step + 1);
+  const auto looked = solver::StabilityCheck<D, Real>::last_before(first.time.step + 1);
   std::string what =
       std::string(found.what()) + "; " + solver::surroundings(scene, step.domain(), shot, first.at);
   // Between two looks it may have begun elsewhere.
@@ -52,8 +52,8 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::Step<D, Real>
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                 const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
-  solver::Step<D, Real> step(scene, shot, snapshots, ranks);
-  const Keep keep = [&step](Archive& archive) { step.keep(archive); };
+  solver::ShotSimulation<D, Real> step(scene, shot, snapshots, ranks);
+  const Serialize keep = [&step](Archive& archive) { step.serialize(archive); };
   std::function<bool()> wanted;
   if (pauses) {
     pauses->begin(keep);
@@ -65,7 +65,7 @@ Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progres
       if (step.done() == step.steps()) break;
       pauses->pause(keep, {step.done(), step.steps()});
     }
-  } catch (const solver::UnsoundFields<D>& seen) {
+  } catch (const solver::DivergedFields<D>& seen) {
     throw unstable(scene, shot, step, seen, bool(snapshots), ranks);
   }
   if (report) *report = step.report();

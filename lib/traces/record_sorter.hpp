@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/temporary.hpp"
+#include "io/temporary.hpp"
 
 namespace slipwave {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "grid/field.hpp"
+#include "io/output_file.hpp"
 #include "segy/writer.hpp"
 
 namespace slipwave {

@@ -4,12 +4,12 @@
 #include <random>
 #include <string>
 
-#include "base/parallel.hpp"
 #include "bench.hpp"
 #include "measure.hpp"
+#include "parallel/threads.hpp"
 #include "run.hpp"
 #include "scenes.hpp"
-#include "solver/step.hpp"
+#include "solver/shot_simulation.hpp"
 
 namespace slipwave::bench {
 namespace {
@@ -18,7 +18,7 @@ struct Cube {
   Index<3> shape;
   Variety variety = Variety::random;
   int order = 5, threads = 1;
-  Passage passage{0, 0, true};
+  Tiling tiling{0, 0, true};
 };
 
 Scene<3> make_scene(const Cube& what) {
@@ -37,7 +37,7 @@ Scene<3> make_scene(const Cube& what) {
   for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {EdgeLaw::mirror, EdgeLaw::mirror};
   scene.numerics.order = what.order;
   scene.numerics.cfl = 0.4;
-  scene.numerics.passage = what.passage;
+  scene.numerics.tiling = what.tiling;
   Point<3> middle;
   for (std::size_t a = 0; a < 3; ++a) middle[a] = double(what.shape[a]) * h / 2 + 1;
   scene.survey.sources = {{middle, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
@@ -60,7 +60,7 @@ void register_cube(const std::string& name, const Cube& what) {
   const auto run = [=](benchmark::State& state) {
     const ThreadLimit threads(what.threads);
     const auto scene = make_scene(what);
-    solver::Step<3, float> step(scene, 1, {});
+    solver::ShotSimulation<3, float> step(scene, 1, {});
     std::int64_t done = steps;
     step.run_to(done);
     const double least = least_seconds(state, [&] { step.run_to(done += steps); });
@@ -103,7 +103,7 @@ void register_cubes() {
     for (const int rows : {4, 6, 8, 12, 24, 48, 128}) {
       Cube what;
       what.shape = {128, 128, 128};
-      what.passage = {steps, rows, true};
+      what.tiling = {steps, rows, true};
       register_cube("cube_passage/steps:" + std::to_string(steps) + "/rows:" + std::to_string(rows), what);
     }
 }

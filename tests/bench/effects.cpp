@@ -1,6 +1,6 @@
 // What each effect costs: the same scene of 600 x 500 cells with and without it.
-#include "base/parallel.hpp"
 #include "bench.hpp"
+#include "parallel/threads.hpp"
 #include "run.hpp"
 #include "solver/simulation.hpp"
 

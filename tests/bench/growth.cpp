@@ -2,8 +2,8 @@
 #include <fstream>
 #include <string>
 
-#include "base/parallel.hpp"
 #include "bench.hpp"
+#include "parallel/threads.hpp"
 #include "run.hpp"
 #include "solver/simulation.hpp"
 

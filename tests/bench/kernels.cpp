@@ -4,7 +4,7 @@
 #include "bench.hpp"
 #include "measure.hpp"
 #include "run.hpp"
-#include "solver/kernels.hpp"
+#include "solver/kernels/kernels.hpp"
 
 namespace slipwave::bench {
 namespace {
@@ -28,8 +28,8 @@ class Rows {
   Real* row(int n) { return values_.data() + n * pitch + gap; }
   solver::MaterialRows<Real> material(std::int64_t i) { return {row(5) + i, row(6) + i, row(7) + i}; }
   /// Faces between the cells: what lies before cell i stands at i.
-  solver::Faces<Real> faces() { return {row(8), pitch}; }
-  solver::Leaving<Real> leaving() { return {row(12), pitch}; }
+  solver::InterfaceStates<Real> faces() { return {row(8), pitch}; }
+  solver::OutgoingWaves<Real> leaving() { return {row(12), pitch}; }
 
  private:
   static constexpr int count = 16;
@@ -37,10 +37,10 @@ class Rows {
   std::vector<Real> values_;
 };
 
-enum class Part { leave, meet, update, inside, sweep };
+enum class Subdomain { leave, meet, update, inside, sweep };
 
 template <class Real>
-void run(benchmark::State& state, Part part, int order, bool uniform) {
+void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
   const auto& kernels = solver::kernels<Real>(order, uniform);
   const auto& face = kernels.face[0][1];
   Rows<Real> rows;
@@ -61,23 +61,23 @@ void run(benchmark::State& state, Part part, int order, bool uniform) {
     face.inside(cells, Real(1), here.at(-1), here, here.at(1), rows.material(0),
                 {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };
-  const bool all = part == Part::sweep;
+  const bool all = part == Subdomain::sweep;
   const double least = least_seconds(state, [&] {
     for (std::int64_t n = 0; n < repeats; ++n) {
-      if (part == Part::leave || all) leave(0, 1, 6, 0);
-      if (part == Part::leave || all) leave(3, 4, 7, 1);
-      if (part == Part::meet || (all && !uniform)) meet();
-      if (part == Part::update || (all && !uniform)) update();
-      if (part == Part::inside || (all && uniform)) inside();
+      if (part == Subdomain::leave || all) leave(0, 1, 6, 0);
+      if (part == Subdomain::leave || all) leave(3, 4, 7, 1);
+      if (part == Subdomain::meet || (all && !uniform)) meet();
+      if (part == Subdomain::update || (all && !uniform)) update();
+      if (part == Subdomain::inside || (all && uniform)) inside();
       benchmark::ClobberMemory();
     }
   });
   state.counters["cells_per_s"] = double(cells * repeats) / least;
-  if (part == Part::sweep) state.counters["flops"] = flops_a_cell_step(order, uniform, false) / 2.;
+  if (part == Subdomain::sweep) state.counters["flops"] = flops_a_cell_step(order, uniform, false) / 2.;
 }
 
 template <class Real>
-void add(const char* name, Part part, int order, bool uniform) {
+void add(const char* name, Subdomain part, int order, bool uniform) {
   const std::string path = std::string("kernel:") + name + "/order:" + std::to_string(order) +
                            "/material:" + (uniform ? "uniform" : "random") +
                            "/precision:" + (sizeof(Real) == 4 ? "float" : "double");
@@ -91,12 +91,12 @@ template <class Real>
 void add_all() {
   for (const bool uniform : {true, false}) {
     for (const int order : solver::orders) {
-      add<Real>("leave", Part::leave, order, uniform);
-      add<Real>("sweep", Part::sweep, order, uniform);
+      add<Real>("leave", Subdomain::leave, order, uniform);
+      add<Real>("sweep", Subdomain::sweep, order, uniform);
     }
-    add<Real>("meet", Part::meet, 5, uniform);
-    add<Real>("update", Part::update, 5, uniform);
-    if (uniform) add<Real>("inside", Part::inside, 5, uniform);
+    add<Real>("meet", Subdomain::meet, 5, uniform);
+    add<Real>("update", Subdomain::update, 5, uniform);
+    if (uniform) add<Real>("inside", Subdomain::inside, 5, uniform);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "bench.hpp"
-#include "solver/kernels.hpp"
+#include "solver/kernels/kernels.hpp"
 
 namespace {
 

@@ -2,14 +2,14 @@
 
 #include <variant>
 
-#include "base/parallel.hpp"
-#include "solver/step.hpp"
+#include "parallel/threads.hpp"
+#include "solver/shot_simulation.hpp"
 
 namespace slipwave::bench {
 
 struct Shot::Impl {
-  using Single = solver::Step<2, float>;
-  using Double = solver::Step<2, double>;
+  using Single = solver::ShotSimulation<2, float>;
+  using Double = solver::ShotSimulation<2, double>;
 
   explicit Impl(const Case& what) : threads(what.threads), scene(make_scene(what)) {
     const SnapshotSink<2> sink = [this](double, const FieldReader<2>& field) {

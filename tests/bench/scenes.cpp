@@ -56,8 +56,8 @@ Scene<2> make_scene(const Case& what) {
   scene.numerics.cfl = 0.4;
   scene.numerics.time_order = what.time_order;
   scene.numerics.double_precision = what.double_precision;
-  scene.numerics.passage = what.passage;
-  scene.numerics.passage.everywhere = !what.only_where_seen;
+  scene.numerics.tiling = what.tiling;
+  scene.numerics.tiling.everywhere = !what.only_where_seen;
   const Point<2> source = {width / 2 + 1, what.at_the_surface ? 2 * spacing_m + 1 : depth / 2 + 1};
   if (what.plane_wave)
     scene.survey.sources = {{source, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:20"), 1}};

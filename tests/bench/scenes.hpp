@@ -19,7 +19,7 @@ struct Case {
   int time_order = 2;
   int threads = 1;
   bool double_precision = false;
-  Passage passage;
+  Tiling tiling;
   bool only_where_seen = false;  // leave out cells that no wave has come to or will be seen of
   EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
   bool fluid = false;

@@ -48,9 +48,9 @@ void register_steps() {
         Case what;
         what.nx = what.nz = far_beyond;
         what.threads = threads;
-        what.passage.steps = steps;
-        what.passage.stripe_cells = stripe;
-        register_run("passage/steps:" + std::to_string(steps) + "/stripe:" + std::to_string(stripe) +
+        what.tiling.steps = steps;
+        what.tiling.stripe_cells = stripe;
+        register_run("tiling/steps:" + std::to_string(steps) + "/stripe:" + std::to_string(stripe) +
                          "/threads:" + std::to_string(threads),
                      what);
       }

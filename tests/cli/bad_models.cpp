@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "shell.hpp"

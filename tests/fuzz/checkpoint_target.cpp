@@ -59,7 +59,7 @@ const Scene<2>& scene() {
     scene.edges = {{{{EdgeLaw::absorbing, EdgeLaw::absorbing}, {EdgeLaw::free, EdgeLaw::absorbing}}}};
     scene.numerics.order = 3;
     scene.numerics.zone_cells = 3;
-    scene.numerics.passage.steps = 1;
+    scene.numerics.tiling.steps = 1;
     scene.recording = {{Component::vx, Component::p}, 0.03, 0.001};
     scene.slip_diary = true;
     for (std::size_t shot = 0; shot < all_shots; ++shot)
@@ -78,9 +78,9 @@ struct LeftOff {};
 class Leaver : public Pauses {
  public:
   Leaver(Pauses& book, int passes) : book_(book), left_(passes) {}
-  void begin(const Keep& keep) override { book_.begin(keep); }
+  void begin(const Serialize& keep) override { book_.begin(keep); }
   bool wanted() override { return --left_ < 0; }
-  void pause(const Keep& keep, const ShotPlace& place) override {
+  void pause(const Serialize& keep, const ShotPlace& place) override {
     book_.pause(keep, place);
     throw LeftOff();
   }
@@ -90,7 +90,7 @@ class Leaver : public Pauses {
   int left_;
 };
 
-RunBook::Settings settings() {
+RunState::Settings settings() {
   constexpr double never_s = 1e9;
   const auto silent = [](const std::string&) {};
   return {folder().checkpoint(), never_s, all_shots, 1, identity_of(scene()), silent, silent};
@@ -99,7 +99,7 @@ RunBook::Settings settings() {
 void go_on() {
   const std::string place = folder().checkpoint();
   try {
-    RunBook book(settings());
+    RunState book(settings());
     for (std::size_t shot = 1; shot <= all_shots; ++shot) {
       if (const auto* gather = book.gather(shot)) {
         for (const auto& trace : gather->traces) {
@@ -125,7 +125,7 @@ void go_on() {
 
 std::vector<std::uint8_t> checkpoint_content(int passes, int shots) {
   {
-    RunBook book(settings());
+    RunState book(settings());
     for (std::size_t shot = 1; shot <= std::size_t(shots); ++shot) book.finish(shot, shoot(scene(), shot));
     const std::size_t next = std::size_t(shots) + 1;
     const auto pauses = book.pauses_of(next);

@@ -5,8 +5,8 @@
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/netcdf_probe.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/netcdf_probe.hpp"
 #include "memory_file.hpp"
 #include "model/import.hpp"
 #include "model/model_netcdf.hpp"

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/output_file.hpp"
+#include "io/output_file.hpp"
 #include "memory_file.hpp"
 #include "segy/conversion.hpp"
 #include "segy/describe.hpp"

@@ -14,7 +14,7 @@ fresh() {
   echo '#include <vector>' > "$house/lib/base/error.hpp"
   echo '#include <fftw3.h>' > "$house/lib/base/fft.cpp"
   echo '#include "base/error.hpp"' > "$house/lib/gather/trace.cpp"
-  echo '#include "solver/state.hpp"' > "$house/lib/output/snapshot.cpp"
+  echo '#include "solver/sweep/state.hpp"' > "$house/lib/output/snapshot.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
   echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
   printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
@@ -60,7 +60,7 @@ noticed() {
 
 noticed layers lib/base/error.hpp '#include "gather/trace.hpp"' 'lib/base/error.hpp:2: base must not include'
 noticed layers lib/gather/trace.cpp '#include "model/model.hpp"' 'gather must not include'
-noticed layers lib/output/snapshot.cpp '#include "solver/sweeps.hpp"' 'output must not include'
+noticed layers lib/output/snapshot.cpp '#include "solver/sweep/sweeps.hpp"' 'output must not include'
 noticed layers lib/gather/trace.cpp '#include "trace.hpp"' 'write "room/file.hpp"'
 noticed layers lib/gather/trace.cpp '#include <fftw3.h>' '<fftw3.h> belongs in'
 noticed layers lib/gather/trace.cpp '#include <tbb/task_arena.h>' '<tbb/task_arena.h> belongs in'

@@ -5,7 +5,9 @@ cd "$1"
 find lib tools -name '*.?pp' | sort | xargs awk '
   BEGIN {
     below["base"] = "base"
-    below["grid"] = below["base"] " grid"
+    below["io"] = below["base"] " io"
+    below["parallel"] = below["base"] " parallel"
+    below["grid"] = "base io parallel grid"
     below["model"] = below["grid"] " model"
     below["fracture"] = below["grid"] " fracture"
     below["acquisition"] = below["grid"] " acquisition"
@@ -14,11 +16,11 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["solver"] = below["scene"] " solver"
     below["checkpoint"] = below["solver"] " checkpoint"
     below["accuracy"] = below["solver"] " accuracy"
-    below["segy"] = "base gather segy"
+    below["segy"] = "base io parallel grid gather segy"
     below["traces"] = below["segy"] " grid traces"
     below["output"] = below["scene"] " output"
     below["plot"] = below["output"] " segy accuracy plot"
-    below["cli"] = "base cli"
+    below["cli"] = "base io parallel cli"
   }
   function broken(what) {
     printf "%s:%d: %s\n", FILENAME, FNR, what
@@ -33,9 +35,9 @@ find lib tools -name '*.?pp' | sort | xargs awk '
   /^[ \t]*#[ \t]*include[ \t]*"/ {
     split($0, quoted, "\"")
     if (room == "") next
-    if (quoted[2] !~ "^[a-z0-9_]+/[a-z0-9_]+[.]hpp$") broken("include \"" quoted[2] "\": write \"room/file.hpp\"")
+    if (quoted[2] !~ "^[a-z0-9_]+(/[a-z0-9_]+)?/[a-z0-9_]+[.]hpp$") broken("include \"" quoted[2] "\": write \"room/file.hpp\"")
     split(quoted[2], part, "/")
-    state = room == "output" && quoted[2] ~ "^solver/state"
+    state = room == "output" && quoted[2] ~ "^solver/sweep/state"
     if (index(" " below[room] " ", " " part[1] " ") == 0 && !state) broken(room " must not include \"" quoted[2] "\"")
   }
   /^[ \t]*#[ \t]*include[ \t]*</ {
@@ -43,10 +45,10 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     sub(/^[^<]*</, "", header)
     sub(/>.*$/, "", header)
     only_in("^fftw", header, "^lib/base/fft[.]cpp$")
-    only_in("^(tbb|oneapi)/", header, "^lib/base/parallel[.]cpp$")
+    only_in("^(tbb|oneapi)/", header, "^lib/parallel/threads[.]cpp$")
     only_in("^netcdf", header, "^lib/.*netcdf[a-z_]*[.][ch]pp$")
     only_in("^boost/", header, "^(lib/cli|tools)/")
     only_in("^cairo", header, "^lib/plot/")
-    only_in("^mpi[.]h", header, "^lib/base/ranks_mpi[.]cpp$")
+    only_in("^mpi[.]h", header, "^lib/parallel/ranks_mpi[.]cpp$")
   }
   END { exit bad }'

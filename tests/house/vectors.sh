@@ -1,5 +1,5 @@
 #!/bin/sh
-# vectors.sh BUILD: whether every inner loop of lib/solver/kernels_level.cpp and slip_level.cpp was compiled into vectors
+# vectors.sh BUILD: whether every inner loop of lib/solver/kernels/kernels_level.cpp and slip_level.cpp was compiled into vectors
 # of the full width of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
 #
 # Reads the disassembly. A loop is what a jump leads back to from below. Each kernel must have one in which all of the

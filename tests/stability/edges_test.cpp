@@ -61,7 +61,7 @@ TEST_P(AbsorbingEdges, OfMatchedLayersDrainTheField) {
 INSTANTIATE_TEST_SUITE_P(HardMedia, AbsorbingEdges, ::testing::ValuesIn(medium_names()),
                          [](const auto& info) { return info.param; });
 
-TEST(AbsorbingZones, LetTheWaveFieldLeave) {
+TEST(Sponge, LetTheWaveFieldLeave) {
   const ThreadLimit one_thread(1);
   Lab<double>::Setup setup;
   setup.medium = rock(40, 40);

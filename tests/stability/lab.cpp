@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <random>
 
-#include "solver/absorbing.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "solver/effect/sponge.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave {
 
@@ -48,14 +48,14 @@ Lab<Real>::Lab(const Setup& setup)
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
   const double vp_max = solver::fastest_wave(model.medium);
   if (zones && setup.layer_hz > 0) {
-    layer_ = std::make_unique<solver::MatchedLayer<2, Real>>(state_.layout, domain_, dt_s_, vp_max,
-                                                             setup.layer_hz, setup.time_order);
+    layer_ = std::make_unique<solver::Pml<2, Real>>(state_.layout, domain_, dt_s_, vp_max, setup.layer_hz,
+                                                    setup.time_order);
     sweeps_->use(layer_.get());
   } else if (zones) {
     passes_.push_back(
-        std::make_unique<solver::AbsorbingZones<2, Real>>(state_, domain_, dt_s_, vp_max, nullptr));
+        std::make_unique<solver::Sponge<2, Real>>(state_.layout, domain_, dt_s_, vp_max, nullptr));
   }
-  if (scene_.slips()) slip_ = std::make_unique<solver::SlipPass<2, Real>>(state_, domain_, scene_, dt_s_);
+  if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, Real>>(state_, domain_, scene_, dt_s_);
 
   std::mt19937 engine(setup.seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
@@ -86,12 +86,12 @@ Lab<Real>::Lab(const Setup& setup)
 template <class Real>
 void Lab<Real>::step() {
   for (const auto& sweep : splitting_)
-    if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.part));
+    if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
-  for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_.layout);
-  if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_.layout); });
-  for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_.layout);
-  if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_.layout); });
+  for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_);
+  if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });
+  for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_);
+  if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_); });
   ++steps_;
 }
 

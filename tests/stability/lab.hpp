@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "base/parallel.hpp"
 #include "media.hpp"
+#include "parallel/threads.hpp"
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
-#include "solver/matched_layer.hpp"
-#include "solver/pass.hpp"
-#include "solver/sweeps.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/effect/pml.hpp"
+#include "solver/sweep/sweeps.hpp"
 
 namespace slipwave {
 
@@ -81,12 +81,12 @@ class Lab {
   double dt_s_;
   solver::State<2, Real> state_;
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
-  std::unique_ptr<solver::MatchedLayer<2, Real>> layer_;
-  std::vector<std::unique_ptr<solver::Pass>> passes_;
-  std::unique_ptr<solver::Pass> slip_;
+  std::unique_ptr<solver::Pml<2, Real>> layer_;
+  std::vector<std::unique_ptr<solver::Effect<2, Real>>> passes_;
+  std::unique_ptr<solver::Effect<2, Real>> slip_;
   bool along_z_only_;
   double work_of_prestress_ = 0;
-  std::vector<SweepPart> splitting_;
+  std::vector<SweepFraction> splitting_;
   std::int64_t steps_ = 0;
 };
 

@@ -7,9 +7,9 @@
 
 #include "lab.hpp"
 #include "media.hpp"
-#include "solver/matched_layer.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/pml.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave {
 namespace {
@@ -26,12 +26,12 @@ class InLayer {
         layer_(state_.layout, domain_, dt_s_, solver::fastest_wave(scene_.model.medium), 30) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);
     sweeps_.use(&layer_);
-    if (scene_.slips()) slip_ = std::make_unique<solver::SlipPass<2, double>>(state_, domain_, scene_, dt_s_);
+    if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, double>>(state_, domain_, scene_, dt_s_);
     std::mt19937 engine(1);
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
       const auto at = domain_.grid.index(n);
-      const double zp = domain_.impedance[solver::wave_p](at), zs = domain_.impedance[solver::wave_s](at);
+      const double zp = domain_.impedance(solver::wave_p)(at), zs = domain_.impedance(solver::wave_s)(at);
       const auto set = [&](int row, double value) { state_.field_row({0, at[1]}, row)[at[0]] = value; };
       const double pressure = zp * uniform(engine);
       for (const int row : {0, 1}) set(row, zp > 0 ? uniform(engine) : 0);
@@ -46,8 +46,8 @@ class InLayer {
       sweeps_.along(1, 1);
       sweeps_.along(0, 0.5);
       if (!slip_) continue;
-      solver::run_everywhere(*slip_, {n, dt_s_}, state_.layout);
-      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_.layout);
+      solver::run_everywhere(*slip_, {n, dt_s_}, state_);
+      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_);
     }
   }
   double energy() const { return solver::energy(state_, domain_, scene_.model.medium); }
@@ -58,8 +58,8 @@ class InLayer {
   double dt_s_;
   solver::State<2, double> state_;
   solver::Sweeps<2, double> sweeps_;
-  solver::MatchedLayer<2, double> layer_;
-  std::unique_ptr<solver::Pass> slip_;
+  solver::Pml<2, double> layer_;
+  std::unique_ptr<solver::Effect<2, double>> slip_;
 };
 
 Scene<2> scene_of(const std::string& medium, int cells, EdgeLaw top) {
@@ -87,26 +87,26 @@ void expect_to_last(InLayer&& lab) {
   }
 }
 
-class MatchedLayer : public ::testing::TestWithParam<std::string> {
+class Pml : public ::testing::TestWithParam<std::string> {
  protected:
   const ThreadLimit one_thread_{1};
 };
 
 }  // namespace
 
-TEST_P(MatchedLayer, StaysBoundedForThousandsOfSteps) {
+TEST_P(Pml, StaysBoundedForThousandsOfSteps) {
   for (const int order : {3, 5, 7}) {
     SCOPED_TRACE("order " + std::to_string(order));
     expect_to_last(InLayer(scene_of(GetParam(), 12, EdgeLaw::absorbing), order, 8));
   }
 }
 
-TEST_P(MatchedLayer, StaysBoundedBesideAFreeSurface) {
+TEST_P(Pml, StaysBoundedBesideAFreeSurface) {
   expect_to_last(InLayer(scene_of(GetParam(), 12, EdgeLaw::free), 5, 8));
 }
 
 // Thin layers damp harder, wide ones give plate waves more room to grow: 8 cells alone would not show it.
-TEST_P(MatchedLayer, StaysBoundedAtItsUsualWidth) {
+TEST_P(Pml, StaysBoundedAtItsUsualWidth) {
   for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid}) {
     auto scene = scene_of(GetParam(), 12, top);
     scene.edges[1][1] = top;
@@ -114,7 +114,7 @@ TEST_P(MatchedLayer, StaysBoundedAtItsUsualWidth) {
   }
 }
 
-TEST_P(MatchedLayer, StaysBoundedWherePlatesReachIntoIt) {
+TEST_P(Pml, StaysBoundedWherePlatesReachIntoIt) {
   for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid})
     for (const EdgeLaw bottom : {EdgeLaw::free, EdgeLaw::rigid}) {
       auto scene = scene_of(GetParam(), 12, top);
@@ -123,7 +123,7 @@ TEST_P(MatchedLayer, StaysBoundedWherePlatesReachIntoIt) {
     }
 }
 
-TEST_P(MatchedLayer, StaysBoundedWithSlippingCellsOnAllSides) {
+TEST_P(Pml, StaysBoundedWithSlippingCellsOnAllSides) {
   auto scene = scene_of(GetParam(), 12, EdgeLaw::free);
   scene.model.fracture_sets = {{"all", {{{std::sqrt(0.5), std::sqrt(0.5)}, 0.1, 0, 0}}}};
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
@@ -132,7 +132,7 @@ TEST_P(MatchedLayer, StaysBoundedWithSlippingCellsOnAllSides) {
   expect_to_last(InLayer(scene, 5, 8));
 }
 
-INSTANTIATE_TEST_SUITE_P(HardMedia, MatchedLayer, ::testing::ValuesIn(medium_names()),
+INSTANTIATE_TEST_SUITE_P(HardMedia, Pml, ::testing::ValuesIn(medium_names()),
                          [](const auto& info) { return info.param; });
 
 }  // namespace slipwave

@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "solver/span_ends.hpp"
+#include "solver/sweep/interface_stencils.hpp"
 
 namespace slipwave {
 namespace {
@@ -68,7 +68,7 @@ Cell scaled(double ratio) { return {4500 / ratio, 2250 / ratio, 2500}; }
 Cell denser(double ratio) { return {4500, 2250, 2500 * ratio}; }
 
 const std::map<std::string, Filling>& fillings() {
-  constexpr double r = solver::contact_ratio;
+  constexpr double r = solver::strong_interface_ratio;
   static const std::map<std::string, Filling> all = {
       {"WaterOverRock", over(water, basement)},
       {"WaterOverCurvedRock",

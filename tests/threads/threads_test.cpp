@@ -4,11 +4,11 @@
 #include <numeric>
 #include <vector>
 
-#include "base/parallel.hpp"
 #include "lab.hpp"
 #include "model/marmousi.hpp"
+#include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
-#include "solver/parts.hpp"
+#include "solver/schedule/subdomains.hpp"
 #include "solver/simulation.hpp"
 
 // Small, but cut into many pieces: a band of the pipeline has some 50 rows.
@@ -97,7 +97,7 @@ TEST(Threads, ShareAShotOfFourthOrderInDoublePrecision) {
   scene.numerics.time_order = 4;
   scene.numerics.double_precision = true;
   scene.numerics.cfl = 0.7;
-  scene.numerics.passage = {1, 16, true};
+  scene.numerics.tiling = {1, 16, true};
   expect_the_same_on_threads(scene);
 }
 
@@ -109,7 +109,7 @@ TEST(Threads, OfSeveralRanksRecordWhatOneDoes) {
       const ThreadLimit limit(4);
       std::vector<double> together;
       RanksInThreads::run(count, [&](Ranks& ranks) {
-        auto part = cut_to(scene, part_for(scene, scene.model.grid(), ranks.number(), count));
+        auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), count));
         join(part, ranks);
         const auto gather = shoot(part, 2, {}, {}, nullptr, nullptr, &ranks);
         if (ranks.number() == 0) together = samples_of(gather);

@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model_cases.hpp"
 
 namespace slipwave {

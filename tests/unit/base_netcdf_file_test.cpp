@@ -1,4 +1,4 @@
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/netcdf_container.hpp"
+#include "io/netcdf_container.hpp"
 
 using namespace slipwave;
 

@@ -1,4 +1,4 @@
-#include "base/netcdf_probe.hpp"
+#include "io/netcdf_probe.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>

@@ -1,4 +1,4 @@
-#include "base/output_file.hpp"
+#include "io/output_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 
 using namespace slipwave;
 

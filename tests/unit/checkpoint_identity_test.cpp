@@ -30,7 +30,7 @@ TEST(Identity, IsThatOfTheSameScene) {
   EXPECT_EQ(difference_of(identity_of(scene()), identity_of(scene())), std::nullopt);
   // How passes are cut changes no result.
   auto other = scene();
-  other.numerics.passage = {1, 64, true};
+  other.numerics.tiling = {1, 64, true};
   EXPECT_EQ(difference_of(identity_of(scene()), identity_of(other)), std::nullopt);
 }
 

@@ -37,7 +37,7 @@ class CheckpointFile : public ::testing::Test {
     std::sort(all.begin(), all.end());
     return all;
   }
-  RunBook::Settings settings(double every_s = 1e6) const {
+  RunState::Settings settings(double every_s = 1e6) const {
     return {path(), every_s, 3, 1, {{"order", "5"}, {"model", "17", false}}, said_, said_};
   }
   std::function<void(const std::string&)> said_ = [this](const std::string& sentence) {
@@ -65,7 +65,7 @@ Gather gather_of(std::size_t shot) {
 /// A shot that counts its steps and remembers all of them.
 struct Counting {
   std::vector<std::int64_t> steps;
-  Keep keep = [this](Archive& archive) { archive.values(steps); };
+  Serialize keep = [this](Archive& archive) { archive.values(steps); };
   void run_to(std::int64_t last, Pauses& pauses) {
     pauses.begin(keep);
     while (std::int64_t(steps.size()) < last) {
@@ -90,8 +90,8 @@ std::string refusal(const std::function<void()>& what) {
 }
 
 /// Writes a checkpoint of one finished shot and one under way.
-void leave_off(const RunBook::Settings& settings, Gather gather = gather_of(1)) {
-  RunBook book(settings);
+void leave_off(const RunState::Settings& settings, Gather gather = gather_of(1)) {
+  RunState book(settings);
   book.finish(1, std::move(gather));
   Counting shot;
   const auto pauses = book.pauses_of(2);
@@ -103,7 +103,7 @@ void leave_off(const RunBook::Settings& settings, Gather gather = gather_of(1)) 
 
 TEST_F(CheckpointFile, HoldsWhatIsFinishedAndWhereTheOthersAre) {
   leave_off(settings());
-  RunBook book(settings());
+  RunState book(settings());
   EXPECT_EQ(book.goes_on_at(), "1 of 3 shots done, shot 2 at step 4 of 10");
   ASSERT_TRUE(book.gather(1));
   EXPECT_FALSE(book.finished(2));
@@ -128,7 +128,7 @@ TEST_F(CheckpointFile, IsRefusedWithTracesThatNoShotRecords) {
   other.traces[0].header.component = Component(99);
   for (const auto& gather : {shorter, other}) {
     leave_off(settings(), gather);
-    EXPECT_EQ(refusal([&] { RunBook book(settings()); }), path() + ": holds traces that no shot records");
+    EXPECT_EQ(refusal([&] { RunState book(settings()); }), path() + ": holds traces that no shot records");
     fs::remove(path());
   }
 }
@@ -141,11 +141,11 @@ TEST_F(CheckpointFile, IsRefusedWhicheverOfItsBytesIsDamaged) {
     auto damaged = whole;
     damaged[byte] = char(damaged[byte] ^ (1 << byte % 8));
     write(path(), damaged);
-    const auto said = refusal([&] { RunBook book(settings()); });
+    const auto said = refusal([&] { RunState book(settings()); });
     EXPECT_EQ(said.find(path() + ": "), 0u) << "byte " << byte << ": '" << said << "'";
   }
   write(path(), whole);
-  EXPECT_EQ(refusal([&] { RunBook book(settings()); }), "");
+  EXPECT_EQ(refusal([&] { RunState book(settings()); }), "");
 }
 
 TEST_F(CheckpointFile, IsRefusedWhereverItIsCutOffOrGoesOn) {
@@ -153,11 +153,11 @@ TEST_F(CheckpointFile, IsRefusedWhereverItIsCutOffOrGoesOn) {
   const auto whole = content(path());
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write(path(), whole.substr(0, size));
-    EXPECT_NE(refusal([&] { RunBook book(settings()); }), "") << size;
+    EXPECT_NE(refusal([&] { RunState book(settings()); }), "") << size;
   }
   for (const std::size_t more : {1, 7, 8, 4096}) {
     write(path(), whole + std::string(more, '\0'));
-    EXPECT_NE(refusal([&] { RunBook book(settings()); }), "") << more;
+    EXPECT_NE(refusal([&] { RunState book(settings()); }), "") << more;
   }
 }
 
@@ -167,29 +167,29 @@ TEST_F(CheckpointFile, OfAnotherFormatOrRunOrNoneIsRefusedByName) {
   auto later = whole;
   later[24] = 7;
   write(path(), later);
-  EXPECT_EQ(refusal([&] { RunBook book(settings()); }),
+  EXPECT_EQ(refusal([&] { RunState book(settings()); }),
             path() + ": found a checkpoint of format 7, expected 1");
   write(path(), std::string(5000, 'x'));
-  EXPECT_EQ(refusal([&] { RunBook book(settings()); }),
+  EXPECT_EQ(refusal([&] { RunState book(settings()); }),
             path() + ": is no checkpoint of sw-shoot, or damaged");
   write(path(), whole);
   auto other = settings();
   other.identity[0].value = "7";
-  EXPECT_EQ(refusal([&] { RunBook book(other); }),
+  EXPECT_EQ(refusal([&] { RunState book(other); }),
             path() + ": is of a run with order 5, expected 7; remove it to begin anew");
   other = settings();
   other.identity[1].value = "18";
-  EXPECT_EQ(refusal([&] { RunBook book(other); }),
+  EXPECT_EQ(refusal([&] { RunState book(other); }),
             path() + ": is of a run with another model; remove it to begin anew");
   other = settings();
   other.identity.pop_back();
-  EXPECT_NE(refusal([&] { RunBook book(other); }), "");
+  EXPECT_NE(refusal([&] { RunState book(other); }), "");
   EXPECT_EQ(content(path()), whole);
 }
 
 TEST_F(CheckpointFile, KeepsOneOlderAndLeavesNothingWhenClosed) {
   auto often = settings(1e-9);
-  RunBook book(often);
+  RunState book(often);
   Counting shot;
   {
     const auto pauses = book.pauses_of(1);
@@ -210,7 +210,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
   const auto often = settings(1e-3);
   std::array<std::size_t, 3> before{};
   for (int round = 0; round < 4; ++round) {
-    RunBook book(often);
+    RunState book(often);
     std::array<Counting, 3> shots;
     std::array<std::size_t, 3> begun{};
     std::vector<std::thread> threads;
@@ -246,7 +246,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
 }
 
 TEST_F(CheckpointFile, IsNotWrittenOnceAShotHasFailed) {
-  RunBook book(settings(1e-9));
+  RunState book(settings(1e-9));
   {
     Counting shot;
     const auto pauses = book.pauses_of(1);

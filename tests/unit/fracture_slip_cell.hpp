@@ -4,7 +4,7 @@
 #include <array>
 
 #include "fracture/joint_slip.hpp"
-#include "solver/slip_planes.hpp"
+#include "solver/effect/slip_planes.hpp"
 
 namespace slipwave {
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
 #include "gather/spectrum_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "segy_shared.hpp"
 
 using namespace slipwave;

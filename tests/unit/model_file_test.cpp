@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "base/netcdf_file.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/import.hpp"
 #include "model/model_netcdf.hpp"
 #include "model_cases.hpp"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/horizon.hpp"
 #include "model_cases.hpp"
 

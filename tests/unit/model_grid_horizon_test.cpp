@@ -4,7 +4,7 @@
 #include <random>
 #include <vector>
 
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/horizon.hpp"
 #include "model/layers.hpp"
 #include "model_cases.hpp"

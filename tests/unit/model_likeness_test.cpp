@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "base/input_bytes.hpp"
+#include "io/input_bytes.hpp"
 #include "model/import.hpp"
 #include "model/layers.hpp"
 #include "model/marmousi.hpp"

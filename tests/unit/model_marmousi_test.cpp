@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/parallel.hpp"
 #include "model/layers.hpp"
 #include "model_cases.hpp"
+#include "parallel/threads.hpp"
 
 using namespace slipwave;
 

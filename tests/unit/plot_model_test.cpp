@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "plot/model_picture.hpp"
 #include "plot_cases.hpp"

@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "base/error.hpp"
-#include "base/netcdf_file.hpp"
-#include "base/output_file.hpp"
 #include "gather/fk_file.hpp"
 #include "gather/spectrum_file.hpp"
+#include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
 #include "plot/colour_map.hpp"
 #include "plot/spectra.hpp"
 #include "plot/spectrum_picture.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "base/output_file.hpp"
 #include "gather/trace.hpp"
+#include "io/output_file.hpp"
 #include "segy/reader.hpp"
 #include "segy/writer.hpp"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/edges.hpp"
-#include "solver/patches.hpp"
+#include "solver/schedule/patches.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 /// Patches of a model of these columns whose second row has fractures in these cells.
 class PatchesOf {
  public:
-  PatchesOf(std::int64_t nx, const std::vector<Columns>& fractured, EdgeLaw sides = EdgeLaw::rigid) {
+  PatchesOf(std::int64_t nx, const std::vector<IndexRange>& fractured, EdgeLaw sides = EdgeLaw::rigid) {
     const Grid<2> grid{{nx, 3}, 5, {0, 0}};
     model_.medium = {Field<2>(grid, 3000), Field<2>(grid, 1500), Field<2>(grid, 2000)};
     model_.fracture = Field<2, std::uint8_t>(grid);

@@ -5,7 +5,7 @@
 #include "accuracy/ladder.hpp"
 #include "accuracy/plan.hpp"
 #include "lab.hpp"
-#include "solver/dispersion.hpp"
+#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave {
 namespace {

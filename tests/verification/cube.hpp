@@ -86,11 +86,11 @@ class Cube {
   /// Many steps, neighbouring sweeps along x made one.
   void steps(std::int64_t count) {
     if (count == 0) return;
-    const double end = splitting_.front().part;
+    const double end = splitting_.front().fraction;
     sweep(0, end);
     for (std::int64_t n = 0; n < count; ++n) {
       for (std::size_t inner = 1; inner + 1 < splitting_.size(); ++inner)
-        sweep(splitting_[inner].axis, splitting_[inner].part);
+        sweep(splitting_[inner].axis, splitting_[inner].fraction);
       sweep(0, n + 1 < count ? 2 * end : end);
     }
   }
@@ -100,7 +100,7 @@ class Cube {
   Domain<3> domain_;
   std::unique_ptr<State<3, Real>> state_;  // the sweeps keep a reference
   Sweeps<3, Real> sweeps_;
-  std::vector<SweepPart> splitting_;
+  std::vector<SweepFraction> splitting_;
 };
 
 inline std::vector<double> samples_of(const Gather& gather) {

@@ -1,38 +1,31 @@
 #include <gtest/gtest.h>
 
-#include "base/parallel.hpp"
 #include "cube.hpp"
-#include "solver/pipeline.hpp"
+#include "parallel/threads.hpp"
+#include "solver/schedule/tiled.hpp"
 
 namespace slipwave::solver {
 namespace {
 
-/// Nothing happens between steps and all of it is wanted.
+/// Sweeps alone.
 template <class Real>
-class Nothing : public EndOfStep<Real> {
- public:
-  void begin(const StepTime&) override {}
-  bool whole(const StepTime&, std::int64_t) const override { return false; }
-  bool works_beside() const override { return false; }
-  bool looks(const StepTime&, std::int64_t) const override { return false; }
-  void look(const StepTime&, std::int64_t, const Columns&, const Real*, std::int64_t) override {}
-  bool stirs(const StepTime&, std::int64_t) const override { return false; }
-  Box needed(const StepTime&, const Box&) const override { return {{0, 1 << 20}, {0, 1 << 20}}; }
-  void run(const StepTime&, std::int64_t, const Columns&) override {}
-  void run_after(const StepTime&, std::int64_t, const Columns&) override {}
-  void finish(const StepTime&) override {}
-};
+TimeStep<3, Real> sweeps_of(Cube<Real>& cube, double dt_s, int time_order, std::int64_t steps) {
+  std::vector<Entry<3, Real>> entries;
+  for (const auto& [axis, fraction] : splitting(3, time_order))
+    entries.push_back(Sweep<3, Real>{axis, fraction, {}});
+  return {cube.state().layout, dt_s, std::move(entries), {}, true, steps};
+}
 
 /// Passes end with a whole sweep along x, which belongs to the next step, too: here as many sweeps one after
 /// the other, each through all of the memory.
 template <class Real>
 void sweep_by_sweep(Cube<Real>& cube, std::int64_t steps, int time_order) {
   const auto parts = splitting(3, time_order);
-  cube.sweep(0, parts.front().part);
+  cube.sweep(0, parts.front().fraction);
   for (std::int64_t n = 0; n < steps; ++n) {
     for (std::size_t inner = 1; inner + 1 < parts.size(); ++inner)
-      cube.sweep(parts[inner].axis, parts[inner].part);
-    cube.sweep(0, 2 * parts.front().part);
+      cube.sweep(parts[inner].axis, parts[inner].fraction);
+    cube.sweep(0, 2 * parts.front().fraction);
   }
 }
 
@@ -65,17 +58,17 @@ TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
     one.shake(1);
     sweep_by_sweep(one, steps, time_order);
     const auto expected = fields_of(one);
-    for (const auto& [passage, threads] : {std::pair(Passage{1, 100, true}, 3), std::pair(Passage{2, 7}, 1),
-                                           std::pair(Passage{3, 12, true}, 3), std::pair(Passage{0, 0}, 1)}) {
+    for (const auto& [tiling, threads] : {std::pair(Tiling{1, 100, true}, 3), std::pair(Tiling{2, 7}, 1),
+                                          std::pair(Tiling{3, 12, true}, 3), std::pair(Tiling{0, 0}, 1)}) {
       const ThreadLimit limit(threads);
       Cube<float> cube(medium, edges, order, dt_s, time_order);
       cube.shake(1);
-      Nothing<float> nothing;
-      Pipeline<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, passage);
-      pipeline.find_active_cells();
-      pipeline.run(0, steps);
+      auto step = sweeps_of(cube, dt_s, time_order, steps);
+      TiledExecutor<3, float> executor(cube.sweeps(), cube.state(), step, tiling);
+      executor.fields_changed();
+      executor.run(0, steps);
       EXPECT_TRUE(fields_of(cube) == expected)
-          << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+          << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
     }
   }
 }

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "base/parallel.hpp"
 #include "cube_extruded.hpp"
+#include "parallel/threads.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -37,7 +37,7 @@ TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     scene.numerics.order = order;
     scene.numerics.time_order = time_order;
     scene.numerics.zone_cells = 6;
-    scene.numerics.passage = {1, 1 << 20, true};
+    scene.numerics.tiling = {1, 1 << 20, true};
     const auto whole = [&] {
       const ThreadLimit one(1);
       return samples_of(shoot(scene, 1));
@@ -45,12 +45,12 @@ TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     double largest = 0;
     for (const double sample : whole) largest = std::max(largest, std::abs(sample));
     EXPECT_GT(largest, 0);
-    for (const auto& [passage, threads] :
-         {std::pair(Passage{0, 0}, 3), std::pair(Passage{1, 7}, 1), std::pair(Passage{3, 12, true}, 3)}) {
+    for (const auto& [tiling, threads] :
+         {std::pair(Tiling{0, 0}, 3), std::pair(Tiling{1, 7}, 1), std::pair(Tiling{3, 12, true}, 3)}) {
       const ThreadLimit limit(threads);
-      scene.numerics.passage = passage;
+      scene.numerics.tiling = tiling;
       EXPECT_TRUE(samples_of(shoot(scene, 1)) == whole)
-          << passage.steps << " steps, " << passage.stripe_cells << " rows, " << threads << " threads";
+          << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
     }
   }
 }

@@ -2,7 +2,7 @@
 
 #include "accuracy/reached.hpp"
 #include "cube.hpp"
-#include "solver/step.hpp"
+#include "solver/shot_simulation.hpp"
 
 using namespace slipwave;
 using namespace slipwave::solver;
@@ -32,7 +32,7 @@ Shares shares_of(const Index<3>& shape, int order, double source_y, double durat
   scene.edges[2][0] = EdgeLaw::free;
   scene.numerics.order = order;
   scene.recording = {{Component::vz}, duration_s, 0.002};
-  Step<3, float> step(scene, 1, {});
+  ShotSimulation<3, float> step(scene, 1, {});
   step.run_to(step.steps());
   return {step.computed_share(), expected_share(scene, step.domain().grid)};
 }

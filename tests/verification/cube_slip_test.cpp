@@ -3,8 +3,8 @@
 #include <random>
 
 #include "cube_extruded.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -180,14 +180,14 @@ TEST(BlockMedium, OnlyTakesEnergy) {
     const auto edges = edges_all_3d(EdgeLaw::rigid);
     Cube<double> cube(scene.model.medium, edges, 5, dt_s);
     const auto domain = make_domain(scene.model.medium, edges, 1);
-    SlipPass<3, double> slip(cube.state(), domain, scene, dt_s);
+    Slip<3, double> slip(cube.state(), domain, scene, dt_s);
     cube.shake(4);
     double least = cube.energy(), lost = 0;
     for (std::int64_t step = 0; step < 20; ++step) {
       cube.steps(1);
       const double before = cube.energy();
-      run_everywhere(slip, {step, dt_s}, cube.state().layout);
-      run_after_everywhere(slip, {step, dt_s}, cube.state().layout);
+      run_everywhere(slip, {step, dt_s}, cube.state());
+      run_after_everywhere(slip, {step, dt_s}, cube.state());
       const double now = cube.energy();
       lost += before - now;
       EXPECT_LT(now, least * (1 + 1e-11)) << name_of(correction) << ", step " << step;

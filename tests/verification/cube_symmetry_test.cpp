@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "base/parallel.hpp"
 #include "cube_shot.hpp"
+#include "parallel/threads.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "accuracy/full_space.hpp"
 #include "scene/splitting.hpp"
-#include "solver/sweeps.hpp"
+#include "solver/sweep/sweeps.hpp"
 
 namespace slipwave::solver {
 
@@ -57,11 +57,11 @@ class Lab {
   /// Many of them, neighbouring sweeps along x made one.
   void steps(std::int64_t count) {
     if (count == 0) return;
-    const double end = splitting_.front().part;
+    const double end = splitting_.front().fraction;
     sweep(0, end);
     for (std::int64_t n = 0; n < count; ++n) {
       for (std::size_t inner = 1; inner + 1 < splitting_.size(); ++inner)
-        sweep(splitting_[inner].axis, splitting_[inner].part);
+        sweep(splitting_[inner].axis, splitting_[inner].fraction);
       sweep(0, n + 1 < count ? 2 * end : end);
     }
   }
@@ -71,7 +71,7 @@ class Lab {
   Domain<2> domain_;
   std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
   Sweeps<2, Real> sweeps_;
-  std::vector<SweepPart> splitting_;
+  std::vector<SweepFraction> splitting_;
 };
 
 /// Of an error that falls from `coarse` to `fine` as the spacing falls to half.

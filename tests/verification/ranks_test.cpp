@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "acquisition/interpolation.hpp"
-#include "base/parallel.hpp"
 #include "cube_extruded.hpp"
 #include "lab.hpp"
+#include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
-#include "solver/parts.hpp"
+#include "solver/schedule/subdomains.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -15,7 +15,7 @@ namespace {
 
 template <int D>
 Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
-  auto part = cut_to(scene, part_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
+  auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
   join(part, ranks);
   return part;
 }
@@ -100,13 +100,13 @@ TEST(Ranks, RecordAlongAWholeBoreholeWhatOneProcessDoes) {
   auto scene = reef();
   scene.survey.receivers_m.clear();
   for (double z = 3; z < 950; z += 7) scene.survey.receivers_m.push_back({223.4, z});
-  const auto part = part_for(scene, scene.model.grid(), 1, 4);
-  EXPECT_GT(part.exchanged, spread_of_a_pass(scene));
+  const auto part = subdomain_for(scene, scene.model.grid(), 1, 4);
+  EXPECT_GT(part.exchanged, spread_of_a_tile(scene));
   const auto alone = all_samples(shoot(scene, 1));
   EXPECT_TRUE(all_samples(shared_out(scene, 4, 3)) == alone);
   // Where few receivers lie, boundaries keep away from them, and less is exchanged.
   scene.survey.receivers_m.resize(1);
-  EXPECT_EQ(part_for(scene, scene.model.grid(), 1, 4).exchanged, spread_of_a_pass(scene));
+  EXPECT_EQ(subdomain_for(scene, scene.model.grid(), 1, 4).exchanged, spread_of_a_tile(scene));
 }
 
 TEST(Ranks, RecordOnLinesOfSeveralStripesWhatOneProcessDoes) {
@@ -222,7 +222,7 @@ TEST(Parts, TileTheModelEvenly) {
   for (const int count : {2, 3, 7}) {
     std::int64_t before = 0;
     for (int number = 0; number < count; ++number) {
-      const auto part = part_for(scene, scene.model.grid(), number, count);
+      const auto part = subdomain_for(scene, scene.model.grid(), number, count);
       EXPECT_EQ(part.first, before);
       // A zone of 20 rows lies below the last.
       const auto computed = part.last - part.first + (number + 1 == count ? 20 : 0);
@@ -236,7 +236,7 @@ TEST(Parts, TileTheModelEvenly) {
 TEST(Parts, AreRefusedWhereRowsAreTooFew) {
   auto scene = reef();
   try {
-    part_for(scene, scene.model.grid(), 0, 50);
+    subdomain_for(scene, scene.model.grid(), 0, 50);
     FAIL();
   } catch (const Error& error) {
     EXPECT_STREQ(
@@ -244,17 +244,17 @@ TEST(Parts, AreRefusedWhereRowsAreTooFew) {
         "found 50 processes a shot for a model of 190 rows, expected at most 13: each takes 14 or more");
   }
   scene.survey.sources[0].mechanism = PlaneWave<2>{};
-  EXPECT_THROW(part_for(scene, scene.model.grid(), 0, 2), Error);
+  EXPECT_THROW(subdomain_for(scene, scene.model.grid(), 0, 2), Error);
 }
 
 TEST(Ranks, ThrowWhatOneOfThemThrows) {
   std::vector<std::string> said(3);
   RanksInThreads::run(3, [&](Ranks& ranks) {
     try {
-      agreed(&ranks, [&] {
+      collective_try(&ranks, [&] {
         if (ranks.number() > 0) throw Error("found " + std::to_string(ranks.number()), ErrorKind::usage);
       });
-    } catch (const AgreedError& error) {
+    } catch (const CollectiveError& error) {
       EXPECT_EQ(error.kind(), ErrorKind::usage);
       said[std::size_t(ranks.number())] = error.what();
     }

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "lab.hpp"
-#include "solver/domain.hpp"
-#include "solver/state.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -23,7 +23,7 @@ Medium<2> ground(std::int64_t nx, std::int64_t nz) {
   return medium;
 }
 
-TEST(Insides, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
+TEST(UniformInterior, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
   constexpr std::int64_t block = Layout<2>::block, nx = 333, nz = 120, stretch = 64;
   const auto medium = ground(nx, nz);
   EdgeLaws<2> edges = edges_all(EdgeLaw::mirror);
@@ -42,7 +42,7 @@ TEST(Insides, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
     std::int64_t inside_in_all = 0;
     for (std::int64_t k = 0; k < nz; ++k) {
       std::vector<bool> inside(nx);
-      for (const auto& run : state.insides[std::size_t(axis)].of(k)) {
+      for (const auto& run : state.uniform_interior[std::size_t(axis)].of(k)) {
         EXPECT_EQ(run.first % block, 0);
         EXPECT_EQ(run.last % block, 0);
         for (auto i = run.first; i < run.last; ++i) inside[std::size_t(i)] = true;
@@ -81,16 +81,16 @@ TEST(Insides, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
   }
 }
 
-TEST(Insides, AreToldApartFromWhatIsBetweenThem) {
-  const Columns runs[] = {{16, 64}, {96, 160}};
-  const auto cut = [&](const Columns& columns, std::int64_t less) {
+TEST(UniformInterior, AreToldApartFromWhatIsBetweenThem) {
+  const IndexRange runs[] = {{16, 64}, {96, 160}};
+  const auto cut = [&](const IndexRange& columns, std::int64_t less) {
     std::vector<std::array<std::int64_t, 3>> parts;
     tell_apart(
         runs, less, columns,
-        [&](const Columns& part) {
+        [&](const IndexRange& part) {
           parts.push_back({part.first, part.last, 1});
         },
-        [&](const Columns& part) {
+        [&](const IndexRange& part) {
           parts.push_back({part.first, part.last, 0});
         });
     return parts;

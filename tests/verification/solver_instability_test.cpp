@@ -2,11 +2,11 @@
 
 #include <numbers>
 
-#include "base/parallel.hpp"
 #include "lab.hpp"
 #include "memory_archive.hpp"
-#include "solver/monitor.hpp"
-#include "solver/recorder.hpp"
+#include "parallel/threads.hpp"
+#include "solver/record/recorder.hpp"
+#include "solver/record/stability_check.hpp"
 #include "solver/simulation.hpp"
 
 // A run whose fields are no longer those of waves ends, and says where that began.
@@ -46,9 +46,9 @@ class Spoiler : public Pauses {
         after_(after),
         cell_(model_cell),
         velocity_(velocity) {}
-  void begin(const Keep&) override {}
+  void begin(const Serialize&) override {}
   bool wanted() override { return !done_; }
-  void pause(const Keep& keep, const ShotPlace& place) override {
+  void pause(const Serialize& keep, const ShotPlace& place) override {
     if (place.done != after_) return;
     done_ = true;
     std::vector<char> kept;

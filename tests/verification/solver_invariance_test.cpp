@@ -4,10 +4,10 @@
 #include <random>
 
 #include "accuracy/reached.hpp"
-#include "base/parallel.hpp"
 #include "lab.hpp"
+#include "parallel/threads.hpp"
+#include "solver/shot_simulation.hpp"
 #include "solver/simulation.hpp"
-#include "solver/step.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -81,17 +81,17 @@ TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     scene.numerics.time_order = time_order;
     scene.survey.sources[0].mechanism = parse_mechanism<2>(mechanism);
     scene.recording.duration_s = 0.06;
-    scene.numerics.passage = {1, 1 << 20, true};  // lines in one piece, all of them
+    scene.numerics.tiling = {1, 1 << 20, true};  // lines in one piece, all of them
     const auto whole = [&] {
       const ThreadLimit one(1);
       return samples_of(shoot(scene, 1));
     }();
-    for (const auto& passage : {Passage{0, 0}, Passage{1, 16}, Passage{2, 64, true}, Passage{3, 112}})
+    for (const auto& tiling : {Tiling{0, 0}, Tiling{1, 16}, Tiling{2, 64, true}, Tiling{3, 112}})
       for (const int threads : {1, 3}) {
         const ThreadLimit limit(threads);
-        scene.numerics.passage = passage;
+        scene.numerics.tiling = tiling;
         EXPECT_EQ(samples_of(shoot(scene, 1)), whole)
-            << passage.steps << " steps, " << passage.stripe_cells << " cells, " << threads << " threads";
+            << tiling.steps << " steps, " << tiling.stripe_cells << " cells, " << threads << " threads";
       }
   }
 }
@@ -119,9 +119,9 @@ TEST(Traces, OfSlippingRockDoNotDependOnWhatIsLeftOutAtRest) {
   scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 0.005F);
   for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
     scene.numerics.correction = correction;
-    scene.numerics.passage = {1, 1 << 20, true};
+    scene.numerics.tiling = {1, 1 << 20, true};
     const auto everywhere = samples_of(shoot(scene, 1));
-    scene.numerics.passage = {};
+    scene.numerics.tiling = {};
     EXPECT_EQ(samples_of(shoot(scene, 1)), everywhere) << name_of(correction);
     scene.with_slip = false;
     EXPECT_GT(relative_error(samples_of(shoot(scene, 1)), everywhere), 1e-4);
@@ -171,7 +171,7 @@ TEST(ComputedShare, IsAsExpected) {
         scene.edges[1][0] = EdgeLaw::free;
         scene.numerics.order = order;
         scene.recording = {{Component::vz}, duration, 0.002};
-        Step<2, float> step(scene, 1, {});
+        ShotSimulation<2, float> step(scene, 1, {});
         step.run_to(step.steps());
         EXPECT_NEAR(step.computed_share(), expected_share(scene, step.domain().grid), 0.15)
             << "order " << order << ", source " << depth << " m deep, " << duration << " s";

@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "solver/kernels.hpp"
-#include "solver/workspace.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -32,7 +32,7 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
   const std::int64_t pitch = n + 2 * gap;
   const auto six_rows = [&] { return std::vector<Real>(std::size_t(6 * pitch)); };
   auto left_cells = six_rows();
-  const Leaving<Real> all_left{left_cells.data() + gap, pitch};
+  const OutgoingWaves<Real> all_left{left_cells.data() + gap, pitch};
   const auto& kernel = kernels<Real>(order, uniform);
   int pair = 0;
   for (const auto& [v, s, z] : {std::tuple(&vp, &sp, &zp), {&vs, &ss, &zs}, {&vs2, &ss2, &zs}}) {
@@ -44,7 +44,7 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
   for (const auto& of_dimension : kernel.face)
     for (const auto& face : of_dimension) {
       auto met = six_rows();
-      const Faces<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
+      const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
       face.meet(n, all_left, all_left, material, material, hi);
       face.update(n, scale, lo, hi, material,
                   {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
@@ -159,7 +159,7 @@ std::vector<double> brought_forward(int dimensions, bool shear, bool faces, Real
   const MaterialRows<Real> material{b.data(), zp.data(), zs.data()};
   auto of_p = rows(2, 1e4F), of_s = rows(4, zs_value > 0 ? 1e4F : 0.F), all = of_p;
   all.insert(all.end(), of_s.begin(), of_s.end());
-  const Leaving<Real> here{all.data() + gap, pitch};
+  const OutgoingWaves<Real> here{all.data() + gap, pitch};
   auto fields = rows(8, 1e3F);
   for (const int velocity : {0, 3, 6})
     for (std::int64_t i = 0; i < pitch; ++i) fields[std::size_t(velocity * pitch + i)] *= Real(1e-7F);
@@ -168,7 +168,7 @@ std::vector<double> brought_forward(int dimensions, bool shear, bool faces, Real
   const auto& kernel = kernels<Real>(5, true).face[dimensions - 2][shear];
   if (faces) {
     std::vector<Real> met(std::size_t(6 * pitch));
-    const Faces<Real> at{met.data() + gap, pitch};
+    const InterfaceStates<Real> at{met.data() + gap, pitch};
     kernel.meet(n + 1, here.at(-1), here, material, material, at);
     kernel.update(n, scale, at, at.at(1), material, swept);
   } else {

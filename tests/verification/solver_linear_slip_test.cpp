@@ -5,8 +5,8 @@
 #include <complex>
 
 #include "slip_layer.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -54,9 +54,9 @@ Record run(bool of_s, double angle_deg, double viscosity_times_strength, double 
   for (std::int64_t i = 0; i < nx; ++i) scene.model.fracture({i, row}) = viscosity_times_strength > 0;
   using L = Lab<float>;
   L lab(scene.model.medium, edges_all(EdgeLaw::absorbing), 5, dt_s);
-  std::unique_ptr<SlipPass<2, float>> slip;
+  std::unique_ptr<Slip<2, float>> slip;
   if (viscosity_times_strength > 0)
-    slip = std::make_unique<SlipPass<2, float>>(lab.state(), lab.domain(), scene, dt_s);
+    slip = std::make_unique<Slip<2, float>>(lab.state(), lab.domain(), scene, dt_s);
   const auto of = angles(of_s, angle_deg);
   const double speed = of_s ? rock.vs : rock.vp, lambda = modulus_p - 2 * mu;
   const double dx = of_s ? of.sin_b : of.sin_a, dz = of_s ? of.cos_b : of.cos_a;
@@ -64,7 +64,6 @@ Record run(bool of_s, double angle_deg, double viscosity_times_strength, double 
   // Wavelengths between the wave's middle and the middle of the row: what slips first is far from the
   // receivers.
   const double lead = of_s ? 3 : 2;
-  const auto& layout = lab.state().layout;
   const auto zone = lab.domain().low_zone;
   for (std::int64_t k = 0; k < nz; ++k)
     for (std::int64_t i = 0; i < nx; ++i) {
@@ -83,13 +82,13 @@ Record run(bool of_s, double angle_deg, double viscosity_times_strength, double 
   const double end_s = (lead + 1.7) / wave_hz;
   for (std::int64_t n = 0; double(n) * dt_s < end_s; ++n) {
     lab.step();
-    if (slip) run_everywhere(*slip, {n, dt_s}, layout);
+    if (slip) run_everywhere(*slip, {n, dt_s}, lab.state());
     for (const std::size_t side : {0, 1}) {
       const std::int64_t k = (side ? below : above) + zone[1], x = nx / 2 + zone[0];
       record.vx[side].push_back(lab(L::vx, x, k));
       record.vz[side].push_back(lab(L::vz, x, k));
     }
-    if (slip) run_after_everywhere(*slip, {n, dt_s}, layout);
+    if (slip) run_after_everywhere(*slip, {n, dt_s}, lab.state());
   }
   return record;
 }

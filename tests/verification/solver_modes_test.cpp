@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "lab.hpp"
-#include "solver/dispersion.hpp"
+#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -4,8 +4,8 @@
 #include <random>
 
 #include "lab.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -42,7 +42,7 @@ TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
         scene->numerics.correction = correction;
         labs.push_back(std::make_unique<L>(scene->model.medium, edges_all(EdgeLaw::rigid), 5, dt_s));
         auto& lab = *labs.back();
-        SlipPass<2, double> slip(lab.state(), lab.domain(), *scene, dt_s);
+        Slip<2, double> slip(lab.state(), lab.domain(), *scene, dt_s);
         std::mt19937 random(3);
         for (std::int64_t k = 0; k < 20; ++k)
           for (std::int64_t i = 0; i < 24; ++i)
@@ -50,11 +50,11 @@ TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
               lab(L::Row(L::sxx + c), i, k) =
                   std::uniform_real_distribution<>(-6e5, 6e5)(random) + (scene == &without ? still[c] : 0);
         // Fields that were set are what the first step begins with.
-        run_after_everywhere(slip, {-1, dt_s}, lab.state().layout);
+        run_after_everywhere(slip, {-1, dt_s}, lab.state());
         for (std::int64_t step = 0; step < 30; ++step) {
           lab.step();
-          run_everywhere(slip, {step, dt_s}, lab.state().layout);
-          run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+          run_everywhere(slip, {step, dt_s}, lab.state());
+          run_after_everywhere(slip, {step, dt_s}, lab.state());
         }
       }
       double difference = 0, largest = 0;
@@ -91,7 +91,7 @@ Passed passed(double peak_pa, std::int64_t cells, double h, int order, double st
       scene.model.prestress_pa.emplace_back(scene.model.grid(), c < 2 ? float(still_pa) : 0.f);
   const double dt_s = 0.9 * h / rock.vp, z_p = rock.rho * rock.vp;
   L lab(scene.model.medium, edges_all(EdgeLaw::rigid), order, dt_s);
-  SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+  Slip<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
   const double share = 1 - 2 * (rock.vs / rock.vp) * (rock.vs / rock.vp);
   for (std::int64_t k = 0; k < std::int64_t(depth_m / h); ++k)
     for (const std::int64_t i : {0, 1}) {
@@ -108,10 +108,10 @@ Passed passed(double peak_pa, std::int64_t cells, double h, int order, double st
   };
   for (std::int64_t n = 0; double(n) * dt_s < 500 / rock.vp; ++n) {
     lab.sweep(1, 1);
-    run_everywhere(slip, {n, dt_s}, lab.state().layout);
+    run_everywhere(slip, {n, dt_s}, lab.state());
     note(result.through, last + 4, 1);
     note(result.back, first - 4, -1);
-    run_after_everywhere(slip, {n, dt_s}, lab.state().layout);
+    run_after_everywhere(slip, {n, dt_s}, lab.state());
   }
   return result;
 }

@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstring>
 
-#include "base/parallel.hpp"
 #include "lab.hpp"
 #include "memory_archive.hpp"
+#include "parallel/threads.hpp"
 #include "solver/simulation.hpp"
 
 // A shot that is left off and taken up again by another one is the shot that was never interrupted, to the
@@ -21,7 +21,7 @@ struct LeftOff {};
 class OnePause : public Pauses {
  public:
   OnePause(std::vector<char>& kept, int asked) : kept_(kept), asked_(asked) {}
-  void begin(const Keep& keep) override {
+  void begin(const Serialize& keep) override {
     if (kept_.empty()) return;
     FromMemory from(kept_);
     keep(from);
@@ -29,7 +29,7 @@ class OnePause : public Pauses {
     kept_.clear();
   }
   bool wanted() override { return ++times_asked_ >= asked_; }
-  void pause(const Keep& keep, const ShotPlace& place) override {
+  void pause(const Serialize& keep, const ShotPlace& place) override {
     EXPECT_GT(place.done, 0);
     EXPECT_LT(place.done, place.steps);
     ToMemory to(kept_);

@@ -4,14 +4,15 @@
 #include <random>
 
 #include "lab.hpp"
-#include "solver/slip_pass.hpp"
-#include "whole_pass.hpp"
+#include "solver/effect/slip.hpp"
+#include "solver/simulation.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave::solver {
 namespace {
 
 /// Steps of slip under random loads of up to load_pa: the energy that all cells lose by it.
-double lost_by_slip(Lab<double>& lab, SlipPass<2, double>& slip, std::int64_t steps, double load_pa,
+double lost_by_slip(Lab<double>& lab, Slip<2, double>& slip, std::int64_t steps, double load_pa,
                     double dt_s) {
   using L = Lab<double>;
   std::mt19937 random(2);
@@ -22,8 +23,8 @@ double lost_by_slip(Lab<double>& lab, SlipPass<2, double>& slip, std::int64_t st
         for (const auto row : {L::sxx, L::szz, L::sxz})
           lab(row, i, k) += std::uniform_real_distribution<>(-load_pa, load_pa)(random);
     const double before = lab.energy();
-    run_everywhere(slip, {step, dt_s}, lab.state().layout);
-    run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+    run_everywhere(slip, {step, dt_s}, lab.state());
+    run_after_everywhere(slip, {step, dt_s}, lab.state());
     lost += before - lab.energy();
   }
   return lost;
@@ -46,7 +47,7 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
       scene.numerics.correction = correction;
       using L = Lab<double>;
       L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
-      SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+      Slip<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
       const double lost = lost_by_slip(lab, slip, 5, 1e5, dt_s);
       const auto totals = slip.totals();
       EXPECT_GT(totals.dissipated, 0);
@@ -78,7 +79,7 @@ TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
     scene.numerics.correction = correction;
     using L = Lab<double>;
     L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
-    SlipPass<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+    Slip<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
     const double lost = lost_by_slip(lab, slip, 8, 5e4, dt_s);
     const auto totals = slip.totals();
     EXPECT_NEAR(totals.out_of_waves, lost, 1e-9 * std::abs(lost)) << name_of(correction);

@@ -4,7 +4,7 @@
 #include <array>
 #include <random>
 
-#include "solver/span_ends.hpp"
+#include "solver/sweep/interface_stencils.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -34,7 +34,7 @@ std::size_t counted(const Field<2>& z, int axis, int reach) {
   return count;
 }
 
-TEST(SpanEnds, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
+TEST(InterfaceStencils, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
   std::mt19937 engine(4);
   const std::array<float, 4> impedances = {0, 4e5F, 1.5e6F, 8e6F};
   EdgeLaws<2> mirrors{};
@@ -52,7 +52,8 @@ TEST(SpanEnds, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
     }
     for (const int axis : {0, 1})
       for (const int reach : {0, 1, 2, 3}) {
-        const SpanEnds ends(z, mirrors, axis, wave_p, reach, BentAt<2>([](auto&&...) { return false; }));
+        const InterfaceStencils ends(z, mirrors, axis, wave_p, reach,
+                                     CorrectedAt<2>([](auto&&...) { return false; }));
         EXPECT_EQ(ends.size(), counted(z, axis, reach))
             << shape[0] << " x " << shape[1] << " cells, axis " << axis << ", reach " << reach;
       }

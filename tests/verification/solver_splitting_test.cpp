@@ -57,11 +57,11 @@ TEST(Splitting, IsSymmetricInTimeAndMakesWholeSteps) {
       const auto sweeps = splitting(dimension, order);
       std::array<double, 3> sums{};
       for (std::size_t n = 0; n < sweeps.size(); ++n) {
-        sums[std::size_t(sweeps[n].axis)] += sweeps[n].part;
+        sums[std::size_t(sweeps[n].axis)] += sweeps[n].fraction;
         EXPECT_EQ(sweeps[n].axis, sweeps[sweeps.size() - 1 - n].axis);
-        EXPECT_NEAR(sweeps[n].part, sweeps[sweeps.size() - 1 - n].part, 1e-15);
+        EXPECT_NEAR(sweeps[n].fraction, sweeps[sweeps.size() - 1 - n].fraction, 1e-15);
         // In 2-D no sweep of a step at Courant number 2 goes further than a cell.
-        EXPECT_LE(std::abs(sweeps[n].part), order == 2 ? 1 : 0.5);
+        EXPECT_LE(std::abs(sweeps[n].fraction), order == 2 ? 1 : 0.5);
       }
       EXPECT_EQ(sweeps.front().axis, 0);
       for (int axis = 0; axis < dimension; ++axis) EXPECT_NEAR(sums[std::size_t(axis)], 1, 1e-15);

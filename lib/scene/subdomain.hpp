@@ -1,0 +1,51 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "grid/grid.hpp"
+#include "grid/locate.hpp"
+
+namespace slipwave {
+
+/// Rows of the model (in 3-D planes), counted along the last axis, that one of several processes answers for.
+/// Its model holds some more of them on both sides, where there are any.
+struct Subdomain {
+  std::int64_t rows = 0;             // of the whole model; 0: there is one process
+  std::int64_t first = 0, last = 0;  // first <= row < last
+  /// Rows beside them that are put right by neighbours before each pass through memory.
+  std::int64_t exchanged = 0;
+  bool slips = false;  // whether anything slips in any part
+  double fastest = 0;  // largest vp of the whole model, m/s
+
+  bool is_whole() const { return rows == 0; }
+  /// Of the model it holds: whether rows before the first or behind the last are with other processes.
+  template <int D>
+  bool cut(const Grid<D>& held, int side) const {
+    if (is_whole()) return false;
+    const auto begin = held.first[D - 1];
+    return side ? begin + held.shape[D - 1] < rows : begin > 0;
+  }
+  /// Whether it answers for a row of the model it holds.
+  template <int D>
+  bool owns(const Grid<D>& held, std::int64_t row) const {
+    row += held.first[D - 1];
+    return is_whole() || (row >= first && row < last);
+  }
+  /// Whether it answers for the cell that a point of the whole model is in.
+  template <int D>
+  bool owns(const Grid<D>& held, const Point<D>& point_m) const {
+    const auto all = whole(held);
+    return owns(all, cell_of(all, point_m)[D - 1]);
+  }
+  /// The grid of the whole model.
+  template <int D>
+  Grid<D> whole(Grid<D> held) const {
+    if (is_whole()) return held;
+    held.first[D - 1] = 0;
+    held.shape[D - 1] = rows;
+    return held;
+  }
+};
+
+}  // namespace slipwave

@@ -1,0 +1,226 @@
+#include "solver/effect/pml.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/splitting.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+// Chosen by measuring what 20 cells send back of P and S waves under all angles, and what grows (theory.md).
+/// Amplitude left of a P wave that goes straight through the layer and back. What is left at the end meets an
+/// edge that absorbs it, so more damping than this would only reflect more on the way.
+constexpr double leak = 1e-3;
+/// Growth of d into the layer.
+constexpr int power = 2;
+/// alpha at the model in terms of the source's 2 pi f.
+constexpr double alpha_share = 2;
+/// Plain damping of all fields beside the stretch, as a share of d: everywhere, and what plates take more.
+constexpr double plain_share = 0.002, plate_share = 0.05;
+/// Ratio of impedances from which a contact counts as a reflector that may bound a plate.
+constexpr double reflector_ratio = 3;
+
+/// Whether a contact of these impedances of P and S waves reflects nearly all. Void has neither.
+bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& other) {
+  for (const Wave wave : {wave_p, wave_s})
+    if (std::max(one[wave], other[wave]) > reflector_ratio * std::min(one[wave], other[wave])) return true;
+  return false;
+}
+
+/// Fractions of a step that sweeps along an axis are over, each once.
+std::vector<double> fractions_along(int axis, int dimension, int time_order) {
+  const auto sweeps = splitting(dimension, time_order);
+  std::vector<double> all;
+  if (axis == 0) all.push_back(2 * sweeps.front().fraction);  // the last of a step and the first of the next
+  for (const auto& sweep : sweeps)
+    if (sweep.axis == axis && std::find(all.begin(), all.end(), sweep.fraction) == all.end())
+      all.push_back(sweep.fraction);
+  return all;
+}
+
+}  // namespace
+
+template <int D, class Real>
+Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max,
+                  double slow_hz, int time_order, Ranks* ranks)
+    : layout_(layout), cells_(domain.grid.size() - domain.model_grid.size()), kernels_(pml_kernels<Real>()) {
+  for (int n = 0; n < D; ++n) {
+    auto& axis = axes_[std::size_t(n)];
+    axis.cells = domain.grid.shape[std::size_t(n)];
+    axis.low = domain.low_zone[std::size_t(n)];
+    axis.high = domain.high_zone[std::size_t(n)];
+    for (const double fraction : fractions_along(n, D, time_order)) {
+      axis.fractions.push_back(Real(fraction));
+      auto& factors = axis.factors.emplace_back();
+      // A sweep back in time gives back what one forward would take: all together are one step.
+      const double time = fraction * dt_s;
+      for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
+        const auto width = slot < axis.low ? axis.low : axis.high;
+        const auto inside = slot < axis.low ? axis.low - 1 - slot : slot - axis.low;
+        const double depth = (double(inside) + 0.5) / double(width);
+        const double length = double(width) * domain.grid.spacing_m;
+        const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
+        const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
+        const double sum = d + alpha, lost = -std::expm1(-sum * time);
+        factors.kept.push_back(Real(std::exp(-plain_share * d * time)));
+        factors.lost_in_plates.push_back(
+            Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time)));
+        factors.of_memory.push_back(Real(lost / (sum * dt_s)));
+        factors.of_change.push_back(Real(d / sum * (1 - lost / (sum * time))));
+        factors.left.push_back(Real(1 - lost));
+        factors.added.push_back(Real(lost * d / sum * dt_s / time));
+      }
+    }
+    std::int64_t rows = FieldRows<D>::count;
+    if (n > 0) rows *= axis.low + axis.high;
+    for (int other = 1; other < D; ++other)
+      if (other != n) rows *= layout.shape()[std::size_t(other)];
+    const auto values = rows * (n == 0 ? axis.low + axis.high : layout.padded_nx());
+    axis.memory = Buffer<Real>(values);
+    std::fill(axis.memory.data(), axis.memory.data() + values, Real(0));
+    find_plates(n, domain, ranks);
+  }
+}
+
+/// Number of a cell in the plane along the edge, x fastest.
+template <int D, class Real>
+std::int64_t Pml<D, Real>::along_edge(int axis, const Index<D>& at) const {
+  std::int64_t number = 0;
+  for (int other = D - 1; other >= 0; --other)
+    if (other != axis)
+      number = number * (other == 0 ? layout_.padded_nx() : layout_.shape()[std::size_t(other)]) +
+               at[std::size_t(other)];
+  return number;
+}
+
+/// Marks the solid cells along the edges of an axis that lie between two reflectors: edges that do not
+/// absorb, void, strong contacts.
+template <int D, class Real>
+void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) {
+  Index<D> last = layout_.shape();
+  for (auto& n : last) --n;
+  for (const int side : {0, 1}) {
+    axes_[std::size_t(axis)].plates[std::size_t(side)].assign(
+        std::size_t(along_edge(axis, last) + layout_.padded_nx()), 0);
+    if ((side ? domain.high_zone : domain.low_zone)[std::size_t(axis)] == 0) continue;
+    for (int across = 0; across < D; ++across)
+      // A slice one cell thick between mirrors stands for all of the space: no plate.
+      if (across != axis && layout_.shape()[std::size_t(across)] > 1)
+        find_plates(axis, side, across, domain, ranks);
+  }
+}
+/// The same of runs across one other axis. What lies along z is collective.
+template <int D, class Real>
+void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks) {
+  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  const bool shared_out = ranks && across == D - 1;
+  const int other = D == 2 ? axis : 3 - axis - across;  // in 2-D there is none
+  const std::int64_t runs = D == 2 ? 1 : layout_.shape()[std::size_t(other)];
+  const auto place = [&](std::int64_t run, std::int64_t cell) {
+    Index<D> at{};
+    if (D == 3) at[std::size_t(other)] = run;
+    at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
+    at[std::size_t(across)] = cell;
+    return at;
+  };
+  const IndexRange mine = shared_out ? domain.own : IndexRange{0, layout_.shape()[std::size_t(across)]};
+  std::vector<double> impedances;  // [cell][run][wave]
+  for (auto cell = mine.first; cell < mine.last; ++cell)
+    for (std::int64_t run = 0; run < runs; ++run)
+      for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance(wave)(place(run, cell)));
+  if (shared_out) impedances = allgather(ranks, impedances);
+  const std::int64_t cells = std::int64_t(impedances.size()) / (2 * runs);
+  const std::int64_t before = shared_out ? domain.grid.first[std::size_t(across)] : 0;
+  const auto& laws = domain.whole_edges[across];
+  for (std::int64_t run = 0; run < runs; ++run) {
+    const auto z = [&](std::int64_t cell) {
+      const auto first = std::size_t(2 * (cell * runs + run));
+      return std::array<double, 2>{impedances[first], impedances[first + 1]};
+    };
+    bool begins_at_reflector = laws[0] != EdgeLaw::absorbing;
+    for (std::int64_t begin = 0, cell = 0; cell < cells; ++cell) {
+      const bool ends = cell + 1 == cells,
+                 reflector = ends ? laws[1] != EdgeLaw::absorbing : reflects(z(cell), z(cell + 1));
+      if (!ends && !reflector) continue;
+      if (begins_at_reflector && reflector)
+        for (std::int64_t inside = begin; inside <= cell; ++inside) {
+          const auto here = inside - before;
+          if (z(inside)[wave_s] > 0 && here >= 0 && here < layout_.shape()[std::size_t(across)])
+            plates[std::size_t(along_edge(axis, place(run, here)))] = 1;
+        }
+      begins_at_reflector = reflector;
+      begin = cell + 1;
+    }
+  }
+}
+
+/// Of all axes but the last, whose layers lie above and below.
+template <int D, class Real>
+void Pml<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
+  for (int n = 0; n + 1 < D; ++n) {
+    auto& memory = axes_[std::size_t(n)].memory;
+    const std::int64_t a_row = memory.size() / layout_.shape()[D - 1];
+    if (a_row > 0) to(memory.data() + rows.first * a_row, rows.count() * a_row);
+  }
+}
+
+template <int D, class Real>
+std::array<IndexRange, 2> Pml<D, Real>::filtered(int axis, const Index<D>& line,
+                                                 const IndexRange& columns) const {
+  const auto& layer = axes_[std::size_t(axis)];
+  if (axis > 0) return {layer.holds(line[std::size_t(axis)]) ? columns : IndexRange{}, IndexRange{}};
+  return {IndexRange{columns.first, std::min(columns.last, layer.low)},
+          IndexRange{std::max(columns.first, layer.cells - layer.high), std::min(columns.last, layer.cells)}};
+}
+
+template <int D, class Real>
+Real* Pml<D, Real>::memory_of(int axis, const Index<D>& line, int field_row) {
+  auto& layer = axes_[std::size_t(axis)];
+  std::int64_t number = 0;
+  for (int other = D - 1; other > 0; --other) {
+    const bool own = other == axis;
+    number = number * (own ? layer.low + layer.high : layout_.shape()[std::size_t(other)]) +
+             (own ? layer.slot(line[std::size_t(other)]) : line[std::size_t(other)]);
+  }
+  const auto row = number * FieldRows<D>::count + field_row;
+  return layer.memory.data() + row * (axis == 0 ? layer.low + layer.high : layout_.padded_nx());
+}
+
+template <int D, class Real>
+void Pml<D, Real>::filter(int axis, const Index<D>& line, int field_row, const IndexRange& cells,
+                          Real fraction, const Real* before, Real* now, bool remember) {
+  const auto& layer = axes_[std::size_t(axis)];
+  const auto known = std::find(layer.fractions.begin(), layer.fractions.end(), fraction);
+  if (known == layer.fractions.end())
+    throw Error("the PML knows no sweep along " + std::string(1, axis_names<D>()[std::size_t(axis)]) +
+                " over " + std::to_string(double(fraction)) + " of a step");
+  const auto& factors = layer.factors[std::size_t(known - layer.fractions.begin())];
+  Real* const memory = memory_of(axis, line, field_row);
+  if (axis > 0) {
+    const auto cell = line[std::size_t(axis)];
+    const Real* const plates =
+        layer.plates[cell < layer.low ? 0 : 1].data() + along_edge(axis, line) - line[0] + cells.first;
+    kernels_.across(cells.count(), factors.from(layer.slot(cell)), plates, before, now, memory + cells.first,
+                    remember);
+    return;
+  }
+  const auto slot = layer.slot(cells.first);
+  const Real plate = layer.plates[cells.first < layer.low ? 0 : 1][std::size_t(along_edge(axis, line))];
+  kernels_.along(cells.count(), factors.from(slot), plate, before, now, memory + slot, remember);
+}
+
+template <int D, class Real>
+std::int64_t Pml<D, Real>::memory_bytes() const {
+  std::int64_t values = 0;
+  for (const auto& axis : axes_) values += axis.memory.size();
+  return values * std::int64_t(sizeof(Real));
+}
+
+template class Pml<2, float>;
+template class Pml<2, double>;
+template class Pml<3, float>;
+template class Pml<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,136 @@
+#include "solver/effect/point_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "acquisition/interpolation.hpp"
+
+namespace slipwave::solver {
+
+template <int D, class Real>
+PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
+                                  const Source<D>& source, double unit, Ranks* ranks)
+    : state_(state), domain_(domain), medium_(scene.model.medium), wavelet_(source.wavelet), unit_(unit) {
+  if (domain.subdomain.owns(domain.model_grid, source.position_m)) weigh(source);
+  if (ranks) share(*ranks);
+  find_rows();
+  std::stable_sort(values_.begin(), values_.end(),
+                   [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
+  if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
+}
+
+/// Which values it works on, and how strongly.
+template <int D, class Real>
+void PointSource<D, Real>::weigh(const Source<D>& source) {
+  using Rows = FieldRows<D>;
+  const auto injection = *point_injection(source);
+  centre_ = cell_at(domain_, source.position_m);
+  const double rho = medium_.rho(domain_.model_cell(centre_));
+  const double volume = std::pow(domain_.grid.spacing_m, D);
+  const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
+  // An isotropic source works on all normal stresses through the same cells: it must not make shear of its
+  // own.
+  const bool isotropic = std::holds_alternative<Explosion>(source.mechanism);
+  for (int i = 0; i < D; ++i) {
+    add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
+    const int like = isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
+    add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    for (int j = i + 1; j < D && !fluid; ++j)
+      add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
+  }
+}
+
+/// Gives what one of the ranks has weighed to all of them; each keeps what lies on its rows.
+template <int D, class Real>
+void PointSource<D, Real>::share(Ranks& ranks) {
+  const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+  const std::int64_t before = domain_.grid.first[D - 1];
+  std::vector<Index<D>> centre;
+  if (!values_.empty()) {
+    centre.push_back(centre_);
+    centre.back()[D - 1] += before;
+  }
+  for (auto& value : values_) value.line += before * lines_a_row;
+  centre_ = allgather(&ranks, centre).at(0);
+  centre_[D - 1] -= before;
+  const auto all = allgather(&ranks, values_);
+  values_.clear();
+  for (auto value : all) {
+    value.line -= before * lines_a_row;
+    if (value.line >= 0 && value.line < state_.layout.lines()) values_.push_back(value);
+  }
+}
+
+template <int D, class Real>
+void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
+                                 const IndexRange& cells) {
+  if (!active(time)) return;
+  auto value = std::lower_bound(values_.begin(), values_.end(), fields.row,
+                                [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
+  if (value == values_.end() || value->line != fields.row) return;
+  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
+  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
+  const double before = counts ? energy_of(fields.row, cells) : 0;
+  for (; value != values_.end() && value->line == fields.row; ++value) {
+    const std::int64_t x = state_.layout.column(value->place);
+    if (x >= cells.first && x < cells.last) fields.first[value->place] += Real(amount * value->weight);
+  }
+  if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
+}
+
+/// Of the cells of these columns that the source may reach.
+template <int D, class Real>
+double PointSource<D, Real>::energy_of(std::int64_t line, const IndexRange& columns) const {
+  std::int64_t first = columns.last, last = columns.first;
+  for (const auto& value : values_) {
+    if (value.line != line) continue;
+    first = std::min(first, state_.layout.column(value.place));
+    last = std::max(last, state_.layout.column(value.place) + 1);
+  }
+  auto at = state_.layout.line_index(line);
+  double sum = 0;
+  for (at[0] = std::max(first, columns.first); at[0] < std::min(last, columns.last); ++at[0])
+    sum += energy_of_cell(state_, domain_, medium_, at);
+  return sum / (unit_ * unit_);
+}
+
+template <int D, class Real>
+void PointSource<D, Real>::report(ShotReport& report) const {
+  report.source_work = std::accumulate(work_.begin(), work_.end(), 0.);
+}
+
+/// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
+template <int D, class Real>
+void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
+  if (strength == 0) return;
+  for (auto value : source_weights(state_.layout, domain_, source.position_m, like)) {
+    value.place += (row - like) * state_.layout.row_pitch();
+    value.weight *= strength;
+    values_.push_back(value);
+  }
+}
+
+/// All rows that a source in this cell can reach, wherever in the cell it is: rows that are acted on take
+/// two half sweeps a step, and which ones do must not depend on the place, or it would be heard.
+template <int D, class Real>
+void PointSource<D, Real>::find_rows() {
+  constexpr std::int64_t reach = widest_stencil / 2;
+  rows_ = lines_of(values_);
+  for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
+    const auto at = state_.layout.line_index(line);
+    bool near = true;
+    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach;
+    if (near) rows_.push_back(line);
+  }
+  std::sort(rows_.begin(), rows_.end());
+  rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+  for (const auto& value : values_) writes_ |= 1U << (value.place / state_.layout.row_pitch());
+}
+
+template class PointSource<2, float>;
+template class PointSource<2, double>;
+template class PointSource<3, float>;
+template class PointSource<3, double>;
+
+}  // namespace slipwave::solver

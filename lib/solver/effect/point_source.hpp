@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "parallel/ranks.hpp"
+#include "scene/scene.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/point_weights.hpp"
+
+namespace slipwave::solver {
+
+/// What a point source puts in, half before and half after the recorder, so that the
+/// fields it sees lie in the middle (trapezoidal rule in time). Keeps references.
+template <int D, class Real>
+class PointSource : public Effect<D, Real> {
+ public:
+  /// Collective where there are `ranks` (may be null): the one that answers for the cell of the source weighs
+  /// the cells round it for all. Where no row of this process is near it, rows() is empty and nothing is to
+  /// be done.
+  PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
+              double unit, Ranks* ranks = nullptr);
+
+  EffectDeclaration declaration() const override {
+    return {ActsOn::rows, false, work_.empty() ? 0 : all_fields<D>, writes_, !work_.empty()};
+  }
+  std::string name() const override { return "source"; }
+  std::int64_t cells() const override { return std::int64_t(values_.size()); }
+  std::span<const std::int64_t> rows() const override { return rows_; }
+  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+  bool injects(const StepTime& time, std::int64_t row) const override {
+    return active(time) && row >= rows_.front() && row <= rows_.back();
+  }
+  void apply(const StepTime& time, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply_after_record(const StepTime& time, const RowFields<Real>& fields,
+                          const IndexRange& cells) override {
+    apply(time, fields, cells);
+  }
+  void serialize(Archive& archive) override { archive.fixed(work_); }
+  /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
+  void report(ShotReport& report) const override;
+
+ private:
+  void weigh(const Source<D>& source);
+  void share(Ranks& ranks);
+  void add(const Source<D>& source, int row, int like, double strength);
+  void find_rows();
+  double energy_of(std::int64_t row, const IndexRange& cells) const;
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  const Medium<D>& medium_;
+  Wavelet wavelet_;
+  double unit_;
+  Index<D> centre_{};  // the cell it is in, on part of the grid maybe beyond it
+  std::vector<ValueWeight> values_;
+  std::vector<std::int64_t> rows_;
+  unsigned writes_ = 0;
+  std::vector<double> work_;  // by line; empty: not counted
+};
+
+}  // namespace slipwave::solver

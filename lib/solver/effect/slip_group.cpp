@@ -1,0 +1,258 @@
+#include "solver/effect/slip_group.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "model/fracture.hpp"
+#include "solver/effect/slip_planes.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr std::size_t lanes = std::size_t(Layout<2>::block);
+
+}  // namespace
+
+template <int D, class Real>
+SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
+                              std::size_t set, double dt_s, double unit)
+    : set_(&scene.model.fracture_sets[set]), unit_(unit), number_(set) {
+  find_stretches(layout, domain, scene.model);
+  planes_ = planes_of<D, Real>(set_->systems, unit);
+  fill(domain, scene, layout, dt_s);
+  choose_kernels(scene.numerics.correction);
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::find_stretches(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Model<D>& model) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
+  constexpr auto block = Layout<D>::block;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    if (model.fracture[cell] != number_ + 1) continue;
+    const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
+    blocks.emplace_back(layout.line_number(at), at[0] / block);
+    ++cells_;
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  starts_.assign(std::size_t(layout.lines()) + 1, 0);
+  std::int64_t line = -1, last = -1;
+  for (const auto& [of_line, number] : blocks) {
+    if (of_line != line || number * block != last) {
+      stretches_.push_back({number * block, 0, count_});
+      ++starts_[std::size_t(of_line) + 1];
+    }
+    line = of_line;
+    stretches_.back().last = last = (number + 1) * block;
+    count_ += lanes;
+  }
+  for (std::size_t n = 1; n < starts_.size(); ++n) starts_[n] += starts_[n - 1];
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout,
+                              double dt_s) {
+  const auto& model = scene.model;
+  const auto& systems = set_->systems;
+  using Tensor = SymmetricTensor<D, double>;
+  creep_.assign(systems.size(), std::vector<Real>(count_));
+  gaps_.resize(systems.size());
+  for (std::size_t n = 0; n < systems.size(); ++n)
+    if (systems[n].opens) gaps_[n].assign(count_, 0);
+  if (opens()) {
+    lambda_.assign(count_, 0);
+    modulus_.assign(count_, 0);
+  }
+  if (scene.slip_diary) mu_.assign(count_, 0);
+  if (!model.prestress_pa.empty()) still_.assign(count_ * Tensor::components, 0);
+  for (std::int64_t line = 0; line < layout.lines(); ++line)
+    for (const auto& stretch : stretches(line))
+      for (std::int64_t x = stretch.first; x < std::min(stretch.last, layout.shape()[0]); ++x) {
+        auto at = layout.line_index(line);
+        at[0] = x;
+        const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+        const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
+        if (!inside || model.fracture[cell] != number_ + 1) continue;
+        const auto place = stretch.place + std::size_t(x - stretch.first);
+        const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
+        const double mu = rho * vs * vs;
+        for (std::size_t n = 0; n < systems.size(); ++n)
+          creep_[n][place] = Real(slip::creep_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
+        if (opens()) {
+          lambda_[place] = Real(rho * vp * vp - 2 * mu);
+          modulus_[place] = Real(rho * vp * vp);
+        }
+        if (!mu_.empty()) mu_[place] = Real(mu);
+        for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
+          still_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
+      }
+}
+
+/// One system, or two at right angles in 2-D, have kernels. They want what planes feel of the static stress.
+template <int D, class Real>
+void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
+  const auto& systems = set_->systems;
+  part_ = opens() ? gap_kernel<Real>(D) : nullptr;
+  const bool two = D == 2 && systems.size() == 2 && at_right_angles<D>(systems[0].normal, systems[1].normal);
+  std::vector<Real> resolved;
+  const auto add_row = [&](const Real* weights, Real of_diagonal) {
+    for (std::size_t place = 0; place < count_; ++place) {
+      Real sum = 0;
+      for (std::size_t c = 0; c < std::size_t(SymmetricTensor<D, Real>::components); ++c)
+        sum += (c < D ? of_diagonal : Real(1)) * weights[c] *
+               (still_.empty() ? Real(0) : still_[c * count_ + place]);
+      resolved.push_back(sum);
+    }
+  };
+  const bool extended = !still_.empty() || opens();
+  if (extended) {
+    for (std::size_t n = 0; n < systems.size(); ++n) add_row(planes_.normal[n], 1);
+    if (std::any_of(gaps_.begin(), gaps_.end(), [](const auto& gaps) { return gaps.empty(); }))
+      shut_.assign(count_, 0);
+  }
+  if (systems.size() == 1 || two) {
+    kernels_ = slip_kernels<Real>({D, int(systems.size()), correction, extended});
+    kept_.assign(count_ * std::size_t(kernels_.kept_rows), 0);
+    if (extended)
+      for (std::size_t t = 0; t < D - 1; ++t) add_row(planes_.shear[t], Real(0.5));
+  } else {
+    std::vector<typename JointSlip<D, Real>::System> all;
+    for (const auto& system : systems) {
+      const auto n = unit_normal<D>(system.normal);
+      all.push_back({{}, Real(system.friction), Real(unit_ * system.strength_pa)});
+      for (std::size_t i = 0; i < D; ++i) all.back().normal[i] = Real(n[i]);
+    }
+    joint_.emplace(correction, std::move(all));
+  }
+  resolved_ = std::move(resolved);
+}
+
+template <int D, class Real>
+bool SlipGroup<D, Real>::opens() const {
+  return std::any_of(set_->systems.begin(), set_->systems.end(), [](const auto& s) { return s.opens; });
+}
+
+template <int D, class Real>
+bool SlipGroup<D, Real>::holds(std::size_t place) const {
+  return creep_[0][place] > 0;
+}
+
+template <int D, class Real>
+Real SlipGroup<D, Real>::gap(std::size_t place) const {
+  Real widest = 0;
+  for (const auto& gaps : gaps_)
+    if (!gaps.empty()) widest = std::max(widest, gaps[place]);
+  return widest;
+}
+
+template <int D, class Real>
+SymmetricTensor<D, Real> SlipGroup<D, Real>::prestress(std::size_t place) const {
+  SymmetricTensor<D, Real> s;
+  if (!still_.empty())
+    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] = still_[c * count_ + place];
+  return s;
+}
+
+template <int D, class Real>
+std::vector<std::vector<Real>*> SlipGroup<D, Real>::memory() {
+  std::vector<std::vector<Real>*> all = {&kept_};
+  for (auto& gaps : gaps_) all.push_back(&gaps);
+  return all;
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::show(std::int64_t line, const std::function<void(Real*, std::int64_t)>& to) {
+  for (const auto& stretch : stretches(line))
+    for (auto* const memory : this->memory())
+      for (auto place = stretch.place; place < memory->size(); place += count_)
+        to(memory->data() + place, stretch.last - stretch.first);
+}
+
+template <int D, class Real>
+SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::size_t place) {
+  SlipRows<Real> rows{};
+  rows.stress = stress;
+  rows.pitch = pitch;
+  const auto from = [place](auto& row) { return row.empty() ? nullptr : row.data() + place; };
+  const auto systems = set_->systems.size();
+  for (std::size_t n = 0; n < systems && n < 2; ++n) {
+    rows.creep[n] = from(creep_[n]);
+    rows.gap[n] = from(gaps_[n].empty() ? shut_ : gaps_[n]);
+  }
+  rows.kept = from(kept_);
+  rows.still = from(resolved_);
+  // Of rows that are not there, no pointer is moved.
+  rows.kept_pitch = kept_.empty() ? 0 : std::int64_t(count_);
+  rows.still_pitch = resolved_.empty() ? 0 : std::int64_t(count_);
+  return rows;
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
+                             std::int64_t n) {
+  if (act == SlipAct::part) {
+    if (part_) part(stress, pitch, place, n);
+  } else if (joint_) {
+    slip_jointly(stress, pitch, place, n, act == SlipAct::begin);
+  } else {
+    (act == SlipAct::begin ? kernels_.begin : kernels_.slip)(n, planes_, rows(stress, pitch, place));
+  }
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::rest() {
+  if (kept_.empty()) return;
+  constexpr int components = SymmetricTensor<D, Real>::components;
+  std::array<Real, components * lanes> none;
+  for (std::size_t place = 0; place < count_; place += lanes) {
+    none.fill(0);
+    act(SlipAct::begin, none.data(), lanes, place, lanes);
+  }
+}
+
+/// To and fro, as parting of one system changes the normal stress of the others.
+template <int D, class Real>
+void SlipGroup<D, Real>::part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
+  const int systems = int(gaps_.size());
+  for (int visit = 0; visit < 2 * systems - 1; ++visit) {
+    const int system = visit < systems ? visit : 2 * systems - 2 - visit;
+    auto& gap = gaps_[std::size_t(system)];
+    if (gap.empty()) continue;
+    part_(n, planes_, system,
+          {stress, pitch, gap.data() + place, lambda_.data() + place, modulus_.data() + place,
+           resolved_.data() + std::size_t(system) * count_ + place});
+  }
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n,
+                                      bool begins) {
+  std::array<Real, JointSlip<D, Real>::most_systems> creep{};
+  std::array<bool, JointSlip<D, Real>::most_systems> open{};
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto at = place + std::size_t(i);
+    if (!holds(at)) continue;
+    SymmetricTensor<D, Real> s, total = prestress(at);
+    for (std::size_t c = 0; c < s.values.size(); ++c) {
+      s.values[c] = stress[std::int64_t(c) * pitch + i];
+      total.values[c] += s.values[c];
+    }
+    for (std::size_t k = 0; k < creep_.size(); ++k) {
+      creep[k] = creep_[k][at];
+      open[k] = !gaps_[k].empty() && gaps_[k][at] > 0;
+    }
+    if (begins)
+      joint_->begin(s, total, creep.data(), open.data());
+    else
+      joint_->slip(s, total, creep.data(), open.data());
+    for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
+  }
+}
+
+template class SlipGroup<2, float>;
+template class SlipGroup<2, double>;
+template class SlipGroup<3, float>;
+template class SlipGroup<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fracture/joint_slip.hpp"
+#include "scene/scene.hpp"
+#include "solver/kernels/slip_kernels.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// What a pass does to cells: planes part or come together, slip to the end of a step, take off what the next
+/// step begins with.
+enum class SlipAct { part, slip, begin };
+
+/// The cells of one fracture set: where they are, what slip needs to know of them and keeps of them. Cells of
+/// a line form stretches of whole vectors; cells of other sets or none among them have c = 0 and do not slip.
+template <int D, class Real>
+class SlipGroup {
+ public:
+  /// Of set number `set` (0-based) of the scene's model. Stress is `unit` times Pa, gaps `unit` times strain.
+  SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t set,
+            double dt_s, double unit);
+
+  /// Side by side on a line, from column `first` on; the first of them is number `place` of the group.
+  struct Stretch {
+    std::int64_t first, last;
+    std::size_t place;
+  };
+  /// Of that line, ascending.
+  std::span<const Stretch> stretches(std::int64_t line) const {
+    return {stretches_.data() + starts_[std::size_t(line)],
+            starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
+  }
+  /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
+  /// `pitch` apart. At the end of a step planes part before they slip.
+  void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+
+  /// Makes all that is kept of the cells what a step at rest leaves of them.
+  void rest();
+
+  const FractureSet<D>& set() const { return *set_; }
+  /// Cells that belong to the set, and all that are kept.
+  std::int64_t cells() const { return cells_; }
+  std::int64_t kept_cells() const { return std::int64_t(count_); }
+  bool has_prestress() const { return !still_.empty(); }
+  SymmetricTensor<D, Real> prestress(std::size_t place) const;
+  bool opens() const;
+  /// Strain by which the widest plane of a cell stands open.
+  Real gap(std::size_t place) const;
+  /// Whether a cell is of the set.
+  bool holds(std::size_t place) const;
+  /// mu of a cell, Pa, 0 outside the set.
+  Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
+  /// lambda of a cell, Pa, where planes open; else 0.
+  Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
+  /// All that changes from step to step.
+  std::vector<std::vector<Real>*> memory();
+  /// The same of the cells of a line.
+  void show(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
+
+ private:
+  void find_stretches(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);
+  void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
+  void choose_kernels(SlipCorrection correction);
+  void part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+  void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool begins);
+  SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
+
+  const FractureSet<D>* set_;
+  double unit_;
+  std::size_t number_;
+  std::vector<Stretch> stretches_;
+  std::vector<std::size_t> starts_;  // of each line, and the end
+  std::size_t count_ = 0;            // cells of all stretches
+  std::int64_t cells_ = 0;
+  SlipPlanes<Real> planes_{};  // of all systems, for s_n and parting
+  SlipKernels<Real> kernels_{};
+  GapKernel<Real> part_ = nullptr;
+  std::optional<JointSlip<D, Real>> joint_;  // where no kernel knows the systems
+  std::vector<std::vector<Real>> creep_;     // [system][cell], as stress
+  std::vector<std::vector<Real>> gaps_;      // [system][cell], of systems that open; else empty
+  std::vector<Real> shut_;                   // the gap of the others, where kernels read gaps
+  std::vector<Real> lambda_, modulus_, mu_;  // Pa, where planes open or a diary is kept
+  std::vector<Real> still_;                  // static stress, row after row; empty: none
+  std::vector<Real> resolved_;               // what planes feel of it, as SlipRows says
+  std::vector<Real> kept_;                   // rows of what steps leave for the next
+};
+
+}  // namespace slipwave::solver

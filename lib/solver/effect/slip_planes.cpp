@@ -1,0 +1,79 @@
+#include "solver/effect/slip_planes.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "grid/tensor.hpp"
+#include "model/fracture.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Unit vectors along planes with this normal, at right angles to each other.
+template <int D>
+std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& n) {
+  if constexpr (D == 2) {
+    return {{{-n[1], n[0]}}};
+  } else {
+    // The axis that lies flattest in the planes, less its part along n; then their product.
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
+    Point<3> a{}, b{};
+    const double size = std::sqrt(1 - n[axis] * n[axis]);
+    for (std::size_t i = 0; i < 3; ++i) a[i] = ((i == axis) - n[axis] * n[i]) / size;
+    for (std::size_t i = 0; i < 3; ++i)
+      b[i] = n[(i + 1) % 3] * a[(i + 2) % 3] - n[(i + 2) % 3] * a[(i + 1) % 3];
+    return {{a, b}};
+  }
+}
+
+/// Weights of the components of a stress in s_n.
+template <int D, class Real>
+void put_normal(const Point<D>& n, Real* weights) {
+  using Tensor = SymmetricTensor<D, double>;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = i; j < D; ++j)
+      weights[Tensor::place(int(i), int(j))] = Real((i == j ? 1 : 2) * n[i] * n[j]);
+}
+
+/// n m + m n.
+template <int D, class Real>
+void put_shear(const Point<D>& n, const Point<D>& m, Real* weights) {
+  using Tensor = SymmetricTensor<D, double>;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = i; j < D; ++j)
+      weights[Tensor::place(int(i), int(j))] = Real(n[i] * m[j] + n[j] * m[i]);
+}
+
+}  // namespace
+
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b) {
+  double product = 0;
+  for (std::size_t i = 0; i < D; ++i) product += a[i] * b[i];
+  return std::abs(product) < 1e-9;
+}
+
+template <int D, class Real>
+SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit) {
+  SlipPlanes<Real> planes{};
+  for (std::size_t n = 0; n < systems.size() && n < SlipPlanes<Real>::most_systems; ++n) {
+    put_normal<D>(unit_normal<D>(systems[n].normal), planes.normal[n]);
+    planes.friction[n] = Real(systems[n].friction);
+    planes.cohesion_pa[n] = Real(unit * systems[n].strength_pa);
+  }
+  const auto normal = unit_normal<D>(systems[0].normal);
+  const auto tangents = tangents_of<D>(normal);
+  for (std::size_t t = 0; t < tangents.size(); ++t) put_shear<D>(normal, tangents[t], planes.shear[t]);
+  return planes;
+}
+
+template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
+template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
+template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&, double);
+template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&, double);
+template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&, double);
+template SlipPlanes<double> planes_of<3, double>(const std::vector<SlipSystem<3>>&, double);
+
+}  // namespace slipwave::solver

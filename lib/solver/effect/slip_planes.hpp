@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "model/model.hpp"
+#include "solver/kernels/slip_kernels.hpp"
+
+namespace slipwave::solver {
+
+/// Whether two unit normals are at right angles, as far as numbers in a file go.
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b);
+
+/// What kernels need to know of up to three systems of a set; their shear traction is that of the first.
+/// Stress is `unit` times Pa.
+template <int D, class Real>
+SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit = 1);
+
+}  // namespace slipwave::solver

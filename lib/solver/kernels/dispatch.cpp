@@ -1,0 +1,90 @@
+#include "solver/kernels/kernels.hpp"
+
+#include <cassert>
+#include <cstring>
+
+#include "solver/kernels/kernel_tables.hpp"
+
+namespace slipwave::solver {
+
+#if defined(__x86_64__)
+const KernelTables<float>& kernels_x86_64_v2(float);
+const KernelTables<double>& kernels_x86_64_v2(double);
+const KernelTables<float>& kernels_x86_64_v3(float);
+const KernelTables<double>& kernels_x86_64_v3(double);
+const KernelTables<float>& kernels_x86_64_v4(float);
+const KernelTables<double>& kernels_x86_64_v4(double);
+#endif
+const KernelTables<float>& kernels_generic(float);
+const KernelTables<double>& kernels_generic(double);
+
+const char* instruction_set() {
+#if defined(__x86_64__)
+  const bool v2 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+  const bool v3 =
+      v2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+  const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                  __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
+                  __builtin_cpu_supports("avx512vl");
+  return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : v2 ? "x86-64-v2" : "generic";
+#else
+  return "generic";
+#endif
+}
+
+namespace {
+
+template <class Real>
+const KernelTables<Real>& best_tables() {
+#if defined(__x86_64__)
+  const char* level = instruction_set();
+  if (!std::strcmp(level, "x86-64-v4")) return kernels_x86_64_v4(Real());
+  if (!std::strcmp(level, "x86-64-v3")) return kernels_x86_64_v3(Real());
+  if (!std::strcmp(level, "x86-64-v2")) return kernels_x86_64_v2(Real());
+#endif
+  return kernels_generic(Real());
+}
+
+}  // namespace
+
+template <class Real>
+const Kernels<Real>& kernels(int order, bool uniform) {
+  const auto& tables = best_tables<Real>();
+  const auto* found = uniform ? tables.of_order_uniform(order) : tables.of_order(order);
+  assert(found);
+  return *found;
+}
+
+template <class Real>
+const PmlKernels<Real>& pml_kernels() {
+  return best_tables<Real>().stretch;
+}
+
+template <class Real>
+const SpongeKernels<Real>& sponge_kernels() {
+  return best_tables<Real>().damp;
+}
+
+template <class Real>
+SlipKernels<Real> slip_kernels(const SlipCase& of) {
+  return best_tables<Real>().slip(Real()).of(of);
+}
+
+template <class Real>
+GapKernel<Real> gap_kernel(int dimensions) {
+  const auto& tables = best_tables<Real>().slip(Real());
+  return dimensions == 2 ? tables.open_2d : tables.open_3d;
+}
+
+template SlipKernels<float> slip_kernels<float>(const SlipCase&);
+template SlipKernels<double> slip_kernels<double>(const SlipCase&);
+template GapKernel<float> gap_kernel<float>(int);
+template GapKernel<double> gap_kernel<double>(int);
+template const Kernels<float>& kernels<float>(int, bool);
+template const Kernels<double>& kernels<double>(int, bool);
+template const PmlKernels<float>& pml_kernels<float>();
+template const PmlKernels<double>& pml_kernels<double>();
+template const SpongeKernels<float>& sponge_kernels<float>();
+template const SpongeKernels<double>& sponge_kernels<double>();
+
+}  // namespace slipwave::solver

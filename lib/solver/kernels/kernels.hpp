@@ -1,0 +1,160 @@
+#pragma once
+
+#include <cstdint>
+
+namespace slipwave::solver {
+
+/// Cells the widest reconstruction (order 7) reaches to each side.
+constexpr int max_reach = 3;
+/// Orders of the reconstruction; order 2m + 1 reads m cells to each side.
+constexpr int orders[] = {1, 3, 5, 7};
+constexpr int reach_of(int order) { return (order - 1) / 2; }
+
+/// Cells first <= x < last of a line.
+struct IndexRange {
+  std::int64_t first = 0, last = 0;
+  std::int64_t count() const { return last - first; }
+  bool empty() const { return last <= first; }
+};
+
+/// Rows and columns: along the last axis and the one before it.
+struct Box {
+  IndexRange rows, columns;
+  /// Whether it has anything in common with these.
+  bool meets(const IndexRange& of_rows, const IndexRange& of_columns) const {
+    return of_rows.first < rows.last && of_rows.last > rows.first && of_columns.first < columns.last &&
+           of_columns.last > columns.first;
+  }
+};
+
+/// Values at faces by pair: 0 P (v_n, s_nn), 1 and in 3-D 2 the S pairs (v_t, s_nt). Rows a pitch apart, so
+/// that it travels in registers: what has just been written piece by piece can not be read at once as a
+/// whole.
+template <class Real>
+struct InterfaceStates {
+  Real* first;
+  std::int64_t pitch;
+  Real* v(int pair) const { return first + pitch * 2 * pair; }
+  Real* s(int pair) const { return first + pitch * (2 * pair + 1); }
+  InterfaceStates at(std::int64_t i) const { return {first + i, pitch}; }
+};
+
+/// What leaves cells up and down along the axis, by pair, in rows as in Faces.
+template <class Real>
+struct OutgoingWaves {
+  Real* first;
+  std::int64_t pitch;
+  Real* up(int pair) const { return first + pitch * 2 * pair; }
+  Real* down(int pair) const { return first + pitch * (2 * pair + 1); }
+  OutgoingWaves at(std::int64_t i) const { return {first + i, pitch}; }
+};
+
+/// Material of a stretch of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
+template <class Real>
+struct MaterialRows {
+  const Real *b, *zp, *zs;
+};
+
+/// Fields of a stretch of cells that a sweep changes; those of S where no cell carries shear and those of
+/// the third axis in 2-D are not used.
+template <class Real>
+struct SweptRows {
+  Real *v, *s, *passive, *vt, *st;
+  Real *passive2 = passive, *vt2 = vt, *st2 = st;
+};
+
+/// What the matched layer does to a change (MatchedLayer), one value for all cells or one a cell.
+template <class Real>
+struct PmlFactors {
+  const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
+};
+
+/// Inner loops of a sweep at and between the faces of n neighbouring cells of one line, see Kernels. `lo` and
+/// `hi` are the faces before and behind each cell.
+template <class Real>
+struct InterfaceKernels {
+  /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
+  /// above (hi) meet (E8), of all pairs, with one division.
+  void (*meet)(std::int64_t n, OutgoingWaves<Real> up, OutgoingWaves<Real> down, const MaterialRows<Real>& lo,
+               const MaterialRows<Real>& hi, InterfaceStates<Real> faces);
+  /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], passive normal stresses += lambda dt/h [v*];
+  /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
+  void (*update)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+                 const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  /// Both in one for cells of the first one's material with neighbours of that material, from what leaves
+  /// them and the neighbours below and above: there (E8) and (E9) come to (E9a).
+  void (*inside)(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
+                 OutgoingWaves<Real> above, const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+};
+
+/// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
+/// its `fields` and its material `here`, with `below` that of the row before; what left that one upwards
+/// (up_from) and will leave this one (up_to), P and up_pitch on S; the faces between both. The row `done`,
+/// that is brought forward, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
+/// material and faces the first rows, the others a pitch apart.
+template <class Real>
+struct FusedRow {
+  SweptRows<Real> fields;
+  std::int64_t stride, material_pitch, up_pitch, face_pitch;
+  const Real *below, *here, *done;
+  const Real* up_from;
+  Real *up_to, *faces;
+  const Real *lo, *hi;
+};
+
+/// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
+/// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
+/// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
+/// forward in time of -v (E19): `leave` and the updates turn the sign of v, and faces hold -v*.
+template <class Real>
+struct Kernels {
+  /// What leaves every cell upwards and downwards within the time step (theory.md (E6), (E7)):
+  /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
+  void (*leave)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
+                const Real* b, Real scale, Real* up, Real* down);
+  /// By dimension (2-D, 3-D) and whether any cell carries shear.
+  InterfaceKernels<Real> face[2][2];
+  /// All of a row across: leave, meet and update, in 2-D, of solid (null where stretches are of one
+  /// material).
+  void (*across)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+};
+
+/// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;
+/// phi = left phi + added (now - before) unless phi is to stay.
+template <class Real>
+struct PmlKernels {
+  /// Factors by cell, all cells in plates or none.
+  void (*along)(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
+                Real* phi, bool remember);
+  /// The same factors for all cells, plates (1) or not (0) by cell.
+  void (*across)(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
+                 Real* now, Real* phi, bool remember);
+};
+
+/// Loops of the absorbing zones: now = target + factor (now - target).
+template <class Real>
+struct SpongeKernels {
+  /// By whether there is one factor a cell, else one for all, and by the same of targets.
+  void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
+};
+
+/// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
+/// stretches of one material, of which only the first cell is read; they give the same bits.
+template <class Real>
+const Kernels<Real>& kernels(int order, bool uniform);
+template <class Real>
+const PmlKernels<Real>& pml_kernels();
+template <class Real>
+const SpongeKernels<Real>& sponge_kernels();
+
+/// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
+const char* instruction_set();
+
+extern template const Kernels<float>& kernels<float>(int, bool);
+extern template const Kernels<double>& kernels<double>(int, bool);
+extern template const PmlKernels<float>& pml_kernels<float>();
+extern template const PmlKernels<double>& pml_kernels<double>();
+extern template const SpongeKernels<float>& sponge_kernels<float>();
+extern template const SpongeKernels<double>& sponge_kernels<double>();
+
+}  // namespace slipwave::solver

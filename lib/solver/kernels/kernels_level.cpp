@@ -1,0 +1,219 @@
+// The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
+// from the standard library may be instantiated here: the linker could keep this copy for everybody.
+#include "solver/kernels/fused_row.hpp"
+#include "solver/kernels/kernel_tables.hpp"
+#include "solver/kernels/reconstruction.hpp"
+
+namespace slipwave::solver {
+
+// Of the same level, in slip_level.cpp.
+const SlipTables<float>& SLIPWAVE_SLIP_LEVEL(float);
+const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
+
+namespace {
+
+// Of a stretch of one material (Uniform) only the first cell is read, before the loop: what comes of it alone
+// is then reckoned there, too. Elsewhere that is a value read in vain.
+
+template <int Order, bool Uniform, int Sign, class Real>
+void leave_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
+              const Real* __restrict impedance, const Real* __restrict b, Real size, Real* __restrict up,
+              Real* __restrict down) {
+  const Real z0 = impedance[0], b0 = b[0];
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real z = Uniform ? z0 : impedance[i], b_i = Uniform ? b0 : b[i];
+    reconstruct_cell<Order>(v + i, s + i, stride, Sign * z, size * (z * b_i), up[i], down[i]);
+  }
+}
+
+template <int Order, bool Uniform, class Real>
+void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
+           const Real* b, Real scale, Real* up, Real* down) {
+  if (scale < 0)
+    leave_in<Order, Uniform, -1>(n, stride, v, s, impedance, b, -scale, up, down);
+  else
+    leave_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
+}
+
+/// Of the P pair and so many S pairs: the common division is that of all.
+template <bool Uniform, int Shears, class Real>
+void meet(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above, const MaterialRows<Real>& lo,
+          const MaterialRows<Real>& hi, InterfaceStates<Real> faces) {
+  const Real *zp_lo = lo.zp, *zp_hi = hi.zp, *zs_lo = lo.zs, *zs_hi = hi.zs;
+  const Real zp_lo0 = zp_lo[0], zp_hi0 = zp_hi[0], zs_lo0 = zs_lo[0], zs_hi0 = zs_hi[0];
+  const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0);
+  const Real* __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
+  const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
+  Real* __restrict v_p = faces.v(0), * __restrict s_p = faces.s(0);
+  Real* __restrict v_s = faces.v(1), * __restrict s_s = faces.s(1);
+  Real* __restrict v_s2 = faces.v(2), * __restrict s_s2 = faces.s(2);
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real p_lo = Uniform ? zp_lo0 : zp_lo[i], p_hi = Uniform ? zp_hi0 : zp_hi[i];
+    const Real s_lo = Uniform ? zs_lo0 : zs_lo[i], s_hi = Uniform ? zs_hi0 : zs_hi[i];
+    const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none);
+    // Of P alone the sum of S does not come into it.
+    const Real both = 1 / (Shears == 0 ? sum_p : sum_p * sum_s);
+    const Real share_p = Shears == 0 ? both : both * sum_s, share_s = both * sum_p;
+    v_p[i] = (up_p[i] + down_p[i]) * share_p;
+    s_p[i] = (p_lo * down_p[i] - p_hi * up_p[i]) * share_p;
+    if constexpr (Shears > 0) {
+      v_s[i] = (up_s[i] + down_s[i]) * share_s;
+      s_s[i] = (s_lo * down_s[i] - s_hi * up_s[i]) * share_s;
+    }
+    if constexpr (Shears > 1) {
+      v_s2[i] = (up_s2[i] + down_s2[i]) * share_s;
+      s_s2[i] = (s_lo * down_s2[i] - s_hi * up_s2[i]) * share_s;
+    }
+  }
+}
+
+template <bool Uniform, int D, bool Shear, class Real>
+void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+            const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+  const Real size = scale < 0 ? -scale : scale;
+  const Real* __restrict v_lo = lo.v(0), * __restrict s_lo = lo.s(0), * __restrict w_lo = lo.v(1), * __restrict t_lo = lo.s(1);
+  const Real* __restrict v_hi = hi.v(0), * __restrict s_hi = hi.s(0), * __restrict w_hi = hi.v(1), * __restrict t_hi = hi.s(1);
+  const Real* __restrict w2_lo = lo.v(2), * __restrict t2_lo = lo.s(2), * __restrict w2_hi = hi.v(2), * __restrict t2_hi = hi.s(2);
+  const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
+  const Real b0 = b[0], zp0 = zp[0], zs0 = zs[0];
+  Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
+  Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real b_i = Uniform ? b0 : b[i], zp_i = Uniform ? zp0 : zp[i], zs_i = Uniform ? zs0 : zs[i];
+    const Real moved = scale * b_i, strained = size * b_i;
+    // Times dt/h; multiplied first, so that the smallest velocities do not vanish on the way.
+    const Real p_modulus = strained * zp_i * zp_i, s_modulus = Shear ? strained * zs_i * zs_i : Real(0);
+    const Real dv = v_hi[i] - v_lo[i], along = (Shear ? p_modulus - 2 * s_modulus : p_modulus) * dv;
+    v[i] += moved * (s_hi[i] - s_lo[i]);
+    s[i] += p_modulus * dv;
+    passive[i] += along;
+    if constexpr (D == 3) passive2[i] += along;
+    if constexpr (Shear) {
+      vt[i] += moved * (t_hi[i] - t_lo[i]);
+      st[i] += s_modulus * (w_hi[i] - w_lo[i]);
+    }
+    if constexpr (Shear && D == 3) {
+      vt2[i] += moved * (t2_hi[i] - t2_lo[i]);
+      st2[i] += s_modulus * (w2_hi[i] - w2_lo[i]);
+    }
+  }
+}
+
+template <int D, bool Shear, class Real>
+void inside(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
+            OutgoingWaves<Real> above, const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+  const Real size = scale < 0 ? -scale : scale, b = material.b[0], zp = material.zp[0];
+  const Real zs = Shear ? material.zs[0] : Real(0), moved = Real(0.5) * (scale * b), strained = size * b;
+  const Real p_modulus = strained * zp * zp, s_modulus = strained * zs * zs;
+  const Real along = p_modulus - 2 * s_modulus;
+  // Divided by first, as at faces: in front of the waves all vanishes that is too small a velocity.
+  const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
+  // A fluid carries no shear.
+  const Real moved_s = zs > 0 ? moved : Real(0);
+  const Real* __restrict up_lo = below.up(0), * __restrict up = here.up(0), * __restrict down = here.down(0), * __restrict down_hi = above.down(0);
+  const Real* __restrict sup_lo = below.up(1), * __restrict sup = here.up(1), * __restrict sdown = here.down(1), * __restrict sdown_hi = above.down(1);
+  const Real* __restrict tup_lo = below.up(2), * __restrict tup = here.up(2), * __restrict tdown = here.down(2), * __restrict tdown_hi = above.down(2);
+  Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
+  Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real ups = up[i] - up_lo[i], downs = down_hi[i] - down[i], dv = (downs + ups) * over_zp;
+    v[i] += moved * (downs - ups);
+    s[i] += p_modulus * dv;
+    passive[i] += along * dv;
+    if constexpr (D == 3) passive2[i] += along * dv;
+    if constexpr (Shear) {
+      const Real s_ups = sup[i] - sup_lo[i], s_downs = sdown_hi[i] - sdown[i];
+      vt[i] += moved_s * (s_downs - s_ups);
+      st[i] += s_modulus * ((s_downs + s_ups) * over_zs);
+    }
+    if constexpr (Shear && D == 3) {
+      const Real t_ups = tup[i] - tup_lo[i], t_downs = tdown_hi[i] - tdown[i];
+      vt2[i] += moved_s * (t_downs - t_ups);
+      st2[i] += s_modulus * ((t_downs + t_ups) * over_zs);
+    }
+  }
+}
+
+template <bool Along, bool Remember, class Real>
+void stretch_in(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
+                const Real* __restrict before, Real* __restrict now, Real* __restrict phi) {
+  const Real *of_memory = factors.of_memory, *of_change = factors.of_change, *left = factors.left,
+             *added = factors.added, *kept = factors.kept, *lost = factors.lost_in_plates;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const std::int64_t f = Along ? i : 0;
+    const Real change = now[i] - before[i];
+    const Real in_plate = Along ? plate : plates[i];
+    now[i] = (now[i] - (of_memory[f] * phi[i] + of_change[f] * change)) * (kept[f] - in_plate * lost[f]);
+    if constexpr (Remember) phi[i] = left[f] * phi[i] + added[f] * change;
+  }
+}
+
+template <class Real>
+void stretch_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
+                   Real* phi, bool remember) {
+  const auto loop = remember ? stretch_in<true, true, Real> : stretch_in<true, false, Real>;
+  loop(n, by_cell, plate, nullptr, before, now, phi);
+}
+
+template <class Real>
+void stretch_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
+                    Real* now, Real* phi, bool remember) {
+  const auto loop = remember ? stretch_in<false, true, Real> : stretch_in<false, false, Real>;
+  loop(n, of_all, Real(0), plates, before, now, phi);
+}
+
+template <bool FactorByCell, bool TargetByCell, class Real>
+void damp_in(std::int64_t n, const Real* __restrict factor, const Real* __restrict target,
+             Real* __restrict now) {
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real to = target[TargetByCell ? i : 0];
+    now[i] = to + factor[FactorByCell ? i : 0] * (now[i] - to);
+  }
+}
+
+template <bool Uniform, int D, bool Shear, class Real>
+constexpr InterfaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>,
+                                         update<Uniform, D, Shear, Real>, inside<D, Shear, Real>};
+
+template <int Order, bool Uniform, class Real>
+constexpr Kernels<Real> table = {leave<Order, Uniform, Real>,
+                                 {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
+                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
+                                 Uniform ? nullptr : across<Order, Real>};
+
+template <bool Uniform, class Real>
+const Kernels<Real>* of_order(int order) {
+  switch (order) {
+    case 1:
+      return &table<1, Uniform, Real>;
+    case 3:
+      return &table<3, Uniform, Real>;
+    case 5:
+      return &table<5, Uniform, Real>;
+    case 7:
+      return &table<7, Uniform, Real>;
+  }
+  return nullptr;
+}
+
+template <class Real>
+constexpr KernelTables<Real> tables = {of_order<false, Real>,
+                                       of_order<true, Real>,
+                                       {stretch_along<Real>, stretch_across<Real>},
+                                       {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
+                                         {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
+                                       SLIPWAVE_SLIP_LEVEL};
+
+}  // namespace
+
+// SLIPWAVE_LEVEL is the name of this instruction set's entry points: kernels_x86_64_v3 and so on.
+const KernelTables<float>& SLIPWAVE_LEVEL(float) { return tables<float>; }
+const KernelTables<double>& SLIPWAVE_LEVEL(double) { return tables<double>; }
+
+}  // namespace slipwave::solver

@@ -1,0 +1,76 @@
+#pragma once
+
+#include "solver/kernels/slip_kernels.hpp"
+
+/// What planes feel of the stress of a cell. For slip_level.cpp only: compiled once for each instruction set,
+/// so everything here is inlined whatever a compiler thinks of it; the linker must not find one copy for all.
+namespace slipwave::solver {
+
+using slip::greater;
+using slip::lesser;
+
+/// s_n or tau of planes from the components s0.. of stress, `half` for the diagonal of shear.
+template <int D, class Real>
+[[gnu::always_inline]] inline Real projected(const Real* weights, Real diagonal, Real s0, Real s1, Real s2,
+                                             Real s3, Real s4, Real s5) {
+  if constexpr (D == 2)
+    return diagonal * (weights[0] * s0 + weights[1] * s1) + weights[2] * s2;
+  else
+    return diagonal * (weights[0] * s0 + weights[1] * s1 + weights[2] * s2) +
+           (weights[3] * s3 + weights[4] * s4 + weights[5] * s5);
+}
+
+/// Length of a traction with two components; squares neither overflow nor vanish.
+template <class Real>
+[[gnu::always_inline]] inline Real length(Real a, Real b) {
+  const Real x = a < 0 ? -a : a, y = b < 0 ? -b : b, large = greater(x, y), small = lesser(x, y);
+  const Real ratio = small / greater(large, slip::least<Real>);
+  return large * Real(__builtin_sqrt(1 + ratio * ratio));
+}
+[[gnu::always_inline]] inline float length(float a, float b) {
+  const float x = a < 0 ? -a : a, y = b < 0 ? -b : b, large = greater(x, y), small = lesser(x, y);
+  const float ratio = small / greater(large, slip::least<float>);
+  return large * __builtin_sqrtf(1 + ratio * ratio);
+}
+
+/// Projections of one system.
+template <int D, class Real>
+struct OneSystem {
+  static constexpr int tangents = D - 1, last = D == 2 ? 2 : 5;
+  Real normal[last + 1], m1[last + 1], m2[last + 1];
+  Real friction, cohesion;
+  [[gnu::always_inline]] explicit OneSystem(const SlipPlanes<Real>& planes)
+      : friction(planes.friction[0]), cohesion(planes.cohesion_pa[0]) {
+    for (int c = 0; c <= last; ++c) {
+      normal[c] = planes.normal[0][c];
+      m1[c] = planes.shear[0][c];
+      m2[c] = planes.shear[tangents - 1][c];
+    }
+  }
+};
+
+/// Traction along the planes of a cell, its length and the strength of the planes.
+template <class Real>
+struct Felt {
+  Real t1, t2, size, strength;
+};
+
+template <int D, bool Extended, class Real>
+[[gnu::always_inline]] inline Felt<Real> felt(const OneSystem<D, Real>& system, Real s0, Real s1, Real s2,
+                                              Real s3, Real s4, Real s5, const Real* still_n,
+                                              const Real* still1, const Real* still2, const Real* gaps,
+                                              std::int64_t i) {
+  Real s_n = projected<D>(system.normal, Real(1), s0, s1, s2, s3, s4, s5);
+  Real t1 = projected<D>(system.m1, Real(0.5), s0, s1, s2, s3, s4, s5), t2 = 0;
+  if constexpr (D == 3) t2 = projected<D>(system.m2, Real(0.5), s0, s1, s2, s3, s4, s5);
+  if constexpr (Extended) {
+    s_n += still_n[i];
+    t1 += still1[i];
+    if constexpr (D == 3) t2 += still2[i];
+  }
+  Real strength = system.friction * greater(-s_n, Real(0)) + system.cohesion;
+  if constexpr (Extended) strength = gaps[i] > 0 ? Real(0) : strength;
+  return {t1, t2, D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2), strength};
+}
+
+}  // namespace slipwave::solver

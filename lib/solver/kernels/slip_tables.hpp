@@ -1,0 +1,14 @@
+#pragma once
+
+#include "solver/kernels/slip_kernels.hpp"
+
+namespace slipwave::solver {
+
+/// What one instruction set offers for slip.
+template <class Real>
+struct SlipTables {
+  SlipKernels<Real> (*of)(const SlipCase& of);
+  GapKernel<Real> open_2d, open_3d;
+};
+
+}  // namespace slipwave::solver

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "base/archive.hpp"
+#include "parallel/ranks.hpp"
+#include "scene/scene.hpp"
+#include "solver/record/record.hpp"
+#include "solver/sweep/point_weights.hpp"
+
+namespace slipwave::solver {
+
+/// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
+/// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)).
+template <int D, class Real>
+class Recorder : public Record<D, Real> {
+ public:
+  /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step). Collective where
+  /// there are `ranks` (may be null): each records the receivers in the cells it answers for.
+  Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot,
+           double unit, Ranks* ranks = nullptr);
+
+  /// Whether it reads anything of a line at the end of that step.
+  bool reads(const StepTime& time, std::int64_t line) const override {
+    return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && wants(time);
+  }
+  Box box() const override { return box_; }
+  void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) override;
+  void finish(const StepTime& time) override;
+  std::int64_t cells() const { return std::int64_t(weights_.size()); }
+  /// Hands over what it remembers when no step is under way: the samples so far and the steps the next ones
+  /// are made of.
+  void serialize(Archive& archive);
+
+  /// Steps after which every sample is known.
+  static std::int64_t steps_needed(const Recording& recording, double dt_s);
+  /// Component by component, each in the order of the receivers. Call once, after the last step. Collective
+  /// where there are ranks: the first of them gets what all have recorded.
+  Gather take();
+
+ private:
+  static constexpr std::int64_t kept = 8;  // steps the interpolation uses
+  void read_all(const Layout<D>& layout, const std::vector<std::vector<ValueWeight>>& of_traces);
+  void find_box(const Layout<D>& layout, std::int64_t rows_before);
+  /// Whether any sample is made of the end of that step.
+  bool wants(const StepTime& time) const;
+  /// When a sample is taken, in steps, and the last step that has ended before.
+  double steps_at(std::int64_t sample, double dt_s) const {
+    return double(sample) * gather_.axis.interval_s / dt_s;
+  }
+  std::int64_t steps_before(std::int64_t sample, double dt_s) const {
+    return std::int64_t(std::floor(steps_at(sample, dt_s)));
+  }
+  void interpolate(std::int64_t newest, double dt_s);
+  Real* values_of(const StepTime& time) {
+    return values_.data() + time.step % Effect<D, Real>::most_steps_in_progress * values_a_step_;
+  }
+
+  /// Neighbouring cells of a row that any trace reads, once however many traces do.
+  struct Run {
+    std::int64_t first, last;  // columns
+    std::int64_t value;        // place of the first among those of a step
+  };
+  /// Those of one row of a line.
+  struct RowRuns {
+    int row;
+    std::size_t first, last;  // in runs_
+  };
+  /// Values next to each other that a trace has weights for.
+  struct Term {
+    std::int64_t value, count;
+  };
+  Ranks* ranks_;
+  Gather gather_;
+  double unit_;
+  std::vector<double> weights_;          // of all traces, in the order of their terms
+  std::vector<Term> terms_;              // of all traces
+  std::vector<std::size_t> first_term_;  // of each trace, and the end
+  std::vector<Run> runs_;                // by line, row, column
+  std::vector<RowRuns> rows_;            // by line, row
+  std::vector<std::size_t> starts_;      // of each line in rows_, and the end
+  Box box_;
+  std::int64_t values_a_step_ = 0;
+  std::vector<Real> values_;     // [step modulo those under way][value]
+  std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples are made of
+  std::vector<double> sums_;     // of a sample, one a trace
+  std::int64_t next_sample_ = 0;
+};
+
+/// Depths of the fluid above the first rock below these points of the model, m; 0 where the column begins
+/// with rock. Collective where there are ranks (may be null) that hold parts of it.
+template <int D>
+std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& part,
+                                   const std::vector<Point<D>>& points_m, Ranks* ranks = nullptr);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,194 @@
+#include "solver/record/stability_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "grid/locate.hpp"
+#include "parallel/threads.hpp"
+#include "solver/sweep/point_weights.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// How much more than all energy could do is still taken for a wave.
+constexpr double to_spare = 100;
+
+template <class Real>
+bool sound(Real velocity, Real beyond) {
+  return std::abs(velocity) <= beyond;  // NaN is not
+}
+
+template <int D>
+std::int64_t apart(const Index<D>& a, const Index<D>& b) {
+  std::int64_t sum = 0;
+  for (std::size_t axis = 0; axis < D; ++axis) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+  return sum;
+}
+
+template <int D>
+double length(const Point<D>& vector) {
+  double sum = 0;
+  for (const double part : vector) sum += part * part;
+  return std::sqrt(sum);
+}
+
+template <int D>
+double length(const SymmetricTensor<D, double>& tensor) {
+  double sum = 0;
+  for (int i = 0; i < D; ++i)
+    for (int j = 0; j < D; ++j) sum += tensor(i, j) * tensor(i, j);
+  return std::sqrt(sum);
+}
+
+/// Of the wavelet in a run: its integral, taken positive, and its largest value.
+struct Strength {
+  double integral_s = 0, largest = 0;
+};
+
+Strength strength_of(const Wavelet& wavelet, double duration_s, double dt_s) {
+  Strength strength;
+  const double last_s = std::min(wavelet.duration_s(), duration_s);
+  for (double t_s = 0; t_s <= last_s + dt_s; t_s += dt_s) {
+    const double value = std::abs(wavelet(t_s));
+    strength.integral_s += value * dt_s;
+    strength.largest = std::max(strength.largest, value);
+  }
+  return strength;
+}
+
+}  // namespace
+
+template <int D>
+double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
+  const auto& source = scene.survey.sources[shot - 1];
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const double dt_s = time_step_s(scene), volume = std::pow(grid.spacing_m, D);
+  double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
+  for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
+    if (medium.is_void(cell)) continue;
+    lightest = std::min(lightest, double(medium.rho[cell]));
+    heaviest = std::max(heaviest, double(medium.rho[cell]));
+  }
+  lightest = smallest_of(ranks, lightest);
+  heaviest = largest_of(ranks, heaviest);
+  // Velocities that all energy of a kind would give to a cell of the lightest material; they add up at most.
+  double sum = 0;
+  const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
+  if (const auto injection = point_injection(source)) {
+    if (scene.subdomain.owns(grid, source.position_m)) {
+      const auto cell = std::size_t(grid.flat(cell_of(grid, source.position_m)));
+      const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
+      const double in_cell =
+          strength.integral_s / volume *
+          (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
+      sum += in_cell * std::sqrt(rho / lightest);
+    }
+  } else {
+    double cells = double(grid.size()), through_edges = 0;
+    for (const auto n : grid.shape) through_edges += 2 * cells / double(n);
+    const double steps = scene.recording.duration_s / dt_s;
+    sum += std::abs(source.amplitude) * strength.largest *
+           std::sqrt(2 * heaviest / lightest * (cells + steps * through_edges));
+  }
+  double energy_over_volume = 0;
+  if (scene.slips() && !scene.model.prestress_pa.empty())
+    for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
+      if (scene.model.fracture[cell] == 0) continue;
+      if (!scene.subdomain.owns(grid, grid.index(std::int64_t(cell))[D - 1])) continue;
+      double squares = 0;
+      for (const auto& component : scene.model.prestress_pa)
+        squares += double(component[cell]) * component[cell];
+      energy_over_volume += squares / (double(medium.rho[cell]) * medium.vs[cell] * medium.vs[cell]);
+    }
+  sum = sum_of(ranks, sum) + std::sqrt(2 * sum_of(ranks, energy_over_volume) / lightest);
+  return to_spare * sum;
+}
+
+template <int D, class Real>
+void StabilityCheck<D, Real>::check(const StepTime& time) const {
+  using Limits = std::numeric_limits<Real>;
+  const double limit = limit_ * unit_;
+  const Real beyond = limit < Limits::max() ? std::max(Real(limit), Limits::min()) : Limits::max();
+  const std::int64_t lines = state_.layout.lines(), nx = state_.layout.shape()[0];
+  std::vector<char> bad_lines(std::size_t(lines), 0);
+  parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      if (!domain_.owns(state_.layout.line_index(line)[D - 1])) continue;
+      bool bad = false;
+      for (int axis = 0; axis < D; ++axis) {
+        const Real* v = state_.field_row(state_.layout.line_index(line), FieldRows<D>::velocity(axis));
+        for (std::int64_t i = 0; i < nx; ++i) bad |= !sound(v[i], beyond);
+      }
+      bad_lines[std::size_t(line)] = bad;
+    }
+  });
+  if (std::find(bad_lines.begin(), bad_lines.end(), 1) == bad_lines.end()) return;
+  Divergence<D> first = first_of(bad_lines, beyond);
+  first.time = time;
+  throw DivergedFields<D>("the simulation became unstable at " +
+                              place_of(domain_.grid, domain_.grid.flat(first.at)) +
+                              ", t=" + shown(time.end_s(), 6) + " s (step " + std::to_string(time.step + 1) +
+                              "): v" + std::string(1, axis_names<D>()[std::size_t(first.axis)]) + " is " +
+                              (std::isnan(first.value) ? "no number" : shown(first.value, 3) + " m/s") +
+                              ", expected at most " + shown(first.limit, 3),
+                          first);
+}
+
+template <int D, class Real>
+Divergence<D> StabilityCheck<D, Real>::first_of(const std::vector<char>& bad_lines, Real beyond) const {
+  const auto each_bad = [&](auto&& see) {
+    for (std::int64_t line = 0; line < std::int64_t(bad_lines.size()); ++line) {
+      if (!bad_lines[std::size_t(line)]) continue;
+      Index<D> at = state_.layout.line_index(line);
+      for (int axis = 0; axis < D; ++axis) {
+        const Real* v = state_.field_row(state_.layout.line_index(line), FieldRows<D>::velocity(axis));
+        for (at[0] = 0; at[0] < state_.layout.shape()[0]; ++at[0])
+          if (!sound(v[at[0]], beyond)) see(at, axis, double(v[at[0]]));
+      }
+    }
+  };
+  Divergence<D> first;
+  first.limit = limit_;
+  std::array<Index<D>, 2> not_finite;
+  bool any = false, any_not_finite = false;
+  const auto widen = [](std::array<Index<D>, 2>& box, bool& begun, const Index<D>& at) {
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      box[0][axis] = begun ? std::min(box[0][axis], at[axis]) : at[axis];
+      box[1][axis] = begun ? std::max(box[1][axis], at[axis]) : at[axis];
+    }
+    begun = true;
+  };
+  const auto take = [&](const Index<D>& at, int axis, double value) {
+    first.at = at;
+    first.axis = axis;
+    first.value = value / unit_;
+  };
+  double fastest = 0;
+  each_bad([&](const Index<D>& at, int axis, double value) {
+    widen(first.box, any, at);
+    if (!std::isfinite(value)) return widen(not_finite, any_not_finite, at);
+    if (std::abs(value) > std::exchange(fastest, std::max(fastest, std::abs(value)))) take(at, axis, value);
+  });
+  if (!any_not_finite) return first;
+  Index<D> middle;
+  for (std::size_t axis = 0; axis < D; ++axis) middle[axis] = (not_finite[0][axis] + not_finite[1][axis]) / 2;
+  std::int64_t nearest = std::numeric_limits<std::int64_t>::max();
+  each_bad([&](const Index<D>& at, int axis, double value) {
+    if (std::isfinite(value) || apart<D>(at, middle) >= nearest) return;
+    nearest = apart<D>(at, middle);
+    take(at, axis, value);
+  });
+  return first;
+}
+
+template double largest_velocity(const Scene<2>&, std::size_t, Ranks*);
+template double largest_velocity(const Scene<3>&, std::size_t, Ranks*);
+template class StabilityCheck<2, float>;
+template class StabilityCheck<2, double>;
+template class StabilityCheck<3, float>;
+template class StabilityCheck<3, double>;
+
+}  // namespace slipwave::solver

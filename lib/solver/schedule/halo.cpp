@@ -1,0 +1,125 @@
+#include "solver/schedule/halo.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace slipwave::solver {
+
+template <int D, class Real>
+Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Show& memory)
+    : ranks_(ranks), own_(domain.own), exchanged_(domain.subdomain.exchanged) {
+  const std::int64_t rows = domain.grid.shape[D - 1];
+  auto& [above, below] = sides_;
+  above.rows_in = {own_.first - exchanged_, own_.first};
+  above.rows_out = {own_.first, own_.first + exchanged_};
+  below.rows_in = {own_.last, own_.last + exchanged_};
+  below.rows_out = {own_.last - exchanged_, own_.last};
+  // Up goes under one tag, down under the other.
+  above.tag_out = below.tag_in = 0;
+  below.tag_out = above.tag_in = 1;
+  if (own_.first > 0) prepare(above, ranks.number() - 1, state, memory);
+  if (own_.last < rows) prepare(below, ranks.number() + 1, state, memory);
+}
+
+template <int D, class Real>
+void Halo<D, Real>::prepare(Side& side, int rank, State<D, Real>& state, const Show& memory) {
+  side.rank = rank;
+  const auto all_of = [&](const IndexRange& rows, std::vector<std::span<Real>>& to) {
+    const auto add = [&](Real* values, std::int64_t count) { to.emplace_back(values, std::size_t(count)); };
+    const auto& layout = state.layout;
+    const auto lines_a_row = layout.lines() / layout.shape()[D - 1];
+    for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
+      add(state.field_row(layout.line_index(line), 0),
+          FieldRows<D>::count * layout.row_pitch() - Layout<D>::lead);
+    memory(rows, add);
+  };
+  all_of(side.rows_out, side.out);
+  all_of(side.rows_in, side.in);
+  const auto values = [](const auto& spans) {
+    std::size_t sum = 0;
+    for (const auto& span : spans) sum += span.size();
+    return sum;
+  };
+  for (auto& sent : side.sent) sent.resize(values(side.out));
+  side.come.resize(values(side.in));
+  expect(side);
+}
+
+template <int D, class Real>
+Halo<D, Real>::~Halo() {
+  // The last pass has been handed out like the others.
+  for (auto& side : sides_) {
+    if (side.coming && side.passes_out > 0) wait_for(*side.coming);
+    for (auto& message : side.sending)
+      if (message) wait_for(*message);
+  }
+}
+
+template <int D, class Real>
+void Halo<D, Real>::expect(Side& side) {
+  side.coming = ranks_.receive(side.rank, side.tag_in, std::as_writable_bytes(std::span<Real>(side.come)));
+}
+
+template <int D, class Real>
+void Halo<D, Real>::take(Side& side) {
+  wait_for(*side.coming);
+  const Real* from = side.come.data();
+  for (const auto& span : side.in) {
+    std::copy(from, from + span.size(), span.begin());
+    from += span.size();
+  }
+  expect(side);
+}
+
+template <int D, class Real>
+void Halo<D, Real>::hand_out(Side& side) {
+  const auto turn = std::size_t(side.passes_out++ % 2);
+  if (side.sending[turn]) wait_for(*side.sending[turn]);
+  Real* to = side.sent[turn].data();
+  for (const auto& span : side.out) to = std::copy(span.begin(), span.end(), to);
+  side.sending[turn] =
+      ranks_.send(side.rank, side.tag_out, std::as_bytes(std::span<const Real>(side.sent[turn])));
+}
+
+template <int D, class Real>
+std::array<IndexRange, 2> Halo<D, Real>::before(const IndexRange& rows) {
+  std::array<IndexRange, 2> renewed{};
+  for (std::size_t n = 0; n < sides_.size(); ++n) {
+    auto& side = sides_[n];
+    const auto first = side.rows_in.first;
+    if (side.rank < 0 || first < rows.first || first >= rows.last) continue;
+    if (std::exchange(side.begun, true)) {
+      take(side);
+      renewed[n] = side.rows_in;
+    }
+  }
+  return renewed;
+}
+
+template <int D, class Real>
+void Halo<D, Real>::after(std::int64_t earlier, std::int64_t now) {
+  for (auto& side : sides_)
+    if (side.rank >= 0 && earlier < side.rows_out.last && now >= side.rows_out.last) hand_out(side);
+}
+
+template <int D, class Real>
+IndexRange Halo<D, Real>::right_after(std::int64_t steps, const IndexRange& spread) const {
+  IndexRange rows = own_;
+  if (sides_[0].rank >= 0) rows.first -= exchanged_ - steps * spread.first;
+  if (sides_[1].rank >= 0) rows.last += exchanged_ - steps * spread.last;
+  return rows;
+}
+
+template <int D, class Real>
+std::int64_t Halo<D, Real>::memory_bytes() const {
+  std::size_t values = 0;
+  for (const auto& side : sides_) values += side.come.size() + side.sent[0].size() + side.sent[1].size();
+  return std::int64_t(values * sizeof(Real));
+}
+
+template class Halo<2, float>;
+template class Halo<2, double>;
+template class Halo<3, float>;
+template class Halo<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,158 @@
+#include "solver/schedule/subdomains.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/interpolation.hpp"
+#include "grid/locate.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/free_surface.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Two are up to a tenth faster than one, more gain nothing (tests/bench, docs/performance.md).
+constexpr int usual_steps = 2;
+
+}  // namespace
+
+int steps_of_a_tile(const Tiling& tiling) { return tiling.steps > 0 ? tiling.steps : usual_steps; }
+
+template <int D>
+std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int axis, std::int64_t reach,
+                              const std::array<std::int64_t, std::size_t(D)>& bends) {
+  std::int64_t cells = 0;
+  for (const auto& sweep : splitting)
+    cells += sweep.axis == axis ? reach + 1 : bends[std::size_t(sweep.axis)];
+  return cells;
+}
+
+template <int D>
+std::int64_t spread_of_a_tile(const Scene<D>& scene) {
+  std::array<std::int64_t, std::size_t(D)> bends{};
+  for (int axis = 0; axis < D; ++axis)
+    for (const EdgeLaw law : scene.edges[axis])
+      if (law == EdgeLaw::free) bends[std::size_t(axis)] = FreeSurface<D, float>::reach;
+  const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
+                                             reach_of(scene.numerics.order), bends);
+  // The first pass of all has a sweep along x more.
+  return steps_of_a_tile(scene.numerics.tiling) * of_a_step + bends[0];
+}
+
+template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 2>&);
+template std::int64_t spread_of_a_step<3>(const std::vector<SweepFraction>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 3>&);
+
+template std::int64_t spread_of_a_tile(const Scene<2>&);
+template std::int64_t spread_of_a_tile(const Scene<3>&);
+
+}  // namespace slipwave::solver
+
+namespace slipwave {
+namespace {
+
+/// What points read beyond the row they are in, at most.
+constexpr std::int64_t beside_points = widest_stencil;
+
+template <class Value, int D>
+Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
+  if (field.empty()) return field;
+  Field<D, Value> part(held);
+  const std::int64_t a_row = held.size() / held.shape[D - 1];
+  const auto first = field.begin() + held.first[D - 1] * a_row;
+  std::copy(first, first + held.size(), part.begin());
+  return part;
+}
+
+}  // namespace
+
+template <int D>
+Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count) {
+  constexpr int z = D - 1;
+  const std::int64_t rows = whole.shape[z];
+  if (count == 1) return {};
+  std::int64_t zone = 0;
+  for (const auto& source : scene.survey.sources) {
+    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+      throw Error("found a plane wave and " + std::to_string(count) +
+                      " processes a shot, expected a point source or --ranks-per-shot 1",
+                  ErrorKind::usage);
+    zone = std::max<std::int64_t>(zone, zone_cells(scene, source));
+  }
+  const auto zone_at = [&](int side) { return scene.edges[z][side] == EdgeLaw::absorbing ? zone : 0; };
+  std::vector<std::int64_t> points;  // rows of receivers
+  for (const auto& receiver : scene.survey.receivers_m) points.push_back(cell_of(whole, receiver)[z]);
+  std::sort(points.begin(), points.end());
+  const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
+    const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
+    return near == points.end() || *near >= row + beside_points;
+  };
+  const std::int64_t spread = solver::spread_of_a_tile(scene), least = spread + beside_points;
+  if (rows < count * least)
+    throw Error("found " + std::to_string(count) + " processes a shot for a model of " +
+                    std::to_string(rows) + " rows, expected at most " +
+                    std::to_string(std::max<std::int64_t>(1, rows / least)) + ": each takes " +
+                    std::to_string(least) + " or more",
+                ErrorKind::usage);
+  Subdomain part;
+  part.rows = rows;
+  part.exchanged = spread;
+  const std::int64_t all = zone_at(0) + rows + zone_at(1);
+  std::int64_t before = 0;
+  for (int n = 1; n <= count; ++n) {
+    const std::int64_t most = rows - (count - n) * least;
+    std::int64_t boundary = rows;
+    if (n < count) {
+      const auto even = std::clamp(n * all / count - zone_at(0), before + least, most);
+      boundary = even;
+      for (std::int64_t way = 0; way <= beside_points && !alone(boundary); ++way)
+        for (const auto moved : {even - way, even + way})
+          if (moved >= before + least && moved <= most && alone(moved) && !alone(boundary)) boundary = moved;
+      if (!alone(boundary)) part.exchanged = least;
+    }
+    if (n == number + 1) {
+      part.first = before;
+      part.last = boundary;
+    }
+    before = boundary;
+  }
+  return part;
+}
+
+std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
+  const auto beside = std::max(part.exchanged, beside_points);
+  return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
+}
+
+template <int D>
+Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
+  whole.subdomain = part;
+  if (part.is_whole()) return whole;
+  const auto [first, last] = rows_held(part);
+  auto held = whole.model.grid();
+  held.first[D - 1] = first;
+  held.shape[D - 1] = last - first;
+  auto& model = whole.model;
+  model.medium = {rows_of(model.medium.vp, held), rows_of(model.medium.vs, held),
+                  rows_of(model.medium.rho, held)};
+  model.fracture = rows_of(model.fracture, held);
+  for (auto& component : model.prestress_pa) component = rows_of(component, held);
+  return whole;
+}
+
+template <int D>
+void join(Scene<D>& scene, Ranks& ranks) {
+  scene.subdomain.fastest = largest_of(&ranks, solver::fastest_wave(scene.model.medium));
+  scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
+}
+
+template Subdomain subdomain_for(const Scene<2>&, const Grid<2>&, int, int);
+template Subdomain subdomain_for(const Scene<3>&, const Grid<3>&, int, int);
+template Scene<2> cut_to(Scene<2>, const Subdomain&);
+template Scene<3> cut_to(Scene<3>, const Subdomain&);
+template void join(Scene<2>&, Ranks&);
+template void join(Scene<3>&, Ranks&);
+
+}  // namespace slipwave

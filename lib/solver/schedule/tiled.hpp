@@ -1,0 +1,137 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "solver/schedule/active_cells.hpp"
+#include "solver/schedule/executor.hpp"
+#include "solver/schedule/halo.hpp"
+#include "solver/schedule/time_step.hpp"
+#include "solver/sweep/sweeps.hpp"
+
+namespace slipwave::solver {
+
+/// What the patches of a line leave for its next stripe.
+template <class Real>
+struct PatchBoundary {
+  static constexpr std::int64_t behind = 32, width = behind + 80;
+  std::int64_t line = -1, step = -1, next = 0;  // the stripe begins there
+  StripeBoundary<Real> first, second;           // of both half sweeps
+  std::vector<Real> fields;                     // rows of `width`, from `behind` cells before the next on
+};
+
+/// Executes time steps in time tiles: one or several steps in one pass through memory. Row after row comes to
+/// the first sweep, and each following sweep works some rows behind the one before it, so that what it needs
+/// is still in the cache. Rows are cut into stripes of columns that fit the first cache; a sweep
+/// stays some columns behind the one before it, too. In 3-D what comes are planes, cut along y into stripes
+/// of whole rows that fit the second cache: planes are the rows of 2-D, their rows the columns. Threads work
+/// on different tiles at once, each on a band of rows some bands behind the tile before. Everything is
+/// computed once and in an order of its own whatever the number of threads, so results do not depend on it.
+template <int D, class Real>
+class TiledExecutor : public Executor {
+ public:
+  /// Keeps references. `rows_beside`: of neighbours, held on either side at most.
+  TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step, const Tiling& tiling,
+                std::int64_t rows_beside = 0);
+  /// From now on rows of neighbours are refreshed before each tile; it must outlive this. To be called before
+  /// the first step.
+  void use(Halo<D, Real>* halo) { halo_ = halo; }
+  using Executor::run;
+  /// `pause` is asked before each tile but the first.
+  std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
+  void fields_changed() override;
+  void serialize(Archive& archive) override { active_.serialize(archive); }
+  std::int64_t memory_bytes() const override;
+  std::int64_t swept_cells() const override;
+
+ private:
+  /// What is done to every row (plane) in turn. A sweep along an axis or the end of a step: two sweeps along
+  /// x with all that happens between them.
+  struct Stage {
+    enum Kind { along_x, along_y, along_z, end_of_step } kind;
+    Real fraction;            // of the step, of each of the two sweeps at its end
+    StepTime time;            // whose end it is, or which it is in
+    std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
+    std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
+    int number = 0;           // among those of its kind; of the sweeps along x the first one's
+    int end = 0;              // the same of the ends of steps
+    Box needed{};             // elsewhere nobody will see what it does
+  };
+  struct TileInProgress {
+    std::vector<Stage> stages;
+    std::vector<Ring<Real>> rings;  // of the sweeps along z, in 3-D by y
+  };
+  struct Worker {
+    Workspace<Real> work;
+    std::vector<StripeBoundary<Real>> boundaries;  // [sweep along x][row of the band]
+    std::vector<Ring<Real>> rings;                 // [sweep along y][plane of the band]
+    std::vector<IndexRange> columns;               // of each stage; the end of a step has two
+    std::vector<PatchBoundary<Real>> patches{};    // [end of a step][row of the band]
+    Buffer<Real> strip{};                          // copies of patches, rows strip_pitch apart
+    std::int64_t strip_pitch = 0;
+    std::int64_t swept = 0;  // cells, along z
+  };
+  /// How many stages of a pass are of a kind; ends of steps count as two sweeps along x.
+  struct Counts {
+    std::int64_t along_x = 0, along_y = 0, along_z = 0;
+  };
+  static Counts counts(const std::vector<Stage>& stages);
+  std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
+  void run_band(std::int64_t pass, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
+  void run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker);
+  void sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band, const IndexRange* columns,
+                  Worker& worker);
+  void sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines, Ring<Real>& ring,
+                   Worker& worker);
+  void along_x(std::int64_t line, const IndexRange& columns, Real part, StripeBoundary<Real>& boundary,
+               Worker& worker, bool begins = false);
+  void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& pass,
+               Worker& worker);
+  void refresh(const IndexRange& rows);
+  bool is_quiet(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
+  void mark_active(std::int64_t line, const IndexRange& columns);
+  std::int64_t boundaries_per_sweep() const;
+  void end_of_step(const Stage& stage, std::int64_t line, const IndexRange& first, const IndexRange& second,
+                   StripeBoundary<Real>& boundary, StripeBoundary<Real>& second_boundary,
+                   PatchBoundary<Real>* patches, Worker& worker);
+  void make_patch_memory();
+  std::optional<RowFields<Real>> work_on_patches(const Stage& stage, std::int64_t line,
+                                                 const IndexRange& first, const IndexRange& second,
+                                                 PatchBoundary<Real>& boundary, Worker& worker);
+  void sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real part,
+                            StripeBoundary<Real>& boundary, Worker& worker);
+  void put_patches(const IndexRange& columns, const RowFields<Real>& copy);
+  void read_beside_patches(const Stage& stage, const IndexRange& columns, const RowFields<Real>& fields);
+  std::int64_t last_column(std::int64_t stripe, std::int64_t ahead) const;
+  std::int64_t stripes() const;
+  Box growth_of_a_step() const;
+  std::int64_t columns_behind(const Stage& stage) const;
+  /// Lines of a row: one; in 3-D those of a plane, by y.
+  std::int64_t line_of(std::int64_t row, std::int64_t y) const { return D == 2 ? row : row * cut_cells_ + y; }
+  IndexRange whole_lines() const { return {0, layout_.shape()[0]}; }
+  /// How far sweeps along an axis must stay behind what its free edges read.
+  std::int64_t bend_rows(int axis) const { return sweeps_.bends(axis) ? FreeSurface<D, Real>::reach : 0; }
+  /// The same rows (in 3-D of a plane) and those beside them that free edges of an axis read.
+  IndexRange with_bends(int axis, const IndexRange& rows) const {
+    return {rows.first - bend_rows(axis), rows.last + bend_rows(axis)};
+  }
+
+  Sweeps<D, Real>& sweeps_;
+  State<D, Real>& state_;
+  const Layout<D>& layout_;
+  ActiveCells<D, Real> active_;
+  Halo<D, Real>* halo_ = nullptr;
+  bool everywhere_;
+  TimeStep<D, Real>& step_;
+  int steps_per_tile_;
+  std::int64_t stripe_width_;
+  std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
+  std::int64_t longest_;           // rows from the first to the last stage of a pass
+  std::int64_t band_rows_, bands_;
+  std::vector<TileInProgress> in_progress_;
+  std::vector<Worker> workers_;
+};
+
+}  // namespace slipwave::solver

@@ -1,0 +1,227 @@
+#include "solver/shot_simulation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "base/error.hpp"
+#include "grid/locate.hpp"
+#include "solver/divergence.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// What a source adds to a velocity in a step, at the largest, is this much of the unit.
+constexpr double largest_addition = 1e-20;
+
+/// The unit of the fields: a power of two times SI. In single precision all that is 10^-18 of what the source
+/// does where it stands then counts as zero, so that the cells in front of the waves are zero and can be
+/// skipped (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths must stay
+/// normal numbers. The same with slip and without, so that the difference of both is
+/// the work of slip alone. Collective where there are ranks.
+template <int D>
+double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s, Ranks* ranks) {
+  const auto injection = point_injection(source);
+  if (!injection || scene.numerics.double_precision) return 1;
+  const auto& medium = scene.model.medium;
+  const double volume = std::pow(medium.grid().spacing_m, D);
+  double largest = 0;
+  if (scene.subdomain.owns(medium.grid(), source.position_m)) {
+    const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
+    const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
+    for (int i = 0; i < D; ++i) {
+      largest = std::max(largest, std::abs(injection->force[std::size_t(i)]) / rho);
+      for (int j = 0; j < D; ++j)
+        largest = std::max(largest, std::abs(injection->moment_rate(i, j)) / impedance);
+    }
+  }
+  largest = largest_of(ranks, largest);
+  if (!(largest > 0)) return 1;
+  const double unit = std::exp2(std::round(std::log2(largest_addition * volume / (dt_s * largest))));
+  return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
+}
+
+/// What all ranks report together.
+ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
+  ShotReport all;
+  const SlipTotals slip = mine.slip.value_or(SlipTotals{});
+  const SlipTotals totals = {sum_of(&ranks, slip.cells), sum_of(&ranks, slip.slipped),
+                             sum_of(&ranks, slip.dissipated), sum_of(&ranks, slip.out_of_waves)};
+  if (largest_of(&ranks, int(mine.slip.has_value()))) all.slip = totals;
+  const double work = sum_of(&ranks, mine.source_work.value_or(0));
+  if (largest_of(&ranks, int(mine.source_work.has_value()))) all.source_work = work;
+  all.energy_left = sum_of(&ranks, mine.energy_left);
+  return all;
+}
+
+}  // namespace
+
+template <int D, class Real>
+ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& sink,
+                                        Ranks* ranks)
+    : ranks_(ranks),
+      scene_(&scene),
+      shot_(shot),
+      dt_s_(time_step_s(scene)),
+      steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
+      unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_, ranks)),
+      domain_(make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
+                          scene.subdomain)),
+      state_(make_filled_state<D, Real>(domain_, scene.model.medium, dt_s_)),
+      sweeps_(state_, domain_, scene.numerics.order),
+      effects_(build_effects(scene, shot, state_, domain_, unit_, ranks)),
+      recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
+      sink_(sink),
+      snapshots_(state_.layout, domain_, sink ? scene.snapshot_every_s : std::nullopt,
+                 scene.recording.duration_s, unit_),
+      step_(build_time_step(scene, domain_, sweeps_, state_.layout, effects_, records(), steps_)),
+      halo_(make_halo()),
+      executor_(make_executor(scene, domain_, state_, sweeps_, step_, halo_.get())),
+      stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
+  // All that is made of them is there.
+  domain_.release_impedances();
+  bool changed = false;
+  for (auto& effect : effects_) changed |= effect->initialize(state_);
+  if (changed) executor_->fields_changed();
+}
+
+template <int D, class Real>
+std::vector<Record<D, Real>*> ShotSimulation<D, Real>::records() {
+  std::vector<Record<D, Real>*> records = {&recorder_};
+  if (sink_ && scene_->snapshot_every_s) records.push_back(&snapshots_);
+  return records;
+}
+
+template <int D, class Real>
+std::unique_ptr<Halo<D, Real>> ShotSimulation<D, Real>::make_halo() {
+  if (!ranks_) return nullptr;
+  return std::make_unique<Halo<D, Real>>(*ranks_, domain_, state_,
+                                         [this](const IndexRange& rows, const auto& to) {
+                                           for (auto& effect : effects_) effect->exchange(rows, to);
+                                         });
+}
+
+template <int D, class Real>
+void ShotSimulation<D, Real>::run_to(std::int64_t last, const Progress& progress,
+                                     const std::function<bool()>& pause) {
+  step_.tell(&progress);
+  for (bool paused = false; done_ < last && !paused; paused = pause && pause()) {
+    // No step is in progress where all fields are checked or shown.
+    std::int64_t until = std::min(last, StabilityCheck<D, Real>::next_after(done_) + 1);
+    const bool snapshot = snapshots_.prepare(done_, until, dt_s_);
+    if (snapshot) until = snapshots_.step() + 1;
+    done_ = executor_->run(done_, until, pause);
+    if (snapshot && done_ == until) take_snapshot();
+    if (done_ % StabilityCheck<D, Real>::every == 0 || done_ == steps_) check_together();
+  }
+  step_.tell(nullptr);
+}
+
+template <int D, class Real>
+void ShotSimulation<D, Real>::serialize(Archive& archive) {
+  archive.value(done_);
+  if (done_ < 0 || done_ > steps_)
+    throw Error("found step " + std::to_string(done_) + ", expected 0 to " + std::to_string(steps_));
+  archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
+  executor_->serialize(archive);
+  for (const auto& effect : effects_) effect->serialize(archive);
+  recorder_.serialize(archive);
+}
+
+template <int D, class Real>
+void ShotSimulation<D, Real>::take_snapshot() {
+  sink_(StepTime{snapshots_.step(), dt_s_}.end_s(), [&](const FieldKey& key) {
+    if (const auto* component = std::get_if<Component>(&key))
+      return allgather_field(snapshots_.field(*component));
+    Field<D> field(domain_.model_grid);
+    for (const auto& effect : effects_)
+      if (effect->fill(std::get<SlipField>(key), field)) break;
+    return allgather_field(std::move(field));
+  });
+  snapshots_.release();
+}
+
+/// Checks, and now and then asks the others what they found: throws on all ranks what was found first.
+template <int D, class Real>
+void ShotSimulation<D, Real>::check_together() {
+  if (!ranks_) return check_stability();
+  try {
+    if (!diverged_) check_stability();
+  } catch (const DivergedFields<D>& seen) {
+    diverged_.emplace(
+        seen.what() + std::string("; ") + surroundings(*scene_, domain_, shot_, seen.first().at),
+        seen.first());
+  }
+  if (done_ % asked_every != 0 && done_ != steps_) return;
+  constexpr auto never = std::numeric_limits<std::int64_t>::max();
+  const auto steps = allgather(ranks_, std::vector{diverged_ ? diverged_->first().time.step : never});
+  const auto first = std::min_element(steps.begin(), steps.end());
+  if (*first == never) return;
+  const auto texts = allgather_texts(*ranks_, diverged_ ? diverged_->what() : "");
+  Divergence<D> divergence;
+  divergence.time = {*first, dt_s_};
+  throw DivergedFields<D>(texts[std::size_t(first - steps.begin())], divergence);
+}
+
+/// The field of the whole model on the first rank, on the others what they hold of it.
+template <int D, class Real>
+Field<D> ShotSimulation<D, Real>::allgather_field(Field<D> mine) const {
+  if (!ranks_) return mine;
+  const auto a_row = mine.grid().size() / mine.grid().shape[D - 1];
+  const auto& part = domain_.subdomain;
+  const std::span<const float> own(mine.data() + (part.first - mine.grid().first[D - 1]) * a_row,
+                                   std::size_t((part.last - part.first) * a_row));
+  const auto all = gather_on_first(*ranks_, std::as_bytes(own));
+  if (all.empty()) return mine;
+  Field<D> whole(part.whole(mine.grid()));
+  std::memcpy(whole.data(), all.data(), all.size());
+  return whole;
+}
+
+template <int D, class Real>
+ShotReport ShotSimulation<D, Real>::report() const {
+  ShotReport report;
+  for (const auto& effect : effects_) effect->report(report);
+  report.energy_left = energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
+  return ranks_ ? of_all(report, *ranks_) : report;
+}
+
+template <int D, class Real>
+double ShotSimulation<D, Real>::computed_share() const {
+  double swept = 0;
+  for (const auto& sweep : step_.sweeps()) swept += sweep.axis == D - 1;
+  return double(executor_->swept_cells()) /
+         (double(domain_.grid.size()) * swept * double(std::max<std::int64_t>(done_, 1)));
+}
+
+template <int D, class Real>
+std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
+  const auto all = double(domain_.grid.size());
+  std::vector<PlannedEntry> entries;
+  for (int axis = 0; axis < D; ++axis)
+    entries.push_back({std::string("sweep along ") + axis_names<D>()[std::size_t(axis)] +
+                           (sweeps_.shear() ? ", P and S" : ", P only"),
+                       1});
+  for (const auto& effect : effects_)
+    for (const auto& share : effect->shares()) entries.push_back({share.name, double(share.cells) / all});
+  entries.push_back({"stability check", 1. / StabilityCheck<D, Real>::every});
+  entries.push_back({"receivers", double(recorder_.cells()) / all});
+  return entries;
+}
+
+template <int D, class Real>
+std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
+  std::int64_t bytes = (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
+                       std::int64_t(state_.stretches.size() * sizeof(Stretch<Real>)) +
+                       executor_->memory_bytes() + (halo_ ? halo_->memory_bytes() : 0);
+  for (const auto& effect : effects_) bytes += effect->memory_bytes();
+  return bytes;
+}
+
+template class ShotSimulation<2, float>;
+template class ShotSimulation<2, double>;
+template class ShotSimulation<3, float>;
+template class ShotSimulation<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "scene/scene.hpp"
+#include "solver/build_step.hpp"
+#include "solver/record/recorder.hpp"
+#include "solver/record/snapshot_recorder.hpp"
+#include "solver/record/stability_check.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave::solver {
+
+/// Everything one shot needs: the fields, their sweeps, the effects and records of its time step
+/// (build_step.hpp), and what executes it.
+template <int D, class Real>
+class ShotSimulation {
+ public:
+  /// Collective where there are `ranks` (may be null), and so are run_to(), take_gather() and report(); the
+  /// scene is then the subdomain of each. Keeps references.
+  ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots,
+                 Ranks* ranks = nullptr);
+
+  /// Brings the fields to the end of step last - 1, from where they are, or less far once `pause` says so (it
+  /// is asked now and then, by any thread). `progress` is told of each step. Throws DivergedFields.
+  void run_to(std::int64_t last, const Progress& progress = {}, const std::function<bool()>& pause = {});
+  std::int64_t steps() const { return steps_; }
+  /// Steps that have been made.
+  std::int64_t done() const { return done_; }
+  /// Throws DivergedFields where they have; between two calls of run_to(), which checks now and then itself.
+  void check_stability() const { stability_.check({done_ - 1, dt_s_}); }
+  /// Ranks check as often, but ask each other less often what they found: nobody must wait for all for that.
+  static constexpr std::int64_t asked_every = 10 * StabilityCheck<D, Real>::every;
+  /// Writes or reads all that the steps to come depend on; between two calls of run_to().
+  void serialize(Archive& archive);
+  Gather take_gather() { return recorder_.take(); }
+  std::vector<PlannedEntry> planned() const;
+  /// The list of its time step.
+  const TimeStep<D, Real>& time_step() const { return step_; }
+  /// What became of the energy; scenes that keep a diary.
+  ShotReport report() const;
+  const Domain<D>& domain() const { return domain_; }
+  const Sweeps<D, Real>& sweeps() const { return sweeps_; }
+  std::int64_t memory_bytes() const;
+  /// What of all cells in all steps so far had to be computed.
+  double computed_share() const;
+
+ private:
+  std::vector<Record<D, Real>*> records();
+  std::unique_ptr<Halo<D, Real>> make_halo();
+  void check_together();
+  void take_snapshot();
+  Field<D> allgather_field(Field<D> mine) const;
+
+  Ranks* ranks_;
+  const Scene<D>* scene_;
+  std::size_t shot_;
+  double dt_s_;
+  std::int64_t steps_, done_ = 0;
+  double unit_;
+  Domain<D> domain_;
+  State<D, Real> state_;
+  Sweeps<D, Real> sweeps_;
+  Effects<D, Real> effects_;
+  Recorder<D, Real> recorder_;
+  SnapshotSink<D> sink_;
+  SnapshotRecorder<D, Real> snapshots_;
+  TimeStep<D, Real> step_;
+  std::unique_ptr<Halo<D, Real>> halo_;
+  std::unique_ptr<Executor> executor_;
+  StabilityCheck<D, Real> stability_;
+  std::optional<DivergedFields<D>> diverged_;  // on this rank, while the others do not know yet
+};
+
+}  // namespace slipwave::solver

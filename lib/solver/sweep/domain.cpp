@@ -1,0 +1,221 @@
+#include "solver/sweep/domain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "parallel/threads.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Impedance of the ghost beyond an edge, as a factor on that of the cell before it: 0 takes no traction.
+int ghost_impedance(EdgeLaw law, Wave wave) {
+  return extension_of(law, wave) == Extension::traction_free ? 0 : 1;
+}
+
+/// Shorter stretches of one material are not worth telling apart.
+constexpr std::int64_t shortest_stretch = 64;
+
+template <int D, class Real>
+void find_stretches(State<D, Real>& state) {
+  const std::int64_t nx = state.layout.shape()[0];
+  for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
+    const auto material = state.material_from(state.layout.line_index(line), 0);
+    const auto same = [&](std::int64_t i, std::int64_t j) {
+      return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
+             material.zs[i] == material.zs[j];
+    };
+    for (std::int64_t first = 0, x = 1; x <= nx; ++x) {
+      if (x < nx && same(first, x)) continue;
+      if (x - first >= std::min(shortest_stretch, nx))
+        state.stretches.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
+      first = x;
+    }
+    state.first_stretch[std::size_t(line) + 1] = state.stretches.size();
+  }
+}
+
+}  // namespace
+
+template <int D>
+Index<D> Domain<D>::model_cell(Index<D> at) const {
+  for (int axis = 0; axis < D; ++axis)
+    at[axis] = std::clamp<std::int64_t>(at[axis] - low_zone[axis], 0, model_grid.shape[axis] - 1);
+  return at;
+}
+
+template <int D>
+const Field<D>& Domain<D>::impedance(Wave wave) const {
+  if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
+  return impedances_[wave];
+}
+
+template <int D>
+bool Domain<D>::shear() const {
+  const auto& z_s = impedance(wave_s);
+  return std::any_of(z_s.begin(), z_s.end(), [](float z) { return z > 0; });
+}
+
+template <int D>
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
+                      const Subdomain& part) {
+  constexpr int z = D - 1;
+  Domain<D> domain;
+  domain.model_grid = domain.grid = medium.grid();
+  domain.subdomain = part;
+  domain.edges = domain.whole_edges = edges;
+  for (int axis = 0; axis < D; ++axis) {
+    domain.low_zone[axis] = edges[axis][0] == EdgeLaw::absorbing ? zone_cells : 0;
+    domain.high_zone[axis] = edges[axis][1] == EdgeLaw::absorbing ? zone_cells : 0;
+    domain.grid.shape[axis] += domain.low_zone[axis] + domain.high_zone[axis];
+    domain.grid.origin_m[axis] -= double(domain.low_zone[axis]) * domain.grid.spacing_m;
+  }
+  // Places are counted from the whole computed grid, zones included.
+  if (part.cut(domain.model_grid, 0)) {
+    domain.grid.first[z] += domain.low_zone[z];
+    domain.grid.shape[z] -= std::exchange(domain.low_zone[z], 0);
+    domain.edges[z][0] = EdgeLaw::absorbing;
+  }
+  if (part.cut(domain.model_grid, 1)) {
+    domain.grid.shape[z] -= std::exchange(domain.high_zone[z], 0);
+    domain.edges[z][1] = EdgeLaw::absorbing;
+  }
+  domain.own = {0, domain.grid.shape[z]};
+  const auto held = domain.model_grid.first[z];
+  if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
+  if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
+  std::array<Field<D>, 2> impedance;
+  for (auto& z : impedance) z = Field<D>(domain.grid);
+  const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
+  parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      auto first = domain.model_cell(domain.grid.index(line * nx));
+      first[0] = 0;
+      const std::int64_t of_line = domain.model_grid.flat(first);
+      for (std::int64_t x = 0; x < nx; ++x) {
+        const auto cell =
+            std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
+        impedance[wave_p][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vp[cell];
+        impedance[wave_s][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vs[cell];
+      }
+    }
+  });
+  domain.set_impedances(std::move(impedance));
+  return domain;
+}
+
+template <int D>
+double fastest_wave(const Medium<D>& medium) {
+  double fastest = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (!medium.is_void(cell)) fastest = std::max(fastest, double(medium.vp[cell]));
+  return fastest;
+}
+
+template <int D, class Real>
+void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
+  const auto& layout = state.layout;
+  const double courant = dt_s / domain.grid.spacing_m;
+  const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
+    const bool empty = medium.is_void(cell), solid = medium.is_solid(cell);
+    const double rho = medium.rho[cell], vp = medium.vp[cell], vs = medium.vs[cell];
+    const double values[material_rows] = {empty || ghost ? 0 : courant / rho, empty ? 0 : p_factor * rho * vp,
+                                          solid ? s_factor * rho * vs : 0};
+    Index<D> line = at;
+    line[0] = 0;
+    for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);
+  };
+  const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
+  parallel_for(lines, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      Index<D> at = layout.line_index(line);
+      for (at[0] = 0; at[0] < nx; ++at[0]) write(at, at, false, 1, 1);
+      for (const int side : {0, 1}) {
+        Index<D> from = at;
+        from[0] = side ? nx - 1 : 0;
+        at[0] = side ? nx : -1;
+        const EdgeLaw law = domain.edges[0][side];
+        write(at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+      }
+      // Ghost lines beyond the edges of the other axes repeat the line before them.
+      for (int axis = 1; axis < D; ++axis) {
+        Index<D> cell = layout.line_index(line);
+        if (cell[axis] != 0 && cell[axis] != layout.shape()[axis] - 1) continue;
+        for (const int side : {0, 1}) {
+          if (cell[axis] != (side ? layout.shape()[axis] - 1 : 0)) continue;
+          const EdgeLaw law = domain.edges[axis][side];
+          for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
+            Index<D> ghost = cell;
+            ghost[axis] += side ? 1 : -1;
+            write(ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+          }
+        }
+      }
+    }
+  });
+  find_stretches(state);
+  state.uniform_interior = find_uniform_interior(state);
+}
+
+template <int D, class Real>
+double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
+                      Index<D> at) {
+  using Rows = FieldRows<D>;
+  const auto cell = std::size_t(medium.grid().flat(domain.model_cell(at)));
+  if (medium.is_void(cell)) return 0;
+  const auto x = at[0];
+  at[0] = 0;
+  const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
+  const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
+  const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
+  double kinetic = 0, squares = 0, trace = 0, shear = 0;
+  for (int axis = 0; axis < D; ++axis) {
+    kinetic += rho * value(Rows::velocity(axis)) * value(Rows::velocity(axis));
+    const double s = value(Rows::normal_stress(axis));
+    squares += s * s;
+    trace += s;
+    for (int other = axis + 1; other < D; ++other) {
+      const double t = value(Rows::shear_stress(axis, other));
+      shear += t * t;
+    }
+  }
+  // s:C^-1:s; in plane strain C acts on the in-plane components alone.
+  const double elastic =
+      mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
+             : trace * trace / (D * D * lambda);
+  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D);
+}
+
+template <int D, class Real>
+double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium) {
+  double total = 0;
+  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
+    const auto at = domain.computed_cell(domain.model_grid.index(n));
+    if (domain.owns(at[D - 1])) total += energy_of_cell(state, domain, medium, at);
+  }
+  return total;
+}
+
+template class Domain<2>;
+template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
+template double fastest_wave(const Medium<2>&);
+template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
+template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
+template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
+template double energy_of_cell(const State<2, double>&, const Domain<2>&, const Medium<2>&, Index<2>);
+template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
+template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
+template class Domain<3>;
+template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
+template double fastest_wave(const Medium<3>&);
+template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
+template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
+template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);
+template double energy_of_cell(const State<3, double>&, const Domain<3>&, const Medium<3>&, Index<3>);
+template double energy(const State<3, float>&, const Domain<3>&, const Medium<3>&);
+template double energy(const State<3, double>&, const Domain<3>&, const Medium<3>&);
+
+}  // namespace slipwave::solver

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "model/model.hpp"
+#include "scene/edges.hpp"
+#include "scene/subdomain.hpp"
+#include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// The computed grid: the model and, outside its absorbing edges, zones that continue the medium of the edge.
+template <int D>
+class Domain {
+ public:
+  Grid<D> model_grid;
+  Grid<D> grid;             // zones included
+  Index<D> low_zone{};      // cells added below the model along each axis
+  Index<D> high_zone{};     // and above
+  EdgeLaws<D> edges;        // absorbing, without a zone, where other processes go on
+  EdgeLaws<D> whole_edges;  // of the whole model
+  Subdomain subdomain;
+  IndexRange own;  // rows of the computed grid that this process answers for
+
+  /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
+  /// records are made of it: throws std::logic_error after release_impedances().
+  const Field<D>& impedance(Wave wave) const;
+  /// Gives back their memory.
+  void release_impedances() { impedances_ = {}; }
+  void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
+
+  /// Whether any cell carries S waves.
+  bool shear() const;
+  bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
+  /// Rows of neighbours that it holds on either side, at most.
+  std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
+  /// Cell of the model whose medium a cell of the computed grid has.
+  Index<D> model_cell(Index<D> at) const;
+  /// Cell of the computed grid of a cell of the model.
+  Index<D> computed_cell(Index<D> at) const {
+    for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
+    return at;
+  }
+
+ private:
+  std::array<Field<D>, 2> impedances_;
+};
+
+/// `medium` is of the model or of what this process holds of it; `edges` are those of the whole model.
+template <int D>
+Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
+                      const Subdomain& part = {});
+
+/// Largest vp in m/s of the cells that are not void.
+template <int D>
+double fastest_wave(const Medium<D>& medium);
+
+/// Writes b, impedances and Courant numbers of every cell and of the ghosts beyond the edges into the state.
+template <int D, class Real>
+void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s);
+/// A state with zero fields and that material.
+template <int D, class Real>
+State<D, Real> make_filled_state(const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
+  auto state = make_state<D, Real>(domain.grid.shape);
+  fill_material(state, domain, medium, dt_s);
+  return state;
+}
+
+/// Kinetic and elastic energy of a cell of the computed grid, J (2-D: J per metre).
+template <int D, class Real>
+double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
+                      Index<D> at);
+
+/// Kinetic and elastic energy of the model's cells, J (2-D: J per metre), zones left out: the sum over cells
+/// of h^D/2 (rho v.v + s:C^-1:s). Zero in void.
+template <int D, class Real>
+double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium);
+
+}  // namespace slipwave::solver

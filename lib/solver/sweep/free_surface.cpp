@@ -1,0 +1,171 @@
+#include "solver/sweep/free_surface.hpp"
+
+#include <algorithm>
+
+namespace slipwave::solver {
+namespace {
+
+/// Cells along the edge that a slope is taken from and their weights: the mean of the central differences
+/// over two and over four cells, which damps what turns from cell to cell.
+constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
+constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
+/// Cells without a contact or an edge that must follow each other across the edge: no stencil that reads
+/// beyond it may reach another end.
+constexpr auto fewest_across = std::int64_t(2) * max_reach;
+
+template <int D>
+bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const auto& z = domain.impedance(wave);
+    if (z(other) == 0 || z(one) >= strong_interface_ratio * z(other) ||
+        z(other) >= strong_interface_ratio * z(one))
+      return false;
+  }
+  return true;
+}
+
+/// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
+template <int D>
+bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
+                    std::vector<SurfaceTerm<D>>& terms) {
+  const std::int64_t n = domain.grid.shape[std::size_t(along)];
+  for (std::size_t k = 0; k < offsets.size(); ++k) {
+    SurfaceTerm<D> term{at, row, factor * weights[k]};
+    auto& place = term.cell[std::size_t(along)];
+    place += offsets[k];
+    if (const bool below = place < 0; below || place >= n) {
+      const EdgeLaw law = domain.edges[along][below ? 0 : 1];
+      if (law == EdgeLaw::free) return false;
+      const Wave wave = row == FieldRows<D>::velocity(along) ? wave_p : wave_s;
+      if (extension_of(law, wave) == Extension::motionless) term.weight = -term.weight;
+      place = below ? -1 - place : 2 * n - 1 - place;
+      if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
+      place = std::clamp<std::int64_t>(place, 0, n - 1);
+    }
+    if (!alike(domain, at, term.cell)) return false;
+    terms.push_back(term);
+  }
+  return true;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
+                                          int row) {
+  using Rows = FieldRows<D>;
+  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0) return {};
+  Index<D> before = at;
+  for (std::int64_t n = 1; n < fewest_across; ++n) {
+    Index<D> inside = before;
+    auto& place = inside[std::size_t(axis)];
+    place += side ? -1 : 1;
+    if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, inside))
+      return {};
+    before = inside;
+  }
+  const double outward = side ? -1 : 1;
+  std::vector<SurfaceTerm<D>> terms;
+  for (int along = 0; along < D; ++along) {
+    if (along == axis) continue;
+    // A slice too thin for a difference has no slope, unless its own edges are free.
+    if (domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size())) {
+      if (domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free) return {};
+      continue;
+    }
+    bool found = true;
+    if (row == Rows::velocity(axis))
+      found = add_difference(domain, at, along, Rows::velocity(along),
+                             outward * (1 - 2 * zs * zs / (zp * zp)), terms);
+    else if (row == Rows::velocity(along))
+      found = add_difference(domain, at, along, Rows::velocity(axis), outward, terms);
+    if (!found) return {};
+  }
+  return terms;
+}
+
+template <int D, class Real>
+FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& domain, int axis, int side)
+    : axis_(axis),
+      side_(side),
+      outward_(side ? -1 : 1),
+      padded_nx_(layout.padded_nx()),
+      shape_(layout.shape()) {
+  const Layout<D> material(shape_, material_rows);
+  Grid<D> edge = domain.grid;
+  edge.shape[std::size_t(axis)] = 1;
+  for (std::int64_t n = 0; n < edge.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
+    Index<D> at = edge.index(n);
+    at[std::size_t(axis)] = side ? shape_[std::size_t(axis)] - 1 : 0;
+    int pair = 0;
+    const auto add = [&](int row, int impedance_row) {
+      const auto terms = surface_slope(domain, at, axis, side, row);
+      const auto begin = terms_.size();
+      for (const auto& term : terms)
+        terms_.push_back({axis < D - 1 ? number(term.cell) * D + term.row
+                                       : layout.cell(term.cell) + term.row * layout.row_pitch(),
+                          Real(term.weight)});
+      const auto place = [&](int material_row) {
+        return material.cell(at) + material_row * material.row_pitch();
+      };
+      if (!terms.empty())
+        cells_.push_back({pair, number(at), place(row_b), place(impedance_row), begin, terms_.size()});
+      ++pair;
+    };
+    add(FieldRows<D>::velocity(axis), row_zp);
+    for (int along = 0; along < D; ++along)
+      if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
+  }
+  if (cells_.empty()) return;
+  Index<D> last = shape_;
+  for (auto& n : last) --n;
+  if (axis < D - 1) kept_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
+  for (auto* lists : {&bends_, &jumps_})
+    for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
+}
+
+template <int D, class Real>
+std::int64_t FreeSurface<D, Real>::number(const Index<D>& at) const {
+  std::int64_t number = 0;
+  for (int other = D - 1; other >= 0; --other)
+    if (other != axis_)
+      number = number * (other == 0 ? padded_nx_ : shape_[std::size_t(other)]) + at[std::size_t(other)];
+  return number;
+}
+
+template <int D, class Real>
+void FreeSurface<D, Real>::keep(const State<D, Real>& state, std::int64_t line) {
+  const auto at = state.layout.line_index(line);
+  const bool along_x = axis_ > 0;
+  const Real* const cell = state.field_row(at, 0) + (!along_x && side_ ? shape_[0] - 1 : 0);
+  Real* const kept = kept_.data() + number(at) * D;
+  for (std::int64_t x = 0; x < (along_x ? shape_[0] : 1); ++x)
+    for (int row = 0; row < D; ++row)
+      kept[x * D + row] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch() + x];
+}
+
+template <int D, class Real>
+void FreeSurface<D, Real>::measure(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
+  const Real* const fields = axis_ < D - 1 ? kept_.data() : state.fields.data();
+  const Real* const material = state.material.data();
+  auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
+                               [](const Cell& one, std::int64_t number) { return one.number < number; });
+  for (; cell != cells_.end() && cell->number < last; ++cell) {
+    Real bend = 0;
+    for (auto term = cell->terms_begin; term < cell->terms_end; ++term)
+      bend += terms_[term].weight * fields[terms_[term].place];
+    const Real z = material[cell->impedance], stiffness = z * z * material[cell->b];
+    bends_[std::size_t(cell->pair)][std::size_t(cell->number)] = bend;
+    jumps_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * bend;
+  }
+}
+
+template std::vector<SurfaceTerm<2>> surface_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
+template std::vector<SurfaceTerm<3>> surface_slope<3>(const Domain<3>&, const Index<3>&, int, int, int);
+template class FreeSurface<2, float>;
+template class FreeSurface<2, double>;
+template class FreeSurface<3, float>;
+template class FreeSurface<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,270 @@
+#include "solver/sweep/interface_stencils.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "solver/kernels/reconstruction.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+bool strong(double z, double other) {
+  return z > strong_interface_ratio * other || other > strong_interface_ratio * z;
+}
+
+/// One side of a cell: the cells to the end of its span, at most `reach`, and what stands there.
+struct Side {
+  int cells = 0;
+  Extension law = Extension::none;
+  int beyond = 0;
+  double share = 0;
+  bool inside = false;  // an end inside the grid
+  bool at_edge() const { return !inside && law == Extension::traction_free; }
+};
+
+/// Impedances met from a cell outwards along one axis.
+template <int D>
+class Walk {
+ public:
+  Walk(const Field<D>& impedance, const Index<D>& from, int axis, int step)
+      : impedance_(impedance), at_(from), axis_(axis), step_(step) {}
+  bool leaves_grid(int n) const {
+    const auto i = at_[std::size_t(axis_)] + n * step_;
+    return i < 0 || i >= impedance_.grid().shape[std::size_t(axis_)];
+  }
+  double operator()(int n) const {
+    Index<D> at = at_;
+    at[std::size_t(axis_)] += n * step_;
+    return impedance_(at);
+  }
+
+ private:
+  const Field<D>& impedance_;
+  Index<D> at_;
+  int axis_, step_;
+};
+
+template <int D>
+Side side_of(const Walk<D>& z, Extension edge, int reach) {
+  Side side;
+  for (; side.cells < reach; ++side.cells) {
+    const int next = side.cells + 1;
+    if (z.leaves_grid(next)) {
+      side.law = edge;
+      return side;
+    }
+    const double own = z(side.cells), other = z(next);
+    if (other == 0) {
+      side.law = Extension::traction_free;
+      side.inside = true;
+      return side;
+    }
+    if (strong(own, other)) {
+      side.law = Extension::contact;
+      side.share = other / (own + other);
+      side.inside = true;
+      for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
+        const int further = next + side.beyond;
+        if (z.leaves_grid(further) || z(further) == 0 || strong(z(further - 1), z(further))) break;
+      }
+      return side;
+    }
+  }
+  return side;
+}
+
+/// Cells the reconstruction may reach beside a bent free edge, a contact or a contrast: with three, solids
+/// between free edges, plates and random densities grew at Courant numbers from 0.9 on.
+constexpr int most_at_kinks = 2;
+/// From this ratio of impedances on a face within the stencil of a cell there is a contrast.
+constexpr double contrast_ratio = 1.2;
+
+/// Whether there is one up to `reach` cells to one side.
+template <int D>
+bool contrast(const Walk<D>& z, int reach) {
+  for (int n = 1; n <= reach && !z.leaves_grid(n) && z(n) > 0; ++n)
+    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n)) return true;
+  return false;
+}
+
+/// Whether a cell up to `reach` cells to one side carries the wave.
+template <int D>
+bool carried_near(const Walk<D>& z, int reach) {
+  for (int n = 1; n <= reach && !z.leaves_grid(n); ++n)
+    if (z(n) > 0) return true;
+  return false;
+}
+
+/// Marks the cells of a line that may need more than the bulk kernel: where the impedance jumps within
+/// `reach` cells along the axis, and at the ends of the axis. Most cells are seen here to need nothing, many
+/// at once.
+template <int D>
+void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
+          std::vector<std::int32_t>& marks) {
+  const auto& shape = impedance.grid().shape;
+  const std::int64_t nx = shape[0], first = line * nx;
+  const auto at = impedance.grid().index(first);
+  std::int64_t stride = 1;
+  for (std::size_t a = 0; a < std::size_t(axis); ++a) stride *= shape[a];
+  const float* const z = impedance.data() + first;
+  // Less than any ratio that counts, whatever rounding makes of it.
+  constexpr auto plain_ratio = float(contrast_ratio * 0.99);
+  const auto compare = [&](std::int64_t begin, std::int64_t end, std::int64_t one, std::int64_t other) {
+    for (auto x = begin; x < end; ++x) {
+      const float a = z[x + one * stride], b = z[x + other * stride];
+      marks[std::size_t(x)] |= std::int32_t(a > plain_ratio * b) | std::int32_t(b > plain_ratio * a);
+    }
+  };
+  const auto place = at[std::size_t(axis)], count = shape[std::size_t(axis)];
+  const bool near_ends = axis != 0 && (place < reach || place + reach >= count);
+  std::fill(marks.begin(), marks.end(), near_ends);
+  if (near_ends) return;
+  const std::int64_t beside = axis == 0 ? std::min<std::int64_t>(reach, nx) : 0;
+  std::fill(marks.begin(), marks.begin() + beside, 1);
+  std::fill(marks.end() - beside, marks.end(), 1);
+  for (std::int64_t n = 1; n <= reach; ++n) {
+    compare(beside, nx - beside, n - 1, n);
+    compare(beside, nx - beside, 1 - n, -n);
+  }
+}
+
+/// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
+/// more, and so does a single cell between a contact and another end: with more, random media of single cells
+/// and a crust of one cell grew at order 5 and 7 (docs/theory.md).
+int reach_within(const Side& low, const Side& high, int reach) {
+  const int contacts = (low.law == Extension::contact) + (high.law == Extension::contact);
+  const int others = low.cells + high.cells;
+  const bool ends = low.law != Extension::none && high.law != Extension::none;
+  if (contacts > 0) reach = std::min(reach, most_at_kinks);
+  return contacts == 2 || (contacts == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+}
+
+/// Value of the pair at a stencil offset, continued beyond the ends of the cell's span (E10), (E11).
+template <class Real>
+void continued(const InterfaceStencil& end, int offset, std::int64_t stride, const Real* v, const Real* s,
+               Real& v_at, Real& s_at) {
+  const bool below = offset < -end.low;
+  if (!below && offset <= end.high) {
+    v_at = v[offset * stride];
+    s_at = s[offset * stride];
+    return;
+  }
+  const Extension law = below ? end.low_law : end.high_law;
+  if (law == Extension::level) {
+    const std::int64_t last = below ? -end.low : end.high;
+    v_at = v[last * stride];
+    s_at = s[last * stride];
+    return;
+  }
+  // The mirror image lies nearer to the cell with each fold, so this ends.
+  const int mirrored = below ? -2 * end.low - 1 - offset : 2 * end.high + 1 - offset;
+  continued(end, mirrored, stride, v, s, v_at, s_at);
+  if (law == Extension::traction_free) {
+    s_at = -s_at;
+  } else if (law == Extension::motionless) {
+    v_at = -v_at;
+  } else {
+    const std::int64_t across =
+        below ? std::max(offset, -end.low - end.beyond_low) : std::min(offset, end.high + end.beyond_high);
+    const Real twice = 2 * Real(below ? end.share_low : end.share_high);
+    v_at += twice * (v[across * stride] - v_at);
+    s_at += (2 - twice) * (s[across * stride] - s_at);
+  }
+}
+
+template <int Order, class Real>
+void correct_cell(const InterfaceStencil& end, std::int64_t stride, const Real* v, const Real* s,
+                  Real impedance, Real b, Real scale, Real& up, Real& down) {
+  constexpr int reach = reach_of(Order);
+  Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
+  for (int k = -reach; k <= reach; ++k)
+    continued(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
+  const Real sign = scale < 0 ? -1 : 1;
+  reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance,
+                          sign * scale * (impedance * b), up, down);
+}
+
+}  // namespace
+
+template <int D>
+InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
+                                     int reach, const CorrectedAt<D>& bent)
+    : wave_(wave) {
+  const auto& grid = impedance.grid();
+  const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
+  starts_.assign(1, 0);
+  std::vector<std::int32_t> marks(std::size_t(nx), 0);
+  for (std::int64_t line = 0; line < lines; ++line) {
+    mark(impedance, line, axis, reach, marks);
+    for (std::int64_t x = 0; x < nx; ++x) {
+      if (marks[std::size_t(x)] == 0) continue;
+      const auto at = grid.index(line * nx + x);
+      const Walk<D> down(impedance, at, axis, -1), up(impedance, at, axis, +1);
+      constexpr auto on = Extension::none;
+      if (impedance(at) == 0) {
+        if (carried_near(down, reach) || carried_near(up, reach))
+          cells_.push_back({std::int32_t(x), 0, 0, on, on, 0, 0, 0, 0, nothing_leaves});
+        continue;
+      }
+      const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
+      const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
+      // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
+      if (low.inside || high.inside) {
+        cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
+                          std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
+                          float(high.share), std::int8_t(reach_within(low, high, reach))});
+      } else if (reach > most_at_kinks &&
+                 ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)) ||
+                  contrast(down, reach) || contrast(up, reach))) {
+        cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
+                          std::int8_t(most_at_kinks)});
+      }
+    }
+    starts_.push_back(std::int64_t(cells_.size()));
+  }
+}
+
+bool InterfaceStencils::any_of_line(std::int64_t line, const IndexRange& columns) const {
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  const auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
+                                     [](const InterfaceStencil& end, std::int64_t x) { return end.x < x; });
+  return cell != stop && cell->x < columns.last;
+}
+
+template <class Real>
+void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
+                                     std::int64_t stride, const Real* v, const Real* s,
+                                     const MaterialRows<Real>& material, Real scale, Real* up,
+                                     Real* down) const {
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  auto cell = cells_.begin() + starts_[std::size_t(line)];
+  using CorrectCell =
+      void(const InterfaceStencil&, std::int64_t, const Real*, const Real*, Real, Real, Real, Real&, Real&);
+  static constexpr CorrectCell* correct_as[] = {correct_cell<1, Real>, correct_cell<3, Real>,
+                                                correct_cell<5, Real>, correct_cell<7, Real>};
+  const Real* const impedance = wave_ == wave_p ? material.zp : material.zs;
+  if (columns.first > 0)
+    cell = std::lower_bound(cell, stop, columns.first,
+                            [](const InterfaceStencil& end, std::int64_t x) { return end.x < x; });
+  for (; cell != stop && cell->x < columns.last; ++cell) {
+    const auto i = cell->x - columns.first;
+    if (cell->reach == nothing_leaves)
+      up[i] = down[i] = 0;
+    else
+      correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],
+                                                              material.b[i], scale, up[i], down[i]);
+  }
+}
+
+template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
+                                              const CorrectedAt<2>&);
+template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
+                                              const CorrectedAt<3>&);
+template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
+                                              const float*, const float*, const MaterialRows<float>&, float,
+                                              float*, float*) const;
+template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
+                                              const double*, const double*, const MaterialRows<double>&,
+                                              double, double*, double*) const;
+
+}  // namespace slipwave::solver

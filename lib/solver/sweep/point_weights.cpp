@@ -1,0 +1,231 @@
+#include "solver/sweep/point_weights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "acquisition/interpolation.hpp"
+#include "grid/locate.hpp"
+#include "solver/sweep/free_surface.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// How a field row goes on beyond an edge across `axis`. Stresses that are no traction on the edge follow it
+/// only in fluid, where all of them are the pressure.
+template <int D>
+Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
+  using Rows = FieldRows<D>;
+  if (law == EdgeLaw::absorbing) return Beyond::unknown;
+  bool velocity = row < D, normal = row == Rows::velocity(axis) || row == Rows::normal_stress(axis);
+  if (!velocity && !normal) {
+    bool traction = false;
+    for (int other = 0; other < D; ++other)
+      traction |= other != axis && row == Rows::shear_stress(std::min(axis, other), std::max(axis, other));
+    // What has no index across a plane of symmetry is even about it.
+    if (!traction && law == EdgeLaw::mirror) return Beyond::even;
+    if (!traction && !fluid) return Beyond::unknown;
+    normal = !traction;
+  }
+  // Along an edge fluid moves as the slope of its pressure makes it, and so with the pressure's parity.
+  if (velocity && !normal && fluid) {
+    velocity = false;
+    normal = true;
+  }
+  const bool motionless = extension_of(law, normal ? wave_p : wave_s) == Extension::motionless;
+  return velocity == motionless ? Beyond::odd : Beyond::even;
+}
+
+/// The largest box of cells of one kind round a cell that stays within reach of a stencil, grown one layer at
+/// a time on each side.
+template <int D>
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
+  const auto kind = [&](const Index<D>& at) {
+    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
+  };
+  std::array<AxisCells, D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
+  const int wanted = kind(centre);
+  const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
+    if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
+    Index<D> at;
+    for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
+    at[axis] = layer;
+    for (;;) {
+      if (kind(at) != wanted) return false;
+      std::size_t other = 0;
+      for (; other < D; ++other) {
+        if (other == axis) continue;
+        if (++at[other] <= box[other].high) break;
+        at[other] = box[other].low;
+      }
+      if (other == D) return true;
+    }
+  };
+  for (int ring = 0; ring < widest_stencil; ++ring)
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      if (box[axis].low == centre[axis] - ring && layer_fits(axis, box[axis].low - 1)) --box[axis].low;
+      if (box[axis].high == centre[axis] + ring && layer_fits(axis, box[axis].high + 1)) ++box[axis].high;
+    }
+  return box;
+}
+
+/// From here on stencils across an edge, in cells from the last centre, need nothing from beyond it.
+constexpr int half_a_stencil = widest_stencil / 2;
+constexpr double centred_from = half_a_stencil - 1;
+
+/// The cells round a point and how the field goes on beyond those at an edge of the grid.
+template <int D>
+std::array<AxisCells, std::size_t(D)> continued_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                      int field_row, bool fluid) {
+  auto usable = usable_cells(domain, centre);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    if (usable[axis].low == 0)
+      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
+    if (usable[axis].high == domain.grid.shape[axis] - 1)
+      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+  }
+  return usable;
+}
+
+template <int D>
+std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m,
+                                        const std::array<AxisCells, std::size_t(D)>& usable, int field_row) {
+  std::vector<ValueWeight> weights;
+  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
+    weights.push_back(
+        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+  return weights;
+}
+
+/// What the images beyond a free edge of a solid add to a velocity over their mirrored values.
+template <int D>
+void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
+              std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
+              std::vector<ValueWeight>& weights) {
+  auto& across = usable[std::size_t(axis)];
+  const std::int64_t last = side ? domain.grid.shape[axis] - 1 : 0;
+  if ((side ? across.high : across.low) != last) return;
+  const double position = domain.grid.position(axis, point_m[axis]);
+  auto evenly = axis_weights(position, across);
+  (side ? across.above : across.below) = Beyond::odd;
+  const auto oddly = axis_weights(position, across);
+  double images = 0;
+  for (std::size_t n = 0; n < evenly.size(); ++n)
+    images += 0.5 * (evenly[n].weight - oddly[n].weight) * double(2 * std::abs(evenly[n].cell - last) + 1);
+  if (images == 0) return;
+  // The edge's own cells, at the point's place along it.
+  Point<D> on_edge = point_m;
+  on_edge[axis] = domain.grid.centre(axis, last);
+  for (const auto& at : point_weights<D>(domain.grid, on_edge, usable))
+    for (const auto& term : surface_slope(domain, at.cell, axis, side, row))
+      weights.push_back({layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch(),
+                         images * at.weight * term.weight});
+}
+
+}  // namespace
+
+std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
+  std::vector<std::int64_t> lines;
+  for (const auto& value : values) lines.push_back(value.line);
+  std::sort(lines.begin(), lines.end());
+  lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+  return lines;
+}
+
+template <int D>
+Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m) {
+  return domain.computed_cell(cell_of(domain.model_grid, point_m));
+}
+
+template <int D>
+std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                     const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  const bool fluid = domain.impedance(wave_s)(centre) == 0;
+  const auto usable = continued_cells(domain, centre, field_row, fluid);
+  std::vector<ValueWeight> weights = weights_within(layout, domain, point_m, usable, field_row);
+  if (!fluid && field_row < D)
+    for (int axis = 0; axis < D; ++axis)
+      for (const int side : {0, 1})
+        if (domain.edges[axis][side] == EdgeLaw::free)
+          add_bend(layout, domain, point_m, usable, axis, side, field_row, weights);
+  return weights;
+}
+
+template <int D>
+std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  if (field_row < D || domain.impedance(wave_s)(centre) == 0)
+    return row_weights(layout, domain, point_m, field_row);
+  auto usable = continued_cells(domain, centre, field_row, false);
+  for (int axis = 0; axis < D; ++axis) {
+    auto& cells = usable[std::size_t(axis)];
+    const double position = domain.grid.position(axis, point_m[axis]);
+    const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
+    const bool low = domain.edges[axis][0] == EdgeLaw::free && position < centred_from,
+               high = domain.edges[axis][1] == EdgeLaw::free && double(last) - position < centred_from;
+    if ((!low && !high) || cells.high == cells.low) continue;
+    const auto first = std::clamp(std::int64_t(std::floor(position)), cells.low, cells.high - 1);
+    cells = {first, first + 1};
+  }
+  return weights_within(layout, domain, point_m, usable, field_row);
+}
+
+template <int D>
+int row_of(Component component) {
+  using Rows = FieldRows<D>;
+  switch (component) {
+    case Component::vx:
+      return Rows::velocity(0);
+    case Component::vy:
+      return Rows::velocity(1);
+    case Component::vz:
+      return Rows::velocity(D - 1);
+    case Component::sxx:
+      return Rows::normal_stress(0);
+    case Component::syy:
+      return Rows::normal_stress(1);
+    case Component::szz:
+      return Rows::normal_stress(D - 1);
+    case Component::sxy:
+      return Rows::shear_stress(0, 1);
+    case Component::sxz:
+      return Rows::shear_stress(0, D - 1);
+    case Component::syz:
+      return Rows::shear_stress(1, D - 1);
+    case Component::p:
+    case Component::other:
+      break;
+  }
+  return -1;
+}
+
+template <int D>
+std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                           const Point<D>& point_m, Component component) {
+  if (component != Component::p) return row_weights(layout, domain, point_m, row_of<D>(component));
+  std::vector<ValueWeight> all;
+  for (int axis = 0; axis < D; ++axis)
+    for (auto weight : row_weights(layout, domain, point_m, FieldRows<D>::normal_stress(axis))) {
+      weight.weight /= -D;
+      all.push_back(weight);
+    }
+  return all;
+}
+
+template Index<2> cell_at(const Domain<2>&, const Point<2>&);
+template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
+                                                    Component);
+template int row_of<2>(Component);
+template Index<3> cell_at(const Domain<3>&, const Point<3>&);
+template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
+                                                    Component);
+template int row_of<3>(Component);
+
+}  // namespace slipwave::solver

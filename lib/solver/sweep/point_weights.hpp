@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "gather/trace.hpp"
+#include "solver/sweep/domain.hpp"
+
+namespace slipwave::solver {
+
+/// A value of the state that a point reads from or adds to, and how much of it.
+struct ValueWeight {
+  std::int64_t line = 0;   // number of the line
+  std::int64_t place = 0;  // from cell 0 of row 0 of that line
+  double weight = 0;
+};
+
+/// Numbers of the lines that take part, ascending, each once.
+std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values);
+
+/// Weights of the values of one field row round a point (theory.md (A1)-(A3)), from cells of the same kind
+/// (solid or fluid) as the one the point is in: nothing is read across a contact. At an edge of the grid the
+/// field is continued as the edge law says.
+template <int D>
+std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                     const Point<D>& point_m, int field_row);
+
+/// The same for a source, which adds with them. Stresses of solids that would reach beyond a free edge go to
+/// the two nearest cells across it instead, or are led on from them beyond the last centre.
+template <int D>
+std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m, int field_row);
+
+/// The same for a component of a gather: p is minus the mean of the normal stresses.
+template <int D>
+std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                           const Point<D>& point_m, Component component);
+
+/// Row of a component that is one field; -1 for p.
+template <int D>
+int row_of(Component component);
+
+/// The cell of the computed grid a point is in; the high faces of the grid belong to the cells before them.
+template <int D>
+Index<D> cell_at(const Domain<D>& domain, const Point<D>& point_m);
+
+}  // namespace slipwave::solver

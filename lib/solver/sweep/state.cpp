@@ -1,0 +1,82 @@
+#include "solver/sweep/state.hpp"
+
+#include <sys/mman.h>
+
+#include <cstring>
+
+#include "parallel/threads.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+std::int64_t rounded_up(std::int64_t n, std::int64_t to) { return (n + to - 1) / to * to; }
+
+}  // namespace
+
+void prefer_large_pages(void* first, std::size_t bytes) {
+  // Where the system has none, all stays as it is.
+  (void)madvise(first, bytes, MADV_HUGEPAGE);
+}
+
+template <int D>
+Layout<D>::Layout(const Index<D>& shape, int rows_a_line) : shape_(shape) {
+  padded_nx_ = rounded_up(shape[0], block);
+  row_pitch_ = lead + padded_nx_ + block;
+  // Rows a multiple of 4 KiB apart would fall into the same few sets of the cache.
+  while (row_pitch_ % 1024 == 0 || (rows_a_line * row_pitch_) % 1024 == 0) row_pitch_ += block;
+  std::int64_t stride = rows_a_line * row_pitch_;
+  strides_[0] = 1;
+  for (int axis = 1; axis < D; ++axis) {
+    strides_[axis] = stride;
+    stride *= shape[axis] + 2 * ghost_lines;
+  }
+  total_ = stride;
+}
+
+template <int D>
+std::int64_t Layout<D>::lines() const {
+  std::int64_t count = 1;
+  for (int axis = 1; axis < D; ++axis) count *= shape_[axis];
+  return count;
+}
+
+template <int D>
+Index<D> Layout<D>::line_index(std::int64_t n) const {
+  Index<D> at{};
+  for (int axis = 1; axis + 1 < D; ++axis) {
+    at[axis] = n % shape_[axis];
+    n /= shape_[axis];
+  }
+  at[D - 1] = n;
+  return at;
+}
+
+template <class Real>
+void clear(Buffer<Real>& buffer, std::int64_t piece) {
+  const std::int64_t pieces = buffer.size() / piece;
+  parallel_for(pieces, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    std::memset(buffer.data() + begin * piece, 0, std::size_t((end - begin) * piece) * sizeof(Real));
+  });
+}
+
+template <int D, class Real>
+State<D, Real> make_state(const Index<D>& shape) {
+  State<D, Real> state;
+  state.layout = Layout<D>(shape, FieldRows<D>::count);
+  state.material_layout = Layout<D>(shape, material_rows);
+  state.fields = Buffer<Real>(state.layout.total());
+  state.material = Buffer<Real>(state.material_layout.total());
+  clear(state.fields, state.layout.stride(1));
+  clear(state.material, state.material_layout.stride(1));
+  state.first_stretch.assign(std::size_t(state.layout.lines()) + 1, 0);
+  return state;
+}
+
+template class Layout<2>;
+template class Layout<3>;
+template State<2, float> make_state<2, float>(const Index<2>&);
+template State<2, double> make_state<2, double>(const Index<2>&);
+template State<3, float> make_state<3, float>(const Index<3>&);
+template State<3, double> make_state<3, double>(const Index<3>&);
+
+}  // namespace slipwave::solver

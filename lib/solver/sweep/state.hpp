@@ -1,0 +1,178 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "grid/field.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/sweep/uniform_interior.hpp"
+
+namespace slipwave::solver {
+
+/// Asks the system for large pages where it has not been touched yet; all it may do is to run faster (3-D by
+/// 3 %: each sweep along z reads from as many pages as it reads planes).
+void prefer_large_pages(void* first, std::size_t bytes);
+
+/// Memory aligned for the widest vectors, zeroed by the threads that will use it.
+template <class Real>
+class Buffer {
+ public:
+  Buffer() = default;
+  explicit Buffer(std::int64_t count) : count_(count) {
+    const auto bytes = std::size_t(count) * sizeof(Real);
+    const bool large = bytes >= 2 * std::size_t(page);
+    const auto alignment = large ? page : line;
+    values_ = {static_cast<Real*>(::operator new(bytes, alignment)), Free{alignment}};
+    if (large) prefer_large_pages(values_.get(), bytes);
+  }
+  Real* data() { return values_.get(); }
+  const Real* data() const { return values_.get(); }
+  std::int64_t size() const { return count_; }
+
+ private:
+  static constexpr std::align_val_t line{64}, page{std::size_t(1) << 21};
+  struct Free {
+    std::align_val_t alignment = line;
+    void operator()(Real* values) const { ::operator delete(values, alignment); }
+  };
+  std::unique_ptr<Real[], Free> values_;
+  std::int64_t count_ = 0;
+};
+
+/// Where values stand in memory: lines along x, each holding one row of every field, [line][field][x].
+/// Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the other axes and at
+/// least 16 ghost values at both ends of a row.
+template <int D>
+class Layout {
+ public:
+  static constexpr std::int64_t lead = 16;
+  static constexpr std::int64_t block = 16;  // values of the widest vector
+  static constexpr std::int64_t ghost_lines = max_reach + 1;
+
+  Layout() = default;
+  Layout(const Index<D>& shape, int rows_a_line);
+
+  const Index<D>& shape() const { return shape_; }
+  /// Cells of a row rounded up to whole vectors: what kernels are given.
+  std::int64_t padded_nx() const { return padded_nx_; }
+  std::int64_t row_pitch() const { return row_pitch_; }
+  /// From a cell to its neighbour along `axis`, in values.
+  std::int64_t stride(int axis) const { return strides_[axis]; }
+  /// Values in all, ghosts included.
+  std::int64_t total() const { return total_; }
+  std::int64_t lines() const;
+  /// Where row 0 of the line at these indices (x ignored, ghosts allowed) starts: its cell x = 0.
+  std::int64_t line(const Index<D>& at) const {
+    std::int64_t offset = lead;
+    for (int axis = 1; axis < D; ++axis) offset += (at[axis] + ghost_lines) * strides_[axis];
+    return offset;
+  }
+  std::int64_t cell(const Index<D>& at) const { return line(at) + at[0]; }
+  /// x of a value counted from cell 0 of row 0 of its line.
+  std::int64_t column(std::int64_t place) const { return place % row_pitch_; }
+  /// Indices of line number n (x fastest of the others), its x = 0.
+  Index<D> line_index(std::int64_t n) const;
+  std::int64_t line_number(const Index<D>& at) const {
+    return D == 2 ? at[1] : at[D - 1] * shape_[1] + at[1];
+  }
+
+ private:
+  Index<D> shape_{};
+  Index<D> strides_{};
+  std::int64_t padded_nx_ = 0, row_pitch_ = 0, total_ = 0;
+};
+
+/// Rows of a line of the wave field: velocities, normal stresses, shear stresses (xz | xy, xz, yz).
+template <int D>
+struct FieldRows {
+  static constexpr int count = D + D * (D + 1) / 2;
+  static constexpr int velocity(int axis) { return axis; }
+  static constexpr int normal_stress(int axis) { return D + axis; }
+  static constexpr int shear_stress(int axis_a, int axis_b) {
+    return D == 2 ? 4 : 5 + axis_a + axis_b;  // xy 6, xz 7, yz 8
+  }
+};
+
+/// Rows of a line of the material: b = dt/(rho h) and the impedances rho c of P and S, 0 in cells that do not
+/// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h.
+enum MaterialRow : int { row_b, row_zp, row_zs, material_rows };
+
+/// Cells first <= x < last of a line that are of one material.
+template <class Real>
+struct Stretch {
+  std::int64_t first, last;
+  Real b, zp, zs;
+  MaterialRows<Real> rows() const { return {&b, &zp, &zs}; }
+};
+
+/// The fields of a row of cells, in the state or in a copy: where its cell 0 of field row 0 stands, and the
+/// way to the next field row.
+template <class Real>
+struct RowFields {
+  std::int64_t row;  // number of the line (Layout)
+  Real* first;
+  std::int64_t pitch;
+  Real* field(int field_row) const { return first + field_row * pitch; }
+  operator RowFields<const Real>() const requires(!std::is_const_v<Real>) { return {row, first, pitch}; }
+};
+
+/// Wave field and material of the computed grid: the model and the absorbing zones round it.
+template <int D, class Real>
+struct State {
+  Layout<D> layout, material_layout;
+  Buffer<Real> fields, material;
+  /// Stretches of one material, line after line, and where each line begins (fill_material). Sweeps over such
+  /// a stretch read nothing else of the material.
+  std::vector<Stretch<Real>> stretches;
+  std::vector<std::size_t> first_stretch;
+  /// By axis, of these stretches.
+  std::array<UniformInterior, D> uniform_interior;
+
+  Real* field_row(const Index<D>& at, int row) {
+    return fields.data() + layout.line(at) + row * layout.row_pitch();
+  }
+  const Real* field_row(const Index<D>& at, int row) const {
+    return fields.data() + layout.line(at) + row * layout.row_pitch();
+  }
+  RowFields<Real> row_fields(std::int64_t line) {
+    return {line, field_row(layout.line_index(line), 0), layout.row_pitch()};
+  }
+  Real* material_row(const Index<D>& at, int row) {
+    return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
+  }
+  const Real* material_row(const Index<D>& at, int row) const {
+    return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
+  }
+  /// From a cell of a line on; the line before the first and the one after the last are there.
+  MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x) const {
+    const Real* b = material_row(line, row_b) + x;
+    return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
+  }
+  /// Those of a line, in the order of its cells.
+  std::span<const Stretch<Real>> stretches_of(std::int64_t line) const {
+    const auto first = first_stretch[std::size_t(line)];
+    return {stretches.data() + first, first_stretch[std::size_t(line) + 1] - first};
+  }
+  /// The stretch that holds all cells first <= x < last of a line, null where there is none.
+  const Stretch<Real>* stretch(std::int64_t line, std::int64_t first, std::int64_t last) const {
+    for (const auto& of : stretches_of(line)) {
+      if (of.first > first) break;
+      if (last <= of.last) return &of;
+    }
+    return nullptr;
+  }
+};
+
+/// By axis, of a state whose stretches are known.
+template <int D, class Real>
+std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D, Real>& state);
+
+/// State with zero fields and zero material, memory touched first by the threads that own its lines.
+template <int D, class Real>
+State<D, Real> make_state(const Index<D>& shape);
+
+}  // namespace slipwave::solver

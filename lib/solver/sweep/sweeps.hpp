@@ -1,0 +1,147 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "scene/edges.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/state.hpp"
+#include "solver/sweep/workspace.hpp"
+
+namespace slipwave::solver {
+
+/// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
+/// by `scale` of the time step, back in time where it is negative, under the part of the equations with
+/// derivatives along its axis. Lines of a sweep along x, and columns of a sweep across, do not depend on each
+/// other. Sweeps come in pieces, for the time tiles of TiledExecutor: the results do not depend on how they
+/// are cut.
+template <int D, class Real>
+class Sweeps {
+ public:
+  /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
+  /// only.
+  Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
+  /// From now on this effect filters what sweeps add; it must outlive them.
+  void use(Effect<D, Real>* filter) { filters_.push_back(filter); }
+
+  /// A whole sweep along any axis, shared out to threads.
+  void along(int axis, Real scale);
+
+  /// A piece of a sweep along x: brings columns `columns` of a line forward. Pieces of a line follow each
+  /// other from cell 0 to the last, `carry` goes on from one to the next. 2 * lag further cells must not
+  /// change before (as many as there are).
+  /// A piece that `begins` in the middle of a line reads 2 * lag cells before it instead of the carry.
+  void along_x(std::int64_t line, const IndexRange& columns, Real scale, StripeBoundary<Real>& boundary,
+               Workspace<Real>& work, bool begins = false);
+  static constexpr std::int64_t lag = Layout<D>::block;
+  /// Makes in `copy` what along_x() would make of these columns, of lag more cells on both sides; the state
+  /// and the memory of filters stay as they are. The copy must have room for the reconstruction beyond those.
+  void copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy, Workspace<Real>& work);
+  /// The same in the workspace.
+  RowFields<Real> ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
+                                Workspace<Real>& work);
+  /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the row and
+  /// from filters. The first piece `begins`; the copy must hold 2 * lag cells more on both sides.
+  void along_copy(const RowFields<Real>& copy, const IndexRange& columns, bool begins, Real scale,
+                  StripeBoundary<Real>& boundary, Workspace<Real>& work);
+  /// Puts these columns of a copy into its row.
+  void put(const RowFields<Real>& copy, const IndexRange& columns);
+
+  /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
+  /// out what leaves it and row step - rows_behind() is brought forward, where there are such rows; `at` says
+  /// where on the third axis they are. Rows up to `step` and `reach` cells on both sides must be there as
+  /// they were before the sweep. Call for each step from 0 up to the number of rows + rows_behind() - 1 with
+  /// the same columns; the ring goes along.
+  void across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns, Real scale,
+              Ring<Real>& ring, Workspace<Real>& work);
+  /// The same where it would only make zero of zero.
+  void pass_over(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
+  /// Rows that a sweep across still needs behind the newest one.
+  std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
+  /// For a sweep along that axis of columns from `first` on, once the material is there.
+  Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
+
+  /// Whether free edges of an axis bend the fields: sweeps along it then need the velocities there of
+  /// FreeEdge::reach cells on all sides as they were before the sweep.
+  bool bends(int axis) const { return !free_edges_[axis][0].empty() || !free_edges_[axis][1].empty(); }
+  /// Cells the reconstruction reads to each side.
+  std::int64_t reach() const { return reach_; }
+  /// Keeps the velocities at the edges of x on this line, or of an axis between x and z on this line of
+  /// theirs.
+  void keep(int axis, std::int64_t line, const IndexRange& columns);
+  /// Before the first piece of a line is swept along x.
+  void measure_side_surfaces(std::int64_t line);
+  /// In 3-D, before a plane of rows is swept along y.
+  void measure_flank_surfaces(std::int64_t plane);
+  /// Before the sweep along z is across the rows of that step: of all columns (in 3-D rows of a plane) it and
+  /// the pieces before it were given, and FreeEdge::reach more.
+  void measure_end_surfaces(std::int64_t step, const IndexRange& columns);
+
+  /// These columns of a line will be needed soon.
+  void expect(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& coming) const;
+  Workspace<Real> make_workspace(std::int64_t widest) const;
+  /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
+  std::int64_t interface_stencil_cells() const;
+  /// Whether S waves are swept at all.
+  bool shear() const { return shear_; }
+
+ private:
+  static constexpr int z_axis = D - 1;
+  /// A wave family along one axis: its fields' rows and span ends.
+  struct Pair {
+    Wave wave;
+    int v, s;  // rows of the line
+  };
+  /// A stretch of a line: cells that send out, cells that are brought forward, and where its fields stand.
+  struct Piece {
+    std::int64_t line;
+    IndexRange leave, update;
+    Real* fields;  // cell 0 of row 0
+    std::int64_t pitch;
+    bool remember;
+  };
+  void go_on(const Piece& piece, bool begins, bool ends, Real scale, StripeBoundary<Real>& boundary,
+             Workspace<Real>& work);
+  void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
+  void reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
+                       std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> leaving,
+                       PrefetchQueue<Real>& coming) const;
+  const InterfaceKernels<Real>& face_kernels(bool uniform) const {
+    return kernels_[uniform]->face[D - 2][shear_];
+  }
+  /// What brings cells forward, beginning with the first of them: faces before and behind them, what leaves
+  /// them and their neighbours.
+  struct Flux {
+    InterfaceStates<Real> lo, hi;
+    OutgoingWaves<Real> below, here, above;
+  };
+  void update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, std::int64_t pitch,
+              Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
+  bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
+                 Ring<Real>& ring, Workspace<Real>& work);
+  void enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> leaving,
+                OutgoingWaves<Real> entering) const;
+  void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
+  void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
+  std::array<Pair, D> make_pairs(int axis) const;
+  /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs.
+  static constexpr int changed = 3 * D - 1, changed_by_p = D + 1;
+  std::array<int, changed> rows_changed(int axis) const;
+  int pair_count() const { return shear_ ? D : 1; }
+
+  State<D, Real>& state_;
+  std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
+  std::vector<Effect<D, Real>*> filters_;
+  EdgeLaws<D> edges_;
+  int order_, reach_;
+  bool shear_;
+  std::array<std::array<InterfaceStencils, 2>, D> ends_;           // [axis][wave]
+  std::array<std::array<Pair, D>, D> pairs_;                       // [axis]: P, then S by axes
+  std::array<std::array<int, changed>, D> changed_;                // [axis]
+  std::array<std::array<FreeSurface<D, Real>, 2>, D> free_edges_;  // [axis][side]
+};
+
+}  // namespace slipwave::solver

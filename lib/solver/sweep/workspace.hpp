@@ -1,0 +1,107 @@
+#pragma once
+
+#include <algorithm>
+
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// What a piece of a sweep along x leaves for the next one of the line: the faces of the cells that wait for
+/// it, what leaves the last of them upwards and, where faces are left out, what leaves each of them and,
+/// upwards, the cell before them.
+template <class Real>
+struct StripeBoundary {
+  static constexpr std::int64_t cells = 16;
+  static constexpr int most_pairs = 3;
+  Real last_up[most_pairs][1], up[most_pairs][cells], down[most_pairs][cells];
+  Real v[most_pairs][cells], s[most_pairs][cells];
+};
+
+/// What a sweep across the rows keeps between them: faces of so many rows, of those that are still to be
+/// brought forward, and what leaves the newest rows, at least two. Columns from `first` on, of `pairs` pairs
+/// (2, in 3-D 3).
+template <class Real>
+class Ring {
+ public:
+  Ring(std::int64_t first, std::int64_t width, int leaving_rows, int face_rows, int pairs)
+      : first_(first),
+        pitch_(width + 2 * gap),
+        leaving_rows_(leaving_rows),
+        face_rows_(face_rows),
+        pairs_(pairs),
+        values_(pitch_ * 2 * pairs * (leaving_rows + face_rows)) {
+    std::fill(values_.data(), values_.data() + values_.size(), Real(0));
+  }
+  /// From column x on, of row -1 or a later one.
+  OutgoingWaves<Real> leaving(std::int64_t row, std::int64_t x) {
+    const int first = 2 * pairs_ * int((row + 1) % leaving_rows_);
+    return {at(first, x), pitch_};
+  }
+  InterfaceStates<Real> faces(std::int64_t row, std::int64_t x) {
+    const int first = 2 * pairs_ * (leaving_rows_ + int(row % face_rows_));
+    return {at(first, x), pitch_};
+  }
+  std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
+
+ private:
+  static constexpr std::int64_t gap = 16;
+  Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
+  std::int64_t first_, pitch_;
+  int leaving_rows_, face_rows_, pairs_;
+  Buffer<Real> values_;
+};
+
+/// Rows of memory that are asked for before they are needed, half a row after each loop over a piece: stripes
+/// are too short for the processor to guess what comes next, and more at once would wait for each other.
+template <class Real>
+class PrefetchQueue {
+ public:
+  void clear() { left_ = 0; }
+  /// `count` rows of `width` values, `pitch` apart.
+  void add(const Real* first, std::int64_t width, std::int64_t pitch, int count) {
+    half_ = (width + 1) / 2;
+    for (int row = 0; row < count; ++row)
+      for (const std::int64_t from : {std::int64_t(0), half_}) halves_[left_++] = first + row * pitch + from;
+  }
+  void prefetch_one() {
+    if (left_ == 0) return;
+    const Real* const half = halves_[--left_];
+    for (std::int64_t x = 0; x < half_; x += 64 / std::int64_t(sizeof(Real))) __builtin_prefetch(half + x);
+  }
+
+ private:
+  static constexpr int most = 16;  // of eight rows, fields and material
+  const Real* halves_[most] = {};
+  int left_ = 0;
+  std::int64_t half_ = 0;
+};
+
+/// Scratch memory of one thread for pieces of at most `widest` columns of `pairs` pairs.
+template <class Real>
+class Workspace {
+ public:
+  Workspace(std::int64_t widest, int field_rows, int pairs)
+      : pitch_(widest + 6 * gap), pairs_(pairs), values_(pitch_ * (4 * pairs + most_changed + field_rows)) {
+    std::fill(values_.data(), values_.data() + values_.size(), Real(0));
+  }
+  OutgoingWaves<Real> leaving() { return {row(0), pitch_}; }
+  InterfaceStates<Real> faces() { return {row(2 * pairs_), pitch_}; }
+  /// Fields as they were, while the matched layer needs them.
+  Real* before(int n) { return row(4 * pairs_ + n); }
+  /// A copy of all fields of a piece.
+  Real* copy() { return row(4 * pairs_ + most_changed); }
+  PrefetchQueue<Real>& coming() { return coming_; }
+  /// From a row of the copy to the next; room for 32 cells before and behind the piece.
+  std::int64_t pitch() const { return pitch_; }
+
+ private:
+  static constexpr std::int64_t gap = 16;
+  static constexpr int most_changed = 8;  // fields that a sweep changes
+  Real* row(int n) { return values_.data() + n * pitch_ + 2 * gap; }
+  std::int64_t pitch_;
+  int pairs_;
+  Buffer<Real> values_;
+  PrefetchQueue<Real> coming_;
+};
+
+}  // namespace slipwave::solver
