@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "parallel/threads.hpp"
 
@@ -40,6 +41,12 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       ends_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
     }
   });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::use(Effect<D, Real>* filter) {
+  if (filters_.size() == most_filters) throw std::length_error("too many effects filter sweeps");
+  filters_.push_back(filter);
 }
 
 template <int D, class Real>
@@ -132,11 +139,13 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
   // Made in place: a copy would wait for all that loops before this have written.
+  std::array<std::array<IndexRange, 2>, most_filters> filtered;
+  for (std::size_t f = 0; f < filters_.size(); ++f) filtered[f] = filters_[f]->filtered(axis, line, columns);
   const auto each_filtered = [&](auto&& what) {
-    for (auto* filter : filters_)
-      for (const auto& part : filter->filtered(axis, line, columns))
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      for (const auto& part : filtered[f])
         for (int n = 0; n < row_count && !part.empty(); ++n)
-          what(*filter, part, n, work.before(n) + part.first - columns.first);
+          what(*filters_[f], part, n, work.before(n) + part.first - columns.first);
   };
   each_filtered([&](const auto&, const IndexRange& part, int n, Real* before) {
     std::copy(field(n) + part.first, field(n) + part.last, before);
