@@ -27,7 +27,7 @@ struct ExpectedError {
 /// With the step error e(f) (E15) of each medium on the way, n steps in it, and the spectrum W(f) of the
 /// wavelet as the wave carries it (times sqrt(f) from a point source in 2-D),
 ///   error^2 = integral |exp(sum n e) - 1|^2 |W|^2 df / integral |W|^2 df.                           (E16)
-/// What contacts, slip and the edges add is not in it.
+/// What interfaces, slip and the edges add is not in it.
 class WavesOfScene {
  public:
   explicit WavesOfScene(const Scene<2>& scene);

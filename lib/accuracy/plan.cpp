@@ -77,7 +77,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.courant = plan.time_step_s / stable_time_step_s(scene);
   plan.steps = step.steps();
   plan.passes = step.planned();
-  plan.span_ends = step.sweeps().interface_stencil_cells();
+  plan.interface_cells = step.sweeps().interface_stencil_cells();
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
   plan.slowest = slowest_wave(scene.model.medium);
@@ -124,7 +124,7 @@ Report report_of(const Plan<D>& plan) {
     report.text("error after " + shown(plan.duration_s, 3) + " s",
                 "P " + shown(100 * plan.error.p, 2) + " %" +
                     (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
-  report.count("cells at interfaces", plan.span_ends);
+  report.count("cells at interfaces", plan.interface_cells);
   report.text(
       "active cells",
       shown(100 * plan.computed_share, 2) +

@@ -14,7 +14,8 @@ struct Plan {
   double courant = 0;  // vp_max dt/h
   std::int64_t steps = 0;
   std::vector<PlannedEntry> passes;
-  std::int64_t span_ends = 0;  // cells beside contacts, voids and span ends, all directions and waves
+  std::int64_t interface_cells =
+      0;  // with stencils of their own beside strong interfaces and voids, all axes and waves
   std::int64_t memory_bytes = 0;
   double highest_hz = 0;
   SlowestWave slowest;

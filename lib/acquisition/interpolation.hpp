@@ -8,12 +8,12 @@
 
 namespace slipwave {
 
-/// How a field goes on past the last usable cell: not known, or as its mirror image about that cell's far
+/// How a field continues past the last usable cell: not known, or as its mirror image about that cell's far
 /// face, with the same sign (even) or the opposite one (odd). At a free surface velocities are even and the
 /// tractions on it odd.
 enum class Beyond { unknown, even, odd };
 
-/// The cells low .. high of an axis in which a field is smooth round a point: up to a contact, a span end or
+/// The cells low .. high of an axis in which a field is smooth round a point: up to an interface or
 /// the end of the grid.
 struct AxisCells {
   std::int64_t low = 0, high = 0;

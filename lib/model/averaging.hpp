@@ -31,8 +31,8 @@ bool same_kind(const Material& a, const Material& b);
 
 /// The material that stands for a cell made of several (theory.md M1, M2): density is the arithmetic mean
 /// over the parts, lambda + 2 mu and mu are the harmonic ones, weighted by volume. Only parts of the kind of
-/// the cell's centre count, so nothing is ever averaged across a contact of solid, fluid and void. Parts may
-/// come from anywhere: pieces cut off by planes, smaller cells, samples of a curved horizon.
+/// the cell's centre count, so nothing is ever averaged across an interface of solid, fluid and void. Parts
+/// may come from anywhere: pieces cut off by planes, smaller cells, samples of a curved horizon.
 class MaterialMean {
  public:
   explicit MaterialMean(const Material& centre) : centre_(centre) {}

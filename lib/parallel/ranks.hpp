@@ -16,7 +16,7 @@
 
 namespace slipwave {
 
-/// A message under way. What it is made from or comes to must stay until done() says so.
+/// A message in progress. Its buffer must stay until done() says so.
 class Message {
  public:
   virtual ~Message() = default;

@@ -99,16 +99,16 @@ void parallel_for(std::int64_t count, std::int64_t grain,
 
 namespace {
 
-/// The pieces of parallel_passes() and what each still waits for.
+/// The pieces of parallel_tiles() and what each still waits for.
 class Pieces {
  public:
-  Pieces(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
+  Pieces(std::int64_t tiles, std::int64_t bands, std::int64_t in_progress,
          const std::function<void(std::int64_t, std::int64_t, int)>& body)
-      : passes_(passes), bands_(bands), in_progress_(under_way), body_(body) {
-    waits_ = std::make_unique<std::atomic<int>[]>(std::size_t(passes * bands));
-    for (std::int64_t pass = 0; pass < passes; ++pass)
+      : tiles_(tiles), bands_(bands), in_progress_(in_progress), body_(body) {
+    waits_ = std::make_unique<std::atomic<int>[]>(std::size_t(tiles * bands));
+    for (std::int64_t tile = 0; tile < tiles; ++tile)
       for (std::int64_t band = 0; band < bands; ++band)
-        waits(pass, band) = (band > 0) + (pass > 0) + (band == 0 && pass >= under_way);
+        waits(tile, band) = (band > 0) + (tile > 0) + (band == 0 && tile >= in_progress);
   }
   void run() {
     group_.run_and_wait([this] { run_from(0, 0); });
@@ -116,35 +116,35 @@ class Pieces {
   }
 
  private:
-  std::atomic<int>& waits(std::int64_t pass, std::int64_t band) {
-    return waits_[std::size_t(pass * bands_ + band)];
+  std::atomic<int>& waits(std::int64_t tile, std::int64_t band) {
+    return waits_[std::size_t(tile * bands_ + band)];
   }
   /// One thing a piece waited for is done: whether it was the last.
-  bool ready(std::int64_t pass, std::int64_t band) {
-    return pass < passes_ && band < bands_ && waits(pass, band).fetch_sub(1) == 1;
+  bool ready(std::int64_t tile, std::int64_t band) {
+    return tile < tiles_ && band < bands_ && waits(tile, band).fetch_sub(1) == 1;
   }
-  void run_from(std::int64_t pass, std::int64_t band) {
+  void run_from(std::int64_t tile, std::int64_t band) {
     for (;;) {
       flush_subnormals();
       handover_.begun();
       // Those it waited for have counted down here.
-      (void)waits(pass, band).load(std::memory_order_acquire);
-      handover_.piece([&] { body_(pass, band, this_worker()); });
+      (void)waits(tile, band).load(std::memory_order_acquire);
+      handover_.piece([&] { body_(tile, band, this_worker()); });
       const auto start = [this](std::int64_t next_pass, std::int64_t next_band) {
         if (ready(next_pass, next_band))
           group_.run([this, next_pass, next_band] { run_from(next_pass, next_band); });
       };
       const bool last = band + 1 == bands_;
-      if (band > 0) start(pass + 1, band - 1);
-      if (last) start(pass + 1, band);
-      if (last) start(pass + in_progress_, 0);
+      if (band > 0) start(tile + 1, band - 1);
+      if (last) start(tile + 1, band);
+      if (last) start(tile + in_progress_, 0);
       // The next band shares most with this one.
-      if (last || !ready(pass, band + 1)) return;
+      if (last || !ready(tile, band + 1)) return;
       ++band;
     }
   }
 
-  std::int64_t passes_, bands_, in_progress_;
+  std::int64_t tiles_, bands_, in_progress_;
   const std::function<void(std::int64_t, std::int64_t, int)>& body_;
   std::unique_ptr<std::atomic<int>[]> waits_;
   Handover handover_;
@@ -153,15 +153,15 @@ class Pieces {
 
 }  // namespace
 
-void parallel_passes(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
-                     const std::function<void(std::int64_t, std::int64_t, int)>& body) {
-  if (parallel_threads() > 1 && under_way > 1 && passes > 1 && bands > 2) {
-    Pieces(passes, bands, under_way, body).run();
+void parallel_tiles(std::int64_t tiles, std::int64_t bands, std::int64_t in_progress,
+                    const std::function<void(std::int64_t, std::int64_t, int)>& body) {
+  if (parallel_threads() > 1 && in_progress > 1 && tiles > 1 && bands > 2) {
+    Pieces(tiles, bands, in_progress, body).run();
     return;
   }
   flush_subnormals();
-  for (std::int64_t pass = 0; pass < passes; ++pass)
-    for (std::int64_t band = 0; band < bands; ++band) body(pass, band, 0);
+  for (std::int64_t tile = 0; tile < tiles; ++tile)
+    for (std::int64_t band = 0; band < bands; ++band) body(tile, band, 0);
 }
 
 void parallel_jobs(std::int64_t count, int at_once, const std::function<void(std::int64_t)>& body) {

@@ -33,13 +33,13 @@ void flush_subnormals();
 void parallel_for(std::int64_t count, std::int64_t grain,
                   const std::function<void(std::int64_t begin, std::int64_t end, int worker)>& body);
 
-/// Runs body(pass, band, worker) for all passes over a row of bands, several passes at a time, each behind
-/// the one before it: a piece begins when the band before it in its pass and the band behind it in the pass
-/// before are done (the last band: that one in the pass before), and a pass begins when the one `under_way`
-/// before it has ended. So a pass may change what it and the bands next to it share with the pass before.
-/// Otherwise as parallel_for; with one thread pass after pass.
-void parallel_passes(std::int64_t passes, std::int64_t bands, std::int64_t under_way,
-                     const std::function<void(std::int64_t pass, std::int64_t band, int worker)>& body);
+/// Runs body(tile, band, worker) for all tiles over a row of bands, several tiles at a time, each behind
+/// the one before it: a piece begins when the band before it in its tile and the band behind it in the tile
+/// before are done (the last band: that one in the tile before), and a tile begins when the one `in_progress`
+/// before it has ended. So a tile may change what it and the bands next to it share with the tile before.
+/// Otherwise as parallel_for; with one thread tile after tile.
+void parallel_tiles(std::int64_t tiles, std::int64_t bands, std::int64_t in_progress,
+                    const std::function<void(std::int64_t tile, std::int64_t band, int worker)>& body);
 
 /// Runs body(job) for all jobs, `at_once` of them at a time; each has its even share of the threads to itself
 /// for what it does in parallel.

@@ -34,7 +34,7 @@ Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D,
   if (absorbs(scene, source) && !plane_wave)
     effects.push_back(std::make_unique<Pml<D, Real>>(
         state.layout, domain, dt_s, vp_max, source.wavelet.nominal_hz(), scene.numerics.time_order, ranks));
-  // Plane waves are known in 2-D only; check(scene) has seen to it.
+  // Plane waves exist in 2-D only; check(scene) has made sure of it.
   if constexpr (D == 2) {
     if (plane_wave)
       effects.push_back(std::make_unique<Sponge<D, Real>>(
@@ -65,7 +65,7 @@ TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain
     before.push_back(Apply<D, Real>{effect.get(), false});
     after.push_back(Apply<D, Real>{effect.get(), true});
   }
-  // What acts last before recording acts first after it, so that the step is symmetric about its end.
+  // The effect that acts last before recording acts first after it: the step is symmetric about its end.
   std::reverse(after.begin(), after.end());
   for (const auto& [axis, fraction] : splitting(D, scene.numerics.time_order))
     step.push_back(Sweep<D, Real>{axis, fraction, filters});

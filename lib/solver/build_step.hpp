@@ -14,7 +14,7 @@ namespace slipwave::solver {
 template <int D, class Real>
 using Effects = std::vector<std::unique_ptr<Effect<D, Real>>>;
 
-/// The effects a shot of a scene calls for, in the order in which they act before recording. Fields are
+/// The effects of a shot of a scene, in the order in which they act before recording. Fields are
 /// `unit` times SI. Keep references to state, domain and scene. Collective where there are `ranks` (may be
 /// null).
 template <int D, class Real>
@@ -29,8 +29,8 @@ TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain
                                   const std::vector<Record<D, Real>*>& records, double dt_s,
                                   std::int64_t steps);
 
-/// What is needed to execute it: in time tiles, or plainly where the scene asks for that. `halo` (may be
-/// null): of neighbouring subdomains.
+/// The executor: tiled, or plain where the scene says so. `halo` (may be null): exchange with neighbouring
+/// subdomains.
 template <int D, class Real>
 std::unique_ptr<Executor> make_executor(const Scene<D>& scene, const Domain<D>& domain, State<D, Real>& state,
                                         Sweeps<D, Real>& sweeps, TimeStep<D, Real>& step,

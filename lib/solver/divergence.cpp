@@ -10,7 +10,7 @@
 namespace slipwave::solver {
 namespace {
 
-/// Cells round the bad one in which effects are looked for.
+/// Cells round the diverged one in which effects are searched for.
 constexpr std::int64_t near_cells = 10;
 
 /// The largest difference of indices along an axis.
@@ -21,7 +21,7 @@ std::int64_t cells_apart(const Index<D>& a, const Index<D>& b) {
   return most;
 }
 
-/// Effects by name, each with how many cells it is away: the nearest of those that are told of.
+/// Effects by name, each with its distance in cells: the nearest place where it was added.
 class Nearby {
  public:
   void add(const std::string& name, std::int64_t cells) {
@@ -43,22 +43,22 @@ class Nearby {
   std::map<std::string, std::int64_t> cells_away_;
 };
 
-/// What is between two cells that touch: nothing, or an effect.
+/// The name of the interface between two neighbouring cells, empty where there is none.
 template <int D>
-std::string contact_of(const Medium<D>& medium, std::size_t a, std::size_t b) {
+std::string interface_between(const Medium<D>& medium, std::size_t a, std::size_t b) {
   if (medium.is_void(a) || medium.is_void(b))
-    return medium.is_void(a) == medium.is_void(b) ? "" : "a free face";
-  if (medium.is_fluid(a) != medium.is_fluid(b)) return "a contact of fluid and rock";
+    return medium.is_void(a) == medium.is_void(b) ? "" : "a free surface inside the model";
+  if (medium.is_fluid(a) != medium.is_fluid(b)) return "a fluid-solid interface";
   const auto ratio = [](double x, double y) { return x > y ? x / y : y / x; };
   double largest = ratio(double(medium.rho[a]) * medium.vp[a], double(medium.rho[b]) * medium.vp[b]);
   if (medium.is_solid(a))
     largest =
         std::max(largest, ratio(double(medium.rho[a]) * medium.vs[a], double(medium.rho[b]) * medium.vs[b]));
-  return largest >= strong_interface_ratio ? "a contact" : "";
+  return largest >= strong_interface_ratio ? "an interface" : "";
 }
 
-/// The free, rigid or mirror edges of the whole model and its sponge; `at` in cells of it, outside
-/// it in the zones.
+/// The free, rigid or mirror edges of the whole model and its PML or sponge; `at` in cells of the model,
+/// beyond its ends in the layer outside it.
 template <int D>
 void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const Index<D>& at) {
   const bool plane = !point_injection(scene.survey.sources[shot - 1]);
@@ -70,8 +70,7 @@ void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const In
       const EdgeLaw law = scene.edges[axis][side];
       const std::string edge = law == EdgeLaw::rigid ? "a rigid edge" : "a mirror";
       if (law == EdgeLaw::absorbing)
-        nearby.add(plane ? "the zones of the plane wave" : "the matched layer",
-                   std::max<std::int64_t>(past + 1, 0));
+        nearby.add(plane ? "the sponge" : "the PML", std::max<std::int64_t>(past + 1, 0));
       else
         nearby.add(law != EdgeLaw::free         ? edge
                    : axis == D - 1 && side == 0 ? "the free surface"
@@ -80,7 +79,7 @@ void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const In
     }
 }
 
-/// Fractures, contacts and voids in the cells round `at`.
+/// Fractures, interfaces and free surfaces in the cells round `at`.
 template <int D>
 void add_cells(Nearby& nearby, const Scene<D>& scene, const Index<D>& at) {
   const auto& model = scene.model;
@@ -97,14 +96,14 @@ void add_cells(Nearby& nearby, const Scene<D>& scene, const Index<D>& at) {
     if (model.medium.is_fluid(n) && away == 0) nearby.add("fluid", 0);
     if (scene.slips() && model.fracture[n] > 0) {
       nearby.add("fracture set " + model.fracture_sets[model.fracture[n] - 1u].name, away);
-      if (!model.prestress_pa.empty()) nearby.add("fractures under static stress", away);
+      if (!model.prestress_pa.empty()) nearby.add("fractures under prestress", away);
     }
     for (std::size_t axis = 0; axis < D; ++axis) {
       if (cell[axis] == high[axis]) continue;
       Index<D> next = cell;
       ++next[axis];
-      const auto contact = contact_of(model.medium, n, std::size_t(grid.flat(next)));
-      if (!contact.empty()) nearby.add(contact, std::min(away, cells_apart<D>(next, at)));
+      const auto interface = interface_between(model.medium, n, std::size_t(grid.flat(next)));
+      if (!interface.empty()) nearby.add(interface, std::min(away, cells_apart<D>(next, at)));
     }
     std::size_t axis = 0;
     for (; axis < D && cell[axis] == high[axis]; ++axis) cell[axis] = low[axis];

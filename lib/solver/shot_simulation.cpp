@@ -12,14 +12,14 @@
 namespace slipwave::solver {
 namespace {
 
-/// What a source adds to a velocity in a step, at the largest, is this much of the unit.
+/// The largest velocity that a source adds in a step, in terms of the unit.
 constexpr double largest_addition = 1e-20;
 
-/// The unit of the fields: a power of two times SI. In single precision all that is 10^-18 of what the source
-/// does where it stands then counts as zero, so that the cells in front of the waves are zero and can be
-/// skipped (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths must stay
-/// normal numbers. The same with slip and without, so that the difference of both is
-/// the work of slip alone. Collective where there are ranks.
+/// The unit of the fields: a power of two times SI. In single precision all values below 10^-18 of the field
+/// at the source then count as zero, so that the cells in front of the waves are zero and can be skipped
+/// (ActiveCells). 1 where that gains nothing; at most 1 with fractures, whose strengths must stay normal
+/// numbers. The same with slip and without, so that the difference of both is the work of slip alone.
+/// Collective where there are ranks.
 template <int D>
 double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s, Ranks* ranks) {
   const auto injection = point_injection(source);
@@ -79,7 +79,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       halo_(make_halo()),
       executor_(make_executor(scene, domain_, state_, sweeps_, step_, halo_.get())),
       stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
-  // All that is made of them is there.
+  // Everything that depends on them is built.
   domain_.release_impedances();
   bool changed = false;
   for (auto& effect : effects_) changed |= effect->initialize(state_);
@@ -107,7 +107,7 @@ void ShotSimulation<D, Real>::run_to(std::int64_t last, const Progress& progress
                                      const std::function<bool()>& pause) {
   step_.tell(&progress);
   for (bool paused = false; done_ < last && !paused; paused = pause && pause()) {
-    // No step is in progress where all fields are checked or shown.
+    // No step is in progress where all fields are checked or written.
     std::int64_t until = std::min(last, StabilityCheck<D, Real>::next_after(done_) + 1);
     const bool snapshot = snapshots_.prepare(done_, until, dt_s_);
     if (snapshot) until = snapshots_.step() + 1;
@@ -142,7 +142,7 @@ void ShotSimulation<D, Real>::take_snapshot() {
   snapshots_.release();
 }
 
-/// Checks, and now and then asks the others what they found: throws on all ranks what was found first.
+/// Checks, and from time to time exchanges the findings: throws the earliest one on all ranks.
 template <int D, class Real>
 void ShotSimulation<D, Real>::check_together() {
   if (!ranks_) return check_stability();
@@ -153,7 +153,7 @@ void ShotSimulation<D, Real>::check_together() {
         seen.what() + std::string("; ") + surroundings(*scene_, domain_, shot_, seen.first().at),
         seen.first());
   }
-  if (done_ % asked_every != 0 && done_ != steps_) return;
+  if (done_ % collective_every != 0 && done_ != steps_) return;
   constexpr auto never = std::numeric_limits<std::int64_t>::max();
   const auto steps = allgather(ranks_, std::vector{diverged_ ? diverged_->first().time.step : never});
   const auto first = std::min_element(steps.begin(), steps.end());
@@ -164,7 +164,7 @@ void ShotSimulation<D, Real>::check_together() {
   throw DivergedFields<D>(texts[std::size_t(first - steps.begin())], divergence);
 }
 
-/// The field of the whole model on the first rank, on the others what they hold of it.
+/// The field of the whole model on the first rank, that of their own subdomain on the others.
 template <int D, class Real>
 Field<D> ShotSimulation<D, Real>::allgather_field(Field<D> mine) const {
   if (!ranks_) return mine;
@@ -213,7 +213,7 @@ std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
 template <int D, class Real>
 std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
   std::int64_t bytes = (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
-                       std::int64_t(state_.stretches.size() * sizeof(Stretch<Real>)) +
+                       std::int64_t(state_.uniform_runs.size() * sizeof(UniformRun<Real>)) +
                        executor_->memory_bytes() + (halo_ ? halo_->memory_bytes() : 0);
   for (const auto& effect : effects_) bytes += effect->memory_bytes();
   return bytes;

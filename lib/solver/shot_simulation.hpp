@@ -24,28 +24,28 @@ class ShotSimulation {
   ShotSimulation(const Scene<D>& scene, std::size_t shot, const SnapshotSink<D>& snapshots,
                  Ranks* ranks = nullptr);
 
-  /// Brings the fields to the end of step last - 1, from where they are, or less far once `pause` says so (it
-  /// is asked now and then, by any thread). `progress` is told of each step. Throws DivergedFields.
+  /// Advances the fields to the end of step last - 1, or less far once `pause` returns true (any thread calls
+  /// it from time to time). `progress` is told of each step. Throws DivergedFields.
   void run_to(std::int64_t last, const Progress& progress = {}, const std::function<bool()>& pause = {});
   std::int64_t steps() const { return steps_; }
   /// Steps that have been made.
   std::int64_t done() const { return done_; }
-  /// Throws DivergedFields where they have; between two calls of run_to(), which checks now and then itself.
+  /// Throws DivergedFields where they have; between two calls of run_to(), which checks at intervals itself.
   void check_stability() const { stability_.check({done_ - 1, dt_s_}); }
-  /// Ranks check as often, but ask each other less often what they found: nobody must wait for all for that.
-  static constexpr std::int64_t asked_every = 10 * StabilityCheck<D, Real>::every;
-  /// Writes or reads all that the steps to come depend on; between two calls of run_to().
+  /// Ranks check as often, but exchange their findings less often: no rank should wait for all others.
+  static constexpr std::int64_t collective_every = 10 * StabilityCheck<D, Real>::every;
+  /// Writes or reads all that the remaining steps depend on; between two calls of run_to().
   void serialize(Archive& archive);
   Gather take_gather() { return recorder_.take(); }
   std::vector<PlannedEntry> planned() const;
   /// The list of its time step.
   const TimeStep<D, Real>& time_step() const { return step_; }
-  /// What became of the energy; scenes that keep a diary.
+  /// The energy balance; for scenes that keep a diary.
   ShotReport report() const;
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
   std::int64_t memory_bytes() const;
-  /// What of all cells in all steps so far had to be computed.
+  /// Share of all cells in all steps so far that had to be computed.
   double computed_share() const;
 
  private:

@@ -8,7 +8,7 @@
 namespace slipwave {
 namespace {
 
-/// What the recorder had when the fields were sound after that many steps, zeros after it.
+/// The samples recorded while the fields were sound, which they were for so many steps, and zeros after it.
 Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps, double dt_s) {
   std::int64_t sound = gather.axis.count;
   for (Recording shorter = recording; sound > 0; --sound) {
@@ -22,13 +22,13 @@ Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps,
   return gather;
 }
 
-/// Says what became of a shot as exactly as it can be found out.
+/// The error of a shot that became unstable, with the most exact place and time that can be found.
 template <int D, class Real>
-Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulation<D, Real>& step,
+Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulation<D, Real>& simulation,
                   const solver::DivergedFields<D>& seen, bool snapshots, Ranks* ranks) {
   const auto sound_until = [&](const std::string& what, std::int64_t sound) {
     const auto dt_s = seen.first().time.dt_s;
-    return Unstable(what, shot, sound_part(step.take_gather(), scene.recording, sound, dt_s),
+    return Unstable(what, shot, sound_part(simulation.take_gather(), scene.recording, sound, dt_s),
                     double(sound) * dt_s);
   };
   if (ranks)
@@ -36,40 +36,40 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulatio
   const auto again = solver::first_divergence<D, Real>(scene, shot, seen.first(), snapshots);
   const auto& found = again ? *again : seen;
   const auto& first = found.first();
-  const auto looked = solver::StabilityCheck<D, Real>::last_before(first.time.step + 1);
+  const auto checked = solver::StabilityCheck<D, Real>::last_before(first.time.step + 1);
   std::string what =
-      std::string(found.what()) + "; " + solver::surroundings(scene, step.domain(), shot, first.at);
-  // Between two looks it may have begun elsewhere.
+      std::string(found.what()) + "; " + solver::surroundings(scene, simulation.domain(), shot, first.at);
+  // Between two checks it may have begun elsewhere.
   if (!again && first.box[0] != first.box[1])
     what += "; seen first in a box from " +
-            place_of(step.domain().grid, step.domain().grid.flat(first.box[0])) + " to " +
-            place_of(step.domain().grid, step.domain().grid.flat(first.box[1])) + ", sound " +
-            std::to_string(first.time.step + 1 - looked) + " steps before";
-  const auto sound = again ? first.time.step : looked;
+            place_of(simulation.domain().grid, simulation.domain().grid.flat(first.box[0])) + " to " +
+            place_of(simulation.domain().grid, simulation.domain().grid.flat(first.box[1])) + ", sound " +
+            std::to_string(first.time.step + 1 - checked) + " steps before";
+  const auto sound = again ? first.time.step : checked;
   return sound_until(what, sound);
 }
 
 template <int D, class Real>
 Gather shoot_as(const Scene<D>& scene, std::size_t shot, const Progress& progress,
                 const SnapshotSink<D>& snapshots, Pauses* pauses, ShotReport* report, Ranks* ranks) {
-  solver::ShotSimulation<D, Real> step(scene, shot, snapshots, ranks);
-  const Serialize keep = [&step](Archive& archive) { step.serialize(archive); };
+  solver::ShotSimulation<D, Real> simulation(scene, shot, snapshots, ranks);
+  const Serialize serialize = [&simulation](Archive& archive) { simulation.serialize(archive); };
   std::function<bool()> wanted;
   if (pauses) {
-    pauses->begin(keep);
+    pauses->begin(serialize);
     wanted = [pauses] { return pauses->wanted(); };
   }
   try {
     for (;;) {
-      step.run_to(step.steps(), progress, wanted);
-      if (step.done() == step.steps()) break;
-      pauses->pause(keep, {step.done(), step.steps()});
+      simulation.run_to(simulation.steps(), progress, wanted);
+      if (simulation.done() == simulation.steps()) break;
+      pauses->pause(serialize, {simulation.done(), simulation.steps()});
     }
   } catch (const solver::DivergedFields<D>& seen) {
-    throw unstable(scene, shot, step, seen, bool(snapshots), ranks);
+    throw unstable(scene, shot, simulation, seen, bool(snapshots), ranks);
   }
-  if (report) *report = step.report();
-  return step.take_gather();
+  if (report) *report = simulation.report();
+  return simulation.take_gather();
 }
 
 }  // namespace

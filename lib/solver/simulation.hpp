@@ -15,17 +15,17 @@
 
 namespace slipwave {
 
-/// A component of the wave field, or what slip has done.
+/// A component of the wave field, or a result of slip.
 using FieldKey = std::variant<Component, SlipField>;
-/// Hands it out for the model's cells.
+/// Reads it on the model's cells.
 template <int D>
 using FieldReader = std::function<Field<D>(const FieldKey&)>;
 /// Takes whole fields while a shot runs.
 template <int D>
 using SnapshotSink = std::function<void(double time_s, const FieldReader<D>& field)>;
 
-/// A shot whose fields have grown beyond all that its energy could make. What it had recorded before is in
-/// `gather`: samples up to the last moment at which the fields are known to have been sound, zeros after it.
+/// A shot whose fields have grown beyond what its energy allows. `gather` holds what was recorded before:
+/// samples up to the last time at which the fields are known to have been sound, zeros after it.
 class Unstable : public Error {
  public:
   Unstable(const std::string& what, std::size_t shot, Gather gather, double sound_until_s)
@@ -43,24 +43,24 @@ class Unstable : public Error {
   double sound_until_s_;
 };
 
-/// Shoots one shot (1-based number) of a checked scene and returns its traces, component by component in the
-/// order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
-/// `pauses` (may be null) can interrupt it between time tiles and take it up again; that changes
-/// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws Unstable, which
-/// says where, when, in what medium and near which effect the fields were first seen to be so.
-/// `ranks` (may be null): processes that shoot it together, each with its part of the scene, to the last bit
-/// as one would. All of them call this, none with pauses. The first gets the traces and whole fields, the
-/// others traces of zeros and parts of fields; all get the report.
+/// Simulates one shot (1-based number) of a checked scene and returns its traces, component by component in
+/// the order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
+/// `pauses` (may be null) can interrupt it between time tiles and resume it; that changes no bit of the
+/// result. `report` (may be null) needs a scene that keeps a diary. Throws Unstable, which says where, when,
+/// in what medium and near which effect the fields were first found to have diverged. `ranks` (may be null):
+/// processes that simulate it together, each with its subdomain of the scene, to the last bit as one would.
+/// All of them call this, none with pauses. The first gets the traces and whole fields, the others traces of
+/// zeros and the fields of their subdomains; all get the report.
 template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr,
              Ranks* ranks = nullptr);
 
-/// What the fields and the material of a shot take of memory at most, bytes.
+/// Memory for the fields and the material of a shot, upper limit in bytes.
 template <int D>
 std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
 
-/// One pass of a time step and the share of the computed cells it works on.
+/// One entry of a time step and the share of the computed cells it works on.
 struct PlannedEntry {
   std::string name;
   double share = 0;

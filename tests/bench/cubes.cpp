@@ -46,8 +46,8 @@ Scene<3> make_scene(const Cube& what) {
   return scene;
 }
 
-/// Floating-point operations on a cell in a step, counted as in run.cpp: three pairs a sweep, five sweeps of
-/// which the two along x are one.
+/// Floating-point operations on a cell in a step, counted as in run.cpp: three pairs per sweep, five sweeps
+/// of which the two along x are one.
 int flops_a_cell_step(int order, bool uniform) {
   const int others = uniform ? 13 + 2 * 9 : 18 + 10 + 22 + 10;
   return 4 * (3 * flops_of_leaving(order, uniform) + others);

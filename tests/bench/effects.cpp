@@ -27,8 +27,8 @@ void register_effects() {
   add("none", [](Case&) {});
   add("none, every cell another material", [](Case& what) { what.variety = Variety::random; });
   add("free surface", [](Case& what) { what.top = EdgeLaw::free; });
-  add("matched layer on three sides", [](Case& what) { what.others = EdgeLaw::absorbing; });
-  add("matched layer on four sides", [](Case& what) { what.top = what.others = EdgeLaw::absorbing; });
+  add("PML on three sides", [](Case& what) { what.others = EdgeLaw::absorbing; });
+  add("PML on four sides", [](Case& what) { what.top = what.others = EdgeLaw::absorbing; });
   add("zones of a plane wave", [](Case& what) {
     what.top = what.others = EdgeLaw::absorbing;
     what.plane_wave = true;

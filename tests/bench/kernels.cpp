@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::int64_t cells = 256, gap = 16, repeats = 200;
 
-/// Rows of fields, material and faces of a stretch of cells, some room before and behind each.
+/// Rows of fields, material and faces of a range of cells, some room before and behind each.
 template <class Real>
 class Rows {
  public:

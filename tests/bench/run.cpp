@@ -44,7 +44,7 @@ std::int64_t Shot::memory_bytes() const {
 int flops_of_leaving(int order, bool uniform) {
   const int m = solver::reach_of(order);
   // As written in reconstruction.hpp.
-  // Courant number 2, then by neighbours on each side as they are reckoned there.
+  // Courant number 2, then by neighbours on each side as they are computed there.
   constexpr int weights_by_reach[] = {0, 2 + 7, 2 + 18, 2 + 32};
   // Of each of two fields: e0 u, sum, times, plus; difference, times, plus but for the first.
   const int sums = m == 0 ? 0 : 2 * (1 + 6 * m - 1);
@@ -55,7 +55,7 @@ int flops_a_cell_step(int order, bool uniform, bool fluid) {
   const int pairs = fluid ? 1 : 2;
   int others = 0;
   if (uniform) {
-    // Differences of what leaves up and down, v* 2, v 3, stresses 2 each; of S v* 2, v 3, stress 2.
+    // Differences of outgoing waves up and down, v* 2, v 3, stresses 2 each; of S v* 2, v 3, stress 2.
     others = 11 + (fluid ? 0 : 9);
   } else {
     // Riemann: v* 2, s* 4 a pair; sums of impedances 2 a pair, the common division 4 (of one pair 1).
@@ -64,7 +64,7 @@ int flops_a_cell_step(int order, bool uniform, bool fluid) {
     // moduli.
     others = meet + (fluid ? 7 + 4 : 14 + 8);
   }
-  // Sweeps along x of neighbouring steps are one: two sweeps a step.
+  // Sweeps along x of neighbouring steps are one: two sweeps per step.
   return 2 * (pairs * flops_of_leaving(order, uniform) + others);
 }
 

@@ -23,14 +23,14 @@ class Shot {
 };
 
 /// Floating-point operations, counted by hand (run.cpp): on a cell in one sweep, of one pair of fields, for
-/// what leaves it; and on a cell in a step of second order in time.
+/// its outgoing waves; and on a cell in a step of second order in time.
 int flops_of_leaving(int order, bool uniform);
 int flops_a_cell_step(int order, bool uniform, bool fluid);
 /// Bytes of a cell that a step must move: fields read and written, material read unless it is uniform.
 int bytes_a_cell_step(const Case& what);
 
 /// Registers whole steps of this case by this name, with the counters cell_steps_per_s (cells of the model)
-/// and flops and bytes a cell-step.
+/// and flops and bytes per cell-step.
 void register_run(const std::string& name, const Case& what);
 
 }  // namespace slipwave::bench

@@ -20,7 +20,8 @@ struct Case {
   int threads = 1;
   bool double_precision = false;
   Tiling tiling;
-  bool only_where_seen = false;  // leave out cells that no wave has come to or will be seen of
+  bool only_where_seen =
+      false;  // leave out cells that no wave has reached or that affect no receiver any more
   EdgeLaw top = EdgeLaw::mirror, others = EdgeLaw::mirror;
   bool fluid = false;
   bool plane_wave = false;

@@ -1,4 +1,4 @@
-// Whole steps by order, size of the grid, material, precision, threads and the way through memory.
+// Whole steps by order, size of the grid, material, precision, threads and tiling.
 #include "bench.hpp"
 #include "run.hpp"
 

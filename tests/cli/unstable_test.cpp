@@ -10,7 +10,7 @@ class UnstableRun : public Shell {
  protected:
   UnstableRun() {
     done(
-        // What is reckoned at faces overflows first; inside one material there are none.
+        // Values at faces overflow first; uniform runs compute none.
         "sw-layers --size 1000x800 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1600:2200 "
         "$(for z in 330 340 350 360; do echo --layer $z:2999:1600:2200 --layer $((z + 5)):3000:1600:2200; "
         "done) | "
@@ -38,7 +38,7 @@ class UnstableRun : public Shell {
 };
 
 const std::string near_by =
-    "vp=3000 vs=1600 rho=2200, 5 m from the source, 45 m from a contact of fluid and rock";
+    "vp=3000 vs=1600 rho=2200, 5 m from the source, 45 m from a fluid-solid interface";
 
 }  // namespace
 

@@ -36,7 +36,7 @@ TEST_P(AbsorbingEdges, BesideAFreeSurfaceNeverFeedEnergyBack) {
   }
 }
 
-TEST_P(AbsorbingEdges, OfMatchedLayersDrainTheField) {
+TEST_P(AbsorbingEdges, WithPmlDrainTheField) {
   for (const int order : {1, 3, 5, 7})
     for (const auto top : {EdgeLaw::absorbing, EdgeLaw::free}) {
       SCOPED_TRACE("order " + std::to_string(order) + (top == EdgeLaw::free ? ", free surface" : ""));

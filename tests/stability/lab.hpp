@@ -32,8 +32,8 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 /// vx, vz, sxx, szz and sxz of a cell.
 using CellFields = std::array<double, 5>;
 
-/// A wave field of random values in every cell, let loose: sweeps, absorbing zones or layers and slip as a
-/// shot has them, without a source. Fields in damped zones start random too, in matched layers at rest.
+/// A wave field of random values in every cell, that evolves freely: sweeps, sponge or PML and slip as a shot
+/// has them, without a source. Fields in the sponge start random too, in the PML at rest.
 template <class Real>
 class Lab {
  public:
@@ -44,7 +44,7 @@ class Lab {
     double cfl = 1;
     int time_order = 2;
     int zone_cells = 8;
-    double layer_hz = 0;   // absorbing edges: 0 for damped zones, else a matched layer for such a source
+    double layer_hz = 0;   // absorbing edges: 0 for the sponge, else the PML for such a source
     double amplitude = 1;  // velocities up to half of it, m/s; stresses such as belong to them
     std::vector<FractureSet<2>> fracture_sets;
     Field<2, std::uint8_t> fracture;

@@ -112,16 +112,16 @@ const std::map<std::string, Filling>& fillings() {
          const double u = random();
          return u < 0.3 ? hole : u < 0.6 ? water : basement;
        }},
-      {"ContrastBelowTheContactRatio", checkerboard(1, scaled(r * 0.99), basement)},
-      {"ContrastAboveTheContactRatio", checkerboard(1, scaled(r * 1.01), basement)},
-      {"RandomSpeedsBelowTheContactRatio",
+      {"ContrastBelowTheInterfaceRatio", checkerboard(1, scaled(r * 0.99), basement)},
+      {"ContrastAboveTheInterfaceRatio", checkerboard(1, scaled(r * 1.01), basement)},
+      {"RandomSpeedsBelowTheInterfaceRatio",
        [](int, int, int, const auto& random) {
          const double f = 1 + (r * 0.99 - 1) * random();
          return Cell{3000 * f, 1500, 2500};
        }},
-      {"RandomDensitiesBelowTheContactRatio",
+      {"RandomDensitiesBelowTheInterfaceRatio",
        [](int, int, int, const auto& random) { return denser(1 + (r * 0.99 - 1) * random()); }},
-      {"RandomDensitiesAboutTheContactRatio", pixels(denser(1), denser(r * 1.001))},
+      {"RandomDensitiesAboutTheInterfaceRatio", pixels(denser(1), denser(r * 1.001))},
   };
   return all;
 }

@@ -7,7 +7,7 @@
 
 namespace slipwave {
 
-/// Names of media that are hard on a scheme: strong contacts, flat, curved and from cell to cell.
+/// Names of media that are hard on a scheme: strong interfaces, flat, curved and from cell to cell.
 const std::vector<std::string>& medium_names();
 
 /// One of them, `cells` x `cells` of 5 m; random ones are the same for the same seed.

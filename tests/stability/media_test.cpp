@@ -66,8 +66,8 @@ TEST(Energy, NeverRisesInTenThousandSteps) {
 }
 
 TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
-  // Where fields bend at free edges (theory.md (E11)) the energy is not one that falls in every step: it may
-  // rise by a thousandth of what is left. What would grow shows over many steps, most of all at order 7.
+  // Where free surfaces are corrected (theory.md (E11)) the energy is not one that falls in every step: it
+  // may rise by a thousandth of what is left. What would grow shows over many steps, most of all at order 7.
   const ThreadLimit one_thread(1);
   for (const int order : {3, 5, 7})
     for (const bool below_air : {false, true})
@@ -89,11 +89,11 @@ TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
       }
 }
 
-TEST(Energy, OfOrderSevenAtContactsAndContrastsFallsInTheLongRun) {
+TEST(Energy, OfOrderSevenAtInterfacesAndContrastsFallsInTheLongRun) {
   // With the full order there, these two gain after the first thousands of steps: by e^0.2 and e^0.04 in a
   // thousand. A slow gain hides behind what drains at first.
   const ThreadLimit one_thread(1);
-  for (const std::string medium : {"RockInSofterRock", "RandomDensitiesBelowTheContactRatio"}) {
+  for (const std::string medium : {"RockInSofterRock", "RandomDensitiesBelowTheInterfaceRatio"}) {
     Lab<double>::Setup setup;
     setup.medium = medium_named(medium, 20);
     setup.order = 7;

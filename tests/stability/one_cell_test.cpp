@@ -7,7 +7,7 @@
 namespace slipwave {
 namespace {
 
-/// How often what a rule errs by changes its sign from step to step by more than a hundredth of the strength.
+/// How often the error of a rule changes its sign from step to step by more than a hundredth of the strength.
 int turns(const History& found, const History& exact) {
   int count = 0;
   const auto error = [&](std::size_t n) { return found.rate[n] - exact.rate[n]; };

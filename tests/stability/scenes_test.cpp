@@ -241,7 +241,7 @@ double most_work_of_prestress(const Model<2>& model, const FieldReader<2>& field
 
 /// The energy stays below what it is just after the source has fallen silent, but for the work of static
 /// stress. It may waver: what is recorded is half a sweep ahead of the state, and a half sweep takes more
-/// from the shortest waves than half of what a whole one takes. Absorbing edges may hand back a few percent
+/// from the shortest waves than half of what a whole one takes. Absorbing edges may reflect a few percent
 /// of what went into them.
 void expect_no_growth(const Drawn& drawn) {
   const auto& scene = drawn.scene;

@@ -1,4 +1,4 @@
-// Fourth order in time goes back in time in some of its sweeps, and its steps may be twice as long as those
+// Fourth order in time runs back in time in some of its sweeps, and its steps may be twice as long as those
 // of second order: neither may make anything grow.
 #include <tuple>
 
@@ -50,7 +50,7 @@ TEST_P(FourthOrderInTime, NeverAddsEnergyBetweenOtherEdges) {
   }
 }
 
-TEST_P(FourthOrderInTime, StaysBoundedInMatchedLayersAndWherePlatesReachIntoThem) {
+TEST_P(FourthOrderInTime, StaysBoundedInThePmlAndWherePlatesReachIntoIt) {
   for (const auto edge : {EdgeLaw::absorbing, EdgeLaw::free}) {
     SCOPED_TRACE(edge == EdgeLaw::free ? "plate" : "layers on all sides");
     auto given = setup(12, 7, 2);
@@ -65,7 +65,8 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, FourthOrderInTime, ::testing::ValuesIn(mediu
                          [](const auto& info) { return info.param; });
 
 TEST(Energy, NeverRisesUnderACrustOfOneCellAtSmallSteps) {
-  // 28 cells are nine layers of three and one of a single cell between a contact and the free surface below.
+  // 28 cells are nine layers of three and one of a single cell between an interface and the free surface
+  // below.
   const ThreadLimit one_thread(1);
   for (const int time_order : {2, 4}) {
     Lab<double>::Setup setup;

@@ -74,7 +74,7 @@ void expect_the_same_on_threads(const Scene<2>& scene) {
 
 }  // namespace
 
-TEST(Threads, ShareAShotInMatchedLayers) { expect_the_same_on_threads(scene_of(EdgeLaw::absorbing, false)); }
+TEST(Threads, ShareAShotInThePml) { expect_the_same_on_threads(scene_of(EdgeLaw::absorbing, false)); }
 
 TEST(Threads, ShareAShotWithSlip) {
   auto scene = scene_of(EdgeLaw::absorbing, true);
@@ -143,17 +143,17 @@ TEST(Threads, ShareTheWorkOnAModel) {
 
 TEST(Threads, TakeEveryPieceOnceAndInOrder) {
   const ThreadLimit limit(3);
-  constexpr std::int64_t passes = 20, bands = 7, under_way = 3;
-  // What a band holds is the number of passes that have been there; no atomics, as in the fields.
+  constexpr std::int64_t tiles = 20, bands = 7, in_progress = 3;
+  // What a band holds is the number of tiles that have been there; no atomics, as in the fields.
   std::vector<std::int64_t> been(bands, 0);
-  parallel_passes(passes, bands, under_way, [&](std::int64_t pass, std::int64_t band, int) {
-    EXPECT_EQ(been[std::size_t(band)], pass);
+  parallel_tiles(tiles, bands, in_progress, [&](std::int64_t tile, std::int64_t band, int) {
+    EXPECT_EQ(been[std::size_t(band)], tile);
     if (band > 0) {
-      EXPECT_EQ(been[std::size_t(band - 1)], pass + 1);
+      EXPECT_EQ(been[std::size_t(band - 1)], tile + 1);
     }
-    been[std::size_t(band)] = pass + 1;
+    been[std::size_t(band)] = tile + 1;
   });
-  EXPECT_EQ(been, std::vector<std::int64_t>(bands, passes));
+  EXPECT_EQ(been, std::vector<std::int64_t>(bands, tiles));
   std::vector<int> taken(1000, 0);
   parallel_for(std::int64_t(taken.size()), 7, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto n = begin; n < end; ++n) ++taken[std::size_t(n)];

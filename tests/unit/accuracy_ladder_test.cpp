@@ -159,7 +159,7 @@ TEST(MeasuredSetting, SaysWhatWasComputed) {
   EXPECT_EQ(row.time_order, 2);
   EXPECT_EQ(row.slip_order, 2);
   EXPECT_NEAR(row.courant, 0.8, 1e-9);
-  // Matched layers of 20 cells at three edges.
+  // PMLs of 20 cells at three edges.
   EXPECT_EQ(row.cells, (40 + 2 * 20) * (30 + 20));
   // Until the end, and as far beyond it as the interpolation in time reaches.
   EXPECT_GE(double(row.steps) * 0.8 * 10 / 3000, 0.3);

@@ -44,7 +44,7 @@ TEST(AxisWeights, AreOneOnACellCentre) {
   EXPECT_EQ(axis_weights(17 - 1e-6, everywhere).size(), 8u);
 }
 
-TEST(AxisWeights, InterpolateWavesBetweenContacts) {
+TEST(AxisWeights, InterpolateWavesBetweenInterfaces) {
   EXPECT_LT(wave_error(20, 0, 1, everywhere), 1e-5);
   EXPECT_LT(wave_error(10, 0, 1, everywhere), 5e-5);
   EXPECT_LT(wave_error(8, 0, 1, everywhere), 1e-5);
@@ -88,7 +88,7 @@ TEST(AxisWeights, ReproduceCubicsForAnyStencil) {
     }
 }
 
-TEST(AxisWeights, DegradeGentlyTowardsAContact) {
+TEST(AxisWeights, DegradeGentlyTowardsAnInterface) {
   const AxisCells right_of{0, 1000};
   EXPECT_LT(wave_error(10, 2, 3, right_of), 1e-4);
   EXPECT_LT(wave_error(10, 1, 2, right_of), 2e-4);

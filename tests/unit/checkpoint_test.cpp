@@ -89,7 +89,7 @@ std::string refusal(const std::function<void()>& what) {
   return "";
 }
 
-/// Writes a checkpoint of one finished shot and one under way.
+/// Writes a checkpoint of one finished shot and one in progress.
 void leave_off(const RunState::Settings& settings, Gather gather = gather_of(1)) {
   RunState book(settings);
   book.finish(1, std::move(gather));
@@ -206,7 +206,7 @@ TEST_F(CheckpointFile, KeepsOneOlderAndLeavesNothingWhenClosed) {
 
 TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
   // Three shots of different length in three threads, pausing all the time; each run ends with the first shot
-  // that has gone its part of the way, and the next goes on from the newest moment of all.
+  // that has gone its part of the way, and the next continues from the newest moment of all.
   const auto often = settings(1e-3);
   std::array<std::size_t, 3> before{};
   for (int round = 0; round < 4; ++round) {
@@ -227,7 +227,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
           std::this_thread::sleep_for(std::chrono::microseconds(50));
           if (pauses->wanted()) pauses->pause(shot.keep, {std::int64_t(shot.steps.size()), 1000});
         }
-        // What a shot keeps for the last time is the moment the next run goes on at.
+        // The last state that a shot stores is the one from which the next run continues.
         pauses->pause(shot.keep, {std::int64_t(shot.steps.size()), 1000});
         pauses.reset();
         ++ended;
@@ -237,7 +237,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
       EXPECT_TRUE(shots[n].in_order());
       EXPECT_GE(begun[n], before[n]);
     }
-    // The longest one runs on alone, the others are no longer under way then.
+    // The longest one runs on alone, the others have ended then.
     EXPECT_EQ(book.finished(3), false);
     before = {0, 0, begun[2]};
   }

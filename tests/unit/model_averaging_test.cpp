@@ -199,7 +199,7 @@ TEST(Layers, KeepMassUnderADippingTop) {
   EXPECT_NEAR(mass, 2250, 1e-4);
 }
 
-TEST(Layers, AreNeverAveragedAcrossAFluidContact) {
+TEST(Layers, AreNeverAveragedAcrossAFluidSolidInterface) {
   const auto grid = grid_of(40, 60, 5);
   const std::vector<Layer> layers = {{40, 1500, 0, 1000, 10}, {100, 3000, 1500, 2000, 30}};
   const auto mean = layered_medium(grid, layers), centre = layered_medium(grid, layers, false);

@@ -140,7 +140,7 @@ TEST(Regrid, WeighsPartsByTheirVolumeAtAnyRatio) {
       float(1 / std::sqrt((1 / square(coarse.medium.vp[0]) + 1 / square(coarse.medium.vp[2])) / 2)));
 }
 
-TEST(Regrid, NeverAveragesAcrossAContactOfSolidFluidAndVoid) {
+TEST(Regrid, NeverAveragesAcrossAnInterfaceOfSolidFluidAndVoid) {
   // Three rows make one: the middle one says what it is, and only rows of that kind are in it.
   const std::array<double, 3> rock{3000, 1500, 2000}, hard{4500, 2250, 2500}, water{1500, 0, 1000},
       brine{1600, 0, 1100}, air{0, 0, 0};

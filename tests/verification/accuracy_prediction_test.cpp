@@ -47,7 +47,7 @@ std::vector<Gather> exact_traces(const Scene<2>& scene) {
   return {gather};
 }
 
-/// Settings that err from some permille to a quarter.
+/// Settings with errors from some permille to a quarter.
 const AccuracySetting settings[] = {{3, 0.9, 15}, {5, 0.9, 15},  {5, 0.4, 15},
                                     {7, 0.9, 15}, {5, 0.9, 7.5}, {7, 0.5, 7.5}};
 
@@ -66,7 +66,7 @@ TEST(ExpectedError, IsWithinAFactorOfTwoOfTheErrorInAFullSpace) {
 
 TEST(RecommendedSetting, ErrsLessThanOnePercentOverTwentyWavelengths) {
   // S waves along a strip, 20 of their dominant wavelengths far and in two directions. Its edges are so far
-  // off that S waves come back from them after the end; of P waves a layer of 40 cells sends back nothing to
+  // off that S waves come back from them after the end; of P waves a PML of 40 cells reflects nothing to
   // speak of.
   auto scene = full_space("force:0.3,1");
   scene.model.medium = solver::uniform_medium(280, 170, 15, {rock.vp, rock.vs, rock.rho});

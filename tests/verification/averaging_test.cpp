@@ -3,7 +3,7 @@
 #include "accuracy/full_space.hpp"
 #include "lab.hpp"
 #include "model/layers.hpp"
-#include "plane_contact.hpp"
+#include "plane_interface.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -14,9 +14,9 @@ constexpr Rock softer{3000, 1600, 2200}, harder{3600, 1900, 2300};
 constexpr double peak_hz = 10, interval_s = 0.002, duration_s = 0.7;
 constexpr std::size_t count = 351;
 
-/// An explosion 170 m above the contact of two half-spaces and receivers 110 m above and below it, all turned
-/// by the dip; the contact passes `shift_m` below a corner of cells.
-struct TiltedContact {
+/// An explosion 170 m above the interface of two half-spaces and receivers 110 m above and below it, all
+/// turned by the dip; the interface passes `shift_m` below a corner of cells.
+struct TiltedInterface {
   Rock over, under;
   double dip_deg = 0, shift_m = 0;
 };
@@ -25,18 +25,18 @@ const std::vector<Point<2>> receivers = {{-300, -110}, {-100, -110}, {150, -110}
                                          {-300, 110},  {-100, 110},  {150, 110},  {300, 110}};
 constexpr bool is_above(std::size_t receiver) { return receiver < 4; }
 
-/// Motion along and across the contact at each receiver.
+/// Motion along and across the interface at each receiver.
 using Motions = std::vector<std::array<std::vector<double>, 2>>;
 
-Motions scattered(const TiltedContact& scene) {
+Motions scattered(const TiltedInterface& scene) {
   Motions motions;
   for (const auto& [a, b] : receivers)
     motions.push_back(
-        PlaneContact{scene.over, scene.under, source_m}.scattered_ricker(peak_hz, interval_s, count, a, b));
+        PlaneInterface{scene.over, scene.under, source_m}.scattered_ricker(peak_hz, interval_s, count, a, b));
   return motions;
 }
 
-Motions direct(const TiltedContact& scene) {
+Motions direct(const TiltedInterface& scene) {
   Motions motions;
   for (const auto& receiver : receivers) {
     motions.push_back({std::vector<double>(count), std::vector<double>(count)});
@@ -49,15 +49,15 @@ Motions direct(const TiltedContact& scene) {
   return motions;
 }
 
-Motions computed(const TiltedContact& contact, double h, bool average) {
-  const double size_m = 1200, dip = contact.dip_deg * std::numbers::pi / 180;
-  const double x0 = size_m / 2 - 20, z0 = size_m / 2 + contact.shift_m;
-  const auto &over = contact.over, &under = contact.under;
+Motions computed(const TiltedInterface& interface, double h, bool average) {
+  const double size_m = 1200, dip = interface.dip_deg * std::numbers::pi / 180;
+  const double x0 = size_m / 2 - 20, z0 = size_m / 2 + interface.shift_m;
+  const auto &over = interface.over, &under = interface.under;
   const double top = z0 - x0 * std::tan(dip);
   Scene<2> scene;
   scene.model.medium = layered_medium(
       grid_of_size<2>({size_m, size_m}, h),
-      {{-1e6, over.vp, over.vs, over.rho, 0}, {top, under.vp, under.vs, under.rho, contact.dip_deg}},
+      {{-1e6, over.vp, over.vs, over.rho, 0}, {top, under.vp, under.vs, under.rho, interface.dip_deg}},
       average);
   const auto place = [&](const Point<2>& at) {
     return Point<2>{x0 + at[0] * std::cos(dip) - at[1] * std::sin(dip),
@@ -88,7 +88,8 @@ Motions computed(const TiltedContact& contact, double h, bool average) {
 struct Errors {
   double reflected, transmitted;
 };
-std::vector<Errors> errors_of(const TiltedContact& scene, bool average, const std::vector<double>& spacings) {
+std::vector<Errors> errors_of(const TiltedInterface& scene, bool average,
+                              const std::vector<double>& spacings) {
   const auto exact = scattered(scene), arriving = direct(scene);
   std::vector<Errors> errors;
   for (const double h : spacings) {
@@ -107,8 +108,8 @@ std::vector<Errors> errors_of(const TiltedContact& scene, bool average, const st
   return errors;
 }
 
-TEST(TiltedContact, OnFacesOfCellsHasTheErrorsOfTheWayAlone) {
-  // The reference itself: what a second-order contact leaves at 4.7 and 9.5 cells to the shortest S wave.
+TEST(TiltedInterface, OnFacesOfCellsHasTheErrorsOfTheWayAlone) {
+  // The reference itself: the error of a second-order interface at 4.7 and 9.5 cells to the shortest S wave.
   const auto errors = errors_of({soft, hard}, true, {10, 5});
   EXPECT_LT(errors[0].reflected, 5);
   EXPECT_LT(errors[1].reflected, 0.7);
@@ -116,11 +117,11 @@ TEST(TiltedContact, OnFacesOfCellsHasTheErrorsOfTheWayAlone) {
   EXPECT_LT(errors_of({water, hard}, true, {5})[0].reflected, 0.4);
 }
 
-TEST(AveragedContact, IsAsGoodWhereverItLiesInItsCells) {
+TEST(AveragedInterface, IsAsGoodWhereverItLiesInItsCells) {
   // A third of a cell off, a top drawn cell by cell lies where the nearest face is: 3.3 m off at 10 m.
   for (const bool strong : {true, false}) {
-    const TiltedContact contact{strong ? soft : softer, strong ? hard : harder, 0, 3.3};
-    const auto mean = errors_of(contact, true, {10, 5}), steps = errors_of(contact, false, {10, 5});
+    const TiltedInterface interface { strong ? soft : softer, strong ? hard : harder, 0, 3.3 };
+    const auto mean = errors_of(interface, true, {10, 5}), steps = errors_of(interface, false, {10, 5});
     EXPECT_GT(steps[0].reflected, (strong ? 1.5 : 3) * mean[0].reflected);
     EXPECT_GT(steps[1].reflected, (strong ? 3.5 : 4.5) * mean[1].reflected);
     EXPECT_GT(steps[1].transmitted, (strong ? 1.5 : 5) * mean[1].transmitted);
@@ -129,7 +130,7 @@ TEST(AveragedContact, IsAsGoodWhereverItLiesInItsCells) {
   }
 }
 
-TEST(AveragedContact, ErrsAlikeAtAnyDipAndPlace) {
+TEST(AveragedInterface, HasTheSameErrorAtAnyDipAndPlace) {
   // Cell by cell the errors range over 2.7 to 13 % at 5 m, and are largest at 45 degrees, where whole rows of
   // corners lie on one side.
   for (const double dip : {5., 25.}) {
@@ -148,7 +149,7 @@ TEST(AveragedContact, ErrsAlikeAtAnyDipAndPlace) {
   EXPECT_GT(steps[1].reflected, 3 * mean[1].reflected);
 }
 
-TEST(AveragedContact, OfWaterAndRockStaysAStaircaseOfFirstOrder) {
+TEST(AveragedInterface, OfWaterAndRockStaysAStaircaseOfFirstOrder) {
   const auto errors = errors_of({water, hard, 25, 0}, true, {10, 5});
   EXPECT_LT(errors[0].reflected, 44);
   EXPECT_LT(errors[1].reflected, 20.5);

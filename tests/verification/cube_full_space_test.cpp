@@ -87,7 +87,7 @@ TEST(CubeFullSpace, ExplosionMovesAndPressesTheRockAsInTheClosedForm) {
   }
 }
 
-// The axes are alike (SweepsOfACube.AreAlikeAlongAllAxes): the short form looks at one.
+// The axes are alike (SweepsOfACube.AreAlikeAlongAllAxes): the short form checks one.
 TEST(CubeFullSpace, ForcesAlongAllAxesMoveTheRockAsInTheClosedForm) {
   const char* const forces[] = {"force:1,0,0", "force:0,1,0", "force:0,0,1"};
   const bool all = std::getenv("SLIPWAVE_LONG") != nullptr;

@@ -19,7 +19,7 @@ Scene<3> reef(const EdgeLaws<3>& edges, const char* mechanism) {
                   {Component::vx, Component::vy, Component::syz, Component::p}, 0.035, 0.001);
 }
 
-TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
+TEST(CubeTraces, DoNotDependOnTheTiling) {
   struct Cut {
     const char* name;
     EdgeLaw sides;
@@ -27,7 +27,7 @@ TEST(CubeTraces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     const char* mechanism;
   };
   for (const auto& [name, sides, order, time_order, mechanism] :
-       {Cut{"matched layer", EdgeLaw::absorbing, 5, 2, "explosion"},
+       {Cut{"PML", EdgeLaw::absorbing, 5, 2, "explosion"},
         Cut{"free sides", EdgeLaw::free, 7, 2, "force:1,2,3"},
         Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "moment:1,0,0,2,0,1"}}) {
     SCOPED_TRACE(name);

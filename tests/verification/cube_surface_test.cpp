@@ -89,7 +89,7 @@ TEST(CubeFreeSurface, OfWaterSendsAnExplosionBackAsItsImage) {
   auto scene = scene_of(uniform_cube({n, n, n}, spacing_m, water), edges, source, "explosion", "ricker:15",
                         {receiver}, {Component::p}, 0.26, interval_s);
   scene.numerics.order = 7;
-  scene.numerics.cfl = 0.6;  // the splitting errs by 2 % at 0.9, by 0.2 % at 0.3
+  scene.numerics.cfl = 0.6;  // the error of the splitting is 2 % at 0.9, 0.2 % at 0.3
   check(scene);
   const auto samples = shoot(scene, 1).traces[0].samples;
   const auto pressure = [&](double distance, double t) {
@@ -121,7 +121,7 @@ TEST(CubeAbsorbingEdges, SendBackLittleOfAnExplosionAndAForce) {
       check(scene);
       return samples_of(shoot(scene, 1));
     };
-    // What the far mirrors send back is under way for 0.14 s, and weak before the wavelet's peak.
+    // The reflections of the far mirrors travel for 0.14 s, and weak before the wavelet's peak.
     const auto alone = traces(24, EdgeLaw::mirror);
     EXPECT_LT(relative_error(traces(0, EdgeLaw::absorbing), alone), 0.015) << mechanism;
     EXPECT_GT(relative_error(traces(0, EdgeLaw::mirror), alone), 0.5) << mechanism;

@@ -74,7 +74,7 @@ TEST(CubeEnergy, NeverRisesBetweenRigidWallsOrMirrors) {
 }
 
 TEST(CubeEnergy, BetweenFreeEdgesFallsInTheLongRun) {
-  // Free edges of solids bend the images of the fields: energy may rise a little now and then.
+  // Free surfaces of solids correct the images of the fields: energy may rise a little in some steps.
   const auto medium = lumps({24, 22, 26}, 5, 6);
   for (const int order : {3, 5, 7}) {
     Cube<double> cube(medium, edges_all_3d(EdgeLaw::free), order, 0.99 * 5 / 5500);

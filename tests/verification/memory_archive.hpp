@@ -9,7 +9,7 @@
 
 namespace slipwave::solver {
 
-/// What somebody remembers, as bytes, and these bytes handed back.
+/// Serialized state as bytes, and the state read back from them.
 class ToMemory : public Archive {
  public:
   explicit ToMemory(std::vector<char>& kept) : kept_(kept) {}

@@ -72,7 +72,7 @@ TEST(Ranks, RecordTogetherWhatOneProcessDoes) {
     SlipCorrection correction;
   };
   for (const auto& [name, sides, bottom, order, time_order, correction] :
-       {Kind{"matched layer", EdgeLaw::absorbing, EdgeLaw::absorbing, 5, 2, SlipCorrection::second},
+       {Kind{"PML", EdgeLaw::absorbing, EdgeLaw::absorbing, 5, 2, SlipCorrection::second},
         Kind{"free sides", EdgeLaw::free, EdgeLaw::rigid, 7, 2, SlipCorrection::exponential},
         Kind{"mirror", EdgeLaw::mirror, EdgeLaw::absorbing, 3, 2, SlipCorrection::first},
         Kind{"order 1", EdgeLaw::absorbing, EdgeLaw::free, 1, 2, SlipCorrection::second},

@@ -32,7 +32,7 @@ struct Waves {
   std::vector<double> through, back;  // Pa, of the stress that the waves carry
 };
 
-/// S waves that leave the faces of a layer (S8) whose slip all happens in its middle: 2 tau_i = 2 tau + Z L
+/// Outgoing S waves at the faces of a layer (S8) whose slip all happens in its middle: 2 tau_i = 2 tau + Z L
 /// g, so that |tau| = (|tau_i| + r S)/(1 + r) where |tau_i| > S. For layers much thinner than a wave. Times
 /// are counted as the incident wave at the upper face counts them.
 inline Waves of_interface(const std::vector<double>& times_s, double thickness_m, double r) {
@@ -61,7 +61,7 @@ class Layer {
         decay_(std::exp(-dt_s_ / 2 / relaxation_s)),
         nodes_(std::size_t(nodes)) {}
 
-  /// Waves that leave the faces at ascending times, for the incident stress incident(t)/share at the upper
+  /// Outgoing waves at the faces at ascending times, for the incident stress incident(t)/share at the upper
   /// face.
   Waves at(const std::vector<double>& times_s) {
     Waves waves;

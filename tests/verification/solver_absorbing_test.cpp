@@ -33,7 +33,7 @@ Gather shoot_at_an_edge(const char* mechanism, double top_m, int cells, double d
   return shoot(scene, 1);
 }
 
-/// Peaks of what an edge sends back, relative to what a perfect mirror would: the difference to a model in
+/// Peaks of the reflection of an edge, relative to that of a perfect mirror: the difference to a model in
 /// which that edge is 1200 m further away, over the wave at the receiver's image.
 std::vector<double> reflections(const char* mechanism, int cells, double duration_s) {
   const Gather near = shoot_at_an_edge(mechanism, 0, cells, duration_s);
@@ -61,7 +61,7 @@ void expect_below(const std::vector<double>& found, const std::vector<double>& b
     EXPECT_LT(found[n], bounds[n]) << wave << " under " << angles_deg[n] << " degrees";
 }
 
-// What comes back is what crosses the layer twice, what little plain damping there is reflects at an angle
+// The reflection is what crosses the PML twice, what the little damping outside plates reflects at an angle
 // and what the grid does.
 TEST(AbsorbingEdge, SendsBackLessThanSixtyDecibelsStraightAndFortyFiveUpToSixtyDegrees) {
   const std::vector<double> bounds = {1e-3, 1e-3, 2e-3, 5.6e-3};

@@ -12,7 +12,7 @@ const std::vector<double> offsets_m = {300, 500, 700, 1000};
 Rock rock_of(double vp_over_vs) { return {vs * vp_over_vs, vs, 2200}; }
 
 /// Surface motion at the offsets, by the solver, per unit of the source; cells a dominant S wavelength. The
-/// edges are matched layers far out.
+/// edges are PMLs far out.
 std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechanism, double depth_m,
                                             double cells, double cfl) {
   const double h = wavelength_m / cells;
@@ -127,7 +127,8 @@ INSTANTIATE_TEST_SUITE_P(HalfSpace, GarvinAt,
                          });
 
 TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
-  // Nearer the surface more and shorter surface waves: what is left is their way of up to 10 wavelengths.
+  // Nearer the surface more and shorter surface waves: the error is that of their travel over up to 10
+  // wavelengths.
   const Rock rock = rock_of(2);
   for (const auto& [depth_cells, bound] :
        {std::pair(0.25, 8.2), {0.5, 8.2}, {1., 7.1}, {2., 5.9}, {3., 4.7}, {6., 3.0}}) {

@@ -60,7 +60,7 @@ TEST(Traces, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
-TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
+TEST(Traces, DoNotDependOnTheTiling) {
   struct Cut {
     const char* name;
     EdgeLaw sides;
@@ -68,7 +68,7 @@ TEST(Traces, DoNotDependOnHowPassesThroughMemoryAreCut) {
     const char* mechanism;
   };
   for (const auto& [name, sides, order, time_order, mechanism] :
-       {Cut{"matched layer", EdgeLaw::absorbing, 5, 2, "explosion"},
+       {Cut{"PML", EdgeLaw::absorbing, 5, 2, "explosion"},
         Cut{"free sides", EdgeLaw::free, 7, 2, "force:1,2"}, Cut{"rigid", EdgeLaw::rigid, 1, 2, "explosion"},
         Cut{"mirror, order 4 in time", EdgeLaw::mirror, 3, 4, "explosion"},
         Cut{"free sides, order 4 in time", EdgeLaw::free, 5, 4, "explosion"}}) {
@@ -227,7 +227,7 @@ TEST(Traces, OfTheCracksAloneChangeLittleFromModelToModelWithAndWithoutThem) {
 }
 
 TEST(Symmetry, OfASceneIsKept) {
-  // Mirror images of sums round differently: 600 steps of 1e-16 and what float interpolation leaves.
+  // Mirror images of sums round differently: 600 steps of 1e-16 and the error of interpolation in float.
   auto scene = reef();
   scene.numerics.double_precision = true;
   scene.survey.sources[0].position_m = {375, 61};

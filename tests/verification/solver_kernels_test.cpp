@@ -81,7 +81,7 @@ TEST(Kernels, OfOneMaterialGiveTheSameBits) {
   });
 }
 
-/// Fields after a sweep across some rows of random material, the first of them by loops of their own.
+/// Fields after a sweep across some rows of random material, the first of them by separate loops.
 template <class Real>
 std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t n) {
   constexpr std::int64_t rows = 12, gap = 16;
@@ -133,13 +133,13 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
   return fields;
 }
 
-TEST(Kernels, OfARowAcrossAtOnceGiveTheSameBits) {
+TEST(Kernels, OfAFusedRowGiveTheSameBits) {
   expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
     return swept_across<decltype(real)>(order, at_once, scale, n);
   });
 }
 
-/// Fields that a sweep leaves in cells of one material, by way of faces or without; all reckoned from the
+/// Fields after a sweep in cells of one material, by way of faces or without; all computed from the
 /// same single-precision numbers.
 template <class Real>
 std::vector<double> brought_forward(int dimensions, bool shear, bool faces, Real scale, float zs_value,
@@ -192,7 +192,7 @@ double error_of(const std::vector<double>& found, const std::vector<double>& exa
   return sum;
 }
 
-TEST(Kernels, InsideOneMaterialGiveWhatFacesDoAndRoundNoMore) {
+TEST(Kernels, OfUniformRunsGiveWhatFacesDoAndRoundNoMore) {
   for (const int dimensions : {2, 3})
     for (const bool shear : {false, true})
       for (const float zs : {5.3e6F, 0.F})

@@ -14,7 +14,7 @@ constexpr Rock rock{4500, 2250, 2500}, soft{2500, 1200, 2000}, water{1500, 0, 10
 /// p = -1e6 exp(-(r/w)^2) Pa starts from `source_m` below the top.
 struct Case {
   Rock above, below;
-  double contact_m, source_m, width_m;
+  double interface_m, source_m, width_m;
   EdgeLaw top = EdgeLaw::mirror;
 };
 constexpr double side_m = 1280, coarsest_m = 10;
@@ -24,7 +24,7 @@ std::vector<double> run(const Case& scene, int order, double h) {
   const auto nz = std::int64_t(side_m / h), nx = nz / 2;
   auto medium = uniform_medium(nx, nz, h, scene.below);
   for (std::int64_t k = 0; k < nz; ++k)
-    for (std::int64_t i = 0; (double(k) + 0.5) * h < scene.contact_m && i < nx; ++i)
+    for (std::int64_t i = 0; (double(k) + 0.5) * h < scene.interface_m && i < nx; ++i)
       put(medium, {i, k}, scene.above);
   auto edges = edges_all(EdgeLaw::mirror);
   edges[1][0] = scene.top;
@@ -72,11 +72,11 @@ void expect_below(const Case& scene, int order, const std::array<double, 3>& bou
 // Bounds: the table of errors under (E10) in theory.md, order 5 and Courant number 0.9. With each cell's own
 // impedance instead of the face states of (E8) these cases are of first order: 6.6, 3.2, 1.7 % between solids
 // and 17, 8.5, 3.9 % between water and rock.
-TEST(Contact, KeepsSecondOrderBetweenSolidsInTwoDimensions) {
+TEST(Interface, KeepsSecondOrderBetweenSolidsInTwoDimensions) {
   expect_below({soft, rock, 640, 500, 42}, 5, {3.1, 0.44, 0.07});
 }
 
-TEST(Contact, KeepsSecondOrderBetweenWaterAndRockInTwoDimensions) {
+TEST(Interface, KeepsSecondOrderBetweenWaterAndRockInTwoDimensions) {
   expect_below({water, rock, 640, 500, 36}, 5, {2.5, 0.55, 0.11});
 }
 

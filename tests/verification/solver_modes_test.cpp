@@ -135,8 +135,8 @@ std::complex<double> projection(L& lab, const Mode& mode, double h) {
 }
 
 TEST(StepError, IsWhatTheSchemeDoesToAWaveAcrossTheAxes) {
-  // A standing wave is made of four plane ones that err alike. Waves of 5 to 14 cells; a twentieth of the
-  // error of a step for what the prediction leaves out, its square.
+  // A standing wave is made of four plane ones with the same error. Waves of 5 to 14 cells; a twentieth of
+  // the error of a step for what the prediction leaves out, its square.
   const double h = 20;
   for (const auto& mode :
        {Mode{wave_p, 6 * pi / 1000, 10 * pi / 1000}, Mode{wave_s, 6 * pi / 1000, 10 * pi / 1000},

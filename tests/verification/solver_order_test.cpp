@@ -76,7 +76,7 @@ TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
 }
 
 TEST(Reconstruction, MovesAWaveAWholeCellAtCourantNumberOne) {
-  // a = 1: F_up[u] = u_i whatever the order, so the wave moves by a cell a sweep, to rounding.
+  // a = 1: F_up[u] = u_i whatever the order, so the wave moves by a cell per sweep, to rounding.
   for (const int order : {1, 3, 5, 7})
     for (const auto& kind : kinds) {
       const std::int64_t n = 40;
@@ -95,8 +95,8 @@ TEST(Reconstruction, MovesAWaveAWholeCellAtCourantNumberOne) {
 
 TEST(Dispersion, OfASineIsTheOnePredicted) {
   // A standing wave s = cos kx, v = 0 between planes of symmetry is two travelling ones; each is multiplied
-  // by the amplification factor g a step: after n steps s = Re g^n cos kx and v = Im(g^n) sin kx/Z. Rounding:
-  // 50 steps of 1e-16 on fields of 1.
+  // by the amplification factor g per step: after n steps s = Re g^n cos kx and v = Im(g^n) sin kx/Z.
+  // Rounding: 50 steps of 1e-16 on fields of 1.
   constexpr std::int64_t n = 40;
   constexpr int steps = 50;
   for (const int order : {1, 3, 5, 7})

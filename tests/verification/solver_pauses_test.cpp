@@ -17,7 +17,7 @@ constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 20
 
 struct LeftOff {};
 
-/// Ends the shot at its `asked`-th pause or lets it run on; begins with what was kept where there is any.
+/// Ends the shot at its `asked`-th pause or lets it run on; begins with the stored state where there is one.
 class OnePause : public Pauses {
  public:
   OnePause(std::vector<char>& kept, int asked) : kept_(kept), asked_(asked) {}
@@ -72,7 +72,7 @@ Recorded undisturbed(const Scene<2>& scene) {
   return recorded;
 }
 
-/// Shot in as many runs as it takes, each left off after some passes, by `threads` in turn.
+/// A shot in as many runs as it takes, each stopped after some time tiles, by `threads` in turn.
 Recorded in_pieces(const Scene<2>& scene, const std::vector<int>& threads, int passes, int& runs) {
   Recorded recorded;
   std::vector<char> kept;

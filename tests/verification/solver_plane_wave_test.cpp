@@ -111,7 +111,7 @@ TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
       const auto exact = ricker_response(30, 0.001, gather.axis.count, [&](double omega) {
         return Motion{layered_velocity(layers, omega, z) * 0.002};
       });
-      // 9.5 cells to the shortest wave that counts (76 Hz at 1800 m/s), four contacts and their multiples.
+      // 9.5 cells to the shortest wave that counts (76 Hz at 1800 m/s), four interfaces and their multiples.
       const double error = relative_error(gather.traces[4 + receiver].samples, exact[0]);
       EXPECT_LT(error, 0.02) << "at " << z << " m";
       for (const double sideways : gather.traces[receiver].samples)

@@ -47,7 +47,7 @@ std::vector<double> samples_of(const Gather& gather, std::size_t component) {
 }
 
 TEST(SourceAndReceivers, MovedTogetherByPartsOfACellRecordTheSame) {
-  // 0.2 % is what a survey asks of positions between cells; the weights (A1) err by less.
+  // 0.2 % is what a survey asks of positions between cells; the error of the weights (A1) is smaller.
   for (const char* mechanism : {"explosion", "force:0,1", "moment:1,-1,0.5"}) {
     const auto on_centre = around_source(mechanism, 0, 0);
     for (const auto& [x, z] : {std::pair(0.5, 0.5), std::pair(0.25, 0.), std::pair(-0.4, 0.3)}) {
@@ -67,7 +67,7 @@ struct WaterCase {
 };
 WaterCase shoot_in_water(double source_depth, double receiver_depth) {
   const Rock water{1500, 0, 1000};
-  const double h = 3, peak_hz = 20, interval_s = 0.001;  // 25 cells a wavelength at the peak
+  const double h = 3, peak_hz = 20, interval_s = 0.001;  // 25 cells per wavelength at the peak
   Scene<2> scene;
   scene.model.medium = centred(water, 301, 150, h, true);
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
@@ -93,7 +93,7 @@ WaterCase shoot_in_water(double source_depth, double receiver_depth) {
 }
 
 TEST(ExplosionInWater, IsItselfAndItsImageAtEveryDepthBelowTheSurface) {
-  // The way of 100 cells leaves 1.4 % wherever source and receiver are: the surface adds nothing.
+  // The error of 100 cells of travel is 1.4 % wherever source and receiver are: the surface adds nothing.
   for (const double receiver : {0., 0.25, 1.5, 8.})
     for (const double source : {0.25, 0.5, 1., 1.7, 3.}) {
       const auto [found, exact] = shoot_in_water(source, receiver);
@@ -102,7 +102,7 @@ TEST(ExplosionInWater, IsItselfAndItsImageAtEveryDepthBelowTheSurface) {
                              << "component " << row << ", depths " << source << ' ' << receiver;
         if (receiver > 0 || row == 1) {
           EXPECT_LT(relative_error(found.traces[row].samples, exact[row]), 0.016) << message;
-        } else {  // on the surface nothing moves along it and no pressure is felt
+        } else {  // on the surface nothing moves along it and there is no pressure
           for (const double sample : found.traces[row].samples)
             ASSERT_LT(std::abs(sample), row == 0 ? 1e-20 : 1e-14) << message;
         }

@@ -12,7 +12,7 @@ constexpr double depth_m = 500, wave_at_m = 130, layer_at_m = 250, reader_m = 20
 /// Share of the step h/vp, and of h/vs.
 constexpr double courant_p = 0.9, courant_s = courant_p * rock.vs / rock.vp;
 
-/// The waves that the solver sends through and back, at the faces of the layer. Fields depend on z only, so
+/// The transmitted and reflected waves of the solver at the faces of the layer. Fields depend on z only, so
 /// that sweeps along x would do nothing and are left out. Normal stress is constant between rigid edges, and
 /// the strength is friction under it.
 Waves solved(const Setup& setup, double h, std::vector<double>& times_s) {
@@ -95,9 +95,9 @@ TEST(SlipLayerReference, IsAnInterfaceWhereTheLayerIsThin) {
 }
 
 TEST(SlipLayer, PassesAndReflectsSWavesAsInOneDimension) {
-  // 15 to 60 cells a dominant wavelength, 4 to 16 in the layer. What slip sends back converges in the order
-  // of the correction. At r = 100 the skin of the layer is a sixth of the smallest cell: there, cells feel
-  // (S9).
+  // 15 to 60 cells per dominant wavelength, 4 to 16 in the layer. The reflection by slip converges in the
+  // order of the correction. At r = 100 the skin of the layer is a sixth of the smallest cell: there, cells
+  // feel (S9).
   constexpr auto first = SlipCorrection::first, second = SlipCorrection::second;
   const Bounds all[] = {{first, 0.1, {{2.2, 2.7}, {0.22, 0.67}, {0.11, 0.25}}, 0.9},
                         {first, 1, {{6.8, 8.4}, {2.3, 3.5}, {1.1, 1.8}}, 0.9},
@@ -151,8 +151,8 @@ double own_viscosity(int order, double a, double theta) {
 TEST(SlipLayerOfOneCell, IsAnInterfaceOfSomeMoreViscosity) {
   // As thin as cells can be, at h = 5, 2.5 and 1.25 m. The largest errors measured are those of r = 10, 7.6
   // to 1.5 % through and 15 to 2.9 % back at order 5; without k in the formula those of r = 100, 38 % back at
-  // any h. They fall with the number of cells a wavelength, as the formula wants a layer much thinner than a
-  // wave.
+  // any h. They fall with the number of cells per wavelength, as the formula wants a layer much thinner than
+  // a wave.
   std::vector<double> times_s;
   for (const int order : {3, 5}) {
     const Errors of_order_3[] = {{15, 28.5}, {4.5, 9.6}, {1.9, 4.0}};

@@ -48,7 +48,7 @@ Waves shot(const Setup& setup, double h, const std::vector<double>& times_s) {
 }
 
 TEST(SlipLayer, PassesAndReflectsPWavesAsInOneDimension) {
-  // 30 to 120 cells a dominant wavelength, 8 to 32 in the layer.
+  // 30 to 120 cells per dominant wavelength, 8 to 32 in the layer.
   std::vector<double> times_s;  // those of samples
   const double way_s = 220 / rock.vp + 1.5 / peak_hz;
   for (int n = 110; n <= 380; ++n) times_s.push_back(5e-4 * n - way_s);

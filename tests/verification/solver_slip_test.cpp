@@ -61,8 +61,8 @@ TEST(SlippingCluster, AnswersAPlaneWaveAsInTheFirstCaseOfThePaper) {
   EXPECT_LT(peak(difference), 0.01 * 0.01);
 }
 
-/// A block of slipping rock in a smooth wave (12 Hz, 75 cells a wavelength): what the correction makes of the
-/// time step.
+/// A block of slipping rock in a smooth wave (12 Hz, 75 cells per wavelength): what the correction makes of
+/// the time step.
 std::vector<double> block_response(SlipCorrection correction, double cfl, double h) {
   auto scene = scene_with_cracks(300, 500, h, {100, 200, 200, 250});
   scene.model.fracture_sets[0].systems[0].strength_pa = 5e3;

@@ -47,7 +47,7 @@ TEST(Splitting, HasItsOrderInTime) {
 }
 
 TEST(Splitting, OfFourthOrderErrsLessForTheSameWork) {
-  // Six times the work a step.
+  // Six times the work per step.
   EXPECT_LT(error_of(2, 4, 2), 0.02 * error_of(2, 2, 12));
 }
 

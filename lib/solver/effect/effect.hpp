@@ -27,7 +27,7 @@ struct EffectShare {
   std::int64_t cells = 0;
 };
 
-/// Where an effect acts on the fields that stand at the end of a step.
+/// Where an effect acts on the fields at the end of a step.
 enum class ActsOn {
   nothing,         // it acts within sweeps, or not at all
   fracture_cells,  // there the two half sweeps along x round the end of a step stay apart
@@ -35,13 +35,13 @@ enum class ActsOn {
   all_cells,       // where the two half sweeps are merged into one, on what that one leaves
 };
 
-/// What an effect does in a time step and needs for it: all that executors know of it. Fields are sets of
+/// What an effect does in a time step: all that executors know of it. Fields are sets of
 /// field rows (FieldRows), one bit each; an effect reads and writes no other cell than the one it acts on.
 struct EffectDeclaration {
   ActsOn acts_on = ActsOn::nothing;
   bool filters_sweeps = false;  // changes what sweeps add to the fields
   unsigned reads = 0, writes = 0;
-  bool retains = false;  // remembers anything from one step to the next
+  bool retains = false;  // has memory from one step to the next
 };
 template <int D>
 constexpr unsigned all_velocities = (1U << D) - 1;
@@ -50,7 +50,7 @@ constexpr unsigned all_fields = (1U << FieldRows<D>::count) - 1;
 template <int D>
 constexpr unsigned all_stresses = all_fields<D> & ~all_velocities<D>;
 
-/// Something that happens to the wave field besides the sweeps. It exists only in scenes that call for it.
+/// A change of the wave field besides the sweeps. It exists only in scenes that need it.
 /// Rows of cells along x are numbered as the lines of Layout; an effect is given one row, or part of it, at a
 /// time, in any order and by any thread, but never the same row by two.
 template <int D, class Real>
@@ -63,25 +63,25 @@ class Effect {
   virtual std::string name() const = 0;
   /// Cells it works on.
   virtual std::int64_t cells() const = 0;
-  /// The same, with the parts it consists of.
+  /// The same, for each of its components.
   virtual std::vector<EffectShare> shares() const { return {{name(), cells()}}; }
   /// Rows of ActsOn::rows, ascending.
   virtual std::span<const std::int64_t> rows() const { return {}; }
   /// Whether it does anything at the end of that step.
   virtual bool active(const StepTime&) const { return true; }
-  /// Whether it may make something of a row whose fields are zero.
+  /// Whether it may change a row whose fields are zero.
   virtual bool injects(const StepTime&, std::int64_t /*row*/) const { return false; }
 
   // What it does.
   /// Sets the fields at t = 0; returns whether it did.
   virtual bool initialize(State<D, Real>&) { return false; }
-  /// Before the first row of each step, step after step. What it prepares for a step must last while
-  /// most_steps_in_progress steps after it begin: rows may be some steps apart.
+  /// Before the first row of each step, step after step. What it prepares for a step must last until
+  /// most_steps_in_progress steps after it have begun: rows may be some steps apart.
   virtual void begin(const StepTime&) {}
   static constexpr std::int64_t most_steps_in_progress = 32;
-  /// Brings these cells to the end of the step; then they are recorded.
+  /// Acts on these cells at the end of the step, before they are recorded.
   virtual void apply(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
-  /// What the next step begins with.
+  /// Acts on them after recording: the next step begins with this.
   virtual void apply_after_record(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
 
   // What it does within sweeps, where it declares so.
@@ -89,22 +89,23 @@ class Effect {
   virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
     return {};
   }
-  /// Changes what a sweep over `fraction` of a step has made of one field row in such a range: `before` and
-  /// `now` point at its first cell. Only with `remember` its memory advances.
+  /// Changes the increments of a sweep over `fraction` of a step of one field row in such a range: `before`
+  /// and `now` point at its first cell. Only with `remember` its memory advances.
   virtual void filter(int /*axis*/, const Index<D>& /*row*/, int /*field_row*/, const IndexRange&,
                       Real /*fraction*/, const Real* /*before*/, Real* /*now*/, bool /*remember*/) {}
 
   // What it retains.
-  /// Writes or reads all that it remembers from one step to the next, fields apart.
+  /// Writes or reads all that it retains from one step to the next.
   virtual void serialize(Archive&) {}
-  /// Shows what it remembers of these rows of the last axis (in 3-D planes), for neighbouring subdomains.
+  /// Gives access to what it retains of these rows of the last axis (in 3-D planes), for neighbouring
+  /// subdomains.
   virtual void exchange(const IndexRange&, const std::function<void(Real* values, std::int64_t count)>&) {}
   virtual std::int64_t memory_bytes() const { return 0; }
 
-  // What it tells.
-  /// Adds what it did to the report of the shot; of this subdomain.
+  // What it reports.
+  /// Adds its results in this subdomain to the report of the shot.
   virtual void report(ShotReport&) const {}
-  /// Fills in what it did, on the model's grid; false where it knows nothing of that.
+  /// Fills in such a result on the model's grid; false where it has none.
   virtual bool fill(SlipField, Field<D>&) const { return false; }
 };
 

@@ -9,16 +9,16 @@
 namespace slipwave::solver {
 namespace {
 
-/// Two-way amplitude of what crosses a zone at the speed vp_max at normal incidence.
+/// Two-way amplitude of a wave that crosses a zone at the speed vp_max at normal incidence.
 constexpr double zone_leak = 0.2;
 /// Growth of the damping rate into the zone.
 constexpr double zone_power = 2.5;
-/// The outermost cells take the background outright: that is how an incoming wave enters.
-constexpr std::int64_t zone_given = max_reach;
+/// The outermost cells are set to the incident wave: that is how it enters.
+constexpr std::int64_t prescribed_cells = max_reach;
 
 using Rows = FieldRows<2>;
 
-/// The closed form: every field is a constant times the wavelet at the time the front has passed the cell.
+/// The closed form: every field is a constant times the wavelet at the time since the front passed the cell.
 class PlaneForm {
  public:
   PlaneForm(const Source<2>& source, double vp, double vs, double rho)
@@ -33,11 +33,11 @@ class PlaneForm {
     factor_[Rows::normal_stress(1)] = strain * (lambda + 2 * mu * direction[1] * direction[1]);
     factor_[Rows::shear_stress(0, 1)] = strain * 2 * mu * direction[0] * direction[1];
   }
-  /// What all fields are multiples of, at most 1.
+  /// The waveform that all fields are multiples of, at most 1.
   double wave(double x, double z, double t) const { return wavelet_(phase(x, z, t)); }
   double factor(int row) const { return factor_[std::size_t(row)]; }
   /// Whether the wave is nowhere between two points.
-  bool is_still(const Point<2>& one, const Point<2>& other, double t) const {
+  bool is_zero(const Point<2>& one, const Point<2>& other, double t) const {
     const double at_one = phase(one[0], one[1], t), at_other = phase(other[0], other[1], t);
     return std::max(at_one, at_other) < 0 || std::min(at_one, at_other) > wavelet_.duration_s();
   }
@@ -51,7 +51,7 @@ class PlaneForm {
   std::array<double, 5> factor_{};
 };
 
-/// The wave of t = 0 in every cell; it has not met anything yet.
+/// Sets the wave of t = 0 in every cell; it has not reached any interface yet.
 template <class Real>
 void begin_with(const PlaneForm& form, const Grid<2>& grid, State<2, Real>& state) {
   Index<2> line{};
@@ -63,7 +63,7 @@ void begin_with(const PlaneForm& form, const Grid<2>& grid, State<2, Real>& stat
     }
 }
 
-/// A column of cells laid down: what is along z is along x, where cells follow each other in memory.
+/// A column of cells transposed: z becomes x, where cells follow each other in memory.
 Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   const auto& grid = medium.grid();
   const Grid<2> lying{{grid.shape[1], 1},
@@ -79,7 +79,7 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   return column;
 }
 
-/// The row of a column laid down that holds this row.
+/// The field row of a transposed column that holds this field row.
 int row_lying(int row) {
   for (const int axis : {0, 1}) {
     if (row == Rows::velocity(axis)) return Rows::velocity(1 - axis);
@@ -93,11 +93,11 @@ template <class Real>
 class ColumnValues {
  public:
   explicit ColumnValues(std::int64_t cells) : cells_(cells) {
-    for (auto& values : kept_) values.assign(std::size_t(cells * Rows::count), 0);
+    for (auto& values : values_) values.assign(std::size_t(cells * Rows::count), 0);
   }
-  Real* row(std::int64_t step, int row) { return kept_[slot(step)].data() + row * cells_; }
+  Real* row(std::int64_t step, int row) { return values_[slot(step)].data() + row * cells_; }
   IncidentValues<Real> at(std::int64_t step, std::int64_t cell) const {
-    return {kept_[slot(step)].data() + cell, cells_, false};
+    return {values_[slot(step)].data() + cell, cells_, false};
   }
 
  private:
@@ -105,11 +105,11 @@ class ColumnValues {
     return std::size_t(step % Effect<2, Real>::most_steps_in_progress);
   }
   std::int64_t cells_;
-  std::array<std::vector<Real>, std::size_t(Effect<2, Real>::most_steps_in_progress)> kept_;  // [row][cell]
+  std::array<std::vector<Real>, std::size_t(Effect<2, Real>::most_steps_in_progress)> values_;  // [row][cell]
 };
 
-/// A vertical wave in a column of cells whose neighbours are all alike: sweeps along z alone, with the main
-/// grid's own scheme, zones and incoming wave.
+/// A vertical wave in a column of cells with identical neighbours: sweeps along z alone, with the
+/// scheme, sponge and incident wave of the main grid.
 template <class Real>
 class Column {
  public:
@@ -128,14 +128,14 @@ class Column {
       for (int row = 0; row < Rows::count; ++row) field(row)[k] = Real(form.factor(row) * wave);
     }
   }
-  /// `incoming`: the wave at the end of that step in the zones, 0 where it only leaves.
+  /// `incoming`: the wave at the end of that step in the zones, 0 where waves only leave.
   void advance(std::int64_t step, const PlaneForm& form, const std::vector<double>& incoming) {
     const IndexRange all{0, domain_.grid.shape[0]};
     for (const auto& sweep : splitting_)
       if (sweep.axis == 1) {
         if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
-        sweeps_.measure_side_surfaces(0);
-        sweeps_.along_x(0, all, Real(sweep.fraction), carry_, work_);
+        sweeps_.correct_side_surfaces(0);
+        sweeps_.along_x(0, all, Real(sweep.fraction), boundary_, work_);
       }
     for (int row = 0; row < Rows::count; ++row) {
       Real* const u = field(row);
@@ -164,7 +164,7 @@ class Column {
   State<2, Real> state_;
   Sweeps<2, Real> sweeps_;
   Workspace<Real> work_;
-  StripeBoundary<Real> carry_{};
+  StripeBoundary<Real> boundary_{};
   std::vector<SweepFraction> splitting_;
   std::vector<double> factors_;
   ColumnValues<Real> values_;
@@ -214,8 +214,8 @@ class VerticalWave : public IncidentWave<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
-  IndexRange entry_;              // lines of the zone it comes through
-  std::vector<double> incoming_;  // of each line at the end of the newest step
+  IndexRange entry_;              // rows of the zone it enters through
+  std::vector<double> incoming_;  // of each row at the end of the newest step
   ColumnValues<Real> values_;     // in the zones above and below
   std::array<std::unique_ptr<Column<Real>>, 2> columns_;
 };
@@ -231,7 +231,7 @@ class ObliqueWave : public IncidentWave<2, Real> {
                               std::int64_t count, Real* room) const override {
     const double z = grid_.centre(1, line[1]), t = time.end_s();
     const auto x = [&](std::int64_t i) { return grid_.centre(0, x_first + i); };
-    if (form_.is_still({x(0), z}, {x(count - 1), z}, t)) return {still_.data(), 1, false};
+    if (form_.is_zero({x(0), z}, {x(count - 1), z}, t)) return {zeros_.data(), 1, false};
     for (std::int64_t i = 0; i < count; ++i) {
       const double wave = form_.wave(x(i), z, t);
       for (int row = 0; row < Rows::count; ++row) room[row * count + i] = Real(form_.factor(row) * wave);
@@ -244,7 +244,7 @@ class ObliqueWave : public IncidentWave<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
-  std::array<Real, Rows::count> still_{};
+  std::array<Real, Rows::count> zeros_{};
 };
 
 }  // namespace
@@ -259,8 +259,8 @@ std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s,
     for (std::int64_t j = 0; j < width; ++j) {
       const double depth = (double(j) + 0.5) / double(width);
       const auto cell = side ? domain.grid.shape[axis] - width + j : width - 1 - j;
-      const bool given = width - j <= zone_given;
-      factors[std::size_t(cell)] = given ? 0 : std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
+      const bool prescribed = width - j <= prescribed_cells;
+      factors[std::size_t(cell)] = prescribed ? 0 : std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
     }
   }
   return factors;
@@ -272,7 +272,7 @@ std::unique_ptr<IncidentWave<2, Real>> make_plane_wave(const Scene<2>& scene, co
   const auto& medium = scene.model.medium;
   const auto direction = std::get<PlaneWave<2>>(source.mechanism).direction;
   const bool vertical = std::abs(direction[0])<1e-9, from_top = direction[1]> 0;
-  // A cell of the edge by which the wave enters; check(scene) has seen that all of it is alike.
+  // A cell of the edge by which the wave enters; check(scene) has made sure that the edge is uniform.
   Index<2> entry{};
   if (vertical && !from_top) entry[1] = medium.grid().shape[1] - 1;
   if (!vertical && scene.edges[1][0] != EdgeLaw::absorbing) {

@@ -8,7 +8,7 @@
 
 namespace slipwave::solver {
 
-/// Values of all field rows in some cells of a line: of each row one for all cells, or one a cell.
+/// Values of all field rows in some cells of a row: of each field one for all cells, or one per cell.
 template <class Real>
 struct IncidentValues {
   const Real* values;  // of row 0
@@ -16,24 +16,24 @@ struct IncidentValues {
   bool by_cell;
 };
 
-/// The wave field that comes in from outside, known in the sponge: what the zones damp the fields
-/// to. In scenes without such a wave there is none and the zones damp to zero.
+/// The incident wave field, known in the sponge, which damps the fields towards it. In scenes without such a
+/// wave there is none and the sponge damps to zero.
 template <int D, class Real>
 class IncidentWave {
  public:
   virtual ~IncidentWave() = default;
-  /// Puts the wave of t = 0 into the fields of the computed grid.
+  /// Sets the fields of the computed grid to the wave of t = 0.
   virtual void begin(State<D, Real>& state) = 0;
-  /// Brings it to time.end_s(), step after step. It still knows the steps in progress (Pass).
+  /// Advances it to time.end_s(), step after step. It still holds the steps in progress (Effect).
   virtual void advance(const StepTime& time) = 0;
   /// Its values at that step in `count` cells of a line from x_first on, which lie in the zone of `axis`,
-  /// `side` (0 low, 1 high). They last until another line of the same number of a step `most_steps_under_way`
-  /// later, or stand in `room`, for `count` cells of all rows.
+  /// `side` (0 low, 1 high). They last until most_steps_in_progress steps later (Effect), or are stored in
+  /// `room`, for `count` cells of all fields.
   virtual IncidentValues<Real> values(const StepTime& time, int axis, int side, const Index<D>& line,
                                       std::int64_t x_first, std::int64_t count, Real* room) const = 0;
-  /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
+  /// Whether the sponge needs the fields at the exact end of a step, with its half sweeps split.
   virtual bool needs_whole_step() const = 0;
-  /// Gives what it remembers from one step to the next; called when no step is in progress.
+  /// Writes or reads what it retains from one step to the next; called when no step is in progress.
   virtual void serialize(Archive& archive) = 0;
 };
 

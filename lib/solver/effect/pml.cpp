@@ -9,20 +9,20 @@
 namespace slipwave::solver {
 namespace {
 
-// Chosen by measuring what 20 cells send back of P and S waves under all angles, and what grows (theory.md).
-/// Amplitude left of a P wave that goes straight through the layer and back. What is left at the end meets an
-/// edge that absorbs it, so more damping than this would only reflect more on the way.
+// Chosen by measuring the reflection of 20 cells for P and S waves at all angles, and what grows (theory.md).
+/// Amplitude of a P wave after crossing the layer and back at normal incidence. The edge at the outer end
+/// absorbs the rest, so more damping would only reflect more within the layer.
 constexpr double leak = 1e-3;
 /// Growth of d into the layer.
 constexpr int power = 2;
 /// alpha at the model in terms of the source's 2 pi f.
 constexpr double alpha_share = 2;
-/// Plain damping of all fields beside the stretch, as a share of d: everywhere, and what plates take more.
-constexpr double plain_share = 0.002, plate_share = 0.05;
-/// Ratio of impedances from which a contact counts as a reflector that may bound a plate.
+/// Damping of all fields besides the complex stretching, as a share of d: everywhere, and more in plates.
+constexpr double damping_share = 0.002, plate_damping_share = 0.05;
+/// Ratio of impedances from which an interface counts as a reflector that may bound a plate.
 constexpr double reflector_ratio = 3;
 
-/// Whether a contact of these impedances of P and S waves reflects nearly all. Void has neither.
+/// Whether an interface between these impedances of P and S waves reflects nearly all. Void has neither.
 bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& other) {
   for (const Wave wave : {wave_p, wave_s})
     if (std::max(one[wave], other[wave]) > reflector_ratio * std::min(one[wave], other[wave])) return true;
@@ -54,7 +54,7 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
     for (const double fraction : fractions_along(n, D, time_order)) {
       axis.fractions.push_back(Real(fraction));
       auto& factors = axis.factors.emplace_back();
-      // A sweep back in time gives back what one forward would take: all together are one step.
+      // A sweep back in time undoes what one forward would damp: all together are one step.
       const double time = fraction * dt_s;
       for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
         const auto width = slot < axis.low ? axis.low : axis.high;
@@ -64,9 +64,9 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
         const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
         const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
         const double sum = d + alpha, lost = -std::expm1(-sum * time);
-        factors.kept.push_back(Real(std::exp(-plain_share * d * time)));
+        factors.kept.push_back(Real(std::exp(-damping_share * d * time)));
         factors.lost_in_plates.push_back(
-            Real(std::exp(-plain_share * d * time) * -std::expm1(-plate_share * d * time)));
+            Real(std::exp(-damping_share * d * time) * -std::expm1(-plate_damping_share * d * time)));
         factors.of_memory.push_back(Real(lost / (sum * dt_s)));
         factors.of_change.push_back(Real(d / sum * (1 - lost / (sum * time))));
         factors.left.push_back(Real(1 - lost));
@@ -96,7 +96,7 @@ std::int64_t Pml<D, Real>::along_edge(int axis, const Index<D>& at) const {
 }
 
 /// Marks the solid cells along the edges of an axis that lie between two reflectors: edges that do not
-/// absorb, void, strong contacts.
+/// absorb, void, strong interfaces.
 template <int D, class Real>
 void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) {
   Index<D> last = layout_.shape();
@@ -156,7 +156,7 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
   }
 }
 
-/// Of all axes but the last, whose layers lie above and below.
+/// For all axes but the last, whose layers lie above and below.
 template <int D, class Real>
 void Pml<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
   for (int n = 0; n + 1 < D; ++n) {

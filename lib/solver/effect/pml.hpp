@@ -11,19 +11,19 @@
 
 namespace slipwave::solver {
 
-/// A convolutional perfectly PML (PML) on the increments of the sweeps (theory.md (E14)). In a zone
-/// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): what a
-/// sweep along that axis adds to a field, over the part `scale` of a step, loses the memory phi of earlier
-/// additions,
-///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = what the sweep adds a second,
+/// A convolutional perfectly matched layer (PML) on the increments of the sweeps (theory.md (E14)). In a zone
+/// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): the
+/// increment of a field in a sweep along that axis, over the fraction `fraction` of a step, loses the memory
+/// phi of earlier increments,
+///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = increment of the sweep per second,
 /// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
 /// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. Where the
-/// layer cuts through plates (solid between two reflectors) plain damping of all fields keeps their waves
-/// from growing; elsewhere there is hardly any, since it reflects at an angle.
+/// layer cuts through plates (solid between two reflectors) damping of all fields keeps their waves from
+/// growing; elsewhere there is hardly any, since it reflects at an angle.
 template <int D, class Real>
 class Pml : public Effect<D, Real> {
  public:
-  /// `slow_hz`: the frequency below which fields are stretched less and less, that of the source.
+  /// `slow_hz`: the frequency below which the stretching decreases, that of the source.
   /// `time_order`: of the splitting the sweeps follow. Collective where there are ranks (may be null).
   Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
       int time_order = 2, Ranks* ranks = nullptr);
@@ -35,8 +35,8 @@ class Pml : public Effect<D, Real> {
   std::int64_t cells() const override { return cells_; }
   /// The cells of the layer of this axis.
   std::array<IndexRange, 2> filtered(int axis, const Index<D>& row, const IndexRange& cells) const override;
-  /// Takes from the change of a field row what the layer's memory takes of it. Throws an Error where no sweep
-  /// of the splitting is over that fraction of the step.
+  /// Subtracts the memory term from the increment of a field row. Throws an Error where no sweep of the
+  /// splitting is over that fraction of the step.
   void filter(int axis, const Index<D>& row, int field_row, const IndexRange& cells, Real fraction,
               const Real* before, Real* now, bool remember) override;
   void serialize(Archive& archive) override {
@@ -48,8 +48,9 @@ class Pml : public Effect<D, Real> {
   std::int64_t memory_bytes() const override;
 
  private:
-  /// Of one fraction of the step, by slot: what the memory takes, what the change itself takes, what is left
-  /// of the memory, what the change adds to it, what is left of the field and how much less in plates.
+  /// Of one fraction of the step, by slot: the factor of the memory and that of the increment in what is
+  /// subtracted, the decay of the memory and the factor of the increment added to it, the damping of the
+  /// field and its additional loss in plates.
   struct Factors {
     std::vector<Real> of_memory, of_change, left, added, kept, lost_in_plates;
     PmlFactors<Real> from(std::int64_t slot) const {

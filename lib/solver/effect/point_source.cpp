@@ -20,7 +20,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
   if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
 }
 
-/// Which values it works on, and how strongly.
+/// The values it adds to, and their weights.
 template <int D, class Real>
 void PointSource<D, Real>::weigh(const Source<D>& source) {
   using Rows = FieldRows<D>;
@@ -29,8 +29,7 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   const double rho = medium_.rho(domain_.model_cell(centre_));
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
-  // An isotropic source works on all normal stresses through the same cells: it must not make shear of its
-  // own.
+  // An isotropic source adds to all normal stresses through the same cells: it must not radiate S waves.
   const bool isotropic = std::holds_alternative<Explosion>(source.mechanism);
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
@@ -41,7 +40,7 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   }
 }
 
-/// Gives what one of the ranks has weighed to all of them; each keeps what lies on its rows.
+/// Distributes the weights that one rank has computed; each keeps those on its rows.
 template <int D, class Real>
 void PointSource<D, Real>::share(Ranks& ranks) {
   const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
@@ -112,7 +111,7 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
 }
 
 /// All rows that a source in this cell can reach, wherever in the cell it is: rows that are acted on take
-/// two half sweeps a step, and which ones do must not depend on the place, or it would be heard.
+/// two half sweeps a step, and which ones do must not depend on the place, or traces would change with it.
 template <int D, class Real>
 void PointSource<D, Real>::find_rows() {
   constexpr std::int64_t reach = widest_stencil / 2;

@@ -10,14 +10,14 @@
 
 namespace slipwave::solver {
 
-/// What a point source puts in, half before and half after the recorder, so that the
-/// fields it sees lie in the middle (trapezoidal rule in time). Keeps references.
+/// The injection of a point source, half before and half after recording, so that the recorded fields lie in
+/// the middle (trapezoidal rule in time). Keeps references.
 template <int D, class Real>
 class PointSource : public Effect<D, Real> {
  public:
-  /// Collective where there are `ranks` (may be null): the one that answers for the cell of the source weighs
-  /// the cells round it for all. Where no row of this process is near it, rows() is empty and nothing is to
-  /// be done.
+  /// Collective where there are `ranks` (may be null): the one that owns the cell of the source computes
+  /// the weights of the cells round it for all. Where no row of this process is near it, rows() is empty and
+  /// there is nothing to do.
   PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
               double unit, Ranks* ranks = nullptr);
 
@@ -52,7 +52,7 @@ class PointSource : public Effect<D, Real> {
   const Medium<D>& medium_;
   Wavelet wavelet_;
   double unit_;
-  Index<D> centre_{};  // the cell it is in, on part of the grid maybe beyond it
+  Index<D> centre_{};  // the cell of the source, which may lie beyond this subdomain
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> rows_;
   unsigned writes_ = 0;

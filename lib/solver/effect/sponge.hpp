@@ -8,8 +8,7 @@
 namespace slipwave::solver {
 
 /// Absorbing sponge of a scene with a plane wave: all fields decay towards the incident wave at the same
-/// rate, which leaves the impedance, so that nothing else is reflected at normal incidence and little at
-/// others (theory.md (E13)).
+/// rate. That preserves the impedance: no reflection at normal incidence, little at others (theory.md (E13)).
 template <int D, class Real>
 class Sponge : public Effect<D, Real> {
  public:

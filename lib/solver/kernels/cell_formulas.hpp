@@ -2,15 +2,15 @@
 
 #include "solver/kernels/reconstruction.hpp"
 
-/// What a sweep does to one cell or one face between two cells, after the reconstruction: the Riemann
+/// The formulas of a sweep for one cell or one face between two cells, after the reconstruction: the Riemann
 /// solution (theory.md (E8)) and the update (E9), each written once. The row loops of kernels_level.cpp and
 /// fused_row.hpp are made of these. Plain scalars by reference: both compilers vectorise that. No standard
 /// header here: this is compiled once for each instruction set, and the linker could keep one copy for
 /// everybody.
 namespace slipwave::solver {
 
-/// Where neither side carries a wave up = down = 0: this makes that 0/none instead of 0/0. Its square is
-/// still a number.
+/// Where neither side carries a wave up = down = 0: this gives 0/none instead of 0/0. Its square is finite
+/// and normal.
 inline constexpr double none = 1e-15;
 
 /// 1/(Z_lo + Z_hi) of P and S waves, with one division for both. Without shear that of P alone.
@@ -23,8 +23,8 @@ template <bool Shear, class Real>
   share_s = both * sum_p;
 }
 
-/// The exact Riemann solution v*, s* at a face where `up` from the cell below meets `down` from the cell
-/// above (E8); share = 1/(Z_lo + Z_hi).
+/// The exact Riemann solution v*, s* at a face between the outgoing wave `up` of the cell below and `down` of
+/// the cell above (E8); share = 1/(Z_lo + Z_hi).
 template <class Real>
 [[gnu::always_inline]] inline void riemann(Real up, Real down, Real z_lo, Real z_hi, Real share, Real& v,
                                            Real& s) {
@@ -39,12 +39,13 @@ template <bool Shear, class Real>
                                                        Real& moved, Real& p_modulus, Real& s_modulus) {
   moved = scale * b;
   const Real strained = size * b;
-  // Times dt/h; multiplied first, so that the smallest velocities do not vanish on the way.
+  // Times dt/h; multiplied first, so that the smallest velocities do not underflow.
   p_modulus = strained * zp * zp;
   s_modulus = Shear ? strained * zs * zs : Real(0);
 }
 
-/// What the P pair of both faces adds to a cell (E9); `along` is what its passive normal stresses gain.
+/// The update of a cell by the P pair of both faces (E9); `along` is the increment of its passive normal
+/// stresses.
 template <bool Shear, class Real>
 [[gnu::always_inline]] inline void update_p(Real dv, Real ds, Real moved, Real p_modulus, Real s_modulus,
                                             Real& v, Real& s, Real& along) {

@@ -57,7 +57,7 @@ const Kernels<Real>& kernels(int order, bool uniform) {
 
 template <class Real>
 const PmlKernels<Real>& pml_kernels() {
-  return best_tables<Real>().stretch;
+  return best_tables<Real>().pml;
 }
 
 template <class Real>

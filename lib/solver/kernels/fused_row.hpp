@@ -10,14 +10,13 @@ namespace slipwave::solver {
 namespace {
 
 /// Reconstruction, Riemann solution and update of a row of a sweep across the rows in one loop: the same bits
-/// as the three loops (Kernels.OfARowAcrossAtOnceGiveTheSameBits). Outgoing waves of downwards and half of
-/// the new values stay in registers, and what waits for the memory or the division in one part leaves the
-/// others room.
+/// as the three loops (Kernels.OfAFusedRowGiveTheSameBits). Outgoing waves downwards and half of the new
+/// values stay in registers, and while one part waits for memory or the division the others continue.
 template <int Order, int Sign, class Real>
 [[gnu::always_inline]] inline void fused_row_in(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   const Real size = Sign < 0 ? -scale : scale;
   const std::int64_t stride = rows.stride, m = rows.material_pitch, ups = rows.up_pitch, f = rows.face_pitch;
-  // The row that is advanced is one that `leave` reads: a field has one pointer for both.
+  // The row that is advanced is one that the reconstruction reads: a field has one pointer for both.
   constexpr int behind = Order < 3 ? 1 : (Order - 1) / 2;
   Real* __restrict v = rows.fields.v, * __restrict s = rows.fields.s, * __restrict passive = rows.fields.passive;
   Real* __restrict vt = rows.fields.vt, * __restrict st = rows.fields.st;
@@ -45,7 +44,7 @@ template <int Order, int Sign, class Real>
     faces[i + 2 * f] = v_s;
     faces[i + 3 * f] = s_s;
 
-    // Just one row behind these are the faces behind the cell.
+    // At order 1, just one row behind, these are the faces behind the cell.
     const Real v_hi = behind == 1 ? v_p : hi[i], n_hi = behind == 1 ? s_p : hi[i + f];
     const Real w_hi = behind == 1 ? v_s : hi[i + 2 * f], t_hi = behind == 1 ? s_s : hi[i + 3 * f];
     Real moved, p_modulus, s_modulus, along;

@@ -5,12 +5,12 @@
 
 namespace slipwave::solver {
 
-/// What one instruction set offers: kernels by order, for any material and for stretches of one.
+/// The kernels of one instruction set: by order, for any material and for uniform runs.
 template <class Real>
 struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
-  PmlKernels<Real> stretch;
+  PmlKernels<Real> pml;
   SpongeKernels<Real> damp;
   const SlipTables<Real>& (*slip)(Real);
 };

@@ -10,7 +10,7 @@ constexpr int max_reach = 3;
 constexpr int orders[] = {1, 3, 5, 7};
 constexpr int reach_of(int order) { return (order - 1) / 2; }
 
-/// Cells first <= x < last of a line.
+/// Cells first <= x < last of a row.
 struct IndexRange {
   std::int64_t first = 0, last = 0;
   std::int64_t count() const { return last - first; }
@@ -20,16 +20,16 @@ struct IndexRange {
 /// Rows and columns: along the last axis and the one before it.
 struct Box {
   IndexRange rows, columns;
-  /// Whether it has anything in common with these.
+  /// Whether it overlaps these.
   bool meets(const IndexRange& of_rows, const IndexRange& of_columns) const {
     return of_rows.first < rows.last && of_rows.last > rows.first && of_columns.first < columns.last &&
            of_columns.last > columns.first;
   }
 };
 
-/// Values at faces by pair: 0 P (v_n, s_nn), 1 and in 3-D 2 the S pairs (v_t, s_nt). Rows a pitch apart, so
-/// that it travels in registers: what has just been written piece by piece can not be read at once as a
-/// whole.
+/// Values at faces by pair: 0 P (v_n, s_nn), 1 and in 3-D 2 the S pairs (v_t, s_nt). Rows a pitch apart: a
+/// struct of two words is passed in registers, while one that was just written to memory word by word is slow
+/// to read back.
 template <class Real>
 struct InterfaceStates {
   Real* first;
@@ -39,7 +39,7 @@ struct InterfaceStates {
   InterfaceStates at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
-/// Outgoing waves of cells up and down along the axis, by pair, in rows as in Faces.
+/// Outgoing waves of cells up and down along the axis, by pair, in rows as InterfaceStates.
 template <class Real>
 struct OutgoingWaves {
   Real* first;
@@ -49,13 +49,13 @@ struct OutgoingWaves {
   OutgoingWaves at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
-/// Material of a stretch of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
+/// Material of a range of cells (state.hpp): b = dt/(rho h) and impedances. Courant numbers are Z b.
 template <class Real>
 struct MaterialRows {
   const Real *b, *zp, *zs;
 };
 
-/// Fields of a stretch of cells that a sweep changes; those of S where no cell carries shear and those of
+/// Fields of a range of cells that a sweep changes; those of S where no cell carries shear and those of
 /// the third axis in 2-D are not used.
 template <class Real>
 struct SweptRows {
@@ -63,18 +63,18 @@ struct SweptRows {
   Real *passive2 = passive, *vt2 = vt, *st2 = st;
 };
 
-/// What the PML does to a change (MatchedLayer), one value for all cells or one a cell.
+/// Coefficients of the PML (Pml) on an increment, one value for all cells or one per cell.
 template <class Real>
 struct PmlFactors {
   const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
 };
 
-/// Inner loops of a sweep at and between the faces of n neighbouring cells of one line, see Kernels. `lo` and
+/// Inner loops of a sweep at and between the faces of n neighbouring cells of one row, see Kernels. `lo` and
 /// `hi` are the faces before and behind each cell.
 template <class Real>
 struct InterfaceKernels {
-  /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
-  /// above (hi) meet (E8), of all pairs, with one division.
+  /// The exact Riemann solutions at the faces between the outgoing waves `up` of the cells below (lo) and
+  /// `down` of the cells above (hi) (E8), of all pairs, with one division.
   void (*solve_riemann)(std::int64_t n, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
                         const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
                         InterfaceStates<Real> faces);
@@ -82,18 +82,18 @@ struct InterfaceKernels {
   /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
   void (*update)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
-  /// Both in one for cells of the first one's material with neighbours of that material, from what leaves
-  /// them and the neighbours below and above: there (E8) and (E9) come to (E9a).
+  /// Both in one in uniform runs, from the outgoing waves of the cells and of their neighbours below and
+  /// above: there (E8) and (E9) reduce to (E9a).
   void (*update_uniform)(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
                          OutgoingWaves<Real> above, const MaterialRows<Real>& material,
                          const SweptRows<Real>& rows);
 };
 
-/// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
-/// its `fields` and its material `here`, with `below` that of the row before; what left that one upwards
-/// (up_from) and will leave this one (up_to), P and up_pitch on S; the faces between both. The row `done`,
-/// that is advanced, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
-/// material and faces the first rows, the others a pitch apart.
+/// A row of a sweep across the rows in 2-D whose loops are fused into one. The row that is reconstructed: its
+/// `fields` and its material `here`, with `below` that of the row before; the outgoing waves upwards of that
+/// one (up_from) and of this one (up_to), P and, up_pitch further, S; the faces between both. The row `done`,
+/// which is updated, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Pointers
+/// to material and faces point at the first rows, the others follow a pitch apart.
 template <class Real>
 struct FusedRow {
   SweptRows<Real> fields;
@@ -104,25 +104,24 @@ struct FusedRow {
   const Real *lo, *hi;
 };
 
-/// Inner loops of a sweep over n neighbouring cells of one line, for one order and one instruction set.
+/// Inner loops of a sweep over n neighbouring cells of one row, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
 /// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
-/// forward in time of -v (E19): `leave` and the updates turn the sign of v, and faces hold -v*.
+/// forward in time of -v (E19): reconstruction and update change the sign of v, and faces hold -v*.
 template <class Real>
 struct Kernels {
   /// Outgoing waves of every cell upwards and downwards within the time step (theory.md (E6), (E7)):
-  /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
+  /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = fraction of the step.
   void (*reconstruct)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
                       const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   InterfaceKernels<Real> face[2][2];
-  /// All of a row across: leave, meet and update, in 2-D, of solid (null where stretches are of one
-  /// material).
+  /// Reconstruction, Riemann solution and update of a row across in 2-D, with shear (null for uniform runs).
   void (*fused_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
 };
 
-/// Loops of the PML: now -= of_memory phi + of_change (now - before), then the plain damping;
-/// phi = left phi + added (now - before) unless phi is to stay.
+/// Loops of the PML: now -= of_memory phi + of_change (now - before), then the damping in plates;
+/// phi = left phi + added (now - before) if `remember`.
 template <class Real>
 struct PmlKernels {
   /// Factors by cell, all cells in plates or none.
@@ -136,12 +135,12 @@ struct PmlKernels {
 /// Loops of the sponge: now = target + factor (now - target).
 template <class Real>
 struct SpongeKernels {
-  /// By whether there is one factor a cell, else one for all, and by the same of targets.
+  /// [factor per cell, else one for all][the same of targets].
   void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
 };
 
 /// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
-/// stretches of one material, of which only the first cell is read; they give the same bits.
+/// uniform runs, of which only the material of the first cell is read; they give the same bits.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);
 template <class Real>

@@ -12,8 +12,8 @@ const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
 
 namespace {
 
-// Of a stretch of one material (Uniform) only the first cell is read, before the loop: what comes of it alone
-// is then computed there, too. Elsewhere that is a value read in vain.
+// In a uniform run (Uniform) only the material of the first cell is read, before the loop: what depends on it
+// alone is then computed there, too. Elsewhere that value is read in vain.
 
 template <int Order, bool Uniform, int Sign, class Real>
 void reconstruct_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
@@ -36,7 +36,7 @@ void reconstruct(std::int64_t n, std::int64_t stride, const Real* v, const Real*
     reconstruct_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
 }
 
-/// Of the P pair and so many S pairs.
+/// For the P pair and so many S pairs.
 template <bool Uniform, int Shears, class Real>
 void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                    const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, InterfaceStates<Real> faces) {
@@ -94,7 +94,7 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
   const Real zs = Shear ? material.zs[0] : Real(0), moved = Real(0.5) * (scale * b), strained = size * b;
   const Real p_modulus = strained * zp * zp, s_modulus = strained * zs * zs;
   const Real along = p_modulus - 2 * s_modulus;
-  // Divided by first, as at faces: in front of the waves all vanishes that is too small a velocity.
+  // Divided first, as at faces: in front of the waves velocities that are too small become zero.
   const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
   // A fluid carries no shear.
   const Real moved_s = zs > 0 ? moved : Real(0);

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Reconstruction of what a cell sends through its two faces (theory.md (E4), (E5)): weights of the sums and
-/// differences of its neighbours, polynomials in the Courant number a. Plain named scalars: both compilers
-/// vectorise it. No standard header here: this is compiled once for each instruction set.
+/// Reconstruction of the outgoing waves of a cell at its two faces (theory.md (E4), (E5)): weights of the
+/// sums and differences of its neighbours, polynomials in the Courant number a. Plain named scalars: both
+/// compilers vectorise it. No standard header here: this is compiled once for each instruction set.
 namespace slipwave::solver {
 
 /// Weights of the even part, e0 u_0 + e1 (u_-1 + u_1) + ..., and of the odd part, o1 (u_1 - u_-1) + ..., of
@@ -13,8 +13,8 @@ template <int Order, class Real>
   e0 = 1;
   e1 = e2 = e3 = o1 = o2 = o3 = 0;
   if constexpr (Order > 1) {
-    // All but e0 have the factor 1 - a, so they are exactly 0 where a = 1. What a neighbour further out adds
-    // to the weights of the order below are multiples (alternating binomial coefficients) of its own two:
+    // All but e0 have the factor 1 - a, so they are exactly 0 where a = 1. A neighbour further out adds
+    // multiples (alternating binomial coefficients) of its own two weights to those of the order below:
     // hardly anything is computed twice.
     const Real left = Real(1. / 4) - Real(1. / 4) * a;
     if constexpr (Order == 3) {
@@ -52,7 +52,7 @@ template <int Order, class Real>
 template <int Order, class Real>
 [[gnu::always_inline]] inline void even_odd(const Real* u, long stride, Real e0, Real e1, Real e2, Real e3,
                                             Real o1, Real o2, Real o3, Real& even, Real& odd) {
-  // e0 is known last of the weights: nothing but one sum waits for it.
+  // e0 is computed last of the weights: only one sum waits for it.
   const Real own = u[0];
   if constexpr (Order == 1) {
     even = e0 * own;
@@ -82,9 +82,9 @@ template <int Order, class Real>
   }
 }
 
-/// One cell's outgoing states of a pair (v, s): up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s].
-/// courant: c dt/h of the wave times the part of the step, 0 to 1. `turned` is the impedance, or minus it for
-/// a sweep back in time.
+/// Outgoing waves of a pair (v, s) of one cell: up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s].
+/// courant: c dt/h of the wave times the fraction of the step, 0 to 1. `turned` is the impedance, or minus it
+/// for a sweep back in time.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void reconstruct_cell(const Real* v, const Real* s, long stride, Real turned,
                                                     Real courant, Real& up, Real& down) {

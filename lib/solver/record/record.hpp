@@ -4,7 +4,7 @@
 
 namespace slipwave::solver {
 
-/// Something that reads the fields as they stand at the end of time steps, and changes nothing.
+/// Reads the fields at the end of time steps and changes nothing.
 template <int D, class Real>
 class Record {
  public:
@@ -15,7 +15,7 @@ class Record {
   virtual Box box() const = 0;
   /// Reads what it needs of these cells of a row. Rows may be some steps apart, as for effects.
   virtual void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) = 0;
-  /// Step after step, when all rows have been read.
+  /// Step after step, once all rows have been read.
   virtual void finish(const StepTime&) {}
 };
 

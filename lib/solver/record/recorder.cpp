@@ -252,11 +252,11 @@ void Recorder<D, Real>::read_all(const Layout<D>& layout,
       const auto at = std::pair(weight.line, weight.place);
       const auto value = std::lower_bound(places.begin(), places.end(), at) - places.begin();
       weights_.push_back(weight.weight);
-      const bool goes_on = terms_.size() > first_term_.back() &&
-                           terms_.back().value + terms_.back().count == value &&
-                           places[std::size_t(value) - 1].second + 1 == weight.place &&
-                           places[std::size_t(value) - 1].first == weight.line;
-      if (!goes_on) terms_.push_back({value, 0});
+      const bool continues = terms_.size() > first_term_.back() &&
+                             terms_.back().value + terms_.back().count == value &&
+                             places[std::size_t(value) - 1].second + 1 == weight.place &&
+                             places[std::size_t(value) - 1].first == weight.line;
+      if (!continues) terms_.push_back({value, 0});
       ++terms_.back().count;
     }
   }

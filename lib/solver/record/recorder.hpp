@@ -16,8 +16,8 @@ namespace slipwave::solver {
 template <int D, class Real>
 class Recorder : public Record<D, Real> {
  public:
-  /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step). Collective where
-  /// there are `ranks` (may be null): each records the receivers in the cells it answers for.
+  /// `shot` is the 1-based number traces carry, `unit` the unit of the fields (ShotSimulation). Collective
+  /// where there are `ranks` (may be null): each records the receivers in the cells it owns.
   Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t shot,
            double unit, Ranks* ranks = nullptr);
 
@@ -29,8 +29,8 @@ class Recorder : public Record<D, Real> {
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) override;
   void finish(const StepTime& time) override;
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
-  /// Gives what it remembers when no step is in progress: the samples so far and the steps the next ones
-  /// are made of.
+  /// Writes or reads what it retains when no step is in progress: the samples so far and the steps that the
+  /// next ones are interpolated from.
   void serialize(Archive& archive);
 
   /// Steps after which every sample is known.
@@ -43,7 +43,7 @@ class Recorder : public Record<D, Real> {
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
   void read_all(const Layout<D>& layout, const std::vector<std::vector<ValueWeight>>& of_traces);
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
-  /// Whether any sample is made of the end of that step.
+  /// Whether any sample is interpolated from the end of that step.
   bool wants(const StepTime& time) const;
   /// When a sample is taken, in steps, and the last step that has ended before.
   double steps_at(std::int64_t sample, double dt_s) const {
@@ -83,8 +83,8 @@ class Recorder : public Record<D, Real> {
   Box box_;
   std::int64_t values_a_step_ = 0;
   std::vector<Real> values_;     // [step modulo those in progress][value]
-  std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples are made of
-  std::vector<double> sums_;     // of a sample, one a trace
+  std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples need
+  std::vector<double> sums_;     // of a sample, one per trace
   std::int64_t next_sample_ = 0;
 };
 

@@ -11,7 +11,7 @@ namespace slipwave::solver {
 template <int D, class Real>
 bool SnapshotRecorder<D, Real>::due(const StepTime& time) const {
   if (!every_s_ || time.end_s() > duration_s_ + time.dt_s) return false;
-  // A hair of tolerance keeps a step that ends on a multiple from being taken for one before it.
+  // The tolerance counts a step that ends on a multiple, up to rounding, as past it.
   const auto multiple = [&](double t) { return std::floor(t / *every_s_ + 1e-9); };
   return multiple(time.end_s()) > multiple(time.end_s() - time.dt_s);
 }

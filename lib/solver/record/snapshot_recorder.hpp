@@ -8,7 +8,7 @@
 
 namespace slipwave::solver {
 
-/// Keeps all fields as they stand at the end of one step at a time: the first after each multiple of an
+/// Copies all fields at the end of one step at a time: the first after each multiple of an
 /// interval.
 template <int D, class Real>
 class SnapshotRecorder : public Record<D, Real> {
@@ -18,12 +18,12 @@ class SnapshotRecorder : public Record<D, Real> {
                    double duration_s, double unit)
       : layout_(layout), domain_(domain), every_s_(every_s), duration_s_(duration_s), unit_(unit) {}
 
-  /// Makes room for the next snapshot that is due at the end of a step first <= n < last; false where none
-  /// is.
+  /// Allocates memory for the next snapshot that is due at the end of a step first <= n < last; false where
+  /// none is.
   bool prepare(std::int64_t first, std::int64_t last, double dt_s);
-  /// The step it is of.
+  /// The step of the snapshot.
   std::int64_t step() const { return step_; }
-  /// A component on the model's grid in SI units; `field` of what it holds.
+  /// A component on the model's grid in SI units; `field` of the copied fields.
   Field<D> field(Component component) const;
   void release() { fields_ = {}; }
 

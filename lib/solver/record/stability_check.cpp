@@ -12,7 +12,7 @@
 namespace slipwave::solver {
 namespace {
 
-/// How much more than all energy could do is still taken for a wave.
+/// Factor on the largest velocity that the energy allows, up to which fields count as a wave.
 constexpr double to_spare = 100;
 
 template <class Real>
@@ -132,8 +132,8 @@ void StabilityCheck<D, Real>::check(const StepTime& time) const {
                               place_of(domain_.grid, domain_.grid.flat(first.at)) +
                               ", t=" + shown(time.end_s(), 6) + " s (step " + std::to_string(time.step + 1) +
                               "): v" + std::string(1, axis_names<D>()[std::size_t(first.axis)]) + " is " +
-                              (std::isnan(first.value) ? "no number" : shown(first.value, 3) + " m/s") +
-                              ", expected at most " + shown(first.limit, 3),
+                              (std::isfinite(first.value) ? shown(first.value, 3) + " m/s" : "not finite") +
+                              " (limit " + shown(first.limit, 3) + " m/s)",
                           first);
 }
 

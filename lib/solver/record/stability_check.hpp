@@ -12,17 +12,17 @@
 
 namespace slipwave::solver {
 
-/// A velocity that can not be, and where it was seen.
+/// An impossible velocity, and where it was found.
 template <int D>
 struct Divergence {
-  StepTime time;                  // the step at whose end it was seen
+  StepTime time;                  // the step at whose end it was found
   Index<D> at{};                  // cell of the computed grid
   int axis = 0;                   // of the velocity
   double value = 0, limit = 0;    // m/s
   std::array<Index<D>, 2> box{};  // all such cells are in it, first and last cell
 };
 
-/// What the fields of a run that became unstable make of it.
+/// Thrown when the fields have diverged.
 template <int D>
 class DivergedFields : public Error {
  public:
@@ -34,8 +34,8 @@ class DivergedFields : public Error {
   Divergence<D> first_;
 };
 
-/// Looks at all velocities every `every` steps; throws UnsoundFields once one of them is not finite or beyond
-/// what the energy of the shot could make of it.
+/// Checks all velocities every `every` steps; throws DivergedFields once one of them is not finite or beyond
+/// what the energy of the shot allows.
 template <int D, class Real>
 class StabilityCheck {
  public:
@@ -44,11 +44,11 @@ class StabilityCheck {
   StabilityCheck(const State<D, Real>& state, const Domain<D>& domain, double unit, double limit)
       : state_(state), domain_(domain), unit_(unit), limit_(limit) {}
   /// To be called when no step is in progress. Names the fastest cell, or where any is not finite the one in
-  /// the middle of those: what is not finite spreads alike to all sides.
+  /// the middle of those: they spread alike to all sides.
   void check(const StepTime& time) const;
-  /// The first step after `step` that ends with a look.
+  /// The first step after `step` that ends with a check.
   static std::int64_t next_after(std::int64_t step) { return (step / every + 1) * every - 1; }
-  /// Steps made at the last look before so many were made.
+  /// Steps made at the last check before so many were made.
   static std::int64_t last_before(std::int64_t steps) { return (steps - 1) / every * every; }
 
  private:
@@ -64,7 +64,7 @@ class StabilityCheck {
 ///   force F:           |F|^2 I^2/(2 rho V),   as dE/dt = F.v w <= |F w| (2 E/(rho V))^1/2
 ///   moment rate M':    |M'|^2 I^2/(2 rho c^2 V),   c the slowest wave of the source's cell
 ///   plane wave:        rho A^2 w^2 V in each cell, and as much again through the edges in each step
-///   static stress:     |s|^2 V/(2 rho vs^2) in each cell of a fracture
+///   prestress:         |s|^2 V/(2 rho vs^2) in each cell of a fracture
 /// v^2 = 2 E/(rho_min V). Collective where there are ranks (may be null).
 template <int D>
 double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks = nullptr);

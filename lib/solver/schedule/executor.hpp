@@ -7,19 +7,18 @@
 
 namespace slipwave::solver {
 
-/// Carries out the list of a TimeStep, step after step. Whichever does it, the fields and what is recorded
-/// have the same bits.
+/// Executes the list of a TimeStep, step after step. All executors give the same bits of fields and records.
 class Executor {
  public:
   virtual ~Executor() = default;
-  /// Advances by the steps first <= n < last, which begin where the last call ended, from 0 on. `pause` (may
-  /// be empty) is asked now and then, by any thread; where it says so, no further step is begun. Returns the
-  /// first step that was not made.
+  /// Advances by the steps first <= n < last, which begin where the last call ended, from 0 on. Any thread
+  /// calls `pause` (may be empty) from time to time; once it returns true, no further step begins. Returns
+  /// the first step that was not made.
   virtual std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) = 0;
   std::int64_t run(std::int64_t first, std::int64_t last) { return run(first, last, {}); }
   /// To be called when fields have been set from outside.
   virtual void fields_changed() {}
-  /// Writes or reads what it remembers between two calls of run().
+  /// Writes or reads what it retains between two calls of run().
   virtual void serialize(Archive& archive) = 0;
   virtual std::int64_t memory_bytes() const { return 0; }
   /// Cells advanced along z, all sweeps together.

@@ -6,7 +6,7 @@
 namespace slipwave::solver {
 
 template <int D, class Real>
-Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Show& memory)
+Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Exchange& memory)
     : ranks_(ranks), own_(domain.own), exchanged_(domain.subdomain.exchanged) {
   const std::int64_t rows = domain.grid.shape[D - 1];
   auto& [above, below] = sides_;
@@ -22,7 +22,7 @@ Halo<D, Real>::Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state
 }
 
 template <int D, class Real>
-void Halo<D, Real>::prepare(Side& side, int rank, State<D, Real>& state, const Show& memory) {
+void Halo<D, Real>::prepare(Side& side, int rank, State<D, Real>& state, const Exchange& memory) {
   side.rank = rank;
   const auto all_of = [&](const IndexRange& rows, std::vector<std::span<Real>>& to) {
     const auto add = [&](Real* values, std::int64_t count) { to.emplace_back(values, std::size_t(count)); };
@@ -41,39 +41,40 @@ void Halo<D, Real>::prepare(Side& side, int rank, State<D, Real>& state, const S
     return sum;
   };
   for (auto& sent : side.sent) sent.resize(values(side.out));
-  side.come.resize(values(side.in));
-  expect(side);
+  side.received.resize(values(side.in));
+  receive(side);
 }
 
 template <int D, class Real>
 Halo<D, Real>::~Halo() {
-  // The last pass has been handed out like the others.
+  // The last tile has been sent like the others.
   for (auto& side : sides_) {
-    if (side.coming && side.passes_out > 0) wait_for(*side.coming);
+    if (side.receiving && side.tiles_sent > 0) wait_for(*side.receiving);
     for (auto& message : side.sending)
       if (message) wait_for(*message);
   }
 }
 
 template <int D, class Real>
-void Halo<D, Real>::expect(Side& side) {
-  side.coming = ranks_.receive(side.rank, side.tag_in, std::as_writable_bytes(std::span<Real>(side.come)));
+void Halo<D, Real>::receive(Side& side) {
+  side.receiving =
+      ranks_.receive(side.rank, side.tag_in, std::as_writable_bytes(std::span<Real>(side.received)));
 }
 
 template <int D, class Real>
-void Halo<D, Real>::take(Side& side) {
-  wait_for(*side.coming);
-  const Real* from = side.come.data();
+void Halo<D, Real>::unpack(Side& side) {
+  wait_for(*side.receiving);
+  const Real* from = side.received.data();
   for (const auto& span : side.in) {
     std::copy(from, from + span.size(), span.begin());
     from += span.size();
   }
-  expect(side);
+  receive(side);
 }
 
 template <int D, class Real>
-void Halo<D, Real>::hand_out(Side& side) {
-  const auto turn = std::size_t(side.passes_out++ % 2);
+void Halo<D, Real>::send(Side& side) {
+  const auto turn = std::size_t(side.tiles_sent++ % 2);
   if (side.sending[turn]) wait_for(*side.sending[turn]);
   Real* to = side.sent[turn].data();
   for (const auto& span : side.out) to = std::copy(span.begin(), span.end(), to);
@@ -83,27 +84,27 @@ void Halo<D, Real>::hand_out(Side& side) {
 
 template <int D, class Real>
 std::array<IndexRange, 2> Halo<D, Real>::before(const IndexRange& rows) {
-  std::array<IndexRange, 2> renewed{};
+  std::array<IndexRange, 2> refreshed{};
   for (std::size_t n = 0; n < sides_.size(); ++n) {
     auto& side = sides_[n];
     const auto first = side.rows_in.first;
     if (side.rank < 0 || first < rows.first || first >= rows.last) continue;
     if (std::exchange(side.begun, true)) {
-      take(side);
-      renewed[n] = side.rows_in;
+      unpack(side);
+      refreshed[n] = side.rows_in;
     }
   }
-  return renewed;
+  return refreshed;
 }
 
 template <int D, class Real>
 void Halo<D, Real>::after(std::int64_t earlier, std::int64_t now) {
   for (auto& side : sides_)
-    if (side.rank >= 0 && earlier < side.rows_out.last && now >= side.rows_out.last) hand_out(side);
+    if (side.rank >= 0 && earlier < side.rows_out.last && now >= side.rows_out.last) send(side);
 }
 
 template <int D, class Real>
-IndexRange Halo<D, Real>::right_after(std::int64_t steps, const IndexRange& spread) const {
+IndexRange Halo<D, Real>::valid_rows(std::int64_t steps, const IndexRange& spread) const {
   IndexRange rows = own_;
   if (sides_[0].rank >= 0) rows.first -= exchanged_ - steps * spread.first;
   if (sides_[1].rank >= 0) rows.last += exchanged_ - steps * spread.last;
@@ -113,7 +114,7 @@ IndexRange Halo<D, Real>::right_after(std::int64_t steps, const IndexRange& spre
 template <int D, class Real>
 std::int64_t Halo<D, Real>::memory_bytes() const {
   std::size_t values = 0;
-  for (const auto& side : sides_) values += side.come.size() + side.sent[0].size() + side.sent[1].size();
+  for (const auto& side : sides_) values += side.received.size() + side.sent[0].size() + side.sent[1].size();
   return std::int64_t(values * sizeof(Real));
 }
 

@@ -13,30 +13,30 @@
 
 namespace slipwave::solver {
 
-/// The rows (in 3-D planes) beyond a process's own. It computes them too, so that within a pass nobody waits
-/// for a neighbour; what is stale in them is refreshed with the neighbour's own rows before the next
-/// pass comes to them. A rank needs the rows above it first and those below it last: neighbours below run a
-/// little behind, by as much as a message takes, and then none waits for another (docs/scaling.md).
+/// The rows (in 3-D planes) beyond a process's own. It computes them too, so that within a time tile no
+/// process waits for a neighbour; they go stale from their outer end and are refreshed with the neighbour's
+/// own rows before the next tile reaches them. A rank needs the rows above it first and those below it last:
+/// neighbours below run a little behind, by as much as a message takes, and then none waits for another
+/// (docs/scaling.md).
 template <int D, class Real>
 class Halo {
  public:
-  /// Shows values of some rows that go from step to step.
-  using Show =
+  /// Gives access to the values of some rows that last from step to step.
+  using Exchange =
       std::function<void(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to)>;
-  /// Keeps references. `memory` shows what passes remember of rows, fields apart.
-  Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Show& memory);
+  /// Keeps references. `memory` gives access to what effects retain of rows.
+  Halo(Ranks& ranks, const Domain<D>& domain, State<D, Real>& state, const Exchange& memory);
   ~Halo();
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
 
-  /// Before a pass comes to these rows: refreshes those of them that are the neighbours'. They are returned,
-  /// above and below.
+  /// Before a tile reaches these rows: refreshes those that neighbours own. Returns them, above and below.
   std::array<IndexRange, 2> before(const IndexRange& rows);
-  /// When a pass has brought all rows before `now` to its end, and had those before `earlier` at the last
-  /// call: hands those to the neighbours that they wait for.
+  /// When a tile has finished all rows before `now`, and had finished those before `earlier` at the last
+  /// call: sends the neighbours the rows they wait for.
   void after(std::int64_t earlier, std::int64_t now);
-  /// Rows that are still right after so many steps of a pass, where what is wrong spreads by so many in each.
-  IndexRange right_after(std::int64_t steps, const IndexRange& spread) const;
+  /// Rows that are still valid after so many steps of a tile, when stale values spread by `spread` in each.
+  IndexRange valid_rows(std::int64_t steps, const IndexRange& spread) const;
   std::int64_t memory_bytes() const;
 
  private:
@@ -47,15 +47,15 @@ class Halo {
     std::vector<std::span<Real>> out, in;
     std::array<std::vector<Real>, 2> sent;  // by turns
     std::array<std::unique_ptr<Message>, 2> sending;
-    std::vector<Real> come;
-    std::unique_ptr<Message> coming;
-    std::int64_t passes_out = 0;
-    bool begun = false;  // nothing comes before the first pass: all fields are zero
+    std::vector<Real> received;
+    std::unique_ptr<Message> receiving;
+    std::int64_t tiles_sent = 0;
+    bool begun = false;  // nothing is received before the first tile: all fields are zero
   };
-  void prepare(Side& side, int rank, State<D, Real>& state, const Show& memory);
-  void expect(Side& side);
-  void take(Side& side);
-  void hand_out(Side& side);
+  void prepare(Side& side, int rank, State<D, Real>& state, const Exchange& memory);
+  void receive(Side& side);
+  void unpack(Side& side);
+  void send(Side& side);
 
   Ranks& ranks_;
   IndexRange own_;

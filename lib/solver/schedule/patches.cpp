@@ -6,7 +6,7 @@ namespace slipwave::solver {
 namespace {
 
 constexpr std::int64_t block = Layout<2>::block;
-/// What a sweep spreads by: the reconstruction of the next cell.
+/// Cells by which a sweep spreads: the reach of the reconstruction of the next cell.
 constexpr std::int64_t reach = max_reach + 1;
 /// Patches closer to each other, or to an end of the line, than this are one, or not worth it. Counted from
 /// cells and not from blocks: a mirrored scene has mirrored patches.
@@ -25,7 +25,7 @@ Patches<D>::Patches(const Layout<D>& layout, const Domain<D>& domain, const Mode
       of_line.push_back({at[0] - reach, 0});
     of_line.back().last = at[0] + reach + 1;
   }
-  // Copies of a line know neither its ends nor what the PML remembers there.
+  // Copies of a line know neither its ends nor the memory of the PML there.
   const std::int64_t nx = layout.shape()[0], low = domain.low_zone[0];
   const IndexRange inside = {std::max(low + 2 * margin, least_gap),
                              std::min(low + domain.model_grid.shape[0] - 2 * margin, nx - least_gap)};

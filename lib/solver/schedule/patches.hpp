@@ -13,9 +13,9 @@ struct Patch {
   IndexRange cells, blocks;
 };
 
-/// Where slip makes two half sweeps along x of what is one sweep elsewhere: the cells of fractures, and those
-/// beside them whose second half sweep reads what slip left. The same with and without slip: the difference
-/// must be the work of slip alone.
+/// Where slip needs two half sweeps along x instead of one merged sweep: the cells of fractures, and those
+/// beside them whose second half sweep reads what slip has changed. The same with and without slip: the
+/// difference must be the work of slip alone.
 template <int D>
 class Patches {
  public:

@@ -17,8 +17,8 @@ PlainExecutor<D, Real>::PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
   copy_ = Buffer<Real>(copy_pitch_ * FieldRows<D>::count);
 }
 
-/// A step is its list of sweeps, then what happens between its last sweep, along x, and the first of the next
-/// step. What comes before that first sweep of all is the half sweep the first step begins with.
+/// A step is its list of sweeps but the last, along x, then end_of_step(), which contains that last half
+/// sweep and the first one of the next step. The very first half sweep comes before all steps.
 template <int D, class Real>
 std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
                                          const std::function<bool()>& pause) {
@@ -38,14 +38,14 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
   return last;
 }
 
-/// Rows along x do not depend on each other, but for the velocities that corrections at free sides read.
+/// Rows along x do not depend on each other, except for the velocities that corrections at free sides read.
 template <int D, class Real>
 void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
   const std::int64_t rows = state_.layout.lines();
   if (sweeps_.corrects_surface(0))
     for (std::int64_t row = 0; row < rows; ++row) sweeps_.retain(0, row, {0, state_.layout.shape()[0]});
   for (std::int64_t row = 0; row < rows; ++row) {
-    sweeps_.measure_side_surfaces(row);
+    sweeps_.correct_side_surfaces(row);
     if (step_.splits(time, row))
       split_row(time, row);
     else
@@ -53,7 +53,7 @@ void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
   }
 }
 
-/// Two half sweeps, and between them what happens at the end of the step.
+/// Two half sweeps, and between them the effects and records at the end of the step.
 template <int D, class Real>
 void PlainExecutor<D, Real>::split_row(const StepTime& time, std::int64_t row) {
   using Cells = typename TimeStep<D, Real>::Cells;
@@ -67,8 +67,8 @@ void PlainExecutor<D, Real>::split_row(const StepTime& time, std::int64_t row) {
   sweeps_.along_x(row, all, half_, none, work_);
 }
 
-/// Both half sweeps as one. A copy takes them one after the other: records read it, and patches, where
-/// effects act between both, come from it.
+/// Both half sweeps as one. A copy makes them one after the other: records read the copy, and patches, where
+/// effects act between both, are written back from it.
 template <int D, class Real>
 void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) {
   using Cells = typename TimeStep<D, Real>::Cells;
@@ -89,7 +89,7 @@ void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) 
   for (const auto& patch : patches) sweeps_.put(copy, patch.cells);
 }
 
-/// As the tiled executor, which remembers where fields may be other than zero: here they may everywhere.
+/// As the tiled executor, which stores where fields may be other than zero: here they may be everywhere.
 template <int D, class Real>
 void PlainExecutor<D, Real>::serialize(Archive& archive) {
   std::vector<char> active(std::size_t(state_.layout.lines() * state_.layout.padded_nx() / Layout<D>::block),

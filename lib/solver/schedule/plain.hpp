@@ -9,7 +9,7 @@
 namespace slipwave::solver {
 
 /// The reference: each entry of the time step on the whole grid, one entry after the other. Slow and short:
-/// whoever wants to know what a time step is reads run() and end_of_step(). One process only.
+/// run() and end_of_step() show what a time step is. One process only.
 template <int D, class Real>
 class PlainExecutor : public Executor {
  public:

@@ -21,23 +21,23 @@ int steps_of_a_tile(const Tiling& tiling) { return tiling.steps > 0 ? tiling.ste
 
 template <int D>
 std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int axis, std::int64_t reach,
-                              const std::array<std::int64_t, std::size_t(D)>& bends) {
+                              const std::array<std::int64_t, std::size_t(D)>& surface_reach) {
   std::int64_t cells = 0;
   for (const auto& sweep : splitting)
-    cells += sweep.axis == axis ? reach + 1 : bends[std::size_t(sweep.axis)];
+    cells += sweep.axis == axis ? reach + 1 : surface_reach[std::size_t(sweep.axis)];
   return cells;
 }
 
 template <int D>
 std::int64_t spread_of_a_tile(const Scene<D>& scene) {
-  std::array<std::int64_t, std::size_t(D)> bends{};
+  std::array<std::int64_t, std::size_t(D)> surface_reach{};
   for (int axis = 0; axis < D; ++axis)
     for (const EdgeLaw law : scene.edges[axis])
-      if (law == EdgeLaw::free) bends[std::size_t(axis)] = FreeSurface<D, float>::reach;
+      if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = FreeSurface<D, float>::reach;
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
-                                             reach_of(scene.numerics.order), bends);
-  // The first pass of all has a sweep along x more.
-  return steps_of_a_tile(scene.numerics.tiling) * of_a_step + bends[0];
+                                             reach_of(scene.numerics.order), surface_reach);
+  // The first tile of all has one more sweep along x.
+  return steps_of_a_tile(scene.numerics.tiling) * of_a_step + surface_reach[0];
 }
 
 template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
@@ -53,7 +53,7 @@ template std::int64_t spread_of_a_tile(const Scene<3>&);
 namespace slipwave {
 namespace {
 
-/// What points read beyond the row they are in, at most.
+/// Rows that points read beyond the one they are in, at most.
 constexpr std::int64_t beside_points = widest_stencil;
 
 template <class Value, int D>

@@ -10,16 +10,16 @@
 
 namespace slipwave::solver {
 
-/// Steps that a time tile makes.
+/// Steps of a time tile.
 int steps_of_a_tile(const Tiling& tiling);
 
 /// Cells by which the fields of a cell spread along an axis in a step at most: a sweep along it reads `reach`
-/// more, free surfaces of the others `bends` (by axis).
+/// more, free surfaces of the others `surface_reach` (by axis).
 template <int D>
 std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int axis, std::int64_t reach,
-                              const std::array<std::int64_t, std::size_t(D)>& bends);
+                              const std::array<std::int64_t, std::size_t(D)>& surface_reach);
 
-/// Rows (in 3-D planes) by which what is wrong with a cell spreads in a time tile at most.
+/// Rows (in 3-D planes) by which a stale cell spreads in a time tile at most.
 template <int D>
 std::int64_t spread_of_a_tile(const Scene<D>& scene);
 
@@ -27,20 +27,20 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene);
 
 namespace slipwave {
 
-/// The rows of a model on this grid that process `number` of `count` answers for: each has about as many
-/// cells to compute as the others, zones included. `scene` needs no model yet. Throws an Error where there
-/// are too few rows for so many, or something that can not be shared out.
+/// The rows of a model on this grid that process `number` of `count` owns: each has about as many cells to
+/// compute as the others, zones included. `scene` needs no model yet. Throws an Error where there are too few
+/// rows for so many processes, or a source that can not be distributed.
 template <int D>
 Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count);
 
 /// The rows of the whole model that the process must hold: first <= row < second.
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part);
 
-/// Cuts a scene that holds the whole model down to what this process holds of it.
+/// Cuts a scene that holds the whole model down to the rows that this process holds.
 template <int D>
 Scene<D> cut_to(Scene<D> whole, const Subdomain& part);
 
-/// Collective: tells the parts of a scene what they must know of the whole model.
+/// Collective: gives the subdomains of a scene what they need of the whole model.
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks);
 

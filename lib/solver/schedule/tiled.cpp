@@ -10,7 +10,7 @@ namespace slipwave::solver {
 namespace {
 
 // Measured on grids from 10^4 to 10^8 cells (tests/bench, docs/performance.md).
-/// Columns of a stripe: what the sweeps need of them stays in a first cache of 32 to 48 KiB.
+/// Columns of a stripe: their data stays in a first cache of 32 to 48 KiB.
 constexpr std::int64_t usual_stripe = 256;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
@@ -42,15 +42,15 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
   const auto longest = stages(0, steps_per_tile_);
   longest_ = longest.back().behind + surface_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  // What is handed to neighbours or refreshed is then not what the pass behind or the one before is at.
+  // Rows that are sent to neighbours or refreshed are then not in use by the next tile or the one before.
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
   const auto most = std::int64_t(Effect<D, Real>::most_steps_in_progress / steps_per_tile_);
   in_progress_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
   const auto ring = [&](int axis) { return sweeps.make_ring(axis, 0, layout_.padded_nx()); };
-  for (auto& pass : in_progress_)
-    for (std::int64_t n = 0; n < along_z * (D == 2 ? 1 : cut_cells_); ++n) pass.rings.push_back(ring(D - 1));
+  for (auto& tile : in_progress_)
+    for (std::int64_t n = 0; n < along_z * (D == 2 ? 1 : cut_cells_); ++n) tile.rings.push_back(ring(D - 1));
   std::int64_t widest = layout_.padded_nx();
   if (D == 2) widest = std::min(stripe_width_ * 2 + longest.front().ahead, widest);
   for (int n = 0; n < parallel_workers(); ++n) {
@@ -79,14 +79,14 @@ auto TiledExecutor<D, Real>::counts(const std::vector<Stage>& stages) -> Counts 
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::memory_bytes() const {
   std::int64_t bytes = active_.memory_bytes();
-  for (const auto& pass : in_progress_)
-    for (const auto& ring : pass.rings) bytes += ring.memory_bytes();
+  for (const auto& tile : in_progress_)
+    for (const auto& ring : tile.rings) bytes += ring.memory_bytes();
   for (const auto& worker : workers_)
     for (const auto& ring : worker.rings) bytes += ring.memory_bytes();
   return bytes;
 }
 
-/// The stages of a pass that makes these steps.
+/// The stages of a time tile of these steps.
 template <int D, class Real>
 auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const -> std::vector<Stage> {
   std::vector<Stage> all;
@@ -144,14 +144,14 @@ std::int64_t TiledExecutor<D, Real>::stripes() const {
   return std::max<std::int64_t>(1, (cut_cells_ + stripe_width_ / 2) / stripe_width_);
 }
 
-/// Lines of a band that wait for the next stripe; where there is none, nothing waits.
+/// Rows of a band that wait for the next stripe; with one stripe none does.
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::boundaries_per_sweep() const {
   return stripes() > 1 ? 2 * band_rows_ + longest_ : 1;
 }
 
-/// Where a sweep that much ahead ends in a stripe. The one before it in the pass is two blocks ahead of it,
-/// or at the end of the line; in 3-D as many rows as it needs.
+/// Where a sweep that much ahead ends in a stripe. The one before it in the tile is two blocks ahead of it,
+/// or at the end of the row; in 3-D as many rows as it needs.
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::last_column(std::int64_t stripe, std::int64_t ahead) const {
   constexpr std::int64_t block = D == 2 ? Layout<D>::block : 1, least = D == 2 ? 2 * Sweeps<D, Real>::lag : 0;
@@ -164,31 +164,31 @@ std::int64_t TiledExecutor<D, Real>::last_column(std::int64_t stripe, std::int64
 template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
                                          const std::function<bool()>& pause) {
-  const std::int64_t passes = (last - first + steps_per_tile_ - 1) / steps_per_tile_;
-  // A pass is decided on in its first band, which comes after that of the pass before.
-  std::atomic<std::int64_t> made = passes;
-  parallel_passes(passes, bands_, std::int64_t(in_progress_.size()),
-                  [&](std::int64_t pass, std::int64_t band, int worker) {
-                    if (pause && band == 0 && pass > 0 && pass < made && pause()) made = pass;
-                    if (pass >= made) return;
-                    const std::int64_t begin = first + pass * steps_per_tile_;
-                    run_band(pass, band, begin, std::min(begin + steps_per_tile_, last),
-                             workers_[std::size_t(worker)]);
-                  });
+  const std::int64_t tiles = (last - first + steps_per_tile_ - 1) / steps_per_tile_;
+  // Whether a tile is made is decided in its first band, which comes after that of the tile before.
+  std::atomic<std::int64_t> made = tiles;
+  parallel_tiles(tiles, bands_, std::int64_t(in_progress_.size()),
+                 [&](std::int64_t tile, std::int64_t band, int worker) {
+                   if (pause && band == 0 && tile > 0 && tile < made && pause()) made = tile;
+                   if (tile >= made) return;
+                   const std::int64_t begin = first + tile * steps_per_tile_;
+                   run_band(tile, band, begin, std::min(begin + steps_per_tile_, last),
+                            workers_[std::size_t(worker)]);
+                 });
   return std::min(first + made * steps_per_tile_, last);
 }
 
 template <int D, class Real>
 void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, std::int64_t first,
                                       std::int64_t last, Worker& worker) {
-  auto& pass = in_progress_[std::size_t(number) % in_progress_.size()];
+  auto& tile = in_progress_[std::size_t(number) % in_progress_.size()];
   if (band == 0) {
-    pass.stages = stages(first, last);
+    tile.stages = stages(first, last);
     const Box all{{0, rows_}, {0, cut_cells_}}, growth = growth_of_a_step();
-    for (auto& stage : pass.stages) {
+    for (auto& stage : tile.stages) {
       stage.needed = everywhere_ ? all : step_.needed(stage.time, growth);
       if (!halo_) continue;
-      const auto right = halo_->right_after(stage.time.step - first, growth.rows);
+      const auto right = halo_->valid_rows(stage.time.step - first, growth.rows);
       stage.needed.rows = {std::max(stage.needed.rows.first, right.first),
                            std::min(stage.needed.rows.last, right.last)};
     }
@@ -197,23 +197,23 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
   const bool ends = band + 1 == bands_;
   const IndexRange rows{band * band_rows_, ends ? rows_ + longest_ : (band + 1) * band_rows_};
   if (halo_)
-    for (const auto& renewed : halo_->before(rows)) refresh(renewed);
+    for (const auto& refreshed : halo_->before(rows)) refresh(refreshed);
   std::fill(worker.columns.begin(), worker.columns.end(), IndexRange{});
   for (std::int64_t stripe = 0; stripe < stripes(); ++stripe) {
-    for (std::size_t n = 0; n < pass.stages.size(); ++n) {
-      const auto& stage = pass.stages[n];
+    for (std::size_t n = 0; n < tile.stages.size(); ++n) {
+      const auto& stage = tile.stages[n];
       auto* const columns = &worker.columns[2 * n];
       columns[0] = {columns[0].last, last_column(stripe, stage.ahead)};
       columns[1] = {columns[1].last, last_column(stripe, stage.ahead - 2 * Sweeps<D, Real>::lag)};
     }
-    run_stripe(pass, rows, worker);
+    run_stripe(tile, rows, worker);
   }
   if (halo_) halo_->after(rows.first - longest_, ends ? rows_ : rows.last - longest_);
   if (ends)
     for (std::int64_t step = first; step < last; ++step) step_.finish({step, step_.dt_s()});
 }
 
-/// Rows that came from neighbours.
+/// Rows received from neighbours.
 template <int D, class Real>
 void TiledExecutor<D, Real>::refresh(const IndexRange& rows) {
   const auto lines_a_row = layout_.lines() / rows_;
@@ -229,10 +229,10 @@ void TiledExecutor<D, Real>::fields_changed() {
 /// By how many rows and columns (in 3-D planes and rows) the fields of a cell spread in a step at most.
 template <int D, class Real>
 Box TiledExecutor<D, Real>::growth_of_a_step() const {
-  std::array<std::int64_t, std::size_t(D)> bends;
-  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = surface_rows(axis);
+  std::array<std::int64_t, std::size_t(D)> surface_reach;
+  for (int axis = 0; axis < D; ++axis) surface_reach[std::size_t(axis)] = surface_rows(axis);
   const auto along = [&](int axis) {
-    return spread_of_a_step<D>(step_.sweeps(), axis, sweeps_.reach(), bends);
+    return spread_of_a_step<D>(step_.sweeps(), axis, sweeps_.reach(), surface_reach);
   };
   const auto rows = along(D - 1), columns = along(D - 2);
   return {{rows, rows}, {columns, columns}};
@@ -247,24 +247,24 @@ std::int64_t TiledExecutor<D, Real>::swept_cells() const {
 
 namespace {
 
-/// Rows that are required before the first sweep comes to them.
+/// Rows that are prefetched ahead of the first sweep.
 constexpr std::int64_t rows_ahead = 1;
 
 }  // namespace
 
 template <int D, class Real>
-void TiledExecutor<D, Real>::run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker) {
+void TiledExecutor<D, Real>::run_stripe(TileInProgress& tile, const IndexRange& rows, Worker& worker) {
   for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
     if (D == 2 && arriving + rows_ahead < rows_)
-      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.prefetch());
+      sweeps_.queue_prefetch(arriving + rows_ahead, worker.columns.front(), worker.work.prefetch());
     const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
-    for (std::size_t n = 0; n < pass.stages.size(); ++n) {
-      const auto& stage = pass.stages[n];
+    for (std::size_t n = 0; n < tile.stages.size(); ++n) {
+      const auto& stage = tile.stages[n];
       const auto* const columns = &worker.columns[2 * n];
       const std::int64_t row = arriving - stage.behind;
       if (stage.kind == Stage::along_z) {
         if (row >= 0 && row < rows_ + sweeps_.rows_behind() && !columns->empty())
-          along_z(stage, row, *columns, pass, worker);
+          along_z(stage, row, *columns, tile, worker);
       } else if (stage.kind == Stage::along_y) {
         if (!columns->empty())
           sweep_plane(stage, row, *columns,
@@ -292,7 +292,7 @@ void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, st
     }
   }
   row -= side_rows;
-  // The first cells of the next stripe come of what this one leaves, too.
+  // The first cells of the next stripe depend on the boundary of this one, too.
   const std::int64_t left = D == 2 ? Sweeps<D, Real>::lag + 1 : 0;
   if (row < 0 || row >= rows_ ||
       !stage.needed.meets({row, row + 1}, {columns[D == 2 && ends ? 1 : 0].first, columns->last + left}))
@@ -305,7 +305,7 @@ void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, st
   if (ends && !step_.patches().empty())
     patches = &worker.patches[std::size_t(D == 2 ? stage.end * boundaries_per_sweep() + in_band : stage.end)];
   const auto line = [&](std::int64_t number, const IndexRange& first, const IndexRange& second) {
-    if (!first.empty()) sweeps_.measure_side_surfaces(number);
+    if (!first.empty()) sweeps_.correct_side_surfaces(number);
     if (ends)
       end_of_step(stage, number, first, second, boundary(0), boundary(1), patches, worker);
     else if (!first.empty())
@@ -331,12 +331,12 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     }
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
-    if (low || high) sweeps_.measure_flank_surfaces(row);
+    if (low || high) sweeps_.correct_flank_surfaces(row);
     for (auto step = steps.first; step < steps.last; ++step) {
       const auto done = step - behind;
-      if (is_quiet({row - flank_rows, row + flank_rows + 1}, {done - 1 - sweeps_.reach(), step + 1},
-                   whole_lines())) {
-        sweeps_.pass_over(step, whole_lines(), ring);
+      if (is_zero({row - flank_rows, row + flank_rows + 1}, {done - 1 - sweeps_.reach(), step + 1},
+                  whole_lines())) {
+        sweeps_.skip(step, whole_lines(), ring);
         continue;
       }
       sweeps_.across(1, {0, 0, row}, step, whole_lines(), stage.fraction, ring, worker.work);
@@ -345,10 +345,10 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
   }
 }
 
-/// Whether all cells of these lines are zero; lines: in 3-D those of each of the rows.
+/// Whether all cells of these rows are zero; lines: in 3-D those of each plane.
 template <int D, class Real>
-bool TiledExecutor<D, Real>::is_quiet(const IndexRange& rows, const IndexRange& lines,
-                                      const IndexRange& columns) const {
+bool TiledExecutor<D, Real>::is_zero(const IndexRange& rows, const IndexRange& lines,
+                                     const IndexRange& columns) const {
   if (everywhere_) return false;
   const auto within = [](const IndexRange& some, std::int64_t cells) {
     return IndexRange{std::max<std::int64_t>(some.first, 0), std::min(some.last, cells)};
@@ -356,26 +356,26 @@ bool TiledExecutor<D, Real>::is_quiet(const IndexRange& rows, const IndexRange& 
   const IndexRange all = D == 2 ? IndexRange{0, 1} : within(lines, cut_cells_), of = within(rows, rows_);
   for (auto row = of.first; row < of.last; ++row)
     for (auto y = all.first; y < all.last; ++y)
-      if (!active_.is_quiet(line_of(row, y), columns)) return false;
+      if (!active_.is_zero(line_of(row, y), columns)) return false;
   return true;
 }
 
 template <int D, class Real>
 void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& columns) {
-  if (!everywhere_) active_.look(line, columns);
+  if (!everywhere_) active_.mark(line, columns);
 }
 
 /// A sweep along z, of these columns or, in 3-D, lines.
 template <int D, class Real>
 void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
-                                     TileInProgress& pass, Worker& worker) {
+                                     TileInProgress& tile, Worker& worker) {
   constexpr auto lag = Sweeps<D, Real>::lag;
   const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeSurface<D, Real>::reach;
   if (!stage.needed.meets({done, step + 1}, columns)) return;
-  // All that row `done` comes of, also rows that have been advanced since.
+  // All that row `done` depends on, also rows that have been advanced since.
   const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};
-  const auto measure = [&] {
-    sweeps_.measure_end_surfaces(step,
+  const auto correct = [&] {
+    sweeps_.correct_end_surfaces(step,
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
@@ -385,20 +385,20 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
     worker.swept += across.count();
   };
   if constexpr (D == 2) {
-    auto& ring = pass.rings[std::size_t(stage.number)];
+    auto& ring = tile.rings[std::size_t(stage.number)];
     // Free surfaces read some cells of the columns beside these.
-    if (is_quiet(rows, {}, {columns.first - lag, columns.last + lag})) {
-      sweeps_.pass_over(step, columns, ring);
+    if (is_zero(rows, {}, {columns.first - lag, columns.last + lag})) {
+      sweeps_.skip(step, columns, ring);
       return;
     }
-    measure();
+    correct();
     sweep({}, columns, ring);
   } else {
-    measure();
+    correct();
     for (auto y = columns.first; y < columns.last; ++y) {
-      auto& ring = pass.rings[std::size_t(stage.number * cut_cells_ + y)];
-      if (is_quiet(rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
-        sweeps_.pass_over(step, whole_lines(), ring);
+      auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
+      if (is_zero(rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
+        sweeps_.skip(step, whole_lines(), ring);
       else
         sweep({0, y, 0}, whole_lines(), ring);
     }
@@ -406,17 +406,17 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
 }
 
 template <int D, class Real>
-void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real part,
+void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real fraction,
                                      StripeBoundary<Real>& boundary, Worker& worker, bool begins) {
   constexpr auto reach = 2 * Sweeps<D, Real>::lag;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
-  if (is_quiet(with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
-               {columns.first - reach, columns.last + reach})) {
+  if (is_zero(with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
+              {columns.first - reach, columns.last + reach})) {
     boundary = {};
     return;
   }
-  sweeps_.along_x(line, columns, part, boundary, worker.work, begins);
+  sweeps_.along_x(line, columns, fraction, boundary, worker.work, begins);
   mark_active(line, columns);
 }
 
@@ -431,8 +431,8 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
   const auto fields = state_.row_fields(line);
   const auto effects = [&](auto&& apply) {
     const bool injects = step_.injects(time, line);
-    // They make nothing of rock at rest.
-    if (!injects && is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
+    // They do nothing in rock at rest.
+    if (!injects && is_zero({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
     apply();
     if (injects) mark_active(line, first);
   };
@@ -499,8 +499,9 @@ bool TiledExecutor<D, Real>::patches_reach(std::int64_t line, const IndexRange& 
   });
 }
 
-/// Brings the fields of the patches of a row, in a copy, to the end of the step and into the next one. As on
-/// split rows, the second half sweep stays behind the first. Returns the copy, nothing where all is at rest.
+/// Advances the fields of the patches of a row, in a copy, to the end of the step and into the next one. As
+/// on split rows, the second half sweep stays behind the first. Returns the copy, nothing where all is at
+/// rest.
 template <int D, class Real>
 std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Stage& stage, std::int64_t line,
                                                                        const IndexRange& first,
@@ -512,15 +513,15 @@ std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Sta
   if (!patches_reach(line, {second.first, first.last + beyond})) return std::nullopt;
   const auto patches = step_.patches().of(line);
   const auto at = layout_.line_index(line);
-  if (is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
-               {second.first - behind, first.last + beyond})) {
+  if (is_zero({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
+              {second.first - behind, first.last + beyond})) {
     const auto fields = state_.row_fields(line);
     for (const auto& patch : patches) read_patch(stage, patch, first, fields);
-    // The next stripe begins with zeros as well as it would continue from them.
+    // The next stripe may begin anew: it would continue from zeros.
     boundary.line = -1;
     return std::nullopt;
   }
-  // Cell 0 of the copy would stand here.
+  // Cell 0 of the copy would be here.
   const RowFields<Real> strip{
       line, worker.strip.data() + Patches<D>::margin - (second.first - behind - Patches<D>::margin), pitch};
   const bool begins = boundary.line != line || boundary.step != stage.time.step ||
@@ -540,8 +541,8 @@ std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Sta
   return strip;
 }
 
-/// Puts into the copy what the stripe before left of the patches, and what no sweep of this stage has
-/// changed.
+/// Fills the copy with the values that the stripe before stored for the patches, and with those that no sweep
+/// of this stage has changed.
 template <int D, class Real>
 void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const IndexRange& first,
                                           const IndexRange& second, bool begins,
@@ -566,7 +567,7 @@ void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const In
   }
 }
 
-/// Half a sweep, what happens at the end of the step, half a sweep of the next.
+/// Half a sweep, effects and records at the end of the step, half a sweep of the next.
 template <int D, class Real>
 void TiledExecutor<D, Real>::advance_patch(const Stage& stage, const Patch& patch,
                                            const RowFields<Real>& strip, const IndexRange& first,
@@ -590,7 +591,7 @@ void TiledExecutor<D, Real>::advance_patch(const Stage& stage, const Patch& patc
   sweep(patch.blocks, second, boundary.second);
 }
 
-/// Has those of these columns read that are in the patch.
+/// Records read those of these columns that are in the patch.
 template <int D, class Real>
 void TiledExecutor<D, Real>::read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
                                         const RowFields<Real>& fields) {
@@ -601,7 +602,7 @@ void TiledExecutor<D, Real>::read_patch(const Stage& stage, const Patch& patch, 
 /// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves
 /// work.
 template <int D, class Real>
-void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real part,
+void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real fraction,
                                                   StripeBoundary<Real>& boundary, Worker& worker) {
   constexpr auto block = Layout<D>::block, least = 4 * block;
   std::int64_t first = columns.first;
@@ -610,14 +611,14 @@ void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const Index
     const IndexRange left = {(patch.cells.first + block - 1) / block * block,
                              patch.cells.last / block * block};
     if (left.count() < least || left.last < first || left.first >= columns.last) continue;
-    if (first < left.first) along_x(line, {first, left.first}, part, boundary, worker, begins);
+    if (first < left.first) along_x(line, {first, left.first}, fraction, boundary, worker, begins);
     first = std::min(left.last, columns.last);
     begins = true;
   }
-  if (first < columns.last) along_x(line, {first, columns.last}, part, boundary, worker, begins);
+  if (first < columns.last) along_x(line, {first, columns.last}, fraction, boundary, worker, begins);
 }
 
-/// Puts what became of the patches in these columns into the line.
+/// Writes the patches in these columns back into the row.
 template <int D, class Real>
 void TiledExecutor<D, Real>::put_patches(const IndexRange& columns, const RowFields<Real>& copy) {
   for (const auto& patch : step_.patches().of(copy.row)) {
@@ -628,7 +629,7 @@ void TiledExecutor<D, Real>::put_patches(const IndexRange& columns, const RowFie
   }
 }
 
-/// Has those of these columns of a line read that are in no patch.
+/// Records read those of these columns of a row that are in no patch.
 template <int D, class Real>
 void TiledExecutor<D, Real>::read_beside_patches(const Stage& stage, const IndexRange& columns,
                                                  const RowFields<Real>& fields) {

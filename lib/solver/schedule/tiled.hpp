@@ -13,7 +13,7 @@
 
 namespace slipwave::solver {
 
-/// What the patches of a line leave for its next stripe.
+/// The values that the patches of a row store for its next stripe.
 template <class Real>
 struct PatchBoundary {
   static constexpr std::int64_t behind = 32, width = behind + 80;
@@ -22,13 +22,13 @@ struct PatchBoundary {
   std::vector<Real> fields;                     // rows of `width`, from `behind` cells before the next on
 };
 
-/// Executes time steps in time tiles: one or several steps in one time tile. Row after row comes to
-/// the first sweep, and each following sweep works some rows behind the one before it, so that what it needs
-/// is still in the cache. Rows are cut into stripes of columns that fit the first cache; a sweep
-/// stays some columns behind the one before it, too. In 3-D what comes are planes, cut along y into stripes
-/// of whole rows that fit the second cache: planes are the rows of 2-D, their rows the columns. Threads work
-/// on different tiles at once, each on a band of rows some bands behind the tile before. Everything is
-/// computed once and in an order of its own whatever the number of threads, so results do not depend on it.
+/// Executes time steps in time tiles of one or several steps. The first sweep works row after row, and each
+/// following sweep some rows behind the one before it, so that its data is still in the cache. Rows are cut
+/// into stripes of columns that fit the first cache; a sweep stays some columns behind the one before it,
+/// too. In 3-D planes, cut along y into stripes of whole rows that fit the second cache, take the place of
+/// rows, and their rows that of columns. Threads work on different tiles at once, each on a band of rows some
+/// bands behind the tile before. Every cell is computed once and in the same order whatever the number of
+/// threads, so results do not depend on it.
 template <int D, class Real>
 class TiledExecutor : public Executor {
  public:
@@ -39,7 +39,7 @@ class TiledExecutor : public Executor {
   /// the first step.
   void use(Halo<D, Real>* halo) { halo_ = halo; }
   using Executor::run;
-  /// `pause` is asked before each tile but the first.
+  /// `pause` is called before each tile but the first.
   std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
   void fields_changed() override;
   void serialize(Archive& archive) override { active_.serialize(archive); }
@@ -47,17 +47,17 @@ class TiledExecutor : public Executor {
   std::int64_t swept_cells() const override;
 
  private:
-  /// What is done to every row (plane) in turn. A sweep along an axis or the end of a step: two sweeps along
-  /// x with all that happens between them.
+  /// What a tile does to every row (plane) in turn: a sweep along an axis, or the end of a step, which is two
+  /// sweeps along x with the effects and records between them.
   struct Stage {
     enum Kind { along_x, along_y, along_z, end_of_step } kind;
     Real fraction;            // of the step, of each of the two sweeps at its end
     StepTime time;            // whose end it is, or which it is in
-    std::int64_t behind = 0;  // rows that come to the first stage before this one gets its first
+    std::int64_t behind = 0;  // rows by which it is behind the first stage
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
     int end = 0;              // the same of the ends of steps
-    Box needed{};             // elsewhere nobody will see what it does
+    Box needed{};             // what it does elsewhere affects no record
   };
   struct TileInProgress {
     std::vector<Stage> stages;
@@ -73,24 +73,24 @@ class TiledExecutor : public Executor {
     std::int64_t strip_pitch = 0;
     std::int64_t swept = 0;  // cells, along z
   };
-  /// How many stages of a pass are of a kind; ends of steps count as two sweeps along x.
+  /// How many stages of a tile are of a kind; ends of steps count as two sweeps along x.
   struct Counts {
     std::int64_t along_x = 0, along_y = 0, along_z = 0;
   };
   static Counts counts(const std::vector<Stage>& stages);
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
-  void run_band(std::int64_t pass, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
-  void run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker);
+  void run_band(std::int64_t tile, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
+  void run_stripe(TileInProgress& tile, const IndexRange& rows, Worker& worker);
   void sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band, const IndexRange* columns,
                   Worker& worker);
   void sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines, Ring<Real>& ring,
                    Worker& worker);
-  void along_x(std::int64_t line, const IndexRange& columns, Real part, StripeBoundary<Real>& boundary,
+  void along_x(std::int64_t line, const IndexRange& columns, Real fraction, StripeBoundary<Real>& boundary,
                Worker& worker, bool begins = false);
-  void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& pass,
+  void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& tile,
                Worker& worker);
   void refresh(const IndexRange& rows);
-  bool is_quiet(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
+  bool is_zero(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
   void mark_active(std::int64_t line, const IndexRange& columns);
   std::int64_t boundaries_per_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const IndexRange& first, const IndexRange& second,
@@ -108,7 +108,7 @@ class TiledExecutor : public Executor {
                      PatchBoundary<Real>& boundary, Worker& worker);
   void read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
                   const RowFields<Real>& fields);
-  void sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real part,
+  void sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real fraction,
                             StripeBoundary<Real>& boundary, Worker& worker);
   void put_patches(const IndexRange& columns, const RowFields<Real>& copy);
   void read_beside_patches(const Stage& stage, const IndexRange& columns, const RowFields<Real>& fields);
@@ -138,7 +138,7 @@ class TiledExecutor : public Executor {
   int steps_per_tile_;
   std::int64_t stripe_width_;
   std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
-  std::int64_t longest_;           // rows from the first to the last stage of a pass
+  std::int64_t longest_;           // rows from the first to the last stage of a tile
   std::int64_t band_rows_, bands_;
   std::vector<TileInProgress> in_progress_;
   std::vector<Worker> workers_;

@@ -34,9 +34,8 @@ struct Read {
 template <int D, class Real>
 using Entry = std::variant<Sweep<D, Real>, Apply<D, Real>, Read<D, Real>>;
 
-/// One time step as a list of sweeps, effects and records in the order in which they happen, and the rules by
-/// which executors may carry it out. Made once from the scene (build_time_step); it knows nothing of how it
-/// is executed.
+/// One time step as a list of sweeps, effects and records in order, and the rules by which executors may
+/// execute it. Built once from the scene (build_time_step), independent of how it is executed.
 ///
 /// The first and the last sweep run along x over half a step. Where no effect acts at the end of the step,
 /// its last sweep and the first of the next are merged into one over the whole step, and records read a copy
@@ -64,7 +63,7 @@ class TimeStep {
   }
   const Patches<D>& patches() const { return patches_; }
 
-  /// What some cells of a row are to the effects at the end of a step: of a split row, of a row whose half
+  /// The kind of cells for the effects at the end of a step: of a split row, of a row whose half
   /// sweeps are merged, of a patch of such a row.
   enum class Cells { split, merged, patch };
   /// Whether any effect acts on such cells.
@@ -79,16 +78,16 @@ class TimeStep {
                           const IndexRange& cells) const {
     apply_those(true, time, of, fields, cells);
   }
-  /// When all rows have come to the end of the step, step after step.
+  /// When all rows have reached the end of the step, step after step.
   void finish(const StepTime& time);
-  /// From now on `progress` (may be null) is told of each finished step.
+  /// From now on `progress` (may be null) is called after each finished step.
   void tell(const Progress* progress) { progress_ = progress; }
 
   /// Whether a record reads anything of the row.
   bool reads(const StepTime& time, std::int64_t row) const;
-  /// Whether an effect may make something of a row whose fields are zero.
+  /// Whether an effect may change a row whose fields are zero.
   bool injects(const StepTime& time, std::int64_t row) const;
-  /// The fields at the end of the step that are read then or later, or that anything read later comes of.
+  /// The fields at the end of the step that are read then or later, or that anything read later depends on.
   /// `growth`: by how many rows and columns fields spread in a step at most.
   Box needed(const StepTime& time, const Box& growth) const;
 

@@ -29,7 +29,8 @@ Complex flux(double courant, double phase) {
   return {up, up_imaginary};
 }
 
-/// The factor of (E12) for a wave that turns by `phase` from cell to cell and travels towards higher cells.
+/// The factor of (E12) for a wave whose phase changes by `phase` from cell to cell and travels towards higher
+/// cells.
 Complex factor(int order, double courant, double phase) {
   const auto f = order == 1   ? flux<1>(courant, phase)
                  : order == 3 ? flux<3>(courant, phase)
@@ -41,7 +42,7 @@ Complex factor(int order, double courant, double phase) {
 /// vx, vz, sxx, szz, sxz in units of cells and steps, density 1: speeds are Courant numbers.
 using Amplitudes = std::array<Complex, 5>;
 
-/// A pair (v, s) of impedance z swept over `part` of a step.
+/// A pair (v, s) of impedance z swept over the fraction `part` of a step.
 void sweep_pair(Complex& v, Complex& s, int order, double z, double part, double phase) {
   // Back in time it is the sweep forward in time of -v.
   const double sign = part < 0 ? -1 : 1, courant = sign * part * z;
@@ -61,7 +62,7 @@ void sweep(Amplitudes& u, const UniformScheme& scheme, int axis, double part, do
   if (s > 0) sweep_pair(u[across], u[4], scheme.order, s, part, phase);
 }
 
-/// The strain that goes with stresses: their product is twice the energy. What fluids can not carry is 0.
+/// The strain that belongs to stresses: their product is twice the energy. What fluids can not carry is 0.
 Amplitudes strained(const UniformScheme& scheme, const Amplitudes& u) {
   const double stiff = scheme.courant_p * scheme.courant_p, mu = scheme.courant_s * scheme.courant_s;
   const double lambda = stiff - 2 * mu;
@@ -96,7 +97,7 @@ Complex step_error(const UniformScheme& scheme, WaveKind kind, double cells, dou
   Amplitudes moved = wave;
   for (const auto& [axis, part] : splitting(2, scheme.time_order))
     sweep(moved, scheme, axis, part, phase * (axis == 0 ? x : z));
-  // Exact waves are orthogonal in energy, so the part of the wave that is still itself is its eigenvalue up
+  // Exact waves are orthogonal in energy, so the share of the wave in its own mode is its eigenvalue up
   // to the square of the error.
   const auto weighed = strained(scheme, wave);
   return std::log(product(weighed, moved) / product(weighed, wave)) + Complex(0, speed * phase);

@@ -10,16 +10,16 @@
 namespace slipwave::solver {
 namespace {
 
-/// Impedance of the ghost beyond an edge, as a factor on that of the cell before it: 0 takes no traction.
+/// Impedance of the ghost beyond an edge, as a factor on that of the cell before it: 0 means no traction.
 int ghost_impedance(EdgeLaw law, Wave wave) {
   return extension_of(law, wave) == Extension::traction_free ? 0 : 1;
 }
 
-/// Shorter stretches of one material are not worth telling apart.
-constexpr std::int64_t shortest_stretch = 64;
+/// Shorter uniform runs are not worth loops of their own.
+constexpr std::int64_t shortest_run = 64;
 
 template <int D, class Real>
-void find_stretches(State<D, Real>& state) {
+void find_uniform_runs(State<D, Real>& state) {
   const std::int64_t nx = state.layout.shape()[0];
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto material = state.material_from(state.layout.line_index(line), 0);
@@ -29,11 +29,11 @@ void find_stretches(State<D, Real>& state) {
     };
     for (std::int64_t first = 0, x = 1; x <= nx; ++x) {
       if (x < nx && same(first, x)) continue;
-      if (x - first >= std::min(shortest_stretch, nx))
-        state.stretches.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
+      if (x - first >= std::min(shortest_run, nx))
+        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
       first = x;
     }
-    state.first_stretch[std::size_t(line) + 1] = state.stretches.size();
+    state.first_uniform_run[std::size_t(line) + 1] = state.uniform_runs.size();
   }
 }
 
@@ -156,7 +156,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
       }
     }
   });
-  find_stretches(state);
+  find_uniform_runs(state);
   state.uniform_interior = find_uniform_interior(state);
 }
 

@@ -12,7 +12,8 @@
 
 namespace slipwave::solver {
 
-/// The computed grid: the model and, outside its absorbing edges, zones that continue the medium of the edge.
+/// The computed grid: the model and, outside its absorbing edges, zones (of the PML or the sponge) with the
+/// medium of the edge.
 template <int D>
 class Domain {
  public:
@@ -23,19 +24,19 @@ class Domain {
   EdgeLaws<D> edges;        // absorbing, without a zone, where other processes continue
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
-  IndexRange own;  // rows of the computed grid that this process answers for
+  IndexRange own;  // rows of the computed grid that this process owns
 
   /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
-  /// records are made of it: throws std::logic_error after release_impedances().
+  /// records are built: throws std::logic_error after release_impedances().
   const Field<D>& impedance(Wave wave) const;
-  /// Gives back their memory.
+  /// Frees their memory.
   void release_impedances() { impedances_ = {}; }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
 
   /// Whether any cell carries S waves.
   bool shear() const;
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
-  /// Rows of neighbours that it holds on either side, at most.
+  /// Rows of neighbouring subdomains that it holds on either side, at most.
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
   /// Cell of the model whose medium a cell of the computed grid has.
   Index<D> model_cell(Index<D> at) const;
@@ -49,7 +50,8 @@ class Domain {
   std::array<Field<D>, 2> impedances_;
 };
 
-/// `medium` is of the model or of what this process holds of it; `edges` are those of the whole model.
+/// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
+/// model.
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part = {});
@@ -58,7 +60,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
 template <int D>
 double fastest_wave(const Medium<D>& medium);
 
-/// Writes b, impedances and Courant numbers of every cell and of the ghosts beyond the edges into the state.
+/// Writes b and the impedances of every cell and of the ghost cells beyond the edges into the state.
 template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s);
 /// A state with zero fields and that material.

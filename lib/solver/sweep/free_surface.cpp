@@ -5,12 +5,12 @@
 namespace slipwave::solver {
 namespace {
 
-/// Cells along the edge that a slope is taken from and their weights: the mean of the central differences
-/// over two and over four cells, which damps what turns from cell to cell.
+/// Offsets and weights of the slope along the edge: the mean of the central differences over two and over
+/// four cells, which damps what alternates from cell to cell.
 constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
 constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
-/// Cells without a contact or an edge that must follow each other across the edge: no stencil that reads
-/// beyond it may reach another end.
+/// Cells without a strong interface or an edge needed across the edge: no stencil that reads beyond it may
+/// reach another extension.
 constexpr auto fewest_across = std::int64_t(2) * max_reach;
 
 template <int D>
@@ -58,12 +58,11 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
   if (domain.edges[axis][side] != EdgeLaw::free || zs == 0) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
-    Index<D> inside = before;
-    auto& place = inside[std::size_t(axis)];
+    Index<D> next = before;
+    auto& place = next[std::size_t(axis)];
     place += side ? -1 : 1;
-    if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, inside))
-      return {};
-    before = inside;
+    if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
+    before = next;
   }
   const double outward = side ? -1 : 1;
   std::vector<SurfaceTerm<D>> terms;
@@ -120,7 +119,7 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
   if (cells_.empty()) return;
   Index<D> last = shape_;
   for (auto& n : last) --n;
-  if (axis < D - 1) kept_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
+  if (axis < D - 1) retained_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
   for (auto* lists : {&velocity_corrections_, &traction_corrections_})
     for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
 }
@@ -139,25 +138,26 @@ void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line
   const auto at = state.layout.line_index(line);
   const bool along_x = axis_ > 0;
   const Real* const cell = state.field_row(at, 0) + (!along_x && side_ ? shape_[0] - 1 : 0);
-  Real* const kept = kept_.data() + number(at) * D;
+  Real* const retained = retained_.data() + number(at) * D;
   for (std::int64_t x = 0; x < (along_x ? shape_[0] : 1); ++x)
     for (int row = 0; row < D; ++row)
-      kept[x * D + row] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch() + x];
+      retained[x * D + row] = cell[FieldRows<D>::velocity(row) * state.layout.row_pitch() + x];
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::measure(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
-  const Real* const fields = axis_ < D - 1 ? kept_.data() : state.fields.data();
+void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::int64_t first,
+                                              std::int64_t last) {
+  const Real* const fields = axis_ < D - 1 ? retained_.data() : state.fields.data();
   const Real* const material = state.material.data();
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
                                [](const Cell& one, std::int64_t number) { return one.number < number; });
   for (; cell != cells_.end() && cell->number < last; ++cell) {
-    Real bend = 0;
+    Real slope = 0;
     for (auto term = cell->terms_begin; term < cell->terms_end; ++term)
-      bend += terms_[term].weight * fields[terms_[term].place];
+      slope += terms_[term].weight * fields[terms_[term].place];
     const Real z = material[cell->impedance], stiffness = z * z * material[cell->b];
-    velocity_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = bend;
-    traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * bend;
+    velocity_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = slope;
+    traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * slope;
   }
 }
 

@@ -12,17 +12,17 @@ bool strong(double z, double other) {
   return z > strong_interface_ratio * other || other > strong_interface_ratio * z;
 }
 
-/// One side of a cell: the cells to the end of its span, at most `reach`, and what stands there.
+/// One side of a cell: the cells up to the next strong interface or edge, at most `reach`, and its law.
 struct Side {
   int cells = 0;
   Extension law = Extension::none;
   int beyond = 0;
   double share = 0;
-  bool inside = false;  // an end inside the grid
+  bool inside = false;  // the interface is inside the grid
   bool at_edge() const { return !inside && law == Extension::traction_free; }
 };
 
-/// Impedances met from a cell outwards along one axis.
+/// Impedances from a cell outwards along one axis.
 template <int D>
 class Walk {
  public:
@@ -60,7 +60,7 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
       return side;
     }
     if (strong(own, other)) {
-      side.law = Extension::contact;
+      side.law = Extension::interface;
       side.share = other / (own + other);
       side.inside = true;
       for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
@@ -73,10 +73,10 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
   return side;
 }
 
-/// Cells the reconstruction may reach beside a corrected free surface, a contact or a contrast: with three,
-/// solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
-constexpr int most_at_kinks = 2;
-/// From this ratio of impedances on a face within the stencil of a cell there is a contrast.
+/// Cells the reconstruction may reach beside a corrected free surface, a strong interface or a contrast: with
+/// three, solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
+constexpr int most_reach_at_contrasts = 2;
+/// Ratio of impedances from which a face within the stencil of a cell is a contrast.
 constexpr double contrast_ratio = 1.2;
 
 /// Whether there is one up to `reach` cells to one side.
@@ -95,9 +95,9 @@ bool carried_near(const Walk<D>& z, int reach) {
   return false;
 }
 
-/// Marks the cells of a line that may need more than the bulk kernel: where the impedance jumps within
-/// `reach` cells along the axis, and at the ends of the axis. Most cells are seen here to need nothing, many
-/// at once.
+/// Marks the cells of a line that may need more than the bulk kernel: where the impedance changes
+/// strongly within `reach` cells along the axis, and at the ends of the axis. Vectorised: most cells need
+/// none.
 template <int D>
 void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
           std::vector<std::int32_t>& marks) {
@@ -107,7 +107,7 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   std::int64_t stride = 1;
   for (std::size_t a = 0; a < std::size_t(axis); ++a) stride *= shape[a];
   const float* const z = impedance.data() + first;
-  // Less than any ratio that counts, whatever rounding makes of it.
+  // Less than any ratio that counts, whatever the rounding.
   constexpr auto plain_ratio = float(contrast_ratio * 0.99);
   const auto compare = [&](std::int64_t begin, std::int64_t end, std::int64_t one, std::int64_t other) {
     for (auto x = begin; x < end; ++x) {
@@ -128,21 +128,21 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
-/// Cells the reconstruction may reach. Between two contacts a span of w cells allows order 2w - 1 and no
-/// more, and so does a single cell between a contact and another end: with more, random media of single cells
-/// and a crust of one cell grew at order 5 and 7 (docs/theory.md).
+/// Cells the reconstruction may reach. Between two strong interfaces w cells allow order 2w - 1 and no more,
+/// and so does a single cell between a strong interface and another end: with more, random media of single
+/// cells and a crust of one cell grew at order 5 and 7 (docs/theory.md).
 int reach_within(const Side& low, const Side& high, int reach) {
-  const int contacts = (low.law == Extension::contact) + (high.law == Extension::contact);
+  const int interfaces = (low.law == Extension::interface) + (high.law == Extension::interface);
   const int others = low.cells + high.cells;
   const bool ends = low.law != Extension::none && high.law != Extension::none;
-  if (contacts > 0) reach = std::min(reach, most_at_kinks);
-  return contacts == 2 || (contacts == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
+  return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
-/// Value of the pair at a stencil offset, continued beyond the ends of the cell's span (E10), (E11).
+/// Value of the pair at a stencil offset, extended beyond the strong interfaces or edges (E10), (E11).
 template <class Real>
-void continued(const InterfaceStencil& end, int offset, std::int64_t stride, const Real* v, const Real* s,
-               Real& v_at, Real& s_at) {
+void extend(const InterfaceStencil& end, int offset, std::int64_t stride, const Real* v, const Real* s,
+            Real& v_at, Real& s_at) {
   const bool below = offset < -end.low;
   if (!below && offset <= end.high) {
     v_at = v[offset * stride];
@@ -150,7 +150,7 @@ void continued(const InterfaceStencil& end, int offset, std::int64_t stride, con
     return;
   }
   const Extension law = below ? end.low_law : end.high_law;
-  if (law == Extension::level) {
+  if (law == Extension::constant) {
     const std::int64_t last = below ? -end.low : end.high;
     v_at = v[last * stride];
     s_at = s[last * stride];
@@ -158,7 +158,7 @@ void continued(const InterfaceStencil& end, int offset, std::int64_t stride, con
   }
   // The mirror image lies nearer to the cell with each fold, so this ends.
   const int mirrored = below ? -2 * end.low - 1 - offset : 2 * end.high + 1 - offset;
-  continued(end, mirrored, stride, v, s, v_at, s_at);
+  extend(end, mirrored, stride, v, s, v_at, s_at);
   if (law == Extension::traction_free) {
     s_at = -s_at;
   } else if (law == Extension::motionless) {
@@ -178,7 +178,7 @@ void correct_cell(const InterfaceStencil& end, std::int64_t stride, const Real* 
   constexpr int reach = reach_of(Order);
   Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
   for (int k = -reach; k <= reach; ++k)
-    continued(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
+    extend(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
   const Real sign = scale < 0 ? -1 : 1;
   reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance,
                           sign * scale * (impedance * b), up, down);
@@ -188,7 +188,7 @@ void correct_cell(const InterfaceStencil& end, std::int64_t stride, const Real* 
 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
-                                     int reach, const CorrectedAt<D>& bent)
+                                     int reach, const CorrectedAt<D>& corrected)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -203,21 +203,21 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       constexpr auto on = Extension::none;
       if (impedance(at) == 0) {
         if (carried_near(down, reach) || carried_near(up, reach))
-          cells_.push_back({std::int32_t(x), 0, 0, on, on, 0, 0, 0, 0, nothing_leaves});
+          cells_.push_back({std::int32_t(x), 0, 0, on, on, 0, 0, 0, 0, not_carried});
         continue;
       }
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
-      // Cells with nothing but an edge of the grid near are served by the ghosts beyond it.
+      // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
                           std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
                           float(high.share), std::int8_t(reach_within(low, high, reach))});
-      } else if (reach > most_at_kinks &&
-                 ((low.at_edge() && bent(at, 0)) || (high.at_edge() && bent(at, 1)) ||
+      } else if (reach > most_reach_at_contrasts &&
+                 ((low.at_edge() && corrected(at, 0)) || (high.at_edge() && corrected(at, 1)) ||
                   contrast(down, reach) || contrast(up, reach))) {
         cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
-                          std::int8_t(most_at_kinks)});
+                          std::int8_t(most_reach_at_contrasts)});
       }
     }
     starts_.push_back(std::int64_t(cells_.size()));
@@ -248,7 +248,7 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
                             [](const InterfaceStencil& end, std::int64_t x) { return end.x < x; });
   for (; cell != stop && cell->x < columns.last; ++cell) {
     const auto i = cell->x - columns.first;
-    if (cell->reach == nothing_leaves)
+    if (cell->reach == not_carried)
       up[i] = down[i] = 0;
     else
       correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],

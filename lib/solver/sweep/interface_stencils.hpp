@@ -12,16 +12,16 @@ namespace slipwave::solver {
 
 enum Wave : int { wave_p, wave_s };
 
-/// How a pair (v, s) continues beyond an end of its span.
+/// The extension of a pair (v, s) beyond a strong interface or an edge of the grid.
 enum class Extension : std::uint8_t {
-  none,           // the span continues as far as the stencil reaches
-  traction_free,  // v evenly, s oddly
-  motionless,     // v oddly, s evenly
-  level,          // the last value stays
-  contact,        // as both sides of a welded contact make it
+  none,           // there is none as far as the stencil reaches
+  traction_free,  // v even, s odd (antisymmetric)
+  motionless,     // v odd (antisymmetric), s even
+  constant,       // the last value stays
+  interface,      // as the two sides of a welded interface couple them
 };
 
-/// The continuation an edge law means for P (v_n, s_nn) or S (v_t, s_nt).
+/// The extension of an edge law for P (v_n, s_nn) or S (v_t, s_nt).
 constexpr Extension extension_of(EdgeLaw law, Wave wave) {
   switch (law) {
     case EdgeLaw::free:
@@ -33,32 +33,32 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
     case EdgeLaw::absorbing:
       break;
   }
-  return Extension::level;
+  return Extension::constant;
 }
 
-/// From this ratio of impedances on a contact between neighbouring cells ends the spans on both of its sides.
-/// Below it stencils run across: the contrasts tried at random up to 1.5 stay stable at every order.
+/// Ratio of impedances from which an interface between neighbouring cells is strong: stencils on both sides
+/// end there. Below it stencils run across: random contrasts up to 1.5 stay stable at every order.
 constexpr double strong_interface_ratio = 1.5;
 
-/// A cell whose stencil would reach past an end of its span: the cells of a line that carry the wave without
-/// a gap or a strong contact. Beyond the end the wave field continues as the law says (theory.md (E10),
-/// (E11)). Or a cell that does not carry the wave beside one that does: nothing leaves it.
+/// The stencil of a cell that would reach across a strong interface or into cells that do not carry the wave:
+/// beyond that the fields are extended by the law (theory.md (E10), (E11)). Or a cell that does not carry the
+/// wave beside one that does: it has no outgoing waves.
 struct InterfaceStencil {
-  std::int32_t x;         // the cell's place on its row
-  std::int8_t low, high;  // cells of the span before and behind it, as far as the stencil reaches
+  std::int32_t x;         // the cell's column
+  std::int8_t low, high;  // cells before and behind it up to the interface or edge, or the reach
   Extension low_law, high_law;
-  std::int8_t beyond_low, beyond_high;  // contact: cells of the neighbouring span that may be read
-  float share_low, share_high;          // contact: Z of the other side over the sum of both
-  std::int8_t reach;  // of the reconstruction used here, nothing_leaves where the wave is not carried
+  std::int8_t beyond_low, beyond_high;  // interface: cells beyond it that may be read
+  float share_low, share_high;          // interface: Z of the other side over the sum of both
+  std::int8_t reach;  // of the reconstruction used here, not_carried where the wave is not carried
 };
-constexpr std::int8_t nothing_leaves = -1;
+constexpr std::int8_t not_carried = -1;
 
-/// Whether fields bend at the edge of this side (0 low, 1 high) on the line through a cell (FreeEdge).
+/// Whether the free surface of this side (0 low, 1 high) is corrected in line with a cell (FreeSurface).
 template <int D>
 using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
 
-/// Such cells of all lines of one axis and wave; the bulk kernel runs over everything without a branch, then
-/// these are refreshed.
+/// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
+/// these are corrected.
 class InterfaceStencils {
  public:
   InterfaceStencils() = default;
@@ -66,7 +66,7 @@ class InterfaceStencils {
   /// the grid's edges; cells the reconstruction reaches to each side.
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const CorrectedAt<D>& bent);
+                    const CorrectedAt<D>& corrected);
 
   std::size_t size() const { return cells_.size(); }
   /// Whether it would correct anything of these columns.

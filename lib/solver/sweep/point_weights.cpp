@@ -21,12 +21,12 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
     bool traction = false;
     for (int other = 0; other < D; ++other)
       traction |= other != axis && row == Rows::shear_stress(std::min(axis, other), std::max(axis, other));
-    // What has no index across a plane of symmetry is even about it.
+    // Components without an index across a plane of symmetry are even about it.
     if (!traction && law == EdgeLaw::mirror) return Beyond::even;
     if (!traction && !fluid) return Beyond::unknown;
     normal = !traction;
   }
-  // Along an edge fluid moves as the slope of its pressure makes it, and so with the pressure's parity.
+  // Along an edge the velocity of fluid follows the gradient of pressure, and so has its parity.
   if (velocity && !normal && fluid) {
     velocity = false;
     normal = true;
@@ -35,7 +35,7 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   return velocity == motionless ? Beyond::odd : Beyond::even;
 }
 
-/// The largest box of cells of one kind round a cell that stays within reach of a stencil, grown one layer at
+/// The largest box of cells of one kind round a cell, within reach of a stencil, grown one layer at
 /// a time on each side.
 template <int D>
 std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
@@ -73,7 +73,7 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
-/// The cells round a point and how the field continues beyond those at an edge of the grid.
+/// The cells round a point and the extension of the field beyond those at an edge of the grid.
 template <int D>
 std::array<AxisCells, std::size_t(D)> continued_cells(const Domain<D>& domain, const Index<D>& centre,
                                                       int field_row, bool fluid) {
@@ -98,11 +98,11 @@ std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>
   return weights;
 }
 
-/// What the images beyond a free surface of a solid add to a velocity over their mirrored values.
+/// The correction of velocity of the images beyond a free surface of a solid, as weights.
 template <int D>
-void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
-              std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
-              std::vector<ValueWeight>& weights) {
+void add_surface_correction(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
+                            std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,
+                            std::vector<ValueWeight>& weights) {
   auto& across = usable[std::size_t(axis)];
   const std::int64_t last = side ? domain.grid.shape[axis] - 1 : 0;
   if ((side ? across.high : across.low) != last) return;
@@ -149,7 +149,7 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
     for (int axis = 0; axis < D; ++axis)
       for (const int side : {0, 1})
         if (domain.edges[axis][side] == EdgeLaw::free)
-          add_bend(layout, domain, point_m, usable, axis, side, field_row, weights);
+          add_surface_correction(layout, domain, point_m, usable, axis, side, field_row, weights);
   return weights;
 }
 

@@ -7,7 +7,7 @@
 
 namespace slipwave::solver {
 
-/// A value of the state that a point reads from or adds to, and how much of it.
+/// A value of the state that a point reads or adds to, and its weight.
 struct ValueWeight {
   std::int64_t line = 0;   // number of the line
   std::int64_t place = 0;  // from cell 0 of row 0 of that line
@@ -18,14 +18,14 @@ struct ValueWeight {
 std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values);
 
 /// Weights of the values of one field row round a point (theory.md (A1)-(A3)), from cells of the same kind
-/// (solid or fluid) as the one the point is in: nothing is read across a contact. At an edge of the grid the
-/// field is continued as the edge law says.
+/// (solid or fluid) as the one the point is in: nothing is read across a fluid-solid interface. At an edge of
+/// the grid the field is extended by the edge law.
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row);
 
 /// The same for a source, which adds with them. Stresses of solids that would reach beyond a free surface go
-/// to the two nearest cells across it instead, or are led on from them beyond the last centre.
+/// to the two nearest cells across it instead, or are extrapolated from them beyond the last centre.
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row);

@@ -68,7 +68,7 @@ State<D, Real> make_state(const Index<D>& shape) {
   state.material = Buffer<Real>(state.material_layout.total());
   clear(state.fields, state.layout.stride(1));
   clear(state.material, state.material_layout.stride(1));
-  state.first_stretch.assign(std::size_t(state.layout.lines()) + 1, 0);
+  state.first_uniform_run.assign(std::size_t(state.layout.lines()) + 1, 0);
   return state;
 }
 

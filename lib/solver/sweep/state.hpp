@@ -13,8 +13,8 @@
 
 namespace slipwave::solver {
 
-/// Asks the system for large pages where it has not been touched yet; all it may do is to run faster (3-D by
-/// 3 %: each sweep along z reads from as many pages as it reads planes).
+/// Requests large pages for memory that has not been touched yet; affects speed only (3-D by 3 %: each sweep
+/// along z reads from as many pages as planes).
 void prefer_large_pages(void* first, std::size_t bytes);
 
 /// Memory aligned for the widest vectors, zeroed by the threads that will use it.
@@ -43,7 +43,7 @@ class Buffer {
   std::int64_t count_ = 0;
 };
 
-/// Where values stand in memory: lines along x, each holding one row of every field, [line][field][x].
+/// Where values are stored: lines along x, each holding one row of every field, [line][field][x].
 /// Rows are padded to whole vectors; `max_reach` ghost lines stand round the grid on the other axes and at
 /// least 16 ghost values at both ends of a row.
 template <int D>
@@ -101,16 +101,16 @@ struct FieldRows {
 /// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h.
 enum MaterialRow : int { row_b, row_zp, row_zs, material_rows };
 
-/// Cells first <= x < last of a line that are of one material.
+/// A uniform run: cells first <= x < last of a row that have one material.
 template <class Real>
-struct Stretch {
+struct UniformRun {
   std::int64_t first, last;
   Real b, zp, zs;
   MaterialRows<Real> rows() const { return {&b, &zp, &zs}; }
 };
 
-/// The fields of a row of cells, in the state or in a copy: where its cell 0 of field row 0 stands, and the
-/// way to the next field row.
+/// The fields of a row of cells, in the state or in a copy: cell 0 of field row 0, and the pitch to the next
+/// field row.
 template <class Real>
 struct RowFields {
   std::int64_t row;  // number of the line (Layout)
@@ -120,16 +120,16 @@ struct RowFields {
   operator RowFields<const Real>() const requires(!std::is_const_v<Real>) { return {row, first, pitch}; }
 };
 
-/// Wave field and material of the computed grid: the model and the sponge round it.
+/// Wave field and material of the computed grid: the model and the PML or sponge round it.
 template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;
   Buffer<Real> fields, material;
-  /// Stretches of one material, line after line, and where each line begins (fill_material). Sweeps over such
-  /// a stretch read nothing else of the material.
-  std::vector<Stretch<Real>> stretches;
-  std::vector<std::size_t> first_stretch;
-  /// By axis, of these stretches.
+  /// Uniform runs, row after row, and where each row begins (fill_material). Sweeps over such a run read
+  /// nothing else of the material.
+  std::vector<UniformRun<Real>> uniform_runs;
+  std::vector<std::size_t> first_uniform_run;
+  /// By axis, of these runs.
   std::array<UniformInterior, D> uniform_interior;
 
   Real* field_row(const Index<D>& at, int row) {
@@ -152,14 +152,14 @@ struct State {
     const Real* b = material_row(line, row_b) + x;
     return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
   }
-  /// Those of a line, in the order of its cells.
-  std::span<const Stretch<Real>> stretches_of(std::int64_t line) const {
-    const auto first = first_stretch[std::size_t(line)];
-    return {stretches.data() + first, first_stretch[std::size_t(line) + 1] - first};
+  /// Those of a row, in the order of its cells.
+  std::span<const UniformRun<Real>> uniform_runs_of(std::int64_t line) const {
+    const auto first = first_uniform_run[std::size_t(line)];
+    return {uniform_runs.data() + first, first_uniform_run[std::size_t(line) + 1] - first};
   }
-  /// The stretch that holds all cells first <= x < last of a line, null where there is none.
-  const Stretch<Real>* stretch(std::int64_t line, std::int64_t first, std::int64_t last) const {
-    for (const auto& of : stretches_of(line)) {
+  /// The run that holds all cells first <= x < last of a row, null where there is none.
+  const UniformRun<Real>* uniform_run(std::int64_t line, std::int64_t first, std::int64_t last) const {
+    for (const auto& of : uniform_runs_of(line)) {
       if (of.first > first) break;
       if (last <= of.last) return &of;
     }
@@ -167,7 +167,7 @@ struct State {
   }
 };
 
-/// By axis, of a state whose stretches are known.
+/// By axis, of a state whose uniform runs are known.
 template <int D, class Real>
 std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D, Real>& state);
 

@@ -10,7 +10,7 @@
 namespace slipwave::solver {
 namespace {
 
-/// Columns swept together across: what they need stays in the first cache.
+/// Columns swept together across: their data stays in the first cache.
 constexpr std::int64_t stripe_width = 256;
 
 }  // namespace
@@ -29,16 +29,17 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (const int side : {0, 1})
       if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
   }
-  // Each looks at all cells.
+  // Each reads all cells.
   parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
       const auto wave = Wave(n % 2);
-      const CorrectedAt<D> bent = [&domain, axis](Index<D> at, int side) {
+      const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      stencils_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
+      stencils_[axis][wave] =
+          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected);
     }
   });
 }
@@ -57,7 +58,7 @@ Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
 template <int D, class Real>
 Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t width) const {
   const int waiting = int(rows_behind() - reach_);
-  // Faces need what leaves two rows. Without them it is kept until its row is advanced.
+  // Faces need the outgoing waves of two rows. Uniform runs need them until their row is updated.
   const int outgoing = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
   return Ring<Real>(first, width, outgoing, waiting + 1, D);
 }
@@ -98,22 +99,22 @@ auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
   return rows;
 }
 
-/// Outgoing waves of the cells of these columns; `leaving` begins with the first of them.
+/// Outgoing waves of the cells of these columns; `outgoing` begins with the first of them.
 template <int D, class Real>
 void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns,
                                       const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
                                       OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
   const std::int64_t nx = state_.layout.shape()[0];
-  // What fills up the last block of a line is of no material: it would keep all of a piece from being of one.
+  // The padding of the last block of a row has no material: with it a piece would never be uniform.
   const IndexRange whole{columns.first,
                          columns.last > nx ? std::max(columns.first, nx / lag * lag) : columns.last};
-  const auto leave = [&](const Pair& pair, const IndexRange& part, Real* up, Real* down) {
+  const auto reconstruct = [&](const Pair& pair, const IndexRange& part, Real* up, Real* down) {
     if (part.empty()) return;
-    const auto* stretch = state_.stretch(number, part.first, part.last);
-    const auto material = stretch ? stretch->rows() : state_.material_from(line, part.first);
+    const auto* run = state_.uniform_run(number, part.first, part.last);
+    const auto material = run ? run->rows() : state_.material_from(line, part.first);
     const auto from = part.first - columns.first;
-    kernels_[stretch != nullptr]->reconstruct(
+    kernels_[run != nullptr]->reconstruct(
         part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
         pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up + from, down + from);
   };
@@ -121,8 +122,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     const Pair& pair = pairs_[axis][p];
     Real* const up = outgoing.up(p);
     Real* const down = outgoing.down(p);
-    leave(pair, whole, up, down);
-    leave(pair, {whole.last, columns.last}, up, down);
+    reconstruct(pair, whole, up, down);
+    reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(
         order_, number, columns, stride, fields + pair.v * pitch + columns.first,
         fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down);
@@ -130,7 +131,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   }
 }
 
-/// Brings these columns forward.
+/// Advances these columns.
 template <int D, class Real>
 void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                              std::int64_t pitch, Real scale, const Flux& flux, Workspace<Real>& work,
@@ -138,7 +139,7 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto& rows = changed_[axis];
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
-  // Made in place: a copy would wait for all that loops before this have written.
+  // Built in place: a copy would wait until all stores of the loops before this are done.
   std::array<std::array<IndexRange, 2>, most_filters> filtered;
   for (std::size_t f = 0; f < filters_.size(); ++f) filtered[f] = filters_[f]->filtered(axis, line, columns);
   const auto each_filtered = [&](auto&& what) {
@@ -156,23 +157,24 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
   };
   const auto number = state_.layout.line_number(line);
-  const auto stretch_of = [&](const IndexRange& part) {
-    return state_.stretch(number, part.first, part.last);
+  const auto run_of = [&](const IndexRange& part) {
+    return state_.uniform_run(number, part.first, part.last);
   };
-  const auto inside = [&](const IndexRange& part) {
+  const auto without_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
-    // Its material is known without looking for it in memory.
+    // Its material is known without reading it from memory.
     face_kernels(true).update_uniform(part.count(), scale, flux.below.at(from), flux.here.at(from),
-                                      flux.above.at(from), stretch_of(part)->rows(), swept(part.first));
+                                      flux.above.at(from), run_of(part)->rows(), swept(part.first));
   };
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
-    const auto* stretch = stretch_of(part);
-    face_kernels(stretch != nullptr)
+    const auto* run = run_of(part);
+    face_kernels(run != nullptr)
         .update(part.count(), scale, flux.lo.at(from), flux.hi.at(from),
-                stretch ? stretch->rows() : state_.material_from(line, part.first), swept(part.first));
+                run ? run->rows() : state_.material_from(line, part.first), swept(part.first));
   };
-  tell_apart(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, inside, between_faces);
+  split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
+                between_faces);
   work.prefetch().prefetch_one();
   each_filtered([&](auto& filter, const IndexRange& part, int n, const Real* before) {
     filter.filter(axis, line, rows[n], part, scale, before, field(n) + part.first, remember);
@@ -192,16 +194,16 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
     parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
       StripeBoundary<Real> boundary{};
       for (std::int64_t line = begin; line < end; ++line) {
-        measure_side_surfaces(line);
+        correct_side_surfaces(line);
         along_x(line, {0, layout.shape()[0]}, scale, boundary, work[std::size_t(worker)]);
       }
     });
     return;
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
-  // Free surfaces read columns of neighbouring stripes: these must not have moved.
+  // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (const int side : {0, 1})
-    free_surfaces_[axis][side].measure(state_, 0, std::numeric_limits<std::int64_t>::max());
+    free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -218,8 +220,8 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
 
 namespace {
 
-/// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
-/// the edge is part of the law (fill_material).
+/// The wave that enters the grid through an edge, from the outgoing wave there (E11). The impedance of the
+/// ghost beyond the edge is part of the law (fill_material).
 template <class Real>
 void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* outgoing, Real* entering) {
   const bool motionless = extension_of(law, wave) == Extension::motionless;
@@ -229,21 +231,21 @@ void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* outgoing, Real* e
 }  // namespace
 
 template <int D, class Real>
-void Sweeps<D, Real>::expect(std::int64_t line, const IndexRange& columns,
-                             PrefetchQueue<Real>& prefetch) const {
+void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& columns,
+                                     PrefetchQueue<Real>& prefetch) const {
   const Index<D> at = state_.layout.line_index(line);
   prefetch.clear();
   prefetch.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
                FieldRows<D>::count);
-  if (!state_.stretch(line, columns.first, columns.last))
+  if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
                  state_.material_layout.row_pitch(), material_rows);
 }
 
-/// At the low edge what goes up comes from what went down, at the high one the other way round.
+/// At the low edge the wave upwards follows from the one downwards, at the high edge the other way round.
 template <int D, class Real>
-void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
-                               OutgoingWaves<Real> entering) const {
+void Sweeps<D, Real>::enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
+                                 OutgoingWaves<Real> entering) const {
   const EdgeLaw law = edges_[axis][side];
   for (int p = 0; p < D; ++p)
     enter(law, pairs_[axis][p].wave, n, side ? outgoing.up(p) : outgoing.down(p),
@@ -281,7 +283,7 @@ void Sweeps<D, Real>::put(const RowFields<Real>& copy, const IndexRange& columns
     std::copy(copy.field(row) + columns.first, copy.field(row) + columns.last, to.field(row) + columns.first);
 }
 
-/// A piece of a sweep along x with what the piece before it left, unless it begins.
+/// A piece of a sweep along x with the stored values of the piece before it, unless it begins.
 template <int D, class Real>
 void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, Real scale,
                                     StripeBoundary<Real>& boundary, Workspace<Real>& work) {
@@ -289,7 +291,7 @@ void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, 
   const auto outgoing = work.outgoing();
   const std::int64_t last =
       piece.reconstructed.last - std::min(piece.reconstructed.first, piece.update.first);
-  // Of the cells that wait their faces, their outgoing waves and what leaves the one before upwards.
+  // Of the waiting cells their interface states, their outgoing waves and the one upwards of the cell before.
   const bool uniform_interior = !state_.uniform_interior[0].empty();
   const auto waiting = [&](std::int64_t from, auto&& copy) {
     for (int p = 0; p < D; ++p) {
@@ -300,7 +302,7 @@ void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, 
       copy(outgoing.up(p) + from + lag - 1, boundary.last_up[p]);
     }
   };
-  // Of known size, so that nothing is called for it.
+  // Of known size, so that it is inlined.
   if (!begins) waiting(0, [](Real* to, const auto& kept) { std::memcpy(to, kept, sizeof kept); });
   for (int p = 0; begins && p < D && piece.reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
   sweep_piece(piece, scale, work);
@@ -327,14 +329,14 @@ void Sweeps<D, Real>::copy_ahead(const IndexRange& columns, Real scale, const Ro
 template <int D, class Real>
 RowFields<Real> Sweeps<D, Real>::ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
                                                Workspace<Real>& work) {
-  // Cell 0 of the copy would stand here.
+  // Cell 0 of the copy would be here.
   const RowFields<Real> copy{line, work.copy() - std::max<std::int64_t>(columns.first - lag, 0),
                              work.pitch()};
   copy_ahead(columns, scale, copy, work);
   return copy;
 }
 
-/// Outgoing waves of the cell before the first that sends out is in its place.
+/// The outgoing waves of the cell before the first reconstructed one are already in place.
 template <int D, class Real>
 void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work) {
   const std::int64_t nx = state_.layout.shape()[0],
@@ -345,33 +347,35 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
   if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
   reconstruct_row(0, at, piece.reconstructed, piece.fields, piece.pitch, 1, scale, first, work.prefetch());
-  if (begins) enter_at(0, 0, 1, first, first.at(-1));
-  IndexRange met = piece.reconstructed;
+  if (begins) enter_grid(0, 0, 1, first, first.at(-1));
+  IndexRange with_faces = piece.reconstructed;
   if (ends) {
     const auto beyond = first.at(nx - piece.reconstructed.first);
-    met.last += lag;  // where the row fills whole blocks its last face is in the next one
+    with_faces.last += lag;  // where the row fills whole blocks its last face is in the next one
     for (int p = 0; p < D; ++p)
-      for (Real* const zero : {beyond.up(p), beyond.down(p)}) std::fill(zero, zero + met.last - nx, Real(0));
-    enter_at(0, 1, 1, beyond.at(-1), beyond);
+      for (Real* const zero : {beyond.up(p), beyond.down(p)})
+        std::fill(zero, zero + with_faces.last - nx, Real(0));
+    enter_grid(0, 1, 1, beyond.at(-1), beyond);
   }
-  // The faces at the ends of a line have other material on one side.
-  const std::int64_t inner_first = begins ? std::min(lag, met.last) : met.first;
-  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : met.last;
+  // The faces at the ends of a row have other material on one side.
+  const std::int64_t inner_first = begins ? std::min(lag, with_faces.last) : with_faces.first;
+  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : with_faces.last;
   const auto faces = work.faces();
-  const auto meet = [&](const IndexRange& part) {
+  const auto solve = [&](const IndexRange& part) {
     const auto here = first.at(part.first - piece.reconstructed.first);
-    const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
-    const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
-    face_kernels(stretch).solve_riemann(part.count(), here.at(-1), here, lo,
-                                        stretch ? lo : state_.material_from(at, part.first),
-                                        faces.at(part.first - base));
+    const auto* run = state_.uniform_run(piece.line, part.first - 1, part.last);
+    const auto lo = run ? run->rows() : state_.material_from(at, part.first - 1);
+    face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
+                                    run ? lo : state_.material_from(at, part.first),
+                                    faces.at(part.first - base));
   };
   const auto uniform_interior = state_.uniform_interior[0].of(piece.line);
-  for (const IndexRange& part : {IndexRange{met.first, inner_first}, IndexRange{inner_first, inner_last},
-                                 IndexRange{inner_last, met.last}})
+  for (const IndexRange& part :
+       {IndexRange{with_faces.first, inner_first}, IndexRange{inner_first, inner_last},
+        IndexRange{inner_last, with_faces.last}})
     // The first face of a run is that of the cell before it, too.
-    tell_apart(
-        uniform_interior, 1, part, [](const IndexRange&) {}, meet);
+    split_by_runs(
+        uniform_interior, 1, part, [](const IndexRange&) {}, solve);
   work.prefetch().prefetch_one();
   const auto here = work.outgoing().at(piece.update.first - base);
   const auto lo = faces.at(piece.update.first - base);
@@ -399,33 +403,33 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
                     layout.stride(axis), scale, ring.outgoing(row, x), work.prefetch());
   if (row >= 0 && row <= rows) {
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
-    if (row == 0) enter_at(axis, 0, n, here, above);
-    if (row == rows) enter_at(axis, 1, n, above, here);
-    const auto inside = [&](std::int64_t k) {
+    if (row == 0) enter_grid(axis, 0, n, here, above);
+    if (row == rows) enter_grid(axis, 1, n, above, here);
+    const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
     };
-    const auto meet = [&](const IndexRange& part) {
-      const auto stretch = [&](std::int64_t k) {
-        return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), part.first, part.last)
+    const auto solve = [&](const IndexRange& part) {
+      const auto run = [&](std::int64_t k) {
+        return k >= 0 && k < rows ? state_.uniform_run(layout.line_number(line(k)), part.first, part.last)
                                   : nullptr;
       };
-      const auto *lo = stretch(row - 1), *hi = stretch(row);
+      const auto *lo = run(row - 1), *hi = run(row);
       const bool uniform = lo && hi;
       const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
       face_kernels(uniform).solve_riemann(part.count(), above.at(part.first - x), here.at(part.first - x),
                                           uniform ? lo->rows() : from(row - 1),
                                           uniform ? hi->rows() : from(row), ring.faces(row, part.first));
     };
-    // Faces between cells that need none are left out.
-    const auto below = inside(row - 1);
-    tell_apart(
-        inside(row), 0, wide,
+    // Faces between cells of uniform runs are left out.
+    const auto below = uniform_runs(row - 1);
+    split_by_runs(
+        uniform_runs(row), 0, wide,
         [&](const IndexRange& part) {
-          tell_apart(
-              below, 0, part, [](const IndexRange&) {}, meet);
+          split_by_runs(
+              below, 0, part, [](const IndexRange&) {}, solve);
         },
-        meet);
+        solve);
   }
   work.prefetch().prefetch_one();
   const std::int64_t done = step - rows_behind();
@@ -437,7 +441,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::pass_over(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const {
+void Sweeps<D, Real>::skip(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const {
   const std::int64_t row = step - reach_;
   if (row < 0) return;
   const std::int64_t last =
@@ -449,26 +453,26 @@ void Sweeps<D, Real>::pass_over(std::int64_t step, const IndexRange& columns, Ri
     for (Real* const zero : {outgoing.up(p), outgoing.down(p), faces.v(p), faces.s(p)}) clear(zero);
 }
 
-/// A row across in one loop, unless something comes between its parts: then it does nothing.
+/// A row across in one loop. Returns false, and does nothing, where other work is needed between its parts.
 template <int D, class Real>
 bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
                                 Real scale, Ring<Real>& ring, Workspace<Real>& work) {
   const auto& layout = state_.layout;
   const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
   if (D != 2 || !shear_ || done < 0 || row >= layout.shape()[axis]) return false;
-  Index<D> here = at, below = at, brought = at;
-  here[axis] = row, below[axis] = row - 1, brought[axis] = done;
+  Index<D> here = at, below = at, advanced = at;
+  here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto number = layout.line_number(here);
-  // One material is better off with loops of its own.
-  if (state_.stretch(number, x, columns.last)) return false;
-  // Outgoing waves of downwards is not kept, which cells inside one material would need.
-  for (const auto& line : {here, below, brought})
+  // Uniform runs are faster with their own loops.
+  if (state_.uniform_run(number, x, columns.last)) return false;
+  // The outgoing waves downwards are not stored, which uniform runs would need.
+  for (const auto& line : {here, below, advanced})
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
       if (run.first < columns.last && run.last > columns.first) return false;
   for (const auto& ends : stencils_[axis])
     if (ends.any(number, columns)) return false;
   for (const auto* filter : filters_)
-    for (const auto& part : filter->filtered(axis, brought, columns))
+    for (const auto& part : filter->filtered(axis, advanced, columns))
       if (!part.empty()) return false;
   const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
   const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
@@ -483,7 +487,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
                               faces.pitch,
                               material(below),
                               material(here),
-                              material(brought),
+                              material(advanced),
                               from.up(0),
                               to.up(0),
                               faces.first,
@@ -499,13 +503,15 @@ namespace {
 template <class Real>
 struct Mirror {
   Real v, s;
-  bool level;
+  bool constant;
   explicit Mirror(Extension law)
       : v(law == Extension::motionless ? -1 : 1),
         s(law == Extension::traction_free ? -1 : 1),
-        level(law == Extension::level) {}
+        constant(law == Extension::constant) {}
   /// The cell, counted from the edge, that stands for ghost j.
-  std::int64_t image(std::int64_t j, std::int64_t cells) const { return level ? 0 : std::min(j, cells - 1); }
+  std::int64_t image(std::int64_t j, std::int64_t cells) const {
+    return constant ? 0 : std::min(j, cells - 1);
+  }
 };
 
 }  // namespace
@@ -522,29 +528,29 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::measure_side_surfaces(std::int64_t line) {
+void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line) {
   for (auto& edge : free_surfaces_[0])
-    if (!edge.empty()) edge.measure(state_, line, line + 1);
+    if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::measure_flank_surfaces(std::int64_t plane) {
+void Sweeps<D, Real>::correct_flank_surfaces(std::int64_t plane) {
   const auto cells = state_.layout.padded_nx();
   for (auto& edge : free_surfaces_[1])
-    if (!edge.empty()) edge.measure(state_, plane * cells, (plane + 1) * cells);
+    if (!edge.empty()) edge.update_corrections(state_, plane * cells, (plane + 1) * cells);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::measure_end_surfaces(std::int64_t step, const IndexRange& columns) {
+void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& columns) {
   const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
-  const auto measure = [&](int side) {
-    free_surfaces_[z_axis][side].measure(state_, columns.first * cells, columns.last * cells);
+  const auto correct = [&](int side) {
+    free_surfaces_[z_axis][side].update_corrections(state_, columns.first * cells, columns.last * cells);
   };
-  if (step == reach_) measure(0);
-  if (step == state_.layout.shape()[z_axis]) measure(1);
+  if (step == reach_) correct(0);
+  if (step == state_.layout.shape()[z_axis]) correct(1);
 }
 
-/// The values a stencil finds beyond an end of a line.
+/// Fills the ghost cells that stencils read beyond an end of a row.
 template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch,
                                        Real scale) const {

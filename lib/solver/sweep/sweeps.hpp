@@ -15,9 +15,9 @@ namespace slipwave::solver {
 
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
 /// by `scale` of the time step, back in time where it is negative, under the part of the equations with
-/// derivatives along its axis. Lines of a sweep along x, and columns of a sweep across, do not depend on each
-/// other. Sweeps come in pieces, for the time tiles of TiledExecutor: the results do not depend on how they
-/// are cut.
+/// derivatives along its axis. Rows of a sweep along x, and columns of a sweep across, do not depend on each
+/// other. Sweeps can be made in pieces, for the time tiles of TiledExecutor: the results do not depend on the
+/// tiling.
 template <int D, class Real>
 class Sweeps {
  public:
@@ -29,18 +29,19 @@ class Sweeps {
   void use(Effect<D, Real>* filter);
   static constexpr std::size_t most_filters = 4;
 
-  /// A whole sweep along any axis, shared out to threads.
+  /// A whole sweep along any axis, distributed to threads.
   void along(int axis, Real scale);
 
-  /// A piece of a sweep along x: advances columns `columns` of a line. Pieces of a line follow each
-  /// other from cell 0 to the last, `carry` continues from one to the next. 2 * lag further cells must not
-  /// change before (as many as there are).
-  /// A piece that `begins` in the middle of a line reads 2 * lag cells before it instead of the carry.
+  /// A piece of a sweep along x: advances columns `columns` of a row. Pieces of a row follow each other from
+  /// cell 0 to the last, `boundary` passes values from one to the next. 2 * lag further cells must not change
+  /// before (as many as there are).
+  /// A piece that `begins` in the middle of a row reads 2 * lag cells before it instead of the boundary.
   void along_x(std::int64_t line, const IndexRange& columns, Real scale, StripeBoundary<Real>& boundary,
                Workspace<Real>& work, bool begins = false);
   static constexpr std::int64_t lag = Layout<D>::block;
-  /// Makes in `copy` what along_x() would make of these columns, of lag more cells on both sides; the state
-  /// and the memory of filters stay as they are. The copy must have room for the reconstruction beyond those.
+  /// Computes in `copy` what along_x() would compute for these columns, and lag more cells on both sides; the
+  /// state and the memory of filters stay as they are. The copy must have room for the reconstruction beyond
+  /// those.
   void copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy, Workspace<Real>& work);
   /// The same in the workspace.
   RowFields<Real> ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
@@ -49,46 +50,44 @@ class Sweeps {
   /// from filters. The first piece `begins`; the copy must hold 2 * lag cells more on both sides.
   void along_copy(const RowFields<Real>& copy, const IndexRange& columns, bool begins, Real scale,
                   StripeBoundary<Real>& boundary, Workspace<Real>& work);
-  /// Puts these columns of a copy into its row.
+  /// Writes these columns of a copy into its row.
   void put(const RowFields<Real>& copy, const IndexRange& columns);
 
-  /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
-  /// out what leaves it and row step - rows_behind() is advanced, where there are such rows; `at` says
-  /// where on the third axis they are. Rows up to `step` and `reach` cells on both sides must be there as
-  /// they were before the sweep. Call for each step from 0 up to the number of rows + rows_behind() - 1 with
-  /// the same columns; the ring goes along.
+  /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis is
+  /// reconstructed and row step - rows_behind() is updated, where there are such rows; `at` is their place on
+  /// the third axis. Rows up to `step` and `reach` cells on both sides must be as they were before the sweep.
+  /// Call for each step from 0 up to the number of rows + rows_behind() - 1 with the same columns and ring.
   void across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns, Real scale,
               Ring<Real>& ring, Workspace<Real>& work);
-  /// The same where it would only make zero of zero.
-  void pass_over(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
-  /// Rows that a sweep across still needs behind the newest one.
+  /// The same where all cells are zero and stay so.
+  void skip(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const;
+  /// Rows by which the update of a sweep across is behind the newest row.
   std::int64_t rows_behind() const { return reach_ + std::max(reach_, 1); }
-  /// For a sweep along that axis of columns from `first` on, once the material is there.
+  /// For a sweep along that axis of columns from `first` on, once the material is filled in.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
-  /// Whether free surfaces of an axis bend the fields: sweeps along it then need the velocities there of
-  /// FreeEdge::reach cells on all sides as they were before the sweep.
+  /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
+  /// FreeSurface::reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
-  /// Keeps the velocities at the edges of x on this line, or of an axis between x and z on this line of
-  /// theirs.
+  /// Copies the velocities at the edges of x on this row, or at those of an axis between x and z where this
+  /// row is one of them.
   void retain(int axis, std::int64_t line, const IndexRange& columns);
-  /// Before the first piece of a line is swept along x.
-  void measure_side_surfaces(std::int64_t line);
-  /// In 3-D, before a plane of rows is swept along y.
-  void measure_flank_surfaces(std::int64_t plane);
-  /// Before the sweep along z is across the rows of that step: of all columns (in 3-D rows of a plane) it and
-  /// the pieces before it were given, and FreeEdge::reach more.
-  void measure_end_surfaces(std::int64_t step, const IndexRange& columns);
+  /// Corrections at the edges of x. Before the first piece of a row is swept along x.
+  void correct_side_surfaces(std::int64_t line);
+  /// In 3-D at the edges of y, before a plane of rows is swept along y.
+  void correct_flank_surfaces(std::int64_t plane);
+  /// At the edges of z, before across() of that step: of all columns (in 3-D rows of a plane) that it and the
+  /// pieces before it were given, and FreeSurface::reach more.
+  void correct_end_surfaces(std::int64_t step, const IndexRange& columns);
 
-  /// These columns of a line will be needed soon.
-  void expect(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& prefetch) const;
+  /// Queues these columns of a row for prefetching.
+  void queue_prefetch(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& prefetch) const;
   Workspace<Real> make_workspace(std::int64_t widest) const;
-  /// Cells beside contacts, voids and interface stencils, which stencils do not run across: all axes and
-  /// waves.
+  /// Cells with stencils of their own, beside strong interfaces, voids and contrasts: all axes and waves.
   std::int64_t interface_stencil_cells() const;
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
@@ -100,7 +99,7 @@ class Sweeps {
     Wave wave;
     int v, s;  // rows of the line
   };
-  /// A stretch of a line: cells that send out, cells that are advanced, and where its fields stand.
+  /// A piece of a row: the cells to reconstruct, the cells to update, and where its fields are stored.
   struct Piece {
     std::int64_t line;
     IndexRange reconstructed, update;
@@ -117,8 +116,8 @@ class Sweeps {
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     return kernels_[uniform]->face[D - 2][shear_];
   }
-  /// What advances cells, beginning with the first of them: faces before and behind them, what leaves
-  /// them and their neighbours.
+  /// What the update of cells reads, beginning with the first of them: the interface states before and behind
+  /// them, the outgoing waves of them and their neighbours.
   struct Flux {
     InterfaceStates<Real> lo, hi;
     OutgoingWaves<Real> below, here, above;
@@ -127,8 +126,8 @@ class Sweeps {
               Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
-  void enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
-                OutgoingWaves<Real> entering) const;
+  void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
+                  OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;

@@ -5,18 +5,19 @@
 namespace slipwave::solver {
 namespace {
 
-/// A call for fewer cells costs more than faces do.
+/// A call for fewer cells costs more than their faces.
 constexpr std::int64_t fewest_cells = 2 * Layout<2>::block;
 
 template <class Real>
-bool same(const Stretch<Real>& one, const Stretch<Real>& other) {
+bool same(const UniformRun<Real>& one, const UniformRun<Real>& other) {
   return one.b == other.b && one.zp == other.zp && one.zs == other.zs;
 }
 
-/// Where both have one material, the same.
+/// The runs that both rows share with the same material.
 template <class Real>
-std::vector<Stretch<Real>> common(std::span<const Stretch<Real>> one, std::span<const Stretch<Real>> other) {
-  std::vector<Stretch<Real>> both;
+std::vector<UniformRun<Real>> common(std::span<const UniformRun<Real>> one,
+                                     std::span<const UniformRun<Real>> other) {
+  std::vector<UniformRun<Real>> both;
   for (auto a = one.begin(), b = other.begin(); a != one.end() && b != other.end();) {
     const auto first = std::max(a->first, b->first), last = std::min(a->last, b->last);
     if (first < last && same(*a, *b)) both.push_back({first, last, a->b, a->zp, a->zs});
@@ -41,20 +42,20 @@ std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D,
   for (int axis = 0; axis < D; ++axis)
     for (std::int64_t line = 0; line < layout.lines(); ++line) {
       runs.clear();
-      const auto keep = [&](std::span<const Stretch<Real>> stretches, std::int64_t beside) {
-        for (const auto& of : stretches) {
+      const auto keep = [&](std::span<const UniformRun<Real>> found, std::int64_t beside) {
+        for (const auto& of : found) {
           const IndexRange run{(of.first + beside + block - 1) / block * block,
                                (of.last - beside) / block * block};
-          // Of void nothing can be divided by.
+          // The impedance of void can not be divided by.
           if (run.count() >= fewest_cells && of.zp > 0) runs.push_back(run);
         }
       };
-      const auto of_line = state.stretches_of(line);
+      const auto of_line = state.uniform_runs_of(line);
       auto at = layout.line_index(line);
       const auto row = at[std::size_t(axis)];
       const auto beside = [&](std::int64_t k) {
         at[std::size_t(axis)] = k;
-        return state.stretches_of(layout.line_number(at));
+        return state.uniform_runs_of(layout.line_number(at));
       };
       if (axis == 0)
         keep(of_line, 1);

@@ -8,12 +8,12 @@
 
 namespace slipwave::solver {
 
-/// Of each line the cells that have neighbours of their own material on both sides along an axis, in runs of
-/// whole blocks. What they gain in a sweep needs no values at faces (theory.md (E9a)). Which cells these are
-/// depends on the material alone, not on how sweeps are cut.
+/// The cells of each row whose neighbours on both sides along an axis have their own material, in runs of
+/// whole blocks. Their update needs no interface states (theory.md (E9a)). Which cells these are depends on
+/// the material alone, not on the tiling.
 class UniformInterior {
  public:
-  /// The next line has these, one behind the other.
+  /// Adds the runs of the next row, in the order of its cells.
   void add_line(std::span<const IndexRange> runs);
   std::span<const IndexRange> of(std::int64_t line) const {
     const auto number = std::size_t(line);
@@ -27,10 +27,10 @@ class UniformInterior {
   std::vector<std::size_t> first_ = {0};
 };
 
-/// Cuts columns into what is in the runs and what is not. The first `less` cells of a run do not count.
+/// Splits columns into those in the runs and the others. The first `less` cells of a run do not count.
 template <class In, class Out>
-void tell_apart(std::span<const IndexRange> runs, std::int64_t less, const IndexRange& columns, In&& in,
-                Out&& out) {
+void split_by_runs(std::span<const IndexRange> runs, std::int64_t less, const IndexRange& columns, In&& in,
+                   Out&& out) {
   std::int64_t first = columns.first;
   for (const auto& run : runs) {
     const IndexRange here{std::max(run.first + less, first), std::min(run.last, columns.last)};

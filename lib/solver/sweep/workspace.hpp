@@ -6,9 +6,9 @@
 
 namespace slipwave::solver {
 
-/// What a piece of a sweep along x leaves for the next one of the line: the faces of the cells that wait for
-/// it, what leaves the last of them upwards and, where faces are left out, what leaves each of them and,
-/// upwards, the cell before them.
+/// The values that a piece of a sweep along x stores for the next piece of the row: the interface states of
+/// the cells that are still to be updated, the outgoing wave upwards of the last of them and, where uniform
+/// runs leave out faces, the outgoing waves of each of them and, upwards, of the cell before them.
 template <class Real>
 struct StripeBoundary {
   static constexpr std::int64_t cells = 16;
@@ -17,9 +17,8 @@ struct StripeBoundary {
   Real v[most_pairs][cells], s[most_pairs][cells];
 };
 
-/// What a sweep across the rows keeps between them: faces of so many rows, of those that are still to be
-/// advanced, and what leaves the newest rows, at least two. Columns from `first` on, of `pairs` pairs
-/// (2, in 3-D 3).
+/// The ring buffer of a sweep across the rows: interface states of the rows that are still to be updated, and
+/// outgoing waves of the newest rows, at least two. Columns from `first` on, of `pairs` pairs (2, in 3-D 3).
 template <class Real>
 class Ring {
  public:
@@ -51,8 +50,8 @@ class Ring {
   Buffer<Real> values_;
 };
 
-/// Rows of memory that are required before they are needed, half a row after each loop over a piece: stripes
-/// are too short for the processor to guess what comes next, and more at once would wait for each other.
+/// Rows of memory to prefetch, half a row after each loop over a piece: stripes are too short for the
+/// processor's own prefetcher, and more requests at once would wait for each other.
 template <class Real>
 class PrefetchQueue {
  public:
@@ -86,7 +85,7 @@ class Workspace {
   }
   OutgoingWaves<Real> outgoing() { return {row(0), pitch_}; }
   InterfaceStates<Real> faces() { return {row(2 * pairs_), pitch_}; }
-  /// Fields as they were, while the PML needs them.
+  /// Fields before the update, while filters need them.
   Real* before(int n) { return row(4 * pairs_ + n); }
   /// A copy of all fields of a piece.
   Real* copy() { return row(4 * pairs_ + most_changed); }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000}, nothing{0, 0, 0};
 
-/// A dipping contact, blocks, single cells of another rock, a fluid, a cave.
+/// A dipping interface, blocks, single cells of another rock, a fluid, a cave.
 Medium<2> ground(std::int64_t nx, std::int64_t nz) {
   auto medium = uniform_medium(nx, nz, 5, rock);
   for (std::int64_t k = 0; k < nz; ++k)
@@ -23,7 +23,7 @@ Medium<2> ground(std::int64_t nx, std::int64_t nz) {
   return medium;
 }
 
-TEST(UniformInterior, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
+TEST(UniformInterior, HoldsCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
   constexpr std::int64_t block = Layout<2>::block, nx = 333, nz = 120, stretch = 64;
   const auto medium = ground(nx, nz);
   EdgeLaws<2> edges = edges_all(EdgeLaw::mirror);
@@ -81,11 +81,11 @@ TEST(UniformInterior, AreCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
   }
 }
 
-TEST(UniformInterior, AreToldApartFromWhatIsBetweenThem) {
+TEST(UniformInterior, SplitsColumnsIntoRunsAndTheRest) {
   const IndexRange runs[] = {{16, 64}, {96, 160}};
   const auto cut = [&](const IndexRange& columns, std::int64_t less) {
     std::vector<std::array<std::int64_t, 3>> parts;
-    tell_apart(
+    split_by_runs(
         runs, less, columns,
         [&](const IndexRange& part) {
           parts.push_back({part.first, part.last, 1});

@@ -16,8 +16,8 @@ TimeStep<3, Real> sweeps_of(Cube<Real>& cube, double dt_s, int time_order, std::
   return {cube.state().layout, dt_s, std::move(entries), {}, true, steps};
 }
 
-/// Passes end with a whole sweep along x, which belongs to the next step, too: here as many sweeps one after
-/// the other, each through all of the memory.
+/// Time tiles end with a whole sweep along x, which belongs to the next step, too: here as many sweeps one
+/// after the other, each through all of the memory.
 template <class Real>
 void sweep_by_sweep(Cube<Real>& cube, std::int64_t steps, int time_order) {
   const auto parts = splitting(3, time_order);
@@ -37,7 +37,7 @@ std::vector<Real> fields_of(Cube<Real>& cube) {
   return all;
 }
 
-TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
+TEST(TilingOfACube, DoesWhatSweepsOneAfterTheOtherDo) {
   struct Case {
     const char* name;
     EdgeLaw edges;

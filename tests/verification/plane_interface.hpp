@@ -11,14 +11,15 @@
 
 namespace slipwave::solver {
 
-/// Two half-spaces that meet at b = 0, a line explosion at a = 0, `distance_m` above in `over`, and what it
-/// sends through and back, by wave number: a runs along the contact, b across it, into `under`. Each plane
-/// wave meets the exact coefficients, found from the continuity of motion and traction.
-struct PlaneContact {
+/// Two half-spaces with their interface at b = 0, a line explosion at a = 0, `distance_m` above in `over`,
+/// and its transmitted and reflected waves, by wave number: a runs along the interface, b across it, into
+/// `under`. Each plane wave is scattered by the exact coefficients, found from the continuity of motion and
+/// traction.
+struct PlaneInterface {
   Rock over, under;  // either may be fluid
   double distance_m;
 
-  /// The potentials of what leaves the contact, P and S above, P and S below, per incoming P potential.
+  /// The potentials of the outgoing waves, P and S above, P and S below, per incoming P potential.
   using Coefficients = std::array<std::complex<double>, 4>;
   Coefficients coefficients(std::complex<double> omega, double k) const {
     // A wave exp(-i k a + m b): P with potential f, v = grad f; S with g, v = (-g_b, g_a). Rows: v_a, v_b and
@@ -40,7 +41,7 @@ struct PlaneContact {
       for (std::size_t row = 0; row < 4; ++row)
         a[row][column] = sign * rows_of[row] / (row < 2 ? 1 : scale / over.vp);
     };
-    put_column(4, rows(over, true, -1), -1);  // what comes in, on the right-hand side
+    put_column(4, rows(over, true, -1), -1);  // the incident wave, on the right-hand side
     put_column(0, rows(over, true, 1), 1);
     put_column(2, rows(under, true, -1), -1);
     if (over.vs > 0) put_column(1, rows(over, false, 1), 1);
@@ -110,7 +111,7 @@ struct PlaneContact {
   }
 
  private:
-  /// Decay of a wave of wave number k along the contact with the distance from it.
+  /// Decay of a wave of wave number k along the interface with the distance from it.
   static std::complex<double> decay(double c, std::complex<double> omega, double k) {
     return std::sqrt(k * k - omega * omega / (c * c));
   }

@@ -22,8 +22,8 @@ bool any_within(const Field<2>& z, Index<2> at, int axis, int step, int reach, c
   return false;
 }
 
-/// Media in which impedances are equal or a contact apart: spans end at the first cell that differs, and a
-/// cell without waves counts where one with waves is near.
+/// Media in which impedances are equal or differ by a strong interface: stencils end at the first cell that
+/// differs, and a cell without waves counts where one with waves is near.
 std::size_t counted(const Field<2>& z, int axis, int reach) {
   std::size_t count = 0;
   for (std::int64_t n = 0; n < z.grid().size(); ++n) {
@@ -41,7 +41,7 @@ TEST(InterfaceStencils, AreAllCellsWhoseStencilMeetsAnotherImpedance) {
   mirrors[0] = mirrors[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
   for (const Index<2>& shape : {Index<2>{70, 41}, {5, 60}, {64, 3}, {1, 1}}) {
     Field<2> z(Grid<2>{shape, 5, {0, 0}});
-    // Blocks of random sizes over one material, so that some lines have long stretches without an end.
+    // Blocks of random sizes over one material, so that some rows have long runs without an interface.
     for (auto& value : z) value = 1.5e6F;
     for (int block = 0; block < 4; ++block) {
       const float value = impedances[engine() % 4];

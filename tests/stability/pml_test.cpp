@@ -1,5 +1,5 @@
-// The matched layer has a memory of its own, so the energy of the wave field alone need not fall at every
-// step. It must stay bounded and go in the end, whatever stands beside the layer.
+// The PML has a memory of its own, so the energy of the wave field alone need not fall at every step. It must
+// stay bounded and vanish in the end, whatever lies beside the layer.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 namespace slipwave {
 namespace {
 
-/// A random wave field inside a matched layer of few cells: the harder the thinner.
+/// A random wave field inside a PML of few cells: the harder the thinner.
 class InLayer {
  public:
   InLayer(const Scene<2>& scene, int order, int layer_cells)
