@@ -15,7 +15,7 @@
 namespace slipwave {
 namespace {
 
-/// Fewer cells a wavelength than this are worth a warning.
+/// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
 
 template <int D>

@@ -40,7 +40,7 @@ inline constexpr int widest_stencil = 8;
 /// far as the number of cells allows) and beyond that have the least error over all waves down to 5.7 cells a
 /// wavelength. A point on a usable cell's centre gets that cell with weight 1. The same weights, divided by
 /// the cell's length, spread a point source (delta function). The largest error of a wave of unit amplitude,
-/// by cells a wavelength (measured in the tests):
+/// by cells per wavelength (measured in the tests):
 ///   cells taken                         20    10    8     6     5     4
 ///   4 on both sides                     7e-6  4e-5  7e-6  6e-6  1e-3  1e-2
 ///   8, point between cells 1 and 2      2e-5  9e-5  2e-5  2e-5  3e-3  3e-2

@@ -135,7 +135,7 @@ void read_notations(const std::string& text) {
   answers("", [&] { parse_slab(text).contains({1, 2}); });
   answers("", [&] { parse_time_window(text); });
   if (text.find('@') == std::string::npos)
-    answers("", [&] { expect(!std::isnan(parse_layer(text).top.at(3)), "a top that is no number"); });
+    answers("", [&] { expect(!std::isnan(parse_layer(text).top.at(3)), "a top that is not a number"); });
   if (text.find("file:") == std::string::npos)
     answers("", [&] { expect(parse_wavelet(text).duration_s() > 0, "a wavelet without duration"); });
 }

@@ -81,6 +81,8 @@ noticed style tests/unit/wave_test.cpp 'using namespace std;' 'names of std'
 noticed words docs/theory.md "kept in $(printf '/%s/' home)somebody" 'docs/theory.md:4'
 noticed words docs/theory.md "see $(printf '%s%s 12' is sue)" 'docs/theory.md:4'
 noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:2'
+noticed words docs/theory.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory.md:4: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
+noticed words lib/base/error.hpp "/// It $(printf '%s%s' err 's by') 2 %%." "write 'has an error of'"
 noticed top_level notes.txt x 'notes.txt: the top level holds'
 noticed top_level 'docs/two words.md' x 'a plain file name'
 noticed equations docs/theory.md 's = rho c v  (E2)' '(E2) names no test'

@@ -1,5 +1,6 @@
 #!/bin/sh
-# words.sh ROOT: no file names somebody's machine, a package host, an issue number or work left undone.
+# words.sh ROOT: no file names somebody's machine, a package host, an issue number or work left undone, and each thing bears
+# its one word of docs/notation.md.
 set -eu
 cd "$1"
 # Each pattern is written so that this file does not match itself.
@@ -15,3 +16,48 @@ if find docs -name '*.png' -print | sort | LC_ALL=C xargs grep -laE -- "(^|[^[:a
   echo 'these pictures tell of folders of somebody'
   exit 1
 fi
+
+# Words of old, each as a pattern, and the one to write. The change log tells of the past and may use them.
+found=$(mktemp -d)
+trap 'rm -rf "$found"' EXIT
+cat > "$found/words" <<'WORDS'
+(^|[^y] )[m]atched[ _]layers?	PML
+[M]atchedLayers?	Pml
+\<[s]pan[ _]ends?\>	interface stencils
+\<[S]panEnds?	InterfaceStencils
+[p]ass(es)? through memory	time tiles
+[P]assesThroughMemory	TheTiling
+\<[u]nder[ _]way\>	in progress
+\<[Rr]eckon(s|ed|ing)?\>	compute
+\<[b]r(ing|ings|inging|ought) ([a-z]+ ){0,3}forward	advance
+\<[g]one wrong\>	stale
+\<[p]uts? right\>	refresh
+\<[t]urns? (the|a) page	release
+\<[C]rew\>	rank groups
+\<[P]assage\>	time tile
+\<[F]reeEdge\>	FreeSurface
+\<[Uu]nsound	diverged
+\<([e]rr|[e]rrs|[e]rred) (by|alike)\>	has an error of
+\<[i]s no number\>	is not finite
+\<(a|the|one|two|strong|welded) [c]ontacts?\>	interface
+\<[c]ontacts? (of|between) \<	interface
+\<(Tilted|Averaged|Plane)?[C]ontacts?\>	Interface
+\<[f]ree faces?\>	free surface
+\<[d]amped zones?\>	sponge
+\<[a]head_pitch\>	pitch
+\<[c]ells a ((shortest|dominant|slowest) )?wavelength	cells per wavelength
+\<[p]hones\>	geophones, hydrophones
+\<[t]ell_apart\>	split_by_runs
+WORDS
+for place in lib tools tests docs surveys README.md; do
+  [ ! -e "$place" ] ||
+    find "$place" \( -path 'surveys/*/out' -o -path docs/CHANGELOG.md \) -prune -o -type f -print
+done | sort > "$found/files"
+tab=$(printf '\t')
+status=0
+while IFS=$tab read -r left right; do
+  xargs grep -nIoE -- "$left" /dev/null < "$found/files" > "$found/hits" || continue
+  sed "s/:\([^:]*\)\$/: '\1': write '$right'/" "$found/hits"
+  status=1
+done < "$found/words"
+exit "$status"

@@ -162,7 +162,7 @@ TEST(AxisWeights, VanishOnAnOddMirror) {
 
 TEST(PointWeights, SampleAPlaneWaveAnywhereInTheGrid) {
   const Grid<2> grid{{100, 80}, 5, {-20, 0}};
-  const double k = 2 * pi / (8 * 5);  // 8 cells a wavelength
+  const double k = 2 * pi / (8 * 5);  // 8 cells per wavelength
   for (const double angle : {0., 0.4, 1.1})
     for (const auto& at :
          {Point<2>{203.1, 177.7}, Point<2>{202.5, 178.9}, Point<2>{-20, 0}, Point<2>{480, 400}}) {

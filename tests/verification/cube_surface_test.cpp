@@ -81,7 +81,7 @@ TEST(CubeFreeSurface, MovesUnderAForceAsInPekerisClosedForm) {
 
 TEST(CubeFreeSurface, OfWaterSendsAnExplosionBackAsItsImage) {
   const Rock water{1500, 0, 1000};
-  constexpr RickerForm wavelet{15};  // 20 cells a dominant wavelength
+  constexpr RickerForm wavelet{15};  // 20 cells per dominant wavelength
   const std::int64_t n = 50;
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[2][0] = EdgeLaw::free;
