@@ -23,7 +23,7 @@ std::vector<Scheme> schemes() {
           {7, 4, 7.3, {1.9, 1.5}}};
 }
 
-/// Errors were found up to 1.5 times what was expected of them (docs/accuracy.md): so much is kept in hand.
+/// Measured errors were up to 1.5 times the expected ones (docs/accuracy.md): this is the margin.
 constexpr double margin = 1.5;
 /// A cell is split into this many a side at most.
 constexpr int most_parts = 8;

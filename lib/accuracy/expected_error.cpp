@@ -147,7 +147,7 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   trains.push_back({share * energy, WaveKind::s, std::numbers::pi / 2, way, band_of(source.wavelet, 2)});
 }
 
-/// A plane wave comes from where its way back leaves the model, through the absorbing zone.
+/// A plane wave enters where its path backwards leaves the model, through the absorbing zone.
 void add_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneWave<2>& wave,
                     const Point<2>& receiver, Trains& trains) {
   const auto& grid = scene.model.grid();

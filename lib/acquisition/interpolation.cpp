@@ -18,7 +18,7 @@ constexpr double on_centre = 1e-9;
 /// wavelength and hurt above.
 constexpr double highest_wavenumber = 0.35 * std::numbers::pi;
 
-/// Keeps the fit solvable; far below the errors it leaves.
+/// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
 
 constexpr int most_unknowns = widest_stencil + 4;

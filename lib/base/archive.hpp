@@ -10,8 +10,8 @@
 
 namespace slipwave {
 
-/// What somebody must remember to go on later, handed over piece by piece: written down, or read back in the
-/// same order. Its owner names the pieces in one function for both ways, so that they can not differ.
+/// Serializes a state to continue from later, piece by piece: writes it, or reads it back in the same order.
+/// The owner names the pieces in one function for both directions, so that they can not differ.
 class Archive {
  public:
   virtual ~Archive() = default;

@@ -55,7 +55,7 @@ class RealTransform2 {
   std::size_t length() const noexcept;
   /// length()/2 + 1
   std::size_t bins() const noexcept;
-  /// Some 8 bytes a sample.
+  /// Some 8 bytes per sample.
   static double bytes_for(std::size_t rows, std::size_t length);
 
   /// Samples of row m, to be filled before forward(); all zero after clear().

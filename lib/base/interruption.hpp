@@ -2,7 +2,7 @@
 
 namespace slipwave {
 
-/// Thrown to end a run that a signal asked to end, once everything is in order; main then dies of that
+/// Thrown to end a run after a signal, once everything is in order; main then dies of that
 /// signal (die_of).
 struct Interrupted {
   int signal_number;

@@ -6,7 +6,7 @@
 
 namespace slipwave {
 
-/// Told how far a long loop is; what it does with that is the caller's business (cli draws a bar).
+/// Called with the progress of a long loop (cli draws a bar).
 /// Called as progress(done, total); empty = silent.
 using Progress = std::function<void(std::int64_t done, std::int64_t total)>;
 

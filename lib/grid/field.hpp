@@ -7,7 +7,7 @@
 
 namespace slipwave {
 
-/// One value a cell: a flat array on a grid, x fastest.
+/// One value per cell: a flat array on a grid, x fastest.
 template <int D, class Value = float>
 class Field {
  public:

@@ -25,7 +25,7 @@ struct CellLayer {
   int axis = 1;
   std::int64_t number = 0;
 };
-/// The layer to look at: the one a plane runs through, or of a grid one cell thick the only one. Throws a
+/// The layer to show: the one a plane runs through, or of a grid one cell thick the only one. Throws a
 /// usage Error for a volume without a plane.
 CellLayer layer_to_show(const Grid<3>& grid, const std::optional<Slice>& slice);
 

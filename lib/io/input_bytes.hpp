@@ -42,7 +42,7 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// The first bytes of an input, to tell its kind. From a pipe they are taken for good: whoever reads on must
+/// The first bytes of an input, to detect its kind. From a pipe they are taken for good: whoever reads on must
 /// be given taken() first. Keeps a fifo open meanwhile, so that its writer does not see it closed.
 class InputStart {
  public:

@@ -34,7 +34,7 @@ void keep_hdf5_from_exit_handlers() {
 void prepare_library() {
   static const bool done = (keep_hdf5_from_exit_handlers(), true);
   (void)done;
-  // HDF5 does not look whether it got the memory for a file's tables, a few MiB: without it, it crashes.
+  // HDF5 does not check whether it got the memory for a file's tables, a few MiB: without it, it crashes.
   constexpr std::size_t room = std::size_t(16) << 20;
   ::operator delete(::operator new(room));
 }

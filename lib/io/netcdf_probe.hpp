@@ -11,7 +11,7 @@ struct ProbeLimits {
   std::size_t bytes = std::size_t(1) << 30;  // beyond what the process has already
 };
 
-/// Whether the netCDF and HDF5 libraries survive looking through a file: HDF5 trusts what it reads, and on
+/// Whether the netCDF and HDF5 libraries survive reading through a file: HDF5 trusts what it reads, and on
 /// damaged files crashes, loops without end or takes all memory. `open` opens the file and returns its number
 /// in the library, negative when it cannot. It runs in a child process, which reads every name, attribute and
 /// index of the file (and the values of small ones) within `limits`; what happens there does not reach this

@@ -8,7 +8,7 @@
 
 namespace slipwave {
 
-/// Isotropic elastic medium, one value a cell. vs = 0 marks fluid, rho = 0 marks void (air).
+/// Isotropic elastic medium, one value per cell. vs = 0 marks fluid, rho = 0 marks void (air).
 template <int D>
 struct Medium {
   Field<D> vp, vs;  // m/s

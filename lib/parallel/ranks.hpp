@@ -36,13 +36,13 @@ class Ranks {
   /// is received has the length of what was sent.
   virtual std::unique_ptr<Message> send(int to, int tag, std::span<const std::byte> bytes) = 0;
   virtual std::unique_ptr<Message> receive(int from, int tag, std::span<std::byte> bytes) = 0;
-  /// Collective: what every rank hands in, by their numbers, on all ranks.
+  /// Collective: the contributions of all ranks, by their numbers, on all ranks.
   virtual std::vector<std::vector<std::byte>> all_of(std::span<const std::byte> mine) = 0;
   /// Collective: those that name the same colour, in the order of their numbers.
   virtual std::unique_ptr<Ranks> split(int colour) = 0;
 };
 
-/// Until a message is delivered. Looks again and again, but leaves the processor to others meanwhile.
+/// Waits until a message is delivered. Polls, but yields the processor to others meanwhile.
 void wait_for(Message& message);
 
 /// Collective: what the ranks give, one after the other by their numbers, on all of them; what it was given

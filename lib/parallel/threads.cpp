@@ -24,7 +24,7 @@ int this_worker() { return std::max(0, tbb::this_task_arena::current_thread_inde
 
 /// What was done before the pieces began is seen by them, what they did by those who waited for them, and
 /// what a worker left by whoever works next under its number. TBB sees to all this itself; the same in our
-/// own atomics is for the thread sanitizer, which cannot look into a TBB that was compiled without it.
+/// own atomics is for the thread sanitizer, which cannot check a TBB that was compiled without it.
 class Handover {
  public:
   Handover() : workers_(std::size_t(parallel_workers())) { begun_.store(true, std::memory_order_release); }

@@ -28,7 +28,7 @@ void flush_subnormals();
 
 /// Runs body(begin, end, worker) over pieces of 0 .. count, each at least `grain` long (the last may be
 /// shorter), and returns when all are done. Pieces must not depend on each other; who takes which is left to
-/// the moment, so a thread that the machine keeps waiting takes fewer. Subnormal numbers count as zero
+/// the moment, so a thread that has to wait takes fewer. Subnormal numbers count as zero
 /// inside. Two pieces of the same worker never run at once. What body throws is thrown here.
 void parallel_for(std::int64_t count, std::int64_t grain,
                   const std::function<void(std::int64_t begin, std::int64_t end, int worker)>& body);

@@ -97,7 +97,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
   }
 }
 
-/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it meets at the sides are
+/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it reaches at the sides are
 /// followed there. An oblique one is known only where all absorbing edges lie in one medium.
 template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {

@@ -24,7 +24,7 @@ enum class SlipField { slip, slip_rate, dissipated, opening };
 struct Tiling {
   int steps = 0;            // time steps in one time tile
   int stripe_cells = 0;     // columns swept together, a multiple of 16
-  bool everywhere = false;  // compute also where no wave has come to, and whatever nobody will see
+  bool everywhere = false;  // compute also cells that no wave has reached or that affect no receiver
   bool plain = false;       // no tiles: each sweep and effect on the whole grid, one after the other
 };
 
@@ -76,7 +76,7 @@ template <int D>
 double time_step_s(const Scene<D>& scene);
 
 /// Width in cells of the absorbing layers of a shot: 20 for the PML, 40 for the zones of a plane
-/// wave, unless numerics say otherwise. Either sends back less than 2 % of what meets it at up to 60 degrees.
+/// wave, unless numerics say otherwise. Either reflects less than 2 % at up to 60 degrees of incidence.
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source);
 

@@ -8,7 +8,7 @@
 
 namespace slipwave {
 
-/// Rows of the model (in 3-D planes), counted along the last axis, that one of several processes answers for.
+/// Rows of the model (in 3-D planes), counted along the last axis, that one of several processes owns.
 /// Its model holds some more of them on both sides, where there are any.
 struct Subdomain {
   std::int64_t rows = 0;             // of the whole model; 0: there is one process
@@ -26,13 +26,13 @@ struct Subdomain {
     const auto begin = held.first[D - 1];
     return side ? begin + held.shape[D - 1] < rows : begin > 0;
   }
-  /// Whether it answers for a row of the model it holds.
+  /// Whether it owns a row of the model it holds.
   template <int D>
   bool owns(const Grid<D>& held, std::int64_t row) const {
     row += held.first[D - 1];
     return is_whole() || (row >= first && row < last);
   }
-  /// Whether it answers for the cell that a point of the whole model is in.
+  /// Whether it owns the cell of a point of the whole model.
   template <int D>
   bool owns(const Grid<D>& held, const Point<D>& point_m) const {
     const auto all = whole(held);
