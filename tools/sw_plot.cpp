@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
+#include "model/property.hpp"
 #include "plot_kinds.hpp"
 
 using namespace slipwave;
@@ -32,7 +33,9 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
                      "gather: where traces stand");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
-  options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"}, "model: what is drawn");
+  auto drawn = property_names();
+  drawn.push_back("fractures");
+  options.add_choice("property", settings.property, drawn, "model: what is drawn");
   options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: what lies on this plane, y=500");
   options.add("survey", settings.survey, "GATHER", "model, snapshot: marks sources and receivers");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
+#include "model/coefficients.hpp"
 
 namespace slipwave {
 namespace {
@@ -51,6 +52,15 @@ void check_count(double duration_s, const char* what, double interval_s, const c
               ErrorKind::usage);
 }
 
+/// "vp 1500 vs 0 rho 1000"
+template <int D>
+std::string described(const Medium<D>& medium, std::size_t cell) {
+  std::string text;
+  for (const Property property : medium.properties())
+    text += (text.empty() ? "" : " ") + row_of(property).name + ' ' + shown(medium[property][cell]);
+  return text;
+}
+
 /// The medium of all cells along an edge must be one for a plane wave to be known there.
 template <int D>
 void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional<std::size_t>& reference) {
@@ -61,13 +71,9 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional
     if (at[std::size_t(axis)] != (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
     const auto cell = std::size_t(n);
     if (!reference) reference = cell;
-    const bool same = medium.vp[cell] == medium.vp[*reference] && medium.vs[cell] == medium.vs[*reference] &&
-                      medium.rho[cell] == medium.rho[*reference];
-    if (same && !medium.is_void(cell)) continue;
-    throw Error("the plane wave meets vp " + shown(medium.vp[cell]) + " vs " + shown(medium.vs[cell]) +
-                " rho " + shown(medium.rho[cell]) + " at " + place_of(grid, n) + " and vp " +
-                shown(medium.vp[*reference]) + " vs " + shown(medium.vs[*reference]) + " rho " +
-                shown(medium.rho[*reference]) + " at " + place_of(grid, std::int64_t(*reference)) +
+    if (medium.same(cell, *reference) && !medium.is_void(cell)) continue;
+    throw Error("the plane wave meets " + described(medium, cell) + " at " + place_of(grid, n) + " and " +
+                described(medium, *reference) + " at " + place_of(grid, std::int64_t(*reference)) +
                 ", expected one solid or fluid along the edge");
   }
 }
@@ -86,9 +92,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
       behind += (source.position_m[axis] - grid.centre(int(axis), at[axis])) * wave.direction[axis];
     const auto cell = std::size_t(n);
     if (behind < 0 || behind > length) continue;
-    if (medium.vp[cell] == medium.vp[from] && medium.vs[cell] == medium.vs[from] &&
-        medium.rho[cell] == medium.rho[from])
-      continue;
+    if (medium.same(cell, from)) continue;
     throw Error(
         "the plane wave would stand in another medium than that of the edge it comes from at t = 0, at " +
         place_of(grid, n) + ", expected --source further back along its way");
@@ -174,9 +178,7 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  double fastest = scene.subdomain.fastest;
-  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
-    if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
+  const double fastest = std::max(scene.subdomain.fastest, fastest_speed(scene.model.medium));
   return scene.model.grid().spacing_m / fastest;
 }
 

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slipwave {
+
+/// How one value stands for the parts of a cell; only parts of the kind of its centre count.
+enum class Mean {
+  elastic,     // together with the other elastic properties: MaterialMean (theory.md M1, M2)
+  arithmetic,  // sum V a / sum V, V volume
+  harmonic,    // sum V / sum (V/a)
+};
+
+/// All there is to know of a material property, one value a cell. Model files, import, resampling,
+/// subdomains, the identity of checkpoints, reports, pictures and export walk the table of these rows.
+struct PropertyRow {
+  std::string name;                   // in files and on command lines
+  std::string long_name;              // in files, and in the help of sw-import
+  std::string units;                  // in files
+  std::string shown_unit;             // in reports
+  std::vector<std::string> si;        // units that foreign files may name, at least one
+  std::vector<std::string> thousand;  // units of 1000 times that; none: there are none
+  double least = 0, largest = 0;      // what check() lets through; infinity: any finite number
+  Mean mean = Mean::arithmetic;
+  std::optional<double> if_absent;  // stands for it where a model lacks it; none: every model has it
+};
+
+/// A row of the table by its place. Those that formulas ask for by name; others are found by
+/// find_property() or met in a walk.
+enum class Property : std::size_t { vp, vs, rho };
+
+/// Rows that every model has; they are the first of the table.
+inline constexpr std::size_t required_properties = 3;
+
+/// The table. It stands in a source file of its own: linking another one in its place is all that a property
+/// more needs, which tests do (tests/property).
+std::span<const PropertyRow> material_properties();
+
+const PropertyRow& row_of(Property property);
+/// Nothing where no row has this name.
+std::optional<Property> find_property(const std::string& name);
+/// In the order of the table.
+std::vector<Property> all_properties();
+std::vector<std::string> property_names();
+
+}  // namespace slipwave
