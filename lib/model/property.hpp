@@ -36,8 +36,12 @@ enum class Property : std::size_t { vp, vs, rho };
 /// Rows that every model has; they are the first of the table.
 inline constexpr std::size_t required_properties = 3;
 
-/// The table. It stands in a source file of its own: linking another one in its place is all that a property
-/// more needs, which tests do (tests/property).
+/// The rows of all properties that are known, in the order of the variables in a file. A new property is a
+/// row here.
+std::vector<PropertyRow> property_rows();
+
+/// The table that is walked: property_rows(), made once. Its definition stands in a source file of its own,
+/// so that tests/property links the tools with a table that has one row more.
 std::span<const PropertyRow> material_properties();
 
 const PropertyRow& row_of(Property property);
