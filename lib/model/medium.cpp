@@ -1,32 +1,20 @@
 #include "model/medium.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace slipwave {
-namespace {
 
 template <int D>
-constexpr std::array<Field<D> Medium<D>::*, required_properties> required = {&Medium<D>::vp, &Medium<D>::vs,
-                                                                             &Medium<D>::rho};
-
-}  // namespace
-
-template <int D>
-Field<D>& Medium<D>::operator[](Property property) {
-  const auto n = std::size_t(property);
-  if (n < required_properties) return this->*required<D>[n];
+Field<D>& Medium<D>::optional(Property property) {
   // Room for all of them, so that no reference goes stale.
   if (optional_.empty()) optional_.resize(material_properties().size() - required_properties);
-  return optional_[n - required_properties];
+  return optional_[std::size_t(property) - required_properties];
 }
 
 template <int D>
-const Field<D>& Medium<D>::operator[](Property property) const {
+const Field<D>& Medium<D>::optional(Property property) const {
   static const Field<D> absent;
-  const auto n = std::size_t(property);
-  if (n < required_properties) return this->*required<D>[n];
-  return optional_.empty() ? absent : optional_[n - required_properties];
+  return optional_.empty() ? absent : optional_[std::size_t(property) - required_properties];
 }
 
 template <int D>

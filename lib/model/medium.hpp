@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <utility>
 
 #include "grid/field.hpp"
@@ -33,8 +34,14 @@ class Medium {
 
   /// Its field, empty where an optional property is absent; assigning one makes it present. References stay
   /// good as long as the medium does.
-  Field<D>& operator[](Property property);
-  const Field<D>& operator[](Property property) const;
+  Field<D>& operator[](Property property) {
+    return std::size_t(property) < required_properties ? this->*required[std::size_t(property)]
+                                                       : optional(property);
+  }
+  const Field<D>& operator[](Property property) const {
+    return std::size_t(property) < required_properties ? this->*required[std::size_t(property)]
+                                                       : optional(property);
+  }
   bool has(Property property) const;
   /// Those it has, in the order of the table.
   std::vector<Property> properties() const;
@@ -44,6 +51,11 @@ class Medium {
   bool same(std::size_t a, std::size_t b) const;
 
  private:
+  static constexpr std::array<Field<D> Medium::*, required_properties> required = {&Medium::vp, &Medium::vs,
+                                                                                   &Medium::rho};
+  Field<D>& optional(Property property);
+  const Field<D>& optional(Property property) const;
+
   std::vector<Field<D>> optional_;  // of the rows after the required ones; none where all are absent
 };
 
