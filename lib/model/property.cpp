@@ -1,19 +1,35 @@
 #include "model/property.hpp"
 
-#include <limits>
-
 namespace slipwave {
 
 std::vector<PropertyRow> property_rows() {
-  constexpr double any = std::numeric_limits<double>::infinity();
   const std::vector<std::string> m_s = {"m s-1", "m/s", "m s^-1"}, km_s = {"km s-1", "km/s", "km s^-1"},
                                  kg_m3 = {"kg m-3", "kg/m3", "kg/m^3", "kg m^-3"},
                                  g_cm3 = {"g cm-3", "g/cm3", "g/cc", "g/cm^3", "g cm^-3"};
-  return {
-      {"vp", "P-wave speed", "m s-1", "m/s", m_s, km_s, 0, any, Mean::elastic, {}},
-      {"vs", "S-wave speed, 0 = fluid", "m s-1", "m/s", m_s, km_s, 0, any, Mean::elastic, {}},
-      {"rho", "density, 0 = void", "kg m-3", "kg/m3", kg_m3, g_cm3, 0, any, Mean::elastic, {}},
-  };
+  return {{.name = "vp",
+           .long_name = "P-wave speed",
+           .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)",
+           .units = "m s-1",
+           .shown_unit = "m/s",
+           .si = m_s,
+           .thousand = km_s,
+           .mean = Mean::elastic},
+          {.name = "vs",
+           .long_name = "S-wave speed, 0 = fluid",
+           .help = "S-wave speed; 0 is fluid",
+           .units = "m s-1",
+           .shown_unit = "m/s",
+           .si = m_s,
+           .thousand = km_s,
+           .mean = Mean::elastic},
+          {.name = "rho",
+           .long_name = "density, 0 = void",
+           .help = "density; 0 is void (air)",
+           .units = "kg m-3",
+           .shown_unit = "kg/m3",
+           .si = kg_m3,
+           .thousand = g_cm3,
+           .mean = Mean::elastic}};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

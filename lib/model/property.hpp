@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,22 +19,26 @@ enum class Mean {
 /// All there is to know of a material property, one value a cell. Model files, import, resampling,
 /// subdomains, the identity of checkpoints, reports, pictures and export walk the table of these rows.
 struct PropertyRow {
-  std::string name;                   // in files and on command lines
-  std::string long_name;              // in files, and in the help of sw-import
-  std::string units;                  // in files
-  std::string shown_unit;             // in reports
-  std::vector<std::string> si;        // units that foreign files may name, at least one
-  std::vector<std::string> thousand;  // units of 1000 times that; none: there are none
-  double least = 0, largest = 0;      // what check() lets through; infinity: any finite number
+  std::string name;                        // in files and on command lines
+  std::string long_name;                   // in files
+  std::string help;                        // of the option of sw-import
+  std::string units;                       // in files
+  std::string shown_unit;                  // in reports
+  std::vector<std::string> si;             // units that foreign files may name, at least one
+  std::vector<std::string> thousand = {};  // units of 1000 times that
+  double least = 0, largest = infinite;    // of what check() lets through; infinite: any finite number
   Mean mean = Mean::arithmetic;
-  std::optional<double> if_absent;  // stands for it where a model lacks it; none: every model has it
+  std::optional<double> if_absent = {};  // stands for it where a model lacks it; none: every model has it
+
+  static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// A row of the table by its place. Those that formulas ask for by name; others are found by
 /// find_property() or met in a walk.
 enum class Property : std::size_t { vp, vs, rho };
 
-/// Rows that every model has; they are the first of the table.
+/// Rows that every model has. They are the first of the table; those after them say what stands for them
+/// where they are absent.
 inline constexpr std::size_t required_properties = 3;
 
 /// The rows of all properties that are known, in the order of the variables in a file. A new property is a

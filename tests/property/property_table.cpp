@@ -6,8 +6,14 @@ namespace slipwave {
 std::span<const PropertyRow> material_properties() {
   static const auto rows = [] {
     auto more = property_rows();
-    more.push_back(
-        {"temperature", "temperature", "K", "K", {"K", "kelvin"}, {}, 0, 5000, Mean::arithmetic, 288});
+    more.push_back({.name = "temperature",
+                    .long_name = "temperature",
+                    .help = "temperature, K",
+                    .units = "K",
+                    .shown_unit = "K",
+                    .si = {"K", "kelvin"},
+                    .largest = 5000,
+                    .if_absent = 288});
     return more;
   }();
   return rows;

@@ -201,6 +201,20 @@ TEST_F(Temperature, CostsNothingWhereAModelLacksIt) {
   EXPECT_EQ(done("'" SLIPWAVE_USUAL_BIN "/sw-info' hot.nc").find("temperature  "), std::string::npos);
 }
 
+TEST(PropertyTable, BeginsWithWhatEveryModelHas) {
+  EXPECT_EQ(property_names(), (std::vector<std::string>{"vp", "vs", "rho", "temperature"}));
+  for (const Property property : all_properties()) {
+    const auto& row = row_of(property);
+    EXPECT_EQ(row.if_absent.has_value(), std::size_t(property) >= required_properties) << row.name;
+    EXPECT_FALSE(row.si.empty()) << row.name;
+    EXPECT_EQ(find_property(row.name), property);
+  }
+  EXPECT_EQ(row_of(Property::vp).name, "vp");
+  EXPECT_EQ(row_of(Property::vs).name, "vs");
+  EXPECT_EQ(row_of(Property::rho).name, "rho");
+  EXPECT_EQ(find_property("colour"), std::nullopt);
+}
+
 TEST(ScalarMean, WeightsByVolume) {
   ScalarMean arithmetic(Mean::arithmetic, 7), harmonic(Mean::harmonic, 7);
   EXPECT_EQ(arithmetic.mean(), 7);
