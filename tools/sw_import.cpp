@@ -20,7 +20,7 @@ using namespace slipwave;
 namespace {
 
 struct Settings {
-  std::vector<std::string> files{property_names().size()};  // by property
+  std::vector<std::string> files = std::vector<std::string>(property_names().size());  // by property
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
