@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
+#include "model/property.hpp"
 #include "plot_kinds.hpp"
 
 using namespace slipwave;
@@ -33,8 +34,9 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
                      "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
-  options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"},
-                     "model: property to draw");
+  auto drawn = property_names();
+  drawn.push_back("fractures");
+  options.add_choice("property", settings.property, drawn, "model: property to draw");
   options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
   options.add("survey", settings.survey, "GATHER",
               "model, snapshot: mark sources and receivers of this gather");

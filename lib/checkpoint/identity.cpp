@@ -56,11 +56,18 @@ class Digest {
     add(name);
     add(systems);
   }
+  /// Which optional properties there are counts, too.
+  template <int D>
+  void add(const Medium<D>& medium) {
+    for (const Property property : medium.properties()) {
+      if (row_of(property).if_absent) add(row_of(property).name);
+      add(medium[property]);
+    }
+  }
   template <int D>
   void add(const Model<D>& model) {
     const auto& [medium, fracture, sets, prestress_pa, title, source, history] = model;
-    const auto& [vp, vs, rho] = medium;
-    add(vp), add(vs), add(rho);
+    add(medium);
     add(fracture);
     add(sets);
     add(prestress_pa);

@@ -5,20 +5,9 @@
 #include <vector>
 
 #include "grid/field.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
-
-/// Isotropic elastic medium, one value a cell. vs = 0 marks fluid, rho = 0 marks void (air).
-template <int D>
-struct Medium {
-  Field<D> vp, vs;  // m/s
-  Field<D> rho;     // kg/m3
-
-  const Grid<D>& grid() const { return vp.grid(); }
-  bool is_void(std::size_t cell) const { return rho[cell] == 0; }
-  bool is_fluid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] == 0; }
-  bool is_solid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] != 0; }
-};
 
 /// One family of parallel slip planes (theory.md, slip law).
 template <int D>
@@ -56,11 +45,12 @@ struct MediumLimits {
   bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
 };
 
-/// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values, rho = 0 with
-/// vp or vs set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D,
-/// where the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip
-/// normal that is no unit vector, negative or non-finite slip constants, a static stress that is not finite
-/// or under which planes slip or part by themselves.
+/// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values or others
+/// that the row of a property does not let through (of an optional one outside void), rho = 0 with vp or vs
+/// set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D, where
+/// the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip normal
+/// that is no unit vector, negative or non-finite slip constants, a static stress that is not finite or under
+/// which planes slip or part by themselves.
 template <int D>
 void check(const Model<D>& model, const MediumLimits& limits = {});
 

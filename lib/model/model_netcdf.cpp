@@ -189,7 +189,7 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
 
 template <int D>
 Grid<D> read_model_grid(const NetcdfFile& file) {
-  check_dimensions<D>(file, "vp");
+  check_dimensions<D>(file, row_of(Property::vp).name);
   return read_grid<D>(file);
 }
 
@@ -204,9 +204,11 @@ Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_
   grid.first[D - 1] = first;
   grid.shape[D - 1] = last - first;
   Model<D> model;
-  model.medium.vp = read_field(file, grid, "vp");
-  model.medium.vs = read_field(file, grid, "vs");
-  model.medium.rho = read_field(file, grid, "rho");
+  for (const Property property : all_properties()) {
+    const auto& row = row_of(property);
+    if (row.if_absent && !file.has_variable(row.name)) continue;
+    model.medium[property] = read_field(file, grid, row.name);
+  }
   if (file.has_variable("fracture")) {
     check_dimensions<D>(file, "fracture");
     const auto [start, count] = block_of(grid);
@@ -236,9 +238,11 @@ void write_model(const Model<D>& model, OutputFile& out) {
   if (!model.source.empty()) file.put_attribute("", "source", model.source);
   if (!model.history.empty()) file.put_attribute("", "history", model.history);
   define_grid(file, model.grid());
-  define_property(file, model.medium.vp, "vp", "P-wave speed", "m s-1");
-  define_property(file, model.medium.vs, "vs", "S-wave speed, 0 = fluid", "m s-1");
-  define_property(file, model.medium.rho, "rho", "density, 0 = void", "kg m-3");
+  const auto properties = model.medium.properties();
+  for (const Property property : properties) {
+    const auto& row = row_of(property);
+    define_property(file, model.medium[property], row.name, row.long_name, row.units);
+  }
   if (fractured) define_sets(file, model.fracture_sets);
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c) {
     const auto& name = stress_names<D>()[c];
@@ -246,9 +250,7 @@ void write_model(const Model<D>& model, OutputFile& out) {
                     "static stress " + name + ", tension positive", "Pa");
   }
   put_grid(file, model.grid());
-  file.put("vp", model.medium.vp.data());
-  file.put("vs", model.medium.vs.data());
-  file.put("rho", model.medium.rho.data());
+  for (const Property property : properties) file.put(row_of(property).name, model.medium[property].data());
   if (fractured) put_sets(file, model);
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c)
     file.put(prestress_variable(stress_names<D>()[c]), model.prestress_pa[c].data());

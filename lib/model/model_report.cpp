@@ -99,9 +99,8 @@ Report report_of(const Model<D>& model) {
   Report of_model;
   const auto& medium = model.medium;
   report_grid(of_model, model.grid());
-  report_field(of_model, "vp", medium.vp, "m/s");
-  report_field(of_model, "vs", medium.vs, "m/s");
-  report_field(of_model, "rho", medium.rho, "kg/m3");
+  for (const Property property : medium.properties())
+    report_field(of_model, row_of(property).name, medium[property], row_of(property).shown_unit);
   std::int64_t solid = 0, fluid = 0, nothing = 0;
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
@@ -169,10 +168,9 @@ Report report_of(const NetcdfFile& file) {
 }
 
 std::string kind_of(const NetcdfFile& file) {
-  if (file.has_variable("vp") && file.has_variable("vs") && file.has_variable("rho") &&
-      !file.dimension_length("time")) {
-    return "model";
-  }
+  const auto rows = material_properties();
+  const auto is_there = [&](const PropertyRow& row) { return row.if_absent || file.has_variable(row.name); };
+  if (std::all_of(rows.begin(), rows.end(), is_there) && !file.dimension_length("time")) return "model";
   const bool in_space = has_coordinates<2>(file) || has_coordinates<3>(file);
   return in_space && file.dimension_length("time") ? "snapshots" : "netCDF";
 }

@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
+#include "model/coefficients.hpp"
 
 namespace slipwave {
 namespace {
@@ -51,6 +52,15 @@ void check_count(double duration_s, const char* what, double interval_s, const c
               ErrorKind::usage);
 }
 
+/// "vp 1500 vs 0 rho 1000 at x=5 z=10"
+template <int D>
+std::string described(const Medium<D>& medium, std::size_t cell) {
+  std::string text;
+  for (const Property property : medium.properties())
+    text += row_of(property).name + ' ' + shown(medium[property][cell]) + ' ';
+  return text + "at " + place_of(medium.grid(), std::int64_t(cell));
+}
+
 /// The medium of all cells along a boundary must be one for a plane wave to be known there; `needs` says so.
 template <int D>
 void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::string& needs,
@@ -62,14 +72,8 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::st
     if (at[std::size_t(axis)] != (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
     const auto cell = std::size_t(n);
     if (!reference) reference = cell;
-    const bool same = medium.vp[cell] == medium.vp[*reference] && medium.vs[cell] == medium.vs[*reference] &&
-                      medium.rho[cell] == medium.rho[*reference];
-    if (same && !medium.is_void(cell)) continue;
-    const auto material = [&](std::size_t of) {
-      return "vp " + shown(medium.vp[of]) + " vs " + shown(medium.vs[of]) + " rho " + shown(medium.rho[of]) +
-             " at " + place_of(grid, std::int64_t(of));
-    };
-    throw Error(needs + ", found " + material(*reference) + " and " + material(cell));
+    if (medium.same(cell, *reference) && !medium.is_void(cell)) continue;
+    throw Error(needs + ", found " + described(medium, *reference) + " and " + described(medium, cell));
   }
 }
 
@@ -87,9 +91,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
       behind += (source.position_m[axis] - grid.centre(int(axis), at[axis])) * wave.direction[axis];
     const auto cell = std::size_t(n);
     if (behind < 0 || behind > length) continue;
-    if (medium.vp[cell] == medium.vp[from] && medium.vs[cell] == medium.vs[from] &&
-        medium.rho[cell] == medium.rho[from])
-      continue;
+    if (medium.same(cell, from)) continue;
     throw Error(
         "at t = 0 the plane wave would already be in another material than that of the boundary it enters "
         "by, at " +
@@ -181,9 +183,7 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  double fastest = scene.subdomain.fastest;
-  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
-    if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
+  const double fastest = std::max(scene.subdomain.fastest, fastest_speed(scene.model.medium));
   return scene.model.grid().spacing_m / fastest;
 }
 

@@ -209,13 +209,13 @@ TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
     file.put("speed", std::vector<double>{4, 3, 2, 4.5, 3.5, 2.5}.data());
     file.close();
   }
-  const auto field = field_from_netcdf(NetcdfFile::open(path_), "vp", "", {});
+  const auto field = field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", {});
   EXPECT_EQ(field.grid(), grid_of(2, 3, 20));
   EXPECT_EQ(field({0, 0}), 2000);
   EXPECT_EQ(field({1, 0}), 2500);
   EXPECT_EQ(field({0, 2}), 4000);
   EXPECT_NE(sentence_of([&] {
-              field_from_netcdf(NetcdfFile::open(path_), "vp", "", 10);
+              field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", 10);
             }).find("found a step of 20 m"),
             std::string::npos);
 }
