@@ -138,6 +138,9 @@ std::vector<EffectShare> Slip<D, Real>::effects() const {
   add("  friction", [&](const auto& g) { return any(g, [](const auto& s) { return s.friction > 0; }); });
   add("  viscosity", [&](const auto& g) { return any(g, [](const auto& s) { return s.viscosity_s > 0; }); });
   add("  cohesion", [&](const auto& g) { return any(g, [](const auto& s) { return s.strength_pa > 0; }); });
+  add("  slip weakening", [&](const auto& g) {
+    return any(g, [](const auto& s) { return s.law == FrictionLaw::slip_weakening; });
+  });
   add("  blocks", [](const auto& g) { return g.set().systems.size() > 1; });
   add("  prestress", [](const auto& g) { return g.has_prestress(); });
   add("  opening", [](const auto& g) { return g.opens(); });
