@@ -162,17 +162,21 @@ struct PairLoss {
   Real now, a, b;
 };
 
+/// What is left after one and the other; losses as differences, so that both laws round alike.
+template <class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_left(Real size, Real rest, Real now) {
+  return {now, size - rest, rest - now};
+}
+
 template <SlipCorrection Correction, class Real>
 [[gnu::always_inline]] inline PairLoss<Real> pair_begins(const Pair<Real>& of) {
   if constexpr (Correction == SlipCorrection::exponential) {
-    const Real a = slip::unloaded_loss(of.size, of.strength_a, of.relaxation_a * Real(0.5));
-    const Real rest = of.size - a;
-    const Real b = slip::unloaded_loss(rest, of.strength_b, of.relaxation_b * Real(0.5));
-    return {rest - b, a, b};
+    const Real rest = of.size - slip::unloaded_loss(of.size, of.strength_a, of.relaxation_a * Real(0.5));
+    return pair_left(of.size, rest,
+                     rest - slip::unloaded_loss(rest, of.strength_b, of.relaxation_b * Real(0.5)));
   } else {
-    const Real a = slip::explicit_half(of.size, of.strength_a, of.relaxation_a, 2);
-    const Real b = slip::explicit_half(of.size, of.strength_b, of.relaxation_b, 2);
-    return {of.size - a - b, a, b};
+    const Real rest = of.size - slip::explicit_half(of.size, of.strength_a, of.relaxation_a, 2);
+    return pair_left(of.size, rest, rest - slip::explicit_half(of.size, of.strength_b, of.relaxation_b, 2));
   }
 }
 
@@ -208,14 +212,16 @@ template <SlipCorrection Correction, class Law, bool Extended, class Real>
   if constexpr (Correction == SlipCorrection::exponential) {
     // One system after the other, in the opposite order of the beginning.
     const Real half_a = of.relaxation_a * Real(0.5), half_b = of.relaxation_b * Real(0.5);
-    Real b = slip::unloaded_loss(of.size, of.strength_b, half_b);
+    Real strength_a = of.strength_a, strength_b = of.strength_b;
     if constexpr (Law::has_state)
-      b = slip::unloaded_loss(of.size, end_of_b<Correction, Law, Extended>(law_b, of, b), half_b);
-    const Real rest = of.size - b;
-    Real a = slip::unloaded_loss(rest, of.strength_a, half_a);
+      strength_b =
+          end_of_b<Correction, Law, Extended>(law_b, of, slip::unloaded_loss(of.size, strength_b, half_b));
+    const Real rest = of.size - slip::unloaded_loss(of.size, strength_b, half_b);
     if constexpr (Law::has_state)
-      a = slip::unloaded_loss(rest, end_of_a<Correction, Law, Extended>(law_a, of, a), half_a);
-    return {rest - a, a, b};
+      strength_a =
+          end_of_a<Correction, Law, Extended>(law_a, of, slip::unloaded_loss(rest, strength_a, half_a));
+    const Real now = rest - slip::unloaded_loss(rest, strength_a, half_a);
+    return {now, rest - now, of.size - rest};
   } else if constexpr (Law::has_state) {
     const auto [now, a, b] = pair_relaxed<Correction>(of, of.strength_a, of.strength_b);
     return pair_relaxed<Correction>(of, end_of_a<Correction, Law, Extended>(law_a, of, a),
