@@ -58,12 +58,12 @@ History history(const char* name, int steps, int parts, double relaxation, const
 }  // namespace
 
 std::vector<History> histories(double relaxation, int steps) {
-  const double relaxation = 1 / relaxation;
-  return {history("the law", steps, 1000, relaxation, first),
-          history("first order", steps, 1, relaxation, first),
-          history("trapezoidal", steps, 1, relaxation, trapezoidal),
-          history("second order", steps, 1, relaxation, second),
-          history("exponential", steps, 1, relaxation, exponential)};
+  const double relaxation_pa = 1 / relaxation;
+  return {history("the law", steps, 1000, relaxation_pa, first),
+          history("first order", steps, 1, relaxation_pa, first),
+          history("trapezoidal", steps, 1, relaxation_pa, trapezoidal),
+          history("second order", steps, 1, relaxation_pa, second),
+          history("exponential", steps, 1, relaxation_pa, exponential)};
 }
 
 }  // namespace slipwave
