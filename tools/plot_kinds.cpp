@@ -53,7 +53,7 @@ Input open_input(const std::string& path, const PlotSettings& settings) {
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (!settings.traces.su && !segy::looks_like_segy(bytes))
     throw Error(shown_input(path) + ": is " +
-                (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+                (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +
                 ", expected a model, snapshots, spectra, errors or a gather");
   return input;
 }
@@ -145,7 +145,7 @@ plot::Picture picture_of(const PlotSettings& settings, const plot::Page& given) 
     const bool together = input.kind == kind && (kind == Kind::spectra || kind == Kind::accuracy);
     if (inputs.size() > 1 && !together)
       throw Error(shown_input(input.path) +
-                      ": several files are drawn together where all hold spectra or all hold errors",
+                      ": several files can be drawn together only if all hold spectra or all hold errors",
                   ErrorKind::usage);
   }
   std::string history;

@@ -52,8 +52,9 @@ void ShotOutput::check(std::size_t shots) const {
                     ", expected {shot} in the name",
                 ErrorKind::usage);
   if (!snapshots.empty() && holds(snapshots, "{component}"))
-    throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
-                ErrorKind::usage);
+    throw Error(
+        "{component} is for traces, found it in --snapshots " + snapshots + "; choose fields with --fields",
+        ErrorKind::usage);
   if (checkpoint_every_s && checkpoint.empty())
     throw Error("found --checkpoint-every without --checkpoint, expected where to write it",
                 ErrorKind::usage);
@@ -63,14 +64,14 @@ void ShotOutput::check(std::size_t shots) const {
   if (checkpoint == "-") throw Error("--checkpoint: found -, expected the name of a file", ErrorKind::usage);
   for (const auto& output : {traces, snapshots})
     if (!checkpoint.empty() && checkpoint == output)
-      throw Error("found " + checkpoint + " for both --checkpoint and an output, expected two places",
+      throw Error("--checkpoint and an output both name " + checkpoint + "; give them different names",
                   ErrorKind::usage);
   if (shots_in_parallel < 0)
     throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
                 ErrorKind::usage);
   if (!snapshots.empty() && shots_in_parallel > 1)
-    throw Error("found --snapshots with " + std::to_string(shots_in_parallel) +
-                    " for --shots-in-parallel, expected 1: snapshots are written one after the other",
+    throw Error("--snapshots needs --shots-in-parallel 1, found " + std::to_string(shots_in_parallel) +
+                    ": snapshots are written one shot after the other",
                 ErrorKind::usage);
 }
 

@@ -98,7 +98,7 @@ void ShotOutput::check_run(const Scene<D>& scene, const cli::Context& context) c
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, context);
   if (any_trace && !snapshots.empty() && snapshots == traces)
-    throw Error("found " + traces + " for both --output and --snapshots, expected two places",
+    throw Error("--output and --snapshots both name " + traces + "; give them different names",
                 ErrorKind::usage);
   if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
     throw Error("found --keep-unstable and an output to standard output, expected the name of a file",

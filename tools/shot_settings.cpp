@@ -34,39 +34,39 @@ Survey<D> make_survey(const ShotSettings& s) {
 void ShotSettings::declare_scene(cli::Options& options) {
   const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
   options.positional(model, "MODEL");
-  options.add("source", sources, "X,Z", "where the source is, m; repeated: several shots; in 3-D X,Y,Z");
+  options.add("source", sources, "X,Z", "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
   options.add("kind", kind, "KIND",
-              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (0 = down, degrees); in 3-D "
+              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (degrees, 0 is down); in 3-D "
               "force:AX,AY,AZ, moment:MXX,MYY,MZZ,MXY,MXZ,MYZ");
   options.add("wavelet", wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
   options.add("amplitude", amplitude, "A",
               "explosion, moment: N m/s per m; force: N/m; plane: m/s; in 3-D N m/s and N");
   options.add("receivers", receivers, "X0:X1:DX,Z",
-              "line of receivers or one X,Z, m; may be repeated; in 3-D "
-              "X0:X1:DX,Y0:Y1:DY,Z: an area");
+              "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "
+              "X0:X1:DX,Y0:Y1:DY,Z");
   options.add("time", duration_s, "T", "length of the traces, s");
   options.add("dt", interval_s, "DT", "sampling interval of the traces, s");
-  options.add("record", record, "LIST", "of vx, vz, p, sxx, szz, sxz; in 3-D also vy, syy, sxy, syz");
-  options.add_choice("top", top, edges, "the surface z = 0");
-  options.add_choice("sides", sides, edges, "the left and right edges, in 3-D all four");
-  options.add_choice("bottom", bottom, edges, "the bottom edge");
+  options.add("record", record, "LIST",
+              "components: vx, vz, p, sxx, szz, sxz; in 3-D also vy, syy, sxy, syz");
+  options.add_choice("top", top, edges, "boundary at the surface, z = 0");
+  options.add_choice("sides", sides, edges, "left and right boundaries, in 3-D all four");
+  options.add_choice("bottom", bottom, edges, "boundary at the bottom");
   options.add("edge-width", edge_width, "CELLS",
-              "width of the absorbing layers outside the model; 0: 20, or 40 for plane waves");
-  options.add(
-      "without", without, "LIST",
-      "effects of the model to switch off: of slip, friction, viscosity, cohesion, opening, prestress");
-  options.add_choice("precision", precision, {"float", "double"}, "of the computation");
-  options.add("allow-auxetic", limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
+              "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
+  options.add("without", without, "LIST",
+              "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress");
+  options.add_choice("precision", precision, {"float", "double"}, "floating-point precision");
+  options.add("allow-auxetic", limits.allow_auxetic, "allow vs above vp/sqrt(2)");
 }
 
 void ShotSettings::declare_numerics(cli::Options& options) {
   options.add_choice("order", order, {"1", "3", "5", "7"}, "order of the scheme in space");
   options.add_choice("time-order", time_order, {"2", "4"},
-                     "order of the splitting in time; 4: six times the work a step, --cfl up to 2");
+                     "order in time; 4: six times the work per step, --cfl up to 2");
   options.add_choice("correction", correction, {"first", "second", "exponential"},
-                     "slip in time: by rules of first or second order, or solved exactly");
-  options.add("cfl", cfl, "C", "time step over h/vp_max");
-  options.add("time-step", time_step_s, "S", "time step in s, instead of --cfl");
+                     "time integration of slip: first order, second order, or exact per step");
+  options.add("cfl", cfl, "C", "Courant number: time step over h/vp_max");
+  options.add("time-step", time_step_s, "S", "time step, s, instead of --cfl");
 }
 
 template <int D>

@@ -25,28 +25,29 @@ struct Settings {
 void declare(cli::Options& options, Settings& s) {
   s.shot.declare_scene(options);
   s.shot.declare_numerics(options);
-  options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
+  options.add("snapshots", s.output.snapshots, "FILE",
+              "write snapshots of the wave field to this netCDF file");
   options.add("every", s.every_s, "S", "time between snapshots, s");
   options.add(
       "fields", s.output.snapshot_fields, "LIST",
-      "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening; in 3-D also vy, syy, "
-      "sxy, syz, and curlx, curly, curlz, not curl");
-  options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots of the cells on a plane, y=500, alone");
-  options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
+      "fields: vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening; in 3-D also vy, "
+      "syy, sxy, syz, and curlx, curly, curlz for curl");
+  options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots on this plane only, y=500");
+  options.add("balance", s.balance, "report how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
-              "shots shot at once; 0: one a thread as long as 1 GiB holds them");
+              "shots computed at once; 0: one per thread while they fit 1 GiB");
   options.add("ranks-per-shot", s.output.ranks_per_shot, "N",
-              "processes of mpirun that shoot a shot together; 0: as few as it takes");
-  options.add("first-shot", s.output.first_shot, "N", "number of the first source, the others follow");
+              "with mpirun: processes per shot; 0: as few as possible");
+  options.add("first-shot", s.output.first_shot, "N", "number of the first shot; the others follow");
   options.add("checkpoint", s.output.checkpoint, "FILE",
-              "keep the state of the run here, and go on from it where there is one");
+              "save the state of the run here, and resume from it if it exists");
   options.add("checkpoint-every", s.output.checkpoint_every_s, "S",
               "wall-clock time between checkpoints, s [600]");
   options.add("keep-unstable", s.output.keep_unstable,
-              "keep what an unstable run recorded before, in files unstable-NAME");
+              "keep the output of an unstable run, in files unstable-NAME");
   options.add("error", s.wanted_error, "SHARE",
-              "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
-  options.add("plan", s.plan, "print what would be computed, and stop");
+              "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
+  options.add("plan", s.plan, "print grid, cost and expected error, and stop");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");
   for (const char* name : {"source", "wavelet", "time"}) options.require(name);
@@ -57,8 +58,7 @@ template <int D>
 Scene<D> make_scene(const Settings& s) {
   auto scene = s.shot.without_model<D>();
   if (!s.output.snapshots.empty()) {
-    if (!s.every_s)
-      throw Error("found --snapshots without --every, expected the time between them", ErrorKind::usage);
+    if (!s.every_s) throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
     scene.snapshot_every_s = s.every_s;
   }
   scene.slip_diary = s.balance || (!s.output.snapshots.empty() && s.output.wants_slip());
@@ -68,21 +68,21 @@ Scene<D> make_scene(const Settings& s) {
     if (s.output.keep_unstable && !output.empty()) expect_other_files(unstable_name(output), {s.shot.model});
   }
   if (scene.survey.receivers_m.empty() && s.output.snapshots.empty() && !s.plan)
-    throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
+    throw Error("nothing to record: give --receivers or --snapshots", ErrorKind::usage);
   return scene;
 }
 
 /// What several processes can not do together.
 void check_together(const Settings& s, int count) {
-  const auto refuse = [&](bool given, const std::string& option, const std::string& expected) {
+  const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
     if (given)
-      throw Error("found " + option + " and " + std::to_string(count) + " processes, expected " + expected,
+      throw Error(option + " does not work with " + std::to_string(count) + " processes; " + remedy,
                   ErrorKind::usage);
   };
-  refuse(!s.output.checkpoint.empty(), "--checkpoint", "it with one process");
-  refuse(s.output.shots_in_parallel > 1, "--shots-in-parallel", "--ranks-per-shot");
-  refuse(s.wanted_error.has_value(), "--error", "what it chooses: one process says that with --plan");
-  refuse(s.shot.model == "-", "a model from standard input", "the name of a file");
+  refuse(!s.output.checkpoint.empty(), "--checkpoint", "use one");
+  refuse(s.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
+  refuse(s.wanted_error.has_value(), "--error", "use --plan with one process, then give what it chooses");
+  refuse(s.shot.model == "-", "a model from standard input", "give the name of a file");
 }
 
 /// The cheapest way to compute the scene with the error that is wanted.
@@ -100,7 +100,7 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const cli::Cont
     check(chosen);
     return chosen;
   }
-  throw Error("found --error with a model in 3-D, expected one in 2-D", ErrorKind::usage);
+  throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
 }
 
 template <int D>
@@ -210,7 +210,8 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-shoot", "Shoots a model: what a survey over it would record.", "[options] MODEL [-o GATHER]",
+      {"sw-shoot", "Simulates shots over a model and writes the recorded gathers.",
+       "[options] MODEL [-o GATHER]",
        "sw-shoot model.nc --source 1250,5 --wavelet ricker:30 --receivers 0:2500:25,5 --time 1 "
        "-o shot.sgy"},
       [&](cli::Options& options) { declare(options, settings); },

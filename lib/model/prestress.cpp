@@ -122,7 +122,7 @@ void check_prestress(const Model<D>& model) {
       largest = std::max(largest, std::abs(stress.values[c]));
     }
     const auto refuse = [&](const std::string& verb, const std::string& rest) {
-      throw Error("the static stress at " + place_of(model.grid(), std::int64_t(cell)) + ' ' + verb +
+      throw Error("the prestress at " + place_of(model.grid(), std::int64_t(cell)) + ' ' + verb +
                   " the planes of fracture set " + std::to_string(code) + " '" +
                   model.fracture_sets[code - 1].name + "' " + rest);
     };
@@ -134,7 +134,8 @@ void check_prestress(const Model<D>& model) {
       const double strength = Coulomb::strength<double>(
           {.friction = system.friction, .cohesion_pa = system.strength_pa}, normal, 0);
       if (system.opens && normal > rounding)
-        refuse("pulls", "by " + shown(normal, 4) + " Pa, expected them pressed together, as they open");
+        refuse("pulls",
+               "apart by " + shown(normal, 4) + " Pa; planes that may open must be under compression");
       if (shear > strength + rounding)
         refuse("shears", "by " + shown(shear, 4) + " Pa, expected at most their strength of " +
                              shown(strength, 4) + " Pa");
