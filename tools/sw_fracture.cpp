@@ -166,8 +166,8 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
   const auto [length_m, cell] = critical_length(model, model.fracture_sets.size());
   if (length_m > model.grid().spacing_m) return;
   context.warn("cells of " + shown(model.grid().spacing_m) +
-               " m are too large for slip weakening: they fall to dynamic friction at once where the static "
-               "stress presses most, at " +
+               " m are too large for slip weakening: friction falls to the dynamic one at once where the "
+               "prestress presses most, at " +
                place_of(model.grid(), cell) + ". Use cells below " + shown(length_m, 3) +
                " m or a longer slip distance");
 }

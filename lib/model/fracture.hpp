@@ -37,7 +37,7 @@ std::string name_of(FrictionLaw law);
 template <int D>
 void set_friction_law(SlipSystem<D>& system, const std::string& text);
 
-/// The least mu D_c/((q_s - q_d) |s_n|) of the cells of a set under the static stress, m (theory.md S18), and
+/// The least mu D_c/((q_s - q_d) |s_n|) of the cells of a set under the prestress, m (theory.md S18), and
 /// the cell it is in. Infinite where nothing weakens. Cells larger than that fall to dynamic friction at
 /// once.
 struct CriticalLength {

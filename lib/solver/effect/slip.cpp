@@ -76,7 +76,7 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
       if (c >= D) continue;
       off_trace += off, mean_trace += (was + is) / 2, prestress_trace += stays;
     }
-    // Slip changes no normal stress in sum; parting does.
+    // Slip changes no normal stress in sum; opening does.
     const double share = off_trace * lambda / (2 * mu + D * lambda);
     entry.out_of_waves += (mean - share * mean_trace) / (2 * mu);
     entry.heat += (mean + of_prestress - share * (mean_trace + prestress_trace)) / (2 * mu);

@@ -86,7 +86,7 @@ class SlipGroup {
   std::vector<std::size_t> starts_;  // of each line, and the end
   std::size_t count_ = 0;            // cells of all stretches
   std::int64_t cells_ = 0;
-  SlipPlanes<Real> planes_{};  // of all systems, for s_n and parting
+  SlipPlanes<Real> planes_{};  // of all systems, for s_n and opening
   SlipKernels<Real> kernels_{};
   GapKernel<Real> open_ = nullptr;
   // Where no kernel knows the systems.
