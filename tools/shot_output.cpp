@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <span>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -177,51 +176,89 @@ std::string ShotOutput::keep(const Scene<D>& scene, const Unstable& error, const
   return kept;
 }
 
+/// Shots that are still to be shot: those that the book does not hold and whose files are not in place.
 template <int D>
-void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
-                            Underway<D>& run, const RankGroups* crew) const {
-  const auto& entries = run.entries;
-  auto& book = run.book;
-  auto& files = run.files;
-  auto& kept = run.kept;
-  const bool writes = !crew || crew->leads();
-  const bool any_trace = writes && !scene.survey.receivers_m.empty(), a_file_a_shot = holds(traces, "{shot}");
-  const auto grid = scene.subdomain.whole(scene.model.grid());
-  const auto cut = cut_of(grid, slice);
-  const auto shots = scene.survey.sources.size(), at_once = crew ? crew->groups() : shots_at_once(scene);
-  const auto name_of_file = [&](std::size_t shot, Component component) {
-    return name_for(traces, number_of(shot), name_of(component));
-  };
-  if (!book.goes_on_at().empty()) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
+std::vector<std::size_t> ShotOutput::open_shots(const Scene<D>& scene, RunState& book) const {
   std::vector<std::size_t> open;
-  for (std::size_t shot = 1; shot <= shots; ++shot) {
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
     if (book.finished(shot) && !in_place_still(scene, book, shot)) book.forget(shot);
     if (!book.finished(shot)) open.push_back(shot);
   }
-  const auto open_files = [&](std::size_t shot) {
-    for (const Component component : scene.recording.components) {
-      const auto name = name_of_file(shot, component);
-      if (!any_trace || files.count(name) > 0) continue;
-      files.try_emplace(name, name, OutputFile::Content::binary);
+  return open;
+}
+
+/// Opens the trace files of a shot that are not yet open.
+template <int D>
+void ShotOutput::open_files(const Scene<D>& scene, std::size_t shot, Underway<D>& run) const {
+  for (const Component component : scene.recording.components) {
+    const auto name = name_for(traces, number_of(shot), name_of(component));
+    if (scene.survey.receivers_m.empty() || run.files.count(name) > 0) continue;
+    run.files.try_emplace(name, name, OutputFile::Content::binary);
+  }
+}
+
+/// Writes the files that all shots have been shot for; each trace goes once.
+template <int D>
+void ShotOutput::write_files(const Scene<D>& scene, Underway<D>& run) const {
+  const auto shots = scene.survey.sources.size();
+  for (std::size_t shot = 1; shot <= shots; ++shot)
+    if (run.book.gather(shot)) open_files(scene, shot, run);
+  auto gathers = gathers_by_file(run.book, shots);
+  for (auto& [name, file] : run.files) {
+    segy::write_gather(file, gathers[name], {}, run.entries);
+    file.commit();
+  }
+  run.files.clear();
+  for (std::size_t shot = 1; shot <= shots; ++shot)
+    if (run.book.finished(shot)) run.book.release(shot);
+}
+
+/// Shoots shots at the same time, into the book and the snapshots; what became of their energy.
+template <int D>
+std::vector<ShotReport> ShotOutput::shoot_group(const Scene<D>& scene, std::span<const std::size_t> group,
+                                                const Progress& progress, Underway<D>& run,
+                                                const RankGroups* crew) const {
+  auto& book = run.book;
+  auto& kept = run.kept;
+  std::vector<ShotReport> reports(group.size());
+  if (crew) {
+    const auto sink = kept                ? kept->sink()
+                      : snapshots.empty() ? SnapshotSink<D>()
+                                          : sink_of_helper<D>(parse_snapshot_fields<D>(snapshot_fields));
+    const auto outcomes = crew->shoot(scene, group, crew->leads() ? progress : Progress(), sink);
+    for (std::size_t n = 0; n < outcomes.size(); ++n) {
+      book.finish(outcomes[n].shot, outcomes[n].gather);
+      reports[n] = outcomes[n].report;
     }
-  };
-  // Writes the files that all shots have been shot for; each trace goes once.
-  const auto write_files = [&] {
-    for (std::size_t shot = 1; shot <= shots; ++shot)
-      if (book.gather(shot)) open_files(shot);
-    auto gathers = gathers_by_file(book, shots);
-    for (auto& [name, file] : files) {
-      segy::write_gather(file, gathers[name], {}, entries);
-      file.commit();
-    }
-    files.clear();
-    for (std::size_t shot = 1; shot <= shots; ++shot)
-      if (book.finished(shot)) book.release(shot);
-  };
-  if (a_file_a_shot && writes) write_files();
+    return reports;
+  }
+  parallel_jobs(std::int64_t(group.size()), int(shots_at_once(scene)), [&](std::int64_t n) {
+    const auto shot = group[std::size_t(n)];
+    const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunState::Mark());
+    // The first of those that run together speaks for all.
+    book.finish(shot,
+                shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
+                      pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
+  });
+  return reports;
+}
+
+template <int D>
+void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
+                            Underway<D>& run, const RankGroups* crew) const {
+  auto& book = run.book;
+  auto& kept = run.kept;
+  const bool writes = !crew || crew->leads(), a_file_a_shot = holds(traces, "{shot}");
+  const auto grid = scene.subdomain.whole(scene.model.grid());
+  const auto cut = cut_of(grid, slice);
+  const auto at_once = crew ? crew->groups() : shots_at_once(scene);
+  if (!book.goes_on_at().empty()) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
+  const auto open = open_shots(scene, book);
+  if (a_file_a_shot && writes) write_files(scene, run);
   for (std::size_t first = 0; first < open.size(); first += at_once) {
     const std::span<const std::size_t> group(open.data() + first, std::min(at_once, open.size() - first));
-    for (const auto shot : group) open_files(shot);
+    for (const auto shot : group)
+      if (writes) open_files(scene, shot, run);
     kept.reset();
     if (writes && !snapshots.empty())
       kept.emplace(name_for(snapshots, number_of(group[0]), ""), grid, cut,
@@ -232,34 +269,15 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
     const auto progress =
         context.progress("shot " + std::to_string(number_of(group.front())) +
                          (group.size() > 1 ? " to " + std::to_string(number_of(group.back())) : ""));
-    std::vector<ShotReport> reports(group.size());
-    if (crew) {
-      const auto sink = kept                ? kept->sink()
-                        : snapshots.empty() ? SnapshotSink<D>()
-                                            : sink_of_helper<D>(parse_snapshot_fields<D>(snapshot_fields));
-      const auto outcomes = crew->shoot(scene, group, writes ? progress : Progress(), sink);
-      for (std::size_t n = 0; n < outcomes.size(); ++n) {
-        book.finish(outcomes[n].shot, outcomes[n].gather);
-        reports[n] = outcomes[n].report;
-      }
-    } else {
-      parallel_jobs(std::int64_t(group.size()), int(at_once), [&](std::int64_t n) {
-        const auto shot = group[std::size_t(n)];
-        const auto pauses = book.pauses_of(shot, kept ? kept->mark() : RunState::Mark());
-        // The first of those that run together speaks for all.
-        book.finish(
-            shot, shoot(scene, shot, n == 0 ? progress : Progress(), kept ? kept->sink() : SnapshotSink<D>(),
-                        pauses.get(), scene.slip_diary ? &reports[std::size_t(n)] : nullptr));
-      });
-    }
+    const auto reports = shoot_group(scene, group, progress, run, crew);
     if (!writes) continue;
     for (std::size_t n = 0; scene.slip_diary && n < group.size(); ++n)
       context.say("shot " + std::to_string(number_of(group[n])) + ": " + sentence_of(reports[n], D));
     if (kept) kept->commit();
-    if (a_file_a_shot) write_files();
+    if (a_file_a_shot) write_files(scene, run);
     if (group.back() != open.back()) book.checkpoint_if_due();
   }
-  if (!a_file_a_shot && writes) write_files();
+  if (!a_file_a_shot && writes) write_files(scene, run);
   book.close();
 }
 

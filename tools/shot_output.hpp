@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,16 @@ struct ShotOutput {
   template <int D>
   void shoot_rest(const Scene<D>& scene, const std::string& history, const cli::Context& context,
                   Underway<D>& run, const RankGroups* crew) const;
+  template <int D>
+  std::vector<std::size_t> open_shots(const Scene<D>& scene, RunState& book) const;
+  template <int D>
+  void open_files(const Scene<D>& scene, std::size_t shot, Underway<D>& run) const;
+  template <int D>
+  void write_files(const Scene<D>& scene, Underway<D>& run) const;
+  template <int D>
+  std::vector<ShotReport> shoot_group(const Scene<D>& scene, std::span<const std::size_t> group,
+                                      const Progress& progress, Underway<D>& run,
+                                      const RankGroups* crew) const;
   std::map<std::string, Gather> gathers_by_file(RunState& book, std::size_t shots) const;
   template <int D>
   std::string keep(const Scene<D>& scene, const Unstable& error, const cli::Context& context,

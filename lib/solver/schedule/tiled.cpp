@@ -40,9 +40,9 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
   const auto longest = stages(0, steps_per_tile_);
-  longest_ = longest.back().behind + bend_rows(0);
+  longest_ = longest.back().behind + surface_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  // What is handed to neighbours or put right is then not what the pass behind or the one before is at.
+  // What is handed to neighbours or refreshed is then not what the pass behind or the one before is at.
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
@@ -111,12 +111,12 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
         stage.number = along_z++;
         break;
       case Stage::along_y:
-        behind += bend_rows(1);
+        behind += surface_rows(1);
         stage.number = along_y++;
         break;
       case Stage::along_x:
       case Stage::end_of_step:
-        behind += bend_rows(0);
+        behind += surface_rows(0);
         stage.number = along_x;
         along_x += stage.kind == Stage::end_of_step ? 2 : 1;
         if (stage.kind == Stage::end_of_step) stage.end = ends++;
@@ -136,7 +136,7 @@ template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::columns_behind(const Stage& stage) const {
   if (D == 2) return 2 * Sweeps<D, Real>::lag;
   if (stage.kind == Stage::along_y) return sweeps_.rows_behind();
-  return stage.kind == Stage::along_z ? 2 * bend_rows(D - 1) : bend_rows(0);
+  return stage.kind == Stage::along_z ? 2 * surface_rows(D - 1) : surface_rows(0);
 }
 
 template <int D, class Real>
@@ -230,7 +230,7 @@ void TiledExecutor<D, Real>::fields_changed() {
 template <int D, class Real>
 Box TiledExecutor<D, Real>::growth_of_a_step() const {
   std::array<std::int64_t, std::size_t(D)> bends;
-  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = bend_rows(axis);
+  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = surface_rows(axis);
   const auto along = [&](int axis) {
     return spread_of_a_step<D>(step_.sweeps(), axis, sweeps_.reach(), bends);
   };
@@ -247,7 +247,7 @@ std::int64_t TiledExecutor<D, Real>::swept_cells() const {
 
 namespace {
 
-/// Rows that are asked for before the first sweep comes to them.
+/// Rows that are required before the first sweep comes to them.
 constexpr std::int64_t rows_ahead = 1;
 
 }  // namespace
@@ -256,7 +256,7 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker) {
   for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
     if (D == 2 && arriving + rows_ahead < rows_)
-      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.coming());
+      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.prefetch());
     const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
     for (std::size_t n = 0; n < pass.stages.size(); ++n) {
       const auto& stage = pass.stages[n];
@@ -281,14 +281,14 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band,
                                         const IndexRange* columns, Worker& worker) {
   const bool ends = stage.kind == Stage::end_of_step;
-  const auto side_rows = bend_rows(0);
+  const auto side_rows = surface_rows(0);
   if (side_rows > 0 && row >= 0 && row < rows_ && !columns->empty()) {
     if (D == 2) {
-      sweeps_.keep(0, row, *columns);
+      sweeps_.retain(0, row, *columns);
     } else {
       const std::int64_t first = columns->first == 0 ? 0 : columns->first + side_rows;
       for (auto y = first; y < std::min(columns->last + side_rows, cut_cells_); ++y)
-        sweeps_.keep(0, line_of(row, y), whole_lines());
+        sweeps_.retain(0, line_of(row, y), whole_lines());
     }
   }
   row -= side_rows;
@@ -321,13 +321,13 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines,
                                          Ring<Real>& ring, Worker& worker) {
   if constexpr (D == 3) {
-    const auto behind = sweeps_.rows_behind(), flank_rows = bend_rows(1);
+    const auto behind = sweeps_.rows_behind(), flank_rows = surface_rows(1);
     const IndexRange steps{lines.first == 0 ? 0 : lines.first + behind, lines.last + behind};
-    // What is beyond the last line is read some steps before that line is brought forward.
+    // What is beyond the last line is read some steps before that line is advanced.
     const bool low = lines.first == 0, high = steps.first <= cut_cells_ && steps.last > cut_cells_;
     if (flank_rows > 0 && row >= 0 && row < rows_) {
-      if (low) sweeps_.keep(1, line_of(row, 0), whole_lines());
-      if (high) sweeps_.keep(1, line_of(row, cut_cells_ - 1), whole_lines());
+      if (low) sweeps_.retain(1, line_of(row, 0), whole_lines());
+      if (high) sweeps_.retain(1, line_of(row, cut_cells_ - 1), whole_lines());
     }
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
@@ -372,7 +372,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   constexpr auto lag = Sweeps<D, Real>::lag;
   const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeSurface<D, Real>::reach;
   if (!stage.needed.meets({done, step + 1}, columns)) return;
-  // All that row `done` comes of, also rows that have been brought forward since.
+  // All that row `done` comes of, also rows that have been advanced since.
   const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};
   const auto measure = [&] {
     sweeps_.measure_end_surfaces(step,
@@ -386,7 +386,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   };
   if constexpr (D == 2) {
     auto& ring = pass.rings[std::size_t(stage.number)];
-    // Free edges read some cells of the columns beside these.
+    // Free surfaces read some cells of the columns beside these.
     if (is_quiet(rows, {}, {columns.first - lag, columns.last + lag})) {
       sweeps_.pass_over(step, columns, ring);
       return;
@@ -397,7 +397,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
     measure();
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = pass.rings[std::size_t(stage.number * cut_cells_ + y)];
-      if (is_quiet(rows, with_bends(D - 1, {y, y + 1}), whole_lines()))
+      if (is_quiet(rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
         sweeps_.pass_over(step, whole_lines(), ring);
       else
         sweep({0, y, 0}, whole_lines(), ring);
@@ -411,7 +411,7 @@ void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& column
   constexpr auto reach = 2 * Sweeps<D, Real>::lag;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
-  if (is_quiet(with_bends(0, {row, row + 1}), with_bends(0, {y, y + 1}),
+  if (is_quiet(with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
                {columns.first - reach, columns.last + reach})) {
     boundary = {};
     return;
@@ -447,7 +447,7 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
     return;
   }
   const bool patched = patches && !step_.patches().of(line).empty();
-  const auto copy = patched ? work_on_patches(stage, line, first, second, *patches, worker) : std::nullopt;
+  const auto copy = patched ? advance_patches(stage, line, first, second, *patches, worker) : std::nullopt;
   if (!first.empty()) {
     if (step_.reads(time, line)) {
       constexpr auto lag = Sweeps<D, Real>::lag;
@@ -489,95 +489,113 @@ void TiledExecutor<D, Real>::make_patch_memory() {
   }
 }
 
-/// Brings the fields of the patches of a line, in a copy, to the end of the step and into the next one. As on
-/// lines that take half sweeps as a whole, the second of them stays behind the first. Returns the
-/// copy, nothing where nothing moves.
+/// Whether any patch of a row reads or changes these columns.
 template <int D, class Real>
-std::optional<RowFields<Real>> TiledExecutor<D, Real>::work_on_patches(const Stage& stage, std::int64_t line,
+bool TiledExecutor<D, Real>::patches_reach(std::int64_t line, const IndexRange& columns) const {
+  constexpr auto reach = Patches<D>::margin + Patches<D>::beyond;
+  const auto patches = step_.patches().of(line);
+  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+    return patch.blocks.first - reach < columns.last && patch.blocks.last + reach > columns.first;
+  });
+}
+
+/// Brings the fields of the patches of a row, in a copy, to the end of the step and into the next one. As on
+/// split rows, the second half sweep stays behind the first. Returns the copy, nothing where all is at rest.
+template <int D, class Real>
+std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Stage& stage, std::int64_t line,
                                                                        const IndexRange& first,
                                                                        const IndexRange& second,
                                                                        PatchBoundary<Real>& boundary,
                                                                        Worker& worker) {
-  using Kept = PatchBoundary<Real>;
-  using Cells = typename TimeStep<D, Real>::Cells;
-  constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
+  constexpr auto behind = PatchBoundary<Real>::behind, beyond = Patches<D>::beyond;
   const std::int64_t pitch = worker.strip_pitch, nx = layout_.shape()[0];
-  const std::int64_t origin = second.first - Kept::behind - margin;
-  Real* const copy = worker.strip.data() + margin - origin;
-  const auto fields = state_.row_fields(line);
-  const RowFields<Real> strip{line, copy, pitch};
-  const auto each_row = [](auto&& what) {
-    for (int row = 0; row < FieldRows<D>::count; ++row) what(row);
-  };
+  if (!patches_reach(line, {second.first, first.last + beyond})) return std::nullopt;
   const auto patches = step_.patches().of(line);
-  // Whether any patch has to do with these columns.
-  const auto wanted = [&](const IndexRange& columns) {
-    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
-      return patch.blocks.first - margin - beyond < columns.last &&
-             patch.blocks.last + margin + beyond > columns.first;
-    });
-  };
-  if (!wanted({second.first, first.last + beyond})) return std::nullopt;
   const auto at = layout_.line_index(line);
-  const bool reads = step_.reads(stage.time, line);
-  const auto read = [&](const Patch& patch, const RowFields<Real>& from) {
-    if (const auto seen = common(patch.cells, first); reads && !seen.empty())
-      step_.read(stage.time, from, seen);
-  };
   if (is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
-               {second.first - Kept::behind, first.last + beyond})) {
-    for (const auto& patch : patches) read(patch, fields);
-    // The next stripe begins with zeros as well as it would go on from them.
+               {second.first - behind, first.last + beyond})) {
+    const auto fields = state_.row_fields(line);
+    for (const auto& patch : patches) read_patch(stage, patch, first, fields);
+    // The next stripe begins with zeros as well as it would continue from them.
     boundary.line = -1;
     return std::nullopt;
   }
+  // Cell 0 of the copy would stand here.
+  const RowFields<Real> strip{
+      line, worker.strip.data() + Patches<D>::margin - (second.first - behind - Patches<D>::margin), pitch};
   const bool begins = boundary.line != line || boundary.step != stage.time.step ||
                       boundary.next != second.first || second.first == 0;
-  if (!begins)
-    each_row([&](int row) {
-      const Real* const kept = boundary.fields.data() + row * Kept::width;
-      std::copy(kept, kept + first.first - second.first + Kept::behind,
-                copy + row * pitch + second.first - Kept::behind);
-    });
-  // What no sweep of this stage has changed yet.
-  const IndexRange unchanged{begins ? std::max<std::int64_t>(origin, 0) : first.first,
-                             std::min(first.last + beyond, nx)};
-  for (const auto& patch : patches) {
-    const auto needed =
-        common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
-    if (!needed.empty())
-      each_row([&](int row) {
-        std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
-                  strip.field(row) + needed.first);
-      });
-  }
-  for (const auto& patch : patches) {
-    const auto sweep = [&](const IndexRange& all, const IndexRange& now, StripeBoundary<Real>& of_sweep) {
-      const auto columns = common(all, now);
-      if (!columns.empty())
-        sweeps_.along_copy(strip, columns, begins || columns.first == all.first, stage.fraction, of_sweep,
-                           worker.work);
-      return columns;
-    };
-    const auto slipping =
-        sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, boundary.first);
-    if (!slipping.empty()) {
-      step_.apply(stage.time, Cells::patch, strip, slipping);
-      read(patch, strip);
-      step_.apply_after_record(stage.time, Cells::patch, strip, slipping);
-    }
-    sweep(patch.blocks, second, boundary.second);
-  }
+  load_patches(strip, first, second, begins, boundary);
+  for (const auto& patch : patches)
+    advance_patch(stage, patch, strip, first, second, begins, boundary, worker);
   boundary.line = line;
   boundary.step = stage.time.step;
   boundary.next = second.last;
-  if (second.last < nx && wanted({second.last, nx}))
-    each_row([&](int row) {
-      const Real* const from = copy + row * pitch + second.last - Kept::behind;
-      std::copy(from, from + first.last - second.last + Kept::behind,
-                boundary.fields.data() + row * Kept::width);
-    });
+  if (second.last < nx && patches_reach(line, {second.last, nx}))
+    for (int row = 0; row < FieldRows<D>::count; ++row) {
+      const Real* const from = strip.field(row) + second.last - behind;
+      std::copy(from, from + first.last - second.last + behind,
+                boundary.fields.data() + row * PatchBoundary<Real>::width);
+    }
   return strip;
+}
+
+/// Puts into the copy what the stripe before left of the patches, and what no sweep of this stage has
+/// changed.
+template <int D, class Real>
+void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const IndexRange& first,
+                                          const IndexRange& second, bool begins,
+                                          const PatchBoundary<Real>& boundary) {
+  using Boundary = PatchBoundary<Real>;
+  constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
+  const auto fields = state_.row_fields(strip.row);
+  for (int row = 0; row < FieldRows<D>::count && !begins; ++row) {
+    const Real* const left = boundary.fields.data() + row * Boundary::width;
+    std::copy(left, left + first.first - second.first + Boundary::behind,
+              strip.field(row) + second.first - Boundary::behind);
+  }
+  const std::int64_t origin = second.first - Boundary::behind - margin;
+  const IndexRange unchanged{begins ? std::max<std::int64_t>(origin, 0) : first.first,
+                             std::min(first.last + beyond, layout_.shape()[0])};
+  for (const auto& patch : step_.patches().of(strip.row)) {
+    const auto needed =
+        common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
+    for (int row = 0; row < FieldRows<D>::count && !needed.empty(); ++row)
+      std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
+                strip.field(row) + needed.first);
+  }
+}
+
+/// Half a sweep, what happens at the end of the step, half a sweep of the next.
+template <int D, class Real>
+void TiledExecutor<D, Real>::advance_patch(const Stage& stage, const Patch& patch,
+                                           const RowFields<Real>& strip, const IndexRange& first,
+                                           const IndexRange& second, bool begins,
+                                           PatchBoundary<Real>& boundary, Worker& worker) {
+  using Cells = typename TimeStep<D, Real>::Cells;
+  constexpr auto margin = Patches<D>::margin;
+  const auto sweep = [&](const IndexRange& all, const IndexRange& now, StripeBoundary<Real>& of_sweep) {
+    const auto columns = common(all, now);
+    if (!columns.empty())
+      sweeps_.along_copy(strip, columns, begins || columns.first == all.first, stage.fraction, of_sweep,
+                         worker.work);
+    return columns;
+  };
+  const auto ended = sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, boundary.first);
+  if (!ended.empty()) {
+    step_.apply(stage.time, Cells::patch, strip, ended);
+    read_patch(stage, patch, first, strip);
+    step_.apply_after_record(stage.time, Cells::patch, strip, ended);
+  }
+  sweep(patch.blocks, second, boundary.second);
+}
+
+/// Has those of these columns read that are in the patch.
+template <int D, class Real>
+void TiledExecutor<D, Real>::read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
+                                        const RowFields<Real>& fields) {
+  const auto seen = common(patch.cells, columns);
+  if (!seen.empty() && step_.reads(stage.time, fields.row)) step_.read(stage.time, fields, seen);
 }
 
 /// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves
