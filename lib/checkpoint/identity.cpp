@@ -45,10 +45,14 @@ class Digest {
   }
   template <int D>
   void add(const SlipSystem<D>& system) {
-    const auto& [normal, friction, viscosity_s, strength_pa, opens] = system;
+    const auto& [normal, friction, viscosity_s, strength_pa, opens, law, dynamic_friction, slip_distance_m] =
+        system;
     add(normal);
     add(opens);
     for (const double constant : {friction, viscosity_s, strength_pa}) add(constant);
+    if (law == FrictionLaw::coulomb) return;
+    add(int(law));
+    for (const double constant : {dynamic_friction, slip_distance_m}) add(constant);
   }
   template <int D>
   void add(const FractureSet<D>& set) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "fracture/friction_policy.hpp"
 #include "grid/field.hpp"
 #include "model/medium.hpp"
 
@@ -17,6 +18,10 @@ struct SlipSystem {
   double viscosity_s = 0;  // eta, s
   double strength_pa = 0;  // cohesion added to q max(-s_n, 0)
   bool opens = false;      // planes part under tension; otherwise they carry it
+  FrictionLaw law = FrictionLaw::coulomb;
+  // Of slip weakening: friction falls from q to this over that slip of the planes of a cell.
+  double dynamic_friction = 0;
+  double slip_distance_m = 0;
 };
 
 /// Cells that share slip systems: 1 to D systems.

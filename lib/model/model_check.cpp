@@ -105,6 +105,14 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
+    if (system.law == FrictionLaw::coulomb) continue;
+    check_constant("dynamic friction", system.dynamic_friction);
+    if (system.dynamic_friction > system.friction)
+      throw Error(name + ": dynamic friction is " + shown(system.dynamic_friction) +
+                  ", expected at most the static friction of " + shown(system.friction));
+    if (!(system.slip_distance_m > 0))
+      throw Error(name + ": slip distance is " + shown(system.slip_distance_m) +
+                  " m, expected it above zero");
   }
 }
 

@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
+#include "model/fracture.hpp"
 #include "model/prestress.hpp"
 
 namespace slipwave {
@@ -64,6 +65,10 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
     systems.back().number("viscosity", system.viscosity_s, "s");
     systems.back().number("strength", system.strength_pa, "Pa");
     if (system.opens) systems.back().text("opens", "under tension");
+    if (system.law == FrictionLaw::coulomb) continue;
+    systems.back().text("law", name_of(system.law));
+    systems.back().number("dynamic friction", system.dynamic_friction, "");
+    systems.back().number("slip distance", system.slip_distance_m, "m");
   }
   of_set.list("slip", systems);
   return of_set;

@@ -49,6 +49,9 @@ void expect_equal(const Model<D>& found, const Model<D>& expected) {
       EXPECT_EQ(systems[i].viscosity_s, expected.fracture_sets[k].systems[i].viscosity_s);
       EXPECT_EQ(systems[i].strength_pa, expected.fracture_sets[k].systems[i].strength_pa);
       EXPECT_EQ(systems[i].opens, expected.fracture_sets[k].systems[i].opens);
+      EXPECT_EQ(systems[i].law, expected.fracture_sets[k].systems[i].law);
+      EXPECT_EQ(systems[i].dynamic_friction, expected.fracture_sets[k].systems[i].dynamic_friction);
+      EXPECT_EQ(systems[i].slip_distance_m, expected.fracture_sets[k].systems[i].slip_distance_m);
     }
   }
   ASSERT_EQ(found.prestress_pa.size(), expected.prestress_pa.size());
@@ -90,6 +93,16 @@ TEST_F(ModelFile, BringsBackStaticStressAndPlanesThatOpen) {
   expect_equal(read_model<2>(path_), model);
 }
 
+TEST_F(ModelFile, BringsBackFrictionLaws) {
+  auto model = water_over_rock(grid_of(4, 3, 10), 1);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = 1;
+  model.fracture_sets = {
+      {"one", {{{1, 0}, 0.6, 0, 0}, {{0, 1}, 0.6, 0, 0, false, FrictionLaw::slip_weakening, 0.2, 1e-4}}}};
+  write_model(model, path_);
+  expect_equal(read_model<2>(path_), model);
+}
+
 TEST_F(ModelFile, WritesNeitherWhereThereIsNone) {
   auto model = water_over_rock(grid_of(4, 3, 10), 1);
   model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
@@ -98,6 +111,7 @@ TEST_F(ModelFile, WritesNeitherWhereThereIsNone) {
   write_model(model, path_);
   const auto file = NetcdfFile::open(path_);
   EXPECT_FALSE(file.has_variable("slip_opening"));
+  EXPECT_FALSE(file.has_variable("slip_law"));
   EXPECT_FALSE(file.has_variable("prestress_sxx"));
 }
 
