@@ -192,7 +192,7 @@ void ShotOutput::shoot_rest(const Scene<D>& scene, const std::string& history, c
   const auto name_of_file = [&](std::size_t shot, Component component) {
     return name_for(traces, number_of(shot), name_of(component));
   };
-  if (!book.goes_on_at().empty()) context.say("goes on from " + checkpoint + ": " + book.goes_on_at());
+  if (!book.continues_at().empty()) context.say("goes on from " + checkpoint + ": " + book.continues_at());
   std::vector<std::size_t> open;
   for (std::size_t shot = 1; shot <= shots; ++shot) {
     if (book.finished(shot) && !in_place_still(scene, book, shot)) book.forget(shot);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "checkpoint/run_book.hpp"
+#include "checkpoint/run_state.hpp"
 #include "cli/tool.hpp"
 #include "scene/scene.hpp"
 #include "shot_crew.hpp"

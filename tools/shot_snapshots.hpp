@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "checkpoint/run_book.hpp"
+#include "checkpoint/run_state.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "grid/slice.hpp"
 #include "output/snapshot_netcdf.hpp"

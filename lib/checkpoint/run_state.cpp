@@ -1,4 +1,4 @@
-#include "checkpoint/run_book.hpp"
+#include "checkpoint/run_state.hpp"
 
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ class Length : public Archive {
   std::uint64_t bytes_ = 0;
 };
 
-void keep_gather(Archive& archive, Gather& gather) {
+void serialize_gather(Archive& archive, Gather& gather) {
   archive.value(gather.axis.count);
   archive.value(gather.axis.interval_s);
   archive.value(gather.axis.start_s);
@@ -67,24 +67,24 @@ std::string place_words(std::size_t shot, const ShotPlace& place) {
 
 }  // namespace
 
-/// What a running shot asks and tells the book.
+/// What a running shot asks of and tells the state of the run.
 class RunState::ShotPauses : public Pauses {
  public:
-  ShotPauses(RunState& book, std::size_t shot)
-      : book_(book), shot_(shot), exceptions_(std::uncaught_exceptions()) {}
-  ~ShotPauses() override { book_.leave(shot_, std::uncaught_exceptions() > exceptions_); }
+  ShotPauses(RunState& run, std::size_t shot)
+      : run_(run), shot_(shot), exceptions_(std::uncaught_exceptions()) {}
+  ~ShotPauses() override { run_.leave(shot_, std::uncaught_exceptions() > exceptions_); }
   void begin(const Serialize& keep) override {
-    const std::lock_guard lock(book_.mutex_);
-    const auto left = book_.left_off_.find(shot_);
-    if (left == book_.left_off_.end()) return;
-    in_place(book_.settings_.path, [&] { keep(left->second.content); });
-    book_.left_off_.erase(left);
+    const std::lock_guard lock(run_.mutex_);
+    const auto left = run_.left_off_.find(shot_);
+    if (left == run_.left_off_.end()) return;
+    in_place(run_.settings_.path, [&] { keep(left->second.content); });
+    run_.left_off_.erase(left);
   }
-  bool wanted() override { return book_.wanted(); }
-  void pause(const Serialize& keep, const ShotPlace& place) override { book_.pause(shot_, keep, place); }
+  bool wanted() override { return run_.wanted(); }
+  void pause(const Serialize& keep, const ShotPlace& place) override { run_.pause(shot_, keep, place); }
 
  private:
-  RunState& book_;
+  RunState& run_;
   std::size_t shot_;
   int exceptions_;
 };
@@ -125,7 +125,7 @@ void RunState::read(const std::string& path) {
   in_place(path, [&] { slipwave::serialize(content, found); });
   if (const auto difference = difference_of(found, settings_.identity))
     throw Error(path + ": is of a run with " + *difference + "; remove it to begin anew");
-  keep_finished(content);
+  serialize_finished(content);
   for (const auto& [shot, gather] : finished_)
     if (gather && !is_whole(*gather)) throw Error(path + ": holds traces that no shot records");
   auto count = content.count(0, 1);
@@ -141,7 +141,7 @@ void RunState::read(const std::string& path) {
     if (snapshots.bytes > 0) logs_.insert(shot);
   }
   older_logs_ = logs_;
-  goes_on_at_ = description();
+  continues_at_ = description();
 }
 
 std::string RunState::description() const {
@@ -199,12 +199,12 @@ void RunState::pause(std::size_t shot, const Serialize& keep, const ShotPlace& p
   self.keep = keep;
   self.place = place;
   self.waits = true;
-  const auto page = page_;
-  while (page == page_ && !failed_) {
+  const auto before = written_;
+  while (before == written_ && !failed_) {
     if (all_wait())
-      write_page();
+      write_checkpoint();
     else
-      turned_.wait(lock);
+      checkpoint_done_.wait(lock);
   }
   self.waits = false;
   if (ends_ != 0) throw Interrupted{ends_};
@@ -215,18 +215,18 @@ void RunState::leave(std::size_t shot, bool failed) {
   const std::lock_guard lock(mutex_);
   if (failed) failed_ = true;
   running_.erase(shot);
-  turned_.notify_all();
+  checkpoint_done_.notify_all();
 }
 
 void RunState::checkpoint_if_due() {
   if (!keeps_checkpoints() || !wanted()) return;
   const std::lock_guard lock(mutex_);
-  write_page();
+  write_checkpoint();
   if (ends_ != 0) throw Interrupted{ends_};
 }
 
 /// While all shots wait. A checkpoint that can not be written does not end the run: the older one is there.
-void RunState::write_page() {
+void RunState::write_checkpoint() {
   ends_ = watch_->noted();
   const std::string ended = ends_ == 0 ? "" : "ended by signal " + std::to_string(ends_);
   try {
@@ -237,16 +237,16 @@ void RunState::write_page() {
                    "; the checkpoint was not written, an older one stays as it was");
   }
   due_ = (Clock::now() + in_ticks(settings_.every_s)).time_since_epoch().count();
-  ++page_;
+  ++written_;
   for (auto& [shot, running] : running_) running.waits = false;
-  turned_.notify_all();
+  checkpoint_done_.notify_all();
 }
 
 void RunState::write() {
   CheckpointWriter out(settings_.path);
   std::set<std::size_t> logs;
   slipwave::serialize(out, settings_.identity);
-  keep_finished(out);
+  serialize_finished(out);
   out.count(running_.size() + left_off_.size(), 1);
   const auto announce = [&](std::uint64_t shot, ShotPlace place, SnapshotMark snapshots,
                             std::uint64_t bytes) {
@@ -273,7 +273,7 @@ void RunState::write() {
   older_logs_ = std::exchange(logs_, logs);
 }
 
-void RunState::keep_finished(Archive& archive) {
+void RunState::serialize_finished(Archive& archive) {
   std::vector<std::uint64_t> shots;
   for (const auto& [shot, gather] : finished_) shots.push_back(shot);
   archive.values(shots);
@@ -282,7 +282,7 @@ void RunState::keep_finished(Archive& archive) {
     bool kept = gather.has_value();
     archive.flag(kept);
     if (kept && !gather) gather.emplace();
-    if (kept) keep_gather(archive, *gather);
+    if (kept) serialize_gather(archive, *gather);
   }
 }
 

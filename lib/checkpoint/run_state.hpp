@@ -21,7 +21,7 @@
 
 namespace slipwave {
 
-/// The book of a run: which of its shots are finished and what they recorded, and with a checkpoint also
+/// State of a run: which of its shots are finished and what they recorded, and with a checkpoint also
 /// where the others are. Shots may run at the same time; all of them pause while a checkpoint is written. It
 /// is written when `every_s` have passed since the last, and when a signal asks the run to end.
 class RunState {
@@ -34,18 +34,18 @@ class RunState {
     Identity identity;
     std::function<void(const std::string&)> say, warn;
   };
-  /// Opens the book where a run of the same identity left it. Throws an Error naming the file when there is
+  /// Continues where a run of the same identity stopped. Throws an Error naming the file when there is
   /// one that is damaged, of another run or in use by one, or none can be written there.
   explicit RunState(Settings settings);
 
   bool keeps_checkpoints() const { return !settings_.path.empty(); }
-  /// "1 of 5 shots done, shot 2 at step 120 of 400": where the run goes on; empty where it begins.
-  const std::string& goes_on_at() const { return goes_on_at_; }
+  /// "1 of 5 shots done, shot 2 at step 120 of 400": where the run continues; empty where it begins.
+  const std::string& continues_at() const { return continues_at_; }
 
   bool finished(std::size_t shot) const { return finished_.count(shot) > 0; }
-  /// A finished shot has to be shot again: what it recorded was put away and is gone.
+  /// A finished shot has to be shot again: what it recorded was released and is gone.
   void forget(std::size_t shot) { finished_.erase(shot); }
-  /// What a finished shot recorded; null once it was put away.
+  /// What a finished shot recorded; null once it was released.
   Gather* gather(std::size_t shot);
   /// A shot has come to its end.
   void finish(std::size_t shot, Gather gather);
@@ -73,7 +73,7 @@ class RunState {
     Mark mark;
     bool waits = false;
   };
-  /// What an earlier run left of a shot that has not gone on yet.
+  /// What an earlier run left of a shot that has not continued yet.
   struct LeftOff {
     ShotPlace place;
     SnapshotMark snapshots;
@@ -84,8 +84,8 @@ class RunState {
   static Clock::duration in_ticks(double seconds);
   void read(const std::string& path);
   void write();
-  void write_page();
-  void keep_finished(Archive& archive);
+  void write_checkpoint();
+  void serialize_finished(Archive& archive);
   std::string description() const;
   bool wanted() const;
   void pause(std::size_t shot, const Serialize& keep, const ShotPlace& place);
@@ -96,15 +96,15 @@ class RunState {
   std::optional<FileLock> lock_;
   std::optional<SignalWatch> watch_;
   std::unique_ptr<CheckpointReader> reader_;
-  std::string goes_on_at_;
+  std::string continues_at_;
   mutable std::mutex mutex_;
-  std::condition_variable turned_;
+  std::condition_variable checkpoint_done_;
   std::map<std::size_t, std::optional<Gather>> finished_;
   std::map<std::size_t, Running> running_;
   std::map<std::size_t, LeftOff> left_off_;
   std::set<std::size_t> logs_, older_logs_;  // that the newest checkpoint and the older one need
-  std::uint64_t page_ = 0;                   // checkpoints written
-  int ends_ = 0;                             // the signal that the newest page answers
+  std::uint64_t written_ = 0;                // checkpoints written
+  int ends_ = 0;                             // the signal that the newest checkpoint answers
   std::atomic<bool> failed_ = false;         // a shot has: the others may be left anywhere
   std::atomic<Clock::rep> due_ = 0;
 };
