@@ -19,6 +19,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["segy"] = "base io parallel grid gather segy"
     below["traces"] = below["segy"] " grid traces"
     below["output"] = below["scene"] " output"
+    below["shooting"] = below["checkpoint"] " output segy accuracy shooting"
     below["plot"] = below["output"] " segy accuracy plot"
     below["cli"] = "base io parallel cli"
   }

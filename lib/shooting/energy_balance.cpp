@@ -1,4 +1,4 @@
-#include "shot_balance.hpp"
+#include "shooting/energy_balance.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "shot_snapshots.hpp"
+#include "shooting/shot_snapshots.hpp"
 
 #include "output/derivatives.hpp"
 
@@ -59,10 +59,10 @@ SnapshotSink<D> sink_of_helper(const std::vector<std::string>& fields) {
 template <int D>
 ShotSnapshots<D>::ShotSnapshots(const std::string& path, const Grid<D>& grid,
                                 const std::optional<CellLayer>& cut, const std::vector<std::string>& fields,
-                                const SnapshotHistory& history, const RunState& book, std::size_t shot)
+                                const SnapshotHistory& history, const RunState& state, std::size_t shot)
     : cut_(cut), writer_(path, cut_grid(grid, cut), fields, history) {
-  if (book.keeps_checkpoints())
-    log_.emplace(book.snapshot_log(shot), cut_grid(grid, cut), fields.size(), book.snapshots_of(shot),
+  if (state.keeps_checkpoints())
+    log_.emplace(state.snapshot_log(shot), cut_grid(grid, cut), fields.size(), state.snapshots_of(shot),
                  [this](double time_s, const auto& taken) { writer_.write(time_s, taken); });
 }
 

@@ -33,7 +33,7 @@ class RankGroups {
   };
   /// Collective: each group shoots one of these shots, at most as many as there are groups, each process with
   /// its part of the scene. Their outcomes in that order, on the process that leads. Where a shot became
-  /// unstable, it throws the Unstable of the first such on that process and ends the others silently.
+  /// unstable, it throws the Unstable of the first such on that process and EndedElsewhere on the others.
   template <int D>
   std::vector<Outcome> shoot(const Scene<D>& scene, std::span<const std::size_t> shots,
                              const Progress& progress, const SnapshotSink<D>& snapshots) const;

@@ -1,18 +1,18 @@
-#include "shot_crew.hpp"
+#include "shooting/rank_groups.hpp"
 
 #include <cstring>
 
 #include "base/archive.hpp"
-#include "cli/tool.hpp"
 
 namespace slipwave {
 namespace {
 
-/// Writes things one after the other into bytes, or reads them from there.
-class Parcel : public Archive {
+/// Serializes into bytes, or from them.
+class ByteArchive : public Archive {
  public:
-  Parcel() = default;
-  explicit Parcel(std::span<const std::byte> packed) : packed_(packed.begin(), packed.end()), reads_(true) {}
+  ByteArchive() = default;
+  explicit ByteArchive(std::span<const std::byte> packed)
+      : packed_(packed.begin(), packed.end()), reads_(true) {}
   void bytes(void* first, std::size_t count) override {
     if (count == 0) return;
     if (reads_) {
@@ -36,7 +36,7 @@ class Parcel : public Archive {
   bool reads_ = false;
 };
 
-void hand_over(Archive& archive, RankGroups::Outcome& outcome) {
+void serialize_outcome(Archive& archive, RankGroups::Outcome& outcome) {
   archive.value(outcome.shot);
   archive.value(outcome.report);
   archive.flag(outcome.stable);
@@ -95,13 +95,13 @@ std::vector<RankGroups::Outcome> RankGroups::shoot(const Scene<D>& scene, std::s
       mine.gather = error.gather();
     }
   }
-  Parcel out;
-  if (mine.shot > 0 && (!group_ || group_->number() == 0)) hand_over(out, mine);
+  ByteArchive out;
+  if (mine.shot > 0 && (!group_ || group_->number() == 0)) serialize_outcome(out, mine);
   const bool all_stable = smallest_of(&all_, mine.stable ? 1 : 0) == 1;
-  Parcel in(gather_on_first(all_, out.packed()));
-  if (!all_stable && !leads()) throw cli::EndSilently{int(ErrorKind::unstable)};
+  ByteArchive in(gather_on_first(all_, out.packed()));
+  if (!all_stable && !leads()) throw EndedElsewhere{ErrorKind::unstable};
   std::vector<Outcome> outcomes;
-  while (leads() && !in.at_end()) hand_over(in, outcomes.emplace_back());
+  while (leads() && !in.at_end()) serialize_outcome(in, outcomes.emplace_back());
   for (auto& outcome : outcomes)
     if (!outcome.stable)
       throw Unstable(outcome.what, outcome.shot, std::move(outcome.gather), outcome.sound_until_s);

@@ -20,7 +20,7 @@ std::optional<SlipField> slip_field_named(const std::string& name);
 std::optional<CellLayer> cut_of(const Grid<2>& grid, const std::string& slice);
 std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice);
 
-/// Looks at all of these fields and keeps nothing: what processes do that help another one to write them.
+/// Reads all of these fields and drops them: what ranks do that help another one to write them.
 template <int D>
 SnapshotSink<D> sink_of_helper(const std::vector<std::string>& fields);
 
@@ -29,7 +29,7 @@ template <int D>
 class ShotSnapshots {
  public:
   ShotSnapshots(const std::string& path, const Grid<D>& grid, const std::optional<CellLayer>& cut,
-                const std::vector<std::string>& fields, const SnapshotHistory& history, const RunState& book,
+                const std::vector<std::string>& fields, const SnapshotHistory& history, const RunState& state,
                 std::size_t shot);
   SnapshotSink<D> sink();
   RunState::Mark mark();

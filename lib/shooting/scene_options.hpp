@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "cli/tool.hpp"
 #include "model/fracture.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
@@ -13,8 +12,8 @@ namespace slipwave {
 
 class NetcdfFile;
 
-/// The options that describe a shot, for the tools that shoot: model, source, receivers, edges, numerics.
-struct ShotSettings {
+/// What is simulated, as the options of the tools say it: model, sources, receivers, edges, numerics.
+struct SceneOptions {
   std::string model = "-";
   std::vector<std::string> sources, receivers;
   std::string kind = "explosion", wavelet, record = "vz,vx,p";
@@ -25,14 +24,10 @@ struct ShotSettings {
   int edge_width = 0;
   MediumLimits limits;
 
-  /// What is shot and recorded, and the edges.
-  void declare_scene(cli::Options& options);
-  /// Order, step, slip correction and precision.
-  void declare_numerics(cli::Options& options);
-  /// The scene, its model not yet read.
+  /// The scene, its model not yet read. Throws a usage Error naming the option.
   template <int D>
   Scene<D> without_model() const;
-  /// Puts the model in and checks both.
+  /// Puts the model in and checks both. Throws an Error naming the file.
   template <int D>
   void read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
   /// Collective: the same of the part that this process of `all` takes, as one of the `group` (may be null)
