@@ -1,4 +1,4 @@
-#include "plot_snapshots.hpp"
+#include "plot/snapshot_file.hpp"
 
 #include <cmath>
 #include <type_traits>
@@ -7,14 +7,14 @@
 #include "base/error.hpp"
 #include "model/model_netcdf.hpp"
 
-namespace slipwave {
+namespace slipwave::plot {
 
-Snapshots::Reader Snapshots::open(NetcdfFile file) {
+SnapshotFile::Reader SnapshotFile::open(NetcdfFile file) {
   if (dimension_of(file) == 3) return SnapshotReader<3>(std::move(file));
   return SnapshotReader<2>(std::move(file));
 }
 
-Snapshots::Snapshots(NetcdfFile file, const std::string& minus, const std::optional<Slice>& slice)
+SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const std::optional<Slice>& slice)
     : of_(open(std::move(file))) {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&of_)) {
     layer_ = in_place(deep->name(), [&] { return layer_to_show(deep->grid(), slice); });
@@ -38,30 +38,30 @@ Snapshots::Snapshots(NetcdfFile file, const std::string& minus, const std::optio
       of_, *minus_);
 }
 
-const std::vector<double>& Snapshots::times_s() const {
+const std::vector<double>& SnapshotFile::times_s() const {
   return std::visit(
       [](const auto& reader) -> const auto& { return reader.times_s(); }, of_);
 }
 
-const std::vector<std::string>& Snapshots::fields() const {
+const std::vector<std::string>& SnapshotFile::fields() const {
   return std::visit(
       [](const auto& reader) -> const auto& { return reader.fields(); }, of_);
 }
 
-std::size_t Snapshots::nearest(double time_s) const {
+std::size_t SnapshotFile::nearest(double time_s) const {
   return std::visit([&](const auto& reader) { return reader.nearest(time_s); }, of_);
 }
 
-Field<2> Snapshots::values(const Reader& reader, const std::string& field, std::size_t time) const {
+Field<2> SnapshotFile::values(const Reader& reader, const std::string& field, std::size_t time) const {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&reader))
     return section_of(deep->read(field, time), layer_->axis, layer_->number);
   return std::get<SnapshotReader<2>>(reader).read(field, time);
 }
 
-plot::Snapshot Snapshots::read(const std::string& field, std::size_t time) const {
+Snapshot SnapshotFile::read(const std::string& field, std::size_t time) const {
   const double time_s = times_s()[time];
   const auto unit = std::visit([&](const auto& reader) { return reader.unit(field); }, of_);
-  plot::Snapshot snapshot{field, plot::shown_unit(unit), time_s, values(of_, field, time), {"x", "depth"}};
+  Snapshot snapshot{field, shown_unit(unit), time_s, values(of_, field, time), {"x", "depth"}};
   if (layer_) snapshot.axes = section_axes(layer_->axis);
   if (!minus_) return snapshot;
   const auto other = std::visit(
@@ -78,10 +78,10 @@ plot::Snapshot Snapshots::read(const std::string& field, std::size_t time) const
   return snapshot;
 }
 
-std::optional<Slice> Snapshots::slice() const {
+std::optional<Slice> SnapshotFile::slice() const {
   const auto* deep = std::get_if<SnapshotReader<3>>(&of_);
   if (!deep) return std::nullopt;
   return Slice{layer_->axis, deep->grid().centre(layer_->axis, layer_->number)};
 }
 
-}  // namespace slipwave
+}  // namespace slipwave::plot

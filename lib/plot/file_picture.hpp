@@ -11,21 +11,21 @@
 #include "plot/look.hpp"
 #include "plot/page.hpp"
 #include "plot/picture.hpp"
-#include "trace_input.hpp"
+#include "segy/input_options.hpp"
 
-namespace slipwave {
+namespace slipwave::plot {
 
-/// What sw-plot was asked for.
-struct PlotSettings {
+/// Files to draw and how, as sw-plot is asked for it.
+struct PlotOptions {
   std::vector<std::string> files;  // none: standard input
   std::string output = "-";
-  plot::PageSettings page;
-  plot::Look look;
-  TraceInput traces;
+  PageSettings page;
+  Look look;
+  segy::InputOptions traces;
   // gathers
   std::optional<Component> component;
   std::optional<double> shot;
-  plot::GatherStyle gather;
+  GatherStyle gather;
   // models and snapshots
   std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
@@ -35,15 +35,15 @@ struct PlotSettings {
   bool log = false, overlay = false;
 };
 
-/// The page of these settings, its format by the ending of the output.
-plot::Page page_of(const PlotSettings& settings);
+/// The page of these options, its format by the ending of the output.
+Page page_of(const PlotOptions& options);
 
 /// Finds out what kind of files these are and draws them. Throws Error naming the file when it is none that
 /// can be drawn, a usage Error for several files of a kind that is drawn one at a time.
-plot::Picture picture_of(const PlotSettings& settings, const plot::Page& page);
+Picture picture_of(const PlotOptions& options, const Page& page);
 
 /// Draws all times of a snapshot file on one scale, each into a file of its own: NAME-0001.png for -o
 /// NAME.png.
-void draw_movie(const PlotSettings& settings, const Progress& progress);
+void draw_movie(const PlotOptions& options, const Progress& progress);
 
-}  // namespace slipwave
+}  // namespace slipwave::plot

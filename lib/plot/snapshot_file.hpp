@@ -9,19 +9,19 @@
 #include "output/snapshot_reader.hpp"
 #include "plot/snapshot_picture.hpp"
 
-namespace slipwave {
+namespace slipwave::plot {
 
 /// The snapshots of a file, of volumes those on a plane, less those of another file where one is given.
-class Snapshots {
+class SnapshotFile {
  public:
-  Snapshots(NetcdfFile file, const std::string& minus, const std::optional<Slice>& slice);
+  SnapshotFile(NetcdfFile file, const std::string& minus, const std::optional<Slice>& slice);
 
   /// Of the section.
   const Grid<2>& grid() const { return grid_; }
   const std::vector<double>& times_s() const;
   const std::vector<std::string>& fields() const;
   std::size_t nearest(double time_s) const;
-  plot::Snapshot read(const std::string& field, std::size_t time) const;
+  Snapshot read(const std::string& field, std::size_t time) const;
   /// The axis across the section, and in 3-D the plane that it is.
   int axis() const { return layer_ ? layer_->axis : 1; }
   std::optional<Slice> slice() const;
@@ -37,4 +37,4 @@ class Snapshots {
   Grid<2> grid_;
 };
 
-}  // namespace slipwave
+}  // namespace slipwave::plot
