@@ -7,6 +7,7 @@
 #include "cli/tool.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "planning/measured.hpp"
 #include "scene_options.hpp"
 
 using namespace slipwave;

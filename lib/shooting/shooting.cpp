@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "accuracy/choice.hpp"
-#include "accuracy/plan.hpp"
+#include "planning/plan.hpp"
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"

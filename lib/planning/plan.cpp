@@ -1,16 +1,16 @@
-#include "accuracy/plan.hpp"
+#include "planning/plan.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "accuracy/reached.hpp"
+#include "accuracy/dispersion.hpp"
 #include "base/error.hpp"
 #include "base/processor_time.hpp"
 #include "parallel/threads.hpp"
+#include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
-#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave {
 namespace {
@@ -28,7 +28,7 @@ double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) 
   const double courant = slowest.speed * time_step_s(scene) / scene.model.grid().spacing_m;
   // Waves shorter than two cells are not on the grid at all.
   if (cells <= 2) return 1;
-  return solver::loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
+  return loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
 }
 
 /// Slowest P wave anywhere, slowest S wave of solids (0: none).

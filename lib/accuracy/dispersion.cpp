@@ -1,14 +1,13 @@
-#include "solver/sweep/dispersion.hpp"
+#include "accuracy/dispersion.hpp"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 
 #include "scene/splitting.hpp"
-#include "solver/kernels/kernels.hpp"
 #include "solver/kernels/reconstruction.hpp"
 
-namespace slipwave::solver {
+namespace slipwave {
 namespace {
 
 using Complex = std::complex<double>;
@@ -16,7 +15,7 @@ using Complex = std::complex<double>;
 /// F_up of a wave exp(i k x) that is 1 at the cell.
 template <int Order>
 Complex flux(double courant, double phase) {
-  constexpr int reach = reach_of(Order);
+  constexpr int reach = (Order - 1) / 2;
   double real[2 * reach + 1], imaginary[2 * reach + 1];
   const double nothing[2 * reach + 1] = {};
   for (int n = -reach; n <= reach; ++n) {
@@ -24,8 +23,8 @@ Complex flux(double courant, double phase) {
     imaginary[n + reach] = std::sin(n * phase);
   }
   double up, up_imaginary, down;
-  reconstruct_cell<Order>(real + reach, nothing + reach, 1, 1., courant, up, down);
-  reconstruct_cell<Order>(imaginary + reach, nothing + reach, 1, 1., courant, up_imaginary, down);
+  solver::reconstruct_cell<Order>(real + reach, nothing + reach, 1, 1., courant, up, down);
+  solver::reconstruct_cell<Order>(imaginary + reach, nothing + reach, 1, 1., courant, up_imaginary, down);
   return {up, up_imaginary};
 }
 
@@ -106,4 +105,4 @@ double loss_per_wavelength(const UniformScheme& scheme, double cells) {
   return -std::expm1(cells / scheme.courant_p * step_error(scheme, WaveKind::p, cells, 0).real());
 }
 
-}  // namespace slipwave::solver
+}  // namespace slipwave

@@ -1,4 +1,4 @@
-#include "accuracy/reached.hpp"
+#include "planning/computed_share.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-namespace slipwave::solver {
+namespace slipwave {
 
 /// What one step does to a plane wave of `cells` cells a wavelength along an axis in a uniform medium: the
 /// factor on its complex amplitude (theory.md (E12)); exp(-2 pi i courant/cells) would be exact.
@@ -28,4 +28,4 @@ std::complex<double> step_error(const UniformScheme& scheme, WaveKind kind, doub
 /// Share of its amplitude that a P wave along an axis loses over one wavelength.
 double loss_per_wavelength(const UniformScheme& scheme, double cells);
 
-}  // namespace slipwave::solver
+}  // namespace slipwave
