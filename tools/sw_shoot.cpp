@@ -1,5 +1,6 @@
 #include "cli/ranks.hpp"
 #include "cli/tool.hpp"
+#include "output/snapshot_netcdf.hpp"
 #include "parallel/ranks_started.hpp"
 #include "scene_options.hpp"
 #include "shooting/shooting.hpp"
@@ -13,10 +14,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   declare_numerics(options, s.scene);
   options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
   options.add("every", s.snapshot_every_s, "S", "time between snapshots, s");
-  options.add(
-      "fields", s.output.snapshot_fields, "LIST",
-      "of vx, vz, p, sxx, szz, sxz, div, curl, slip, slip_rate, dissipated, opening; in 3-D also vy, syy, "
-      "sxy, syz, and curlx, curly, curlz, not curl");
+  options.add("fields", s.output.snapshot_fields, "LIST", snapshot_field_help());
   options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots of the cells on a plane, y=500, alone");
   options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",

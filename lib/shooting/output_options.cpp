@@ -31,8 +31,12 @@ void check_sampling(const Recording& recording, const std::function<void(const s
 
 bool OutputOptions::wants_slip() const {
   const auto names = split(snapshot_fields, ',');
-  return std::any_of(names.begin(), names.end(),
-                     [](const auto& name) { return slip_field_named(name).has_value(); });
+  return std::any_of(names.begin(), names.end(), [](const auto& name) {
+    const auto& known = slipwave::snapshot_fields<2>();
+    return std::any_of(known.begin(), known.end(), [&](const auto& field) {
+      return field.name == name && std::holds_alternative<SlipField>(field.content);
+    });
+  });
 }
 
 template <int D>

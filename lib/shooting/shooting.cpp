@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "accuracy/choice.hpp"
-#include "planning/plan.hpp"
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "planning/plan.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/rank_groups.hpp"
 #include "shooting/survey_run.hpp"

@@ -12,16 +12,20 @@ std::array<Field<D>, std::size_t(D)> velocity_of(const FieldReader<D>& field) {
 }
 
 template <int D>
+Field<D> derivative_of(Derivative derivative, const FieldReader<D>& field) {
+  if (derivative == Derivative::divergence) return divergence<D>(velocity_of<D>(field));
+  if constexpr (D == 2)
+    return curl(velocity_of<D>(field));
+  else
+    return curl(velocity_of<D>(field))[std::size_t(derivative) - std::size_t(Derivative::curl_x)];
+}
+
+template <int D>
 Field<D> snapshot_of(const std::string& name, const FieldReader<D>& field) {
-  if (name == "div") return divergence<D>(velocity_of<D>(field));
-  if constexpr (D == 2) {
-    if (name == "curl") return curl(velocity_of<D>(field));
-  } else {
-    for (std::size_t axis = 0; axis < D; ++axis)
-      if (name == std::string("curl") + axis_names<D>()[axis]) return curl(velocity_of<D>(field))[axis];
-  }
-  if (const auto slip = slip_field_named(name)) return field(*slip);
-  return field(component_named(name));
+  const auto& content = snapshot_field<D>(name).content;
+  if (const auto* component = std::get_if<Component>(&content)) return field(*component);
+  if (const auto* slip = std::get_if<SlipField>(&content)) return field(*slip);
+  return derivative_of<D>(std::get<Derivative>(content), field);
 }
 
 template <int D>
@@ -32,14 +36,6 @@ Grid<D> cut_grid(const Grid<D>& grid, const std::optional<CellLayer>& cut) {
 }
 
 }  // namespace
-
-std::optional<SlipField> slip_field_named(const std::string& name) {
-  if (name == "slip") return SlipField::slip;
-  if (name == "slip_rate") return SlipField::slip_rate;
-  if (name == "dissipated") return SlipField::dissipated;
-  if (name == "opening") return SlipField::opening;
-  return std::nullopt;
-}
 
 std::optional<CellLayer> cut_of(const Grid<2>&, const std::string&) { return std::nullopt; }
 

@@ -12,9 +12,6 @@
 
 namespace slipwave {
 
-/// The field of slip of that name, if it is one.
-std::optional<SlipField> slip_field_named(const std::string& name);
-
 /// The layer of cells that snapshots are cut down to: "y=500", or "" for none. Throws a usage Error, also
 /// when it misses the grid. No grid in 2-D is cut.
 std::optional<CellLayer> cut_of(const Grid<2>& grid, const std::string& slice);

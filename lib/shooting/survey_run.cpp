@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
 #include "shooting/energy_balance.hpp"
@@ -19,12 +20,6 @@ std::string history_of(const Scene<D>& scene, const Provenance& provenance) {
   std::string history = scene.model.history;
   append_history(history, provenance.command_line);
   return history;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const auto& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 }  // namespace
@@ -74,7 +69,7 @@ void SurveyRun<D>::run() {
     throw Error((shots() > 1 ? "shot " + number(error.shot()) + ": " : "") + error.what() +
                     (saved.empty() ? ""
                                    : "; what it recorded until t=" + shown(error.sound_until_s(), 6) +
-                                         " s is in " + listed(saved)),
+                                         " s is in " + joined(saved)),
                 ErrorKind::unstable);
   }
 }
