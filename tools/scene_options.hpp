@@ -3,7 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/source_kind.hpp"
+#include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "gather/component.hpp"
 #include "shooting/scene_options.hpp"
 
 namespace slipwave {
@@ -13,18 +16,16 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
   options.positional(s.model, "MODEL");
   options.add("source", s.sources, "X,Z", "where the source is, m; repeated: several shots; in 3-D X,Y,Z");
-  options.add("kind", s.kind, "KIND",
-              "explosion, force:AX,AZ, moment:MXX,MZZ,MXZ or plane:ANGLE (0 = down, degrees); in 3-D "
-              "force:AX,AY,AZ, moment:MXX,MYY,MZZ,MXY,MXZ,MYZ");
+  options.add("kind", s.kind, "KIND", source_kind_help());
   options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
-  options.add("amplitude", s.amplitude, "A",
-              "explosion, moment: N m/s per m; force: N/m; plane: m/s; in 3-D N m/s and N");
+  options.add("amplitude", s.amplitude, "A", amplitude_help());
   options.add("receivers", s.receivers, "X0:X1:DX,Z",
               "line of receivers or one X,Z, m; may be repeated; in 3-D "
               "X0:X1:DX,Y0:Y1:DY,Z: an area");
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
-  options.add("record", s.record, "LIST", "of vx, vz, p, sxx, szz, sxz; in 3-D also vy, syy, sxy, syz");
+  options.add("record", s.record, "LIST",
+              "of " + joined(component_names(2)) + "; in 3-D also " + joined(component_names(3, 2)));
   options.add_choice("top", s.top, edges, "the surface z = 0");
   options.add_choice("sides", s.sides, edges, "the left and right edges, in 3-D all four");
   options.add_choice("bottom", s.bottom, edges, "the bottom edge");
