@@ -190,6 +190,8 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
   Field<D> field(domain.model_grid);
   const std::int64_t nx = domain.model_grid.shape[0], lines = domain.model_grid.size() / nx;
   const auto pitch = layout.row_pitch();
+  const auto terms = slipwave::row_of(component).terms_in(D);
+  const int count = int(terms.size());
   parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
       const Index<D> first = domain.computed_cell(domain.model_grid.index(line * nx));
@@ -197,13 +199,9 @@ Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeL
       const Real* cells = whole_line(layout.line_number(first)) + first[0];
       auto out = field.line(line);
       for (std::int64_t i = 0; i < nx; ++i) {
-        double value = 0;
-        if (component == Component::p) {
-          for (int axis = 0; axis < D; ++axis)
-            value -= cells[FieldRows<D>::normal_stress(axis) * pitch + i] / D;
-        } else {
-          value = cells[row_of<D>(component) * pitch + i];
-        }
+        double value = count == 1 ? -0. : 0.;  // a field alone keeps the sign of its zeros
+        for (const auto& term : terms)
+          value += cells[row_of<D>(term.field) * pitch + i] / Real(term.sign * count);
         out[std::size_t(i)] = float(value / unit);
       }
     }
