@@ -22,10 +22,13 @@ constexpr ComponentRow row(Component component, const char* name, const char* un
                            int trace_code, bool in_2d, const ComponentTerm& term) {
   return {component, name, unit, long_name, trace_code, in_2d, true, {term}, 1};
 }
-/// One that is the mean of three.
+/// One that is the mean of several.
+template <std::size_t N>
 constexpr ComponentRow mean(Component component, const char* name, const char* unit, const char* long_name,
-                            int trace_code, bool in_2d, const std::array<ComponentTerm, 3>& terms) {
-  return {component, name, unit, long_name, trace_code, in_2d, true, terms, 3};
+                            int trace_code, bool in_2d, const ComponentTerm (&terms)[N]) {
+  ComponentRow made = {component, name, unit, long_name, trace_code, in_2d, true, {}, int(N)};
+  for (std::size_t n = 0; n < N; ++n) made.terms[n] = terms[n];
+  return made;
 }
 
 // clang-format off
