@@ -1,0 +1,50 @@
+#include "acquisition/source_kind.hpp"
+
+#include <gtest/gtest.h>
+
+#include "base/parse.hpp"
+
+namespace slipwave {
+namespace {
+
+/// The kind with numbers 1, 2, ... for its parameters.
+template <int D>
+std::string typed(const SourceKind<D>& kind) {
+  std::string text = kind.name, separator = ":";
+  int number = 0;
+  if (*kind.parameters != '\0')
+    for (std::size_t n = 0; n < split(kind.parameters, ',').size(); ++n, separator = ",")
+      text += separator + std::to_string(++number);
+  return text;
+}
+
+template <int D>
+void expect_rows_agree() {
+  for (const auto& kind : source_kinds<D>()) {
+    const auto mechanism = parse_mechanism<D>(typed(kind));
+    EXPECT_STREQ(name_of<D>(mechanism), source_kinds<D>()[mechanism.index()].name);
+    Source<D> source;
+    source.mechanism = mechanism;
+    EXPECT_EQ(point_injection(source).has_value(), kind.inject != nullptr) << kind.name;
+  }
+}
+
+TEST(SourceKinds, AreReadAsTheyAreWritten) {
+  expect_rows_agree<2>();
+  expect_rows_agree<3>();
+}
+
+TEST(SourceKinds, SayTheirUnits) {
+  EXPECT_EQ(amplitude_help(), "explosion, moment: N m/s per m; force: N/m; plane: m/s; in 3-D N m/s and N");
+}
+
+TEST(SourceKinds, AreIsotropicWhereAllDirectionsAreAlike) {
+  Source<2> source;
+  source.mechanism = parse_mechanism<2>("explosion");
+  EXPECT_TRUE(point_injection(source)->isotropic);
+  source.mechanism = parse_mechanism<2>("moment:1,1,0");
+  EXPECT_FALSE(point_injection(source)->isotropic);
+}
+
+}  // namespace
+}  // namespace slipwave
