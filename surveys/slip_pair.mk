@@ -16,49 +16,49 @@ TASKS_NEED = $(OUT)/model.nc
 
 all: summary $(OUT)/spectrum.txt $(PAIR_PICTURES)## everything, then a summary
 
-$(OUT)/fractured.sgy $(OUT)/fractured.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the shot, the fractures slipping
+$(OUT)/fractured.sgy $(OUT)/fractured.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the shot with slip
 	$(SHOOT) --snapshots $(OUT)/fractured.nc -o $(OUT)/fractured.sgy
 
-$(OUT)/elastic.sgy $(OUT)/elastic.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the same shot, nothing slipping
+$(OUT)/elastic.sgy $(OUT)/elastic.nc &: $(OUT)/model.nc shot.cfg $(BIN)/sw-shoot## the same shot without slip
 	$(SHOOT) --without slip --snapshots $(OUT)/elastic.nc -o $(OUT)/elastic.sgy
 
-$(OUT)/response.sgy: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-diff## their difference: what the fractures send back
+$(OUT)/response.sgy: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-diff## their difference: the response of the fractures
 	$(BIN)/sw-diff $(OUT)/fractured.sgy $(OUT)/elastic.sgy -o $@
 
-$(OUT)/spectrum.nc: $(OUT)/response.sgy $(BIN)/sw-spectrum## its spectrum, a mean over the receivers
+$(OUT)/spectrum.nc: $(OUT)/response.sgy $(BIN)/sw-spectrum## mean spectrum of the response over the receivers
 	$(BIN)/sw-spectrum $< $(SPECTRUM) -o $@
 
 $(OUT)/spectrum.txt: $(OUT)/response.sgy $(BIN)/sw-spectrum## the same as columns of numbers
 	$(BIN)/sw-spectrum $< $(SPECTRUM) --text -o $@
 
-$(OUT)/comparison.txt: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-compare## how far the two shots are apart
+$(OUT)/comparison.txt: $(OUT)/fractured.sgy $(OUT)/elastic.sgy $(BIN)/sw-compare## the difference of the two shots in numbers
 	$(BIN)/sw-compare $(OUT)/fractured.sgy $(OUT)/elastic.sgy -o $@
 
 $(OUT)/model.png: $(OUT)/model.nc $(OUT)/fractured.sgy $(BIN)/sw-plot## the model, its fractures, source and receivers
 	$(PLOT) $< --survey $(OUT)/fractured.sgy $(MODEL_LOOK) -o $@
 
-$(OUT)/wave.png: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot## the wave at WAVE_TIME, over the model
+$(OUT)/wave.png: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot## the wave field at WAVE_TIME, over the model
 	$(PLOT) $< --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
 
-$(OUT)/wave-response.png: $(OUT)/fractured.nc $(OUT)/elastic.nc $(OUT)/model.nc $(BIN)/sw-plot## what of it the fractures made
+$(OUT)/wave-response.png: $(OUT)/fractured.nc $(OUT)/elastic.nc $(OUT)/model.nc $(BIN)/sw-plot## the response in it
 	$(PLOT) $< --minus $(OUT)/elastic.nc --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
 
 $(OUT)/traces.png: $(OUT)/fractured.sgy $(BIN)/sw-plot## the traces
 	$(PLOT) -q $< --component $(COMPONENT) $(GATHER_LOOK) -o $@
 
-$(OUT)/traces-response.png: $(OUT)/response.sgy $(BIN)/sw-plot## what of them the fractures made
+$(OUT)/traces-response.png: $(OUT)/response.sgy $(BIN)/sw-plot## the response in them
 	$(PLOT) -q $< --component $(COMPONENT) $(RESPONSE_LOOK) -o $@
 
 $(OUT)/spectrum.png: $(OUT)/spectrum.nc $(BIN)/sw-plot## its spectrum
 	$(PLOT) $< -o $@
 
 .PHONY: movie
-movie: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot | $(OUT)## the wave at all times, a picture each
+movie: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot | $(OUT)## the wave field at all times, one picture each
 	mkdir -p '$(OUT)/film'
 	$(PLOT) $< --field $(COMPONENT) --over $(OUT)/model.nc $(WAVE_LOOK) --movie -o '$(OUT)/film/wave.png'
 
 .PHONY: summary
-summary: $(OUT)/model.nc $(OUT)/response.sgy $(OUT)/comparison.txt $(BIN)/sw-info## what came out
+summary: $(OUT)/model.nc $(OUT)/response.sgy $(OUT)/comparison.txt $(BIN)/sw-info## summary of the results
 	@$(BIN)/sw-info $(OUT)/model.nc $(OUT)/response.sgy
 	@echo 'fractured against elastic shot:'
 	@sed -n '1p;/^ *all/p' $(OUT)/comparison.txt

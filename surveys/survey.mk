@@ -10,7 +10,7 @@
 SURVEYS := $(patsubst %/,%,$(dir $(abspath $(lastword $(MAKEFILE_LIST)))))
 ifneq ($(wildcard $(SURVEYS)/run),)
 BUILD = $(SURVEYS)/../build/release# where the tools are built
-BIN = $(abspath $(BUILD))/bin# where they stand
+BIN = $(abspath $(BUILD))/bin# where they are
 TOOLS := $(patsubst $(SURVEYS)/../tools/sw_%.cpp,$(BIN)/sw-%,$(wildcard $(SURVEYS)/../tools/sw_*.cpp))
 else # installed, as PREFIX/share/slipwave/surveys
 BUILD = $(abspath $(SURVEYS)/../../..)

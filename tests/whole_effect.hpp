@@ -1,20 +1,20 @@
 #pragma once
 
 #include "solver/effect/effect.hpp"
-#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
-/// A pass before and after recording, on all lines, while nothing else is under way.
-template <int D>
-void run_everywhere(Effect& pass, const StepTime& time, const Layout<D>& layout) {
-  pass.begin(time);
-  for (std::int64_t line = 0; line < layout.lines(); ++line) pass.run(time, line, {0, layout.shape()[0]});
+/// An effect before and after recording, on all rows, while no other step is in progress.
+template <int D, class Real>
+void run_everywhere(Effect<D, Real>& effect, const StepTime& time, State<D, Real>& state) {
+  effect.begin(time);
+  for (std::int64_t row = 0; row < state.layout.lines(); ++row)
+    effect.apply(time, state.row_fields(row), {0, state.layout.shape()[0]});
 }
-template <int D>
-void run_after_everywhere(Effect& pass, const StepTime& time, const Layout<D>& layout) {
-  for (std::int64_t line = 0; line < layout.lines(); ++line)
-    pass.run_after_record(time, line, {0, layout.shape()[0]});
+template <int D, class Real>
+void run_after_everywhere(Effect<D, Real>& effect, const StepTime& time, State<D, Real>& state) {
+  for (std::int64_t row = 0; row < state.layout.lines(); ++row)
+    effect.apply_after_record(time, state.row_fields(row), {0, state.layout.shape()[0]});
 }
 
 }  // namespace slipwave::solver

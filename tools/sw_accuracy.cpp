@@ -25,17 +25,16 @@ struct Settings {
 void declare(cli::Options& options, Settings& s) {
   declare_scene(options, s.shot);
   options.add_choice("case", s.built_in, {"full-space"},
-                     "a built-in scene with a closed form instead of a model");
+                     "a built-in scene with a closed form, instead of a model");
   options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");
-  options.add("orders", s.orders, "LIST", "orders of the scheme in space, of 1, 3, 5, 7");
-  options.add("cfls", s.cfls, "LIST", "time steps over h/vp_max, up to 1; to 2 at time order 4");
-  options.add("time-orders", s.time_orders, "LIST", "orders of the splitting in time, of 2, 4");
-  options.add("corrections", s.corrections, "LIST", "slip corrections: first, second");
+  options.add("orders", s.orders, "LIST", "orders of the scheme in space: 1, 3, 5, 7");
+  options.add("cfls", s.cfls, "LIST", "Courant numbers, up to 1; with order 4 in time up to 2");
+  options.add("time-orders", s.time_orders, "LIST", "orders in time: 2, 4");
+  options.add("corrections", s.corrections, "LIST", "time integration of slip: first, second, exponential");
   options.add("reference", s.reference, "ORDER,CFL,STEP",
-              "what errors are measured against [7,0.4 and the finest of --steps]");
-  options.add("error", s.wanted, "SHARE",
-              "name the cheapest setting whose error is at most this: 0.01 is 1 %");
-  options.add("output,o", s.output, "FILE", "write the table here too, as netCDF");
+              "reference solution [7,0.4 and the finest of --steps]");
+  options.add("error", s.wanted, "SHARE", "mark the cheapest setting with at most this error (0.01: 1 %)");
+  options.add("output,o", s.output, "FILE", "also write the table here, as netCDF");
   options.add_threads();
   // A configuration of sw-shoot says what is shot; how is varied here.
   options.pass_over(
@@ -106,7 +105,7 @@ Scene<2> make_scene(const Settings& s) {
                                     {!s.shot.receivers.empty(), "--receivers"},
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
-      throw Error("found no " + std::string(name) + ", expected it, or --case full-space", ErrorKind::usage);
+      throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);
   auto scene = s.shot.without_model<2>();
   s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model));
   return scene;
@@ -119,7 +118,7 @@ void run(const Settings& s, const cli::Context& context) {
   const bool built_in = !s.built_in.empty();
   expect_other_files(s.output, {s.shot.model});
   if (built_in && s.shot.model != "-")
-    throw Error("found --case and a model, " + s.shot.model + ", expected one of them", ErrorKind::usage);
+    throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);
   const auto scene = built_in ? full_space_case() : make_scene(s);
   const auto ladder = ladder_of(s, scene);
   // A name that can not be written costs no computing.
@@ -163,7 +162,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-accuracy", "What accuracy costs: runs a scene in many ways and measures error and time.",
+      {"sw-accuracy", "Runs a scene with many settings and measures error and time of each.",
        "[options] MODEL [-o TABLE]",
        "sw-accuracy model.nc --config shot.cfg --steps 10,5,2.5 --error 0.01 -o accuracy.nc"},
       [&](cli::Options& options) { declare(options, settings); },

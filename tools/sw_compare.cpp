@@ -21,9 +21,10 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   settings.inputs.declare(options);
-  options.add("output,o", settings.output, "FILE", "where the table goes, - is standard output");
-  options.add("tolerance", settings.tolerance, "L2", "exit 1 when |A - B|/|B| of all traces is above this");
-  options.add("summary", settings.summary, "only the lines of all traces, of each component and together");
+  options.add("output,o", settings.output, "FILE", "output file of the table; - is standard output");
+  options.add("tolerance", settings.tolerance, "L2",
+              "exit with status 1 if |A - B|/|B| of all traces exceeds this");
+  options.add("summary", settings.summary, "print only the totals of each component and of all traces");
   settings.inputs.input_options.declare(options);
 }
 
@@ -93,7 +94,7 @@ void run(const Settings& settings, const cli::Context& context) {
 int main(int argc, char** argv) {
   Settings settings;
   const cli::ToolInfo info{"sw-compare",
-                           "How far A is from B: NRMS, relative L2, peak ratio and lag of each trace",
+                           "Compares two gathers: NRMS, relative L2, peak ratio and lag of each trace.",
                            "[options] A B [-o OUTPUT]", "sw-compare new.sgy old.sgy --tolerance 1e-3"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },

@@ -24,18 +24,19 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "A");
-  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("format", settings.format, "NAME", "sample format: ibm, ieee, double, int16, ... or its code");
-  options.add_choice("revision", settings.revision, {"same", "0", "1", "2"}, "of SEG-Y; 2 is written as 2.1");
+  options.add_choice("revision", settings.revision, {"same", "0", "1", "2"},
+                     "revision of SEG-Y; 2 is written as 2.1");
   options.add_choice("endian", settings.endian, {"same", "big", "little"}, "byte order");
   options.add_choice("text", settings.text, {"same", "ebcdic", "ascii"}, "code of the textual headers");
   options.add("su", settings.su,
               "write Seismic Unix: IEEE floats in the machine's byte order, no reel headers");
-  options.add("input-format", settings.input_format, "NAME", "sample format of the input, whatever it says");
+  options.add("input-format", settings.input_format, "NAME",
+              "sample format of the input, overriding its header");
   options.add_choice("input-endian", settings.input_endian, {"auto", "big", "little"},
                      "byte order of the input");
-  options.add("input-su", settings.input_su,
-              "the input is Seismic Unix, also where it does not look like it");
+  options.add("input-su", settings.input_su, "read the input as Seismic Unix");
 }
 
 int format_code(const std::string& option, const std::string& name) {
@@ -114,9 +115,9 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-convert",
-                           "Traces in another sample format, revision, byte order, or for Seismic Unix",
-                           "[options] [A] [-o OUTPUT]", "sw-convert gather.sgy --su | suxwigb"};
+  const cli::ToolInfo info{
+      "sw-convert", "Converts traces to another sample format, revision, byte order, or for Seismic Unix.",
+      "[options] [A] [-o OUTPUT]", "sw-convert gather.sgy --su | suxwigb"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -20,7 +20,7 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   settings.inputs.declare(options);
-  options.add("output,o", settings.output, "FILE", "where A - B goes, - is standard output");
+  options.add("output,o", settings.output, "FILE", "output file for A - B; - is standard output");
   settings.inputs.input_options.declare(options);
 }
 
@@ -73,7 +73,7 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-diff", "A minus B, trace by trace: gathers of the same sampling and geometry",
+  const cli::ToolInfo info{"sw-diff", "Subtracts gather B from gather A, trace by trace.",
                            "[options] A B [-o OUTPUT]", "sw-diff fractured.sgy elastic.sgy -o response.sgy"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },

@@ -27,9 +27,9 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "M");
-  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("property", settings.property, "NAME",
-              "of a model: vp, vs, rho or fracture; of snapshots: vx, vz, p, ...");
+              "model: vp, vs, rho or fracture; snapshots: vx, vz, p, ...");
   options.require("property");
   options.add("time", settings.time_s, "T", "snapshots: the one nearest to T s [the last]");
   settings.output_options.declare(options);
@@ -96,7 +96,7 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-export", "A model property or a snapshot as traces, a column each",
+  const cli::ToolInfo info{"sw-export", "Writes a model property or a snapshot as traces, one per column.",
                            "[options] --property NAME [M] [-o OUTPUT]",
                            "sw-export model.nc --property vp -o vp.sgy"};
   return cli::run_tool(

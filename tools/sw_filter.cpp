@@ -28,15 +28,16 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "A");
-  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
-  options.add("taper", settings.taper, "T[,END]", "cosine flanks at both ends, or of START,END, s");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
+  options.add("taper", settings.taper, "T[,END]", "cosine taper at both ends, s; or START,END");
   options.add("convolve", settings.wavelet, "W",
-              "with a wavelet: ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
-  options.add("zero-delay", settings.zero_delay, "the wavelet's own time zero is no delay");
-  options.add("band", settings.band, "F1,F2,F3,F4", "zero-phase band-pass with linear flanks (Ormsby), Hz");
-  options.add("resample", settings.interval_s, "DT", "new sample interval, s, by band-limited interpolation");
+              "convolve with a wavelet: ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+  options.add("zero-delay", settings.zero_delay, "shift the wavelet's own time zero to t = 0");
+  options.add("band", settings.band, "F1,F2,F3,F4", "zero-phase band-pass with linear slopes (Ormsby), Hz");
+  options.add("resample", settings.interval_s, "DT",
+              "new sampling interval, s, by band-limited interpolation");
   options.add("gain", settings.gains, "GAIN",
-              "power:P, exp:A, agc:T, rms, peak, scale:C or clip:C; repeated: one after the other");
+              "power:P, exp:A, agc:T, rms, peak, scale:C or clip:C; repeat to chain gains");
   settings.input_options.declare(options);
 }
 
@@ -63,7 +64,7 @@ FilterSteps steps_of(const Settings& settings, const SampleAxis& axis) {
 
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.zero_delay && settings.wavelet.empty())
-    throw Error("--zero-delay: found no --convolve, expected one", ErrorKind::usage);
+    throw Error("--zero-delay needs --convolve", ErrorKind::usage);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   const SampleAxis& axis = reader.axis_with_interval();
   TraceFilter filter(axis, steps_of(settings, axis));
@@ -89,7 +90,7 @@ void run(const Settings& settings, const cli::Context& context) {
 int main(int argc, char** argv) {
   Settings settings;
   const cli::ToolInfo info{
-      "sw-filter", "Tapers, convolves, band-passes, resamples and scales traces, in this order",
+      "sw-filter", "Tapers, convolves, band-passes, resamples and scales traces, in this order.",
       "[options] [A] [-o OUTPUT]", "sw-filter gather.sgy --band 3,6,30,40 --gain agc:0.5 -o filtered.sgy"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },

@@ -30,36 +30,36 @@ struct Settings {
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
   options.add("box", settings.box, "X0:X1,Z0:Z1",
-              "the region: cells whose centres lie in a box, m; in 3-D models X0:X1,Y0:Y1,Z0:Z1");
-  options.add("polygon", settings.polygon, "FILE", "or in a polygon: a line \"X Z\" for each vertex");
+              "region to fracture: cells with centres in a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1");
+  options.add("polygon", settings.polygon, "FILE", "or in a polygon, one line \"X Z\" per vertex");
   options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
-              "or in an ellipse round X,Z: half axes A, which dips by DIP, and B; in 3-D "
+              "or in an ellipse around X,Z with half axes A, which dips by DIP, and B; in 3-D "
               "X,Y,Z:A,B,C[:DIP[:AZIMUTH]]");
   options.add("slab", settings.slab, "X,Z:L,T[:DIP]",
               "or in a slab of length L and thickness T; in 3-D X,Y,Z:L,WIDTH,T[:DIP[:AZIMUTH]]");
   options.add("count", settings.count, "N",
-              "not all of the region but N small slabs in it, along the planes");
+              "fracture only N small slabs in the region, parallel to the planes");
   options.add("body", settings.body, "L,T",
-              "their mean length and thickness [1/10 of the region's longer side, 1/10 of that]");
-  options.add("seed", settings.seed, "S", "another S, other slabs");
+              "mean length and thickness of the slabs [1/10 of the region's longer side, 1/10 of that]");
+  options.add("seed", settings.seed, "S", "random seed of the slabs");
   options.add(
       "dip", settings.dips, "DEG[:AZIMUTH]",
-      "angle of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "
-      "(90: +y); give two for two families of planes, in 3-D up to three");
+      "dip of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "
+      "(90: +y); repeat for two families of planes, in 3-D up to three");
   options.add("normal", settings.normals, "NX,NZ",
               "or their normal, of any length; z points down; in 3-D NX,NY,NZ");
   options.add("friction", settings.friction, "Q", "coefficient of friction");
   options.add("viscosity", settings.viscosity_s, "ETA", "viscosity of slip, s");
   options.add("strength", settings.strength_pa, "PA", "cohesion, Pa");
-  options.add("block", settings.block, "blocks: planes across those of --dip or --normal, too");
-  options.add("opening", settings.opening, "planes part under tension, which they carry otherwise");
+  options.add("block", settings.block, "blocks: add planes at right angles to those of --dip or --normal");
+  options.add("opening", settings.opening, "planes open under tension; otherwise they carry it");
   options.add(
       "prestress", settings.prestress, "STRESS",
-      "static stress of these cells, Pa: none, lithostatic[:K0] (the weight above; sideways K0 times "
-      "that [lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, in 3-D SXX,SYY,SZZ,SXY,SXZ,SYZ, tension "
+      "static stress of these cells, Pa: none, lithostatic[:K0] (the overburden; sideways K0 times that "
+      "[lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, in 3-D SXX,SYY,SZZ,SXY,SXZ,SYZ, tension "
       "positive");
-  options.add("name", settings.name, "S", "name of the set [fractures-N]");
-  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
+  options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"friction", "viscosity"}) options.require(name);
 }
 
@@ -100,13 +100,12 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
     normals.push_back(in_place("--normal", [&] { return unit_normal<D>(parse_point<D>(text)); }));
   }
   if (settings.block && normals.size() != 1) {
-    throw Error("found --block and " + std::to_string(normals.size()) +
-                    " of --dip and --normal, expected one of them with --block",
+    throw Error("--block needs exactly one --dip or --normal, found " + std::to_string(normals.size()),
                 ErrorKind::usage);
   }
   if (settings.block) add_across<D>(normals);
   if (normals.empty() || normals.size() > D) {
-    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, expected " +
+    throw Error("found " + std::to_string(normals.size()) + " of --dip and --normal, give " +
                     (D == 2 ? "one or two" : "one to three"),
                 ErrorKind::usage);
   }
@@ -119,12 +118,12 @@ RegionIn<D> region_of(const Settings& settings) {
       !settings.box.empty() + !settings.polygon.empty() + !settings.ellipse.empty() + !settings.slab.empty();
   if (given != 1) {
     throw Error(
-        "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, expected one of them",
+        "found " + std::to_string(given) + " of --box, --polygon, --ellipse and --slab, give exactly one",
         ErrorKind::usage);
   }
   if (!settings.polygon.empty()) {
     if constexpr (D == 2) return read_polygon(settings.polygon);
-    throw Error("found --polygon with a model in 3-D, expected --box, --ellipse or --slab", ErrorKind::usage);
+    throw Error("--polygon needs a model in 2-D; in 3-D use --box, --ellipse or --slab", ErrorKind::usage);
   }
   if (!settings.ellipse.empty())
     return in_place("--ellipse", [&] { return parse_ellipse<D>(settings.ellipse); });
@@ -137,7 +136,7 @@ template <int D>
 RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const Point<D>& normal) {
   if (settings.count == 0) {
     if (settings.body.empty()) return region;
-    throw Error("found --body without --count, expected both", ErrorKind::usage);
+    throw Error("--body needs --count, the number of slabs", ErrorKind::usage);
   }
   const auto& low = region.bounds.low_m;
   const auto& high = region.bounds.high_m;

@@ -33,23 +33,25 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.add("vp", settings.vp, "F", "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)");
-  options.add("vs", settings.vs, "F", "S-wave speed, 0 is fluid");
-  options.add("rho", settings.rho, "F", "density, 0 is void (air)");
-  options.add("shape", settings.shape, "NXxNZ", "the files are raw little-endian float32 of that many cells");
-  options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "which axis runs fastest in raw files");
-  options.add("step", settings.step_m, "H", "edge of a cell, m; for raw files and SEG-Y");
-  options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 below the fluid");
+  options.add("vs", settings.vs, "F", "S-wave speed; 0 is fluid");
+  options.add("rho", settings.rho, "F", "density; 0 is void (air)");
+  options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
+  options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
+  options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");
+  options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 in solids");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
-  options.add_choice("rho-from-vp", settings.rho_from, {"gardner"}, "rho = 310 vp^0.25, 1000 in fluid");
+  options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
+                     "rho = 310 vp^0.25 in solids, 1000 in fluid");
   options.add("resample", settings.resample_m, "H",
-              "cells of that size: averages in larger, interpolation in smaller ones; kinds are not mixed");
-  options.add("no-average", settings.no_average, "interpolate for larger cells, too, instead of averaging");
+              "new cell size: averages in larger cells, interpolates for smaller ones; kinds are not mixed");
+  options.add("no-average", settings.no_average, "interpolate also for larger cells");
   options.add("crop", settings.crop, "X0:X1,Z0:Z1",
-              "keep a box, after resampling; its top becomes the surface");
-  options.add("extrude", settings.extrude_m, "LY", "a model in 3-D, the same along LY m of y; at last");
+              "keep only this box, after resampling; its top becomes the surface");
+  options.add("extrude", settings.extrude_m, "LY",
+              "finally extend the model to 3-D, uniform over LY m along y");
   options.add("title", settings.title, "TEXT", "title of the model file");
-  options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
-  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
+  options.add("output,o", settings.output, "M", "model file; - is standard output");
   options.require("vp");
 }
 
@@ -68,7 +70,7 @@ void check_choices(const Settings& settings) {
     throw Error("--step: found " + shown(*settings.step_m) + ", expected it above zero", ErrorKind::usage);
   }
   if ((settings.vp == "-") + (settings.vs == "-") + (settings.rho == "-") > 1) {
-    throw Error("found - more than once, expected one input on standard input", ErrorKind::usage);
+    throw Error("found - more than once; only one input can be standard input", ErrorKind::usage);
   }
 }
 
@@ -87,8 +89,7 @@ Field<2> read_raw(const Settings& settings, const std::string& path) {
 
 Field<2> read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken) {
   if (!settings.step_m) {
-    throw Error(shown_input(path) + ": a SEG-Y model does not say its cells' size; expected --step",
-                ErrorKind::usage);
+    throw Error(shown_input(path) + ": a SEG-Y model has no cell size; give --step", ErrorKind::usage);
   }
   segy::Reader reader(path, {}, {taken.begin(), taken.end()});
   std::vector<std::vector<double>> columns;
@@ -159,7 +160,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-import", "Makes a model of files of vp, vs and density.",
+      {"sw-import", "Builds a model from files of vp, vs and density.",
        "--vp F [--vs F] [--rho F] [options] [-o M]",
        "sw-import --vp m.vp --vs m.vs --rho m.rho --shape 500x174 --step 20 --resample 5 -o model.nc"},
       [&](cli::Options& options) { declare(options, settings); },

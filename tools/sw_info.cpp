@@ -36,7 +36,7 @@ struct Finding {
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.files, "FILE");
   options.require("FILE");
-  options.add("json", settings.json, "one JSON object a line for each file");
+  options.add("json", settings.json, "one JSON object per file and line");
   settings.traces.declare(options);
 }
 
@@ -123,7 +123,7 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   if (options.su || options.endian || options.format || segy::looks_like_segy(bytes, size))
     return look_at_traces(path, options, start.taken());
   throw Error(shown_input(path) + ": is " +
-              (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+              (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +
               ", expected a model, snapshots or a gather");
 }
 
@@ -162,7 +162,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-info", "Says what is in models, snapshots, gathers and tables of accuracy.", "[options] FILE...",
+      {"sw-info", "Describes models, snapshots, gathers and tables of accuracy.", "[options] FILE...",
        "sw-info model.nc gather.sgy"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -20,19 +20,19 @@ struct Settings {
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.add("size", settings.size, "LXxLZ", "size of the model, m; LXxLYxLZ: in 3-D");
-  options.add("step", settings.step_m, "H", "edge of a cell, m");
+  options.add("size", settings.size, "LXxLZ", "size of the model, m; in 3-D LXxLYxLZ");
+  options.add("step", settings.step_m, "H", "cell size, m");
   options.add(
       "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
-      "a layer from DEPTH down, from the top one on; DIP in degrees, deepening towards +x, DEPTH at x = 0; "
-      "VS 0 is fluid, above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
-      "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF, smooth@FILE without "
-      "kinks; VP, VS, RHO may be A+K or A-K: A at the top, K more or less a metre");
+      "a layer from DEPTH down; repeat, top layer first. DIP in degrees, deepening towards +x, with DEPTH at "
+      "x = 0. VS 0 is fluid; above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
+      "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF; smooth@FILE has no "
+      "kinks. VP, VS, RHO may be A+K or A-K: A at the top, K more or less per metre");
   options.add("no-average", settings.no_average,
-              "cells cut by a top take the material of their centre, not the mean over their parts");
+              "cells cut by a top take the material at their centre, not the average of their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");
-  options.add("allow-auxetic", settings.limits.allow_auxetic, "let vs exceed vp/sqrt(2)");
-  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
+  options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"size", "step", "layer"}) options.require(name);
 }
 

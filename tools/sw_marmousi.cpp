@@ -23,15 +23,16 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.add("size", settings.size, "LXxLZ", "size of the model, m");
-  options.add("step", settings.step_m, "H", "edge of a cell, m");
+  options.add("step", settings.step_m, "H", "cell size, m");
   options.add("water", settings.geology.water_m, "DEPTH", "depth of the sea, m; 0 is land");
-  options.add("seed", settings.seed, "S", "number of the geology; the same at every size and step");
-  options.add("scale", settings.geology.scale, "F", "all lengths but the water's times this");
-  options.add("vp-over-vs", settings.geology.vp_over_vs, "R", "vp/vs of all rock, not by lithology");
+  options.add("seed", settings.seed, "S", "seed of the geology; it is the same at every size and cell size");
+  options.add("scale", settings.geology.scale, "F", "factor on all lengths except the water depth");
+  options.add("vp-over-vs", settings.geology.vp_over_vs, "R",
+              "one vp/vs for all rock, instead of by lithology");
   options.add("no-average", settings.no_average,
-              "cells that several beds share take the material of their centre, not the mean");
+              "cells with several beds take the material at their centre, not the average");
   options.add("title", settings.title, "TEXT", "title of the model file");
-  options.add("output,o", settings.output, "M", "model file, - is standard output");
+  options.add("output,o", settings.output, "M", "model file; - is standard output");
   options.add_threads();
   options.require("step");
 }
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-marmousi", "Builds a model that looks like Marmousi-II, from a seed.", "--step H [options] [-o M]",
+      {"sw-marmousi", "Builds a model that resembles Marmousi-II, from a seed.", "--step H [options] [-o M]",
        "sw-marmousi --step 10 --seed 3 -o model.nc"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

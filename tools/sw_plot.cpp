@@ -19,29 +19,32 @@ struct Texts {
 void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.positional(settings.files, "FILE");
   options.add("output,o", settings.output, "FILE",
-              "the picture, by its ending .png, .pdf or .svg; - is a PNG");
-  options.add("size", settings.page.size, "SIZE", "of the picture, 16x10cm or 1200x800px");
+              "the picture: .png, .pdf or .svg; - is a PNG on standard output");
+  options.add("size", settings.page.size, "SIZE", "size of the picture, 16x10cm or 1200x800px");
   options.add("dpi", settings.page.dpi, "N", "pixels per inch");
-  options.add("title", settings.page.title, "TEXT", "above the picture");
+  options.add("title", settings.page.title, "TEXT", "title above the picture");
   options.add("map", texts.map, "NAME", "colours: uniform, grey, white-black, blue-red, red-blue");
-  options.add("clip", settings.look.clip_percent, "PERCENT", "waves have full colour at this percentile");
-  options.add("range", texts.range, "LOW:HIGH", "full colour at these values instead");
+  options.add("clip", settings.look.clip_percent, "PERCENT",
+              "colours saturate at this percentile of absolute amplitude");
+  options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
   options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
   options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
   options.add("shot", settings.shot, "N", "gather: this shot only");
   options.add_choice("axis", texts.axis, {"auto", "x", "midpoint", "offset", "depth", "trace"},
-                     "gather: where traces stand");
+                     "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
-  options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"}, "model: what is drawn");
-  options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: what lies on this plane, y=500");
-  options.add("survey", settings.survey, "GATHER", "model, snapshot: marks sources and receivers");
+  options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"},
+                     "model: property to draw");
+  options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
+  options.add("survey", settings.survey, "GATHER",
+              "model, snapshot: mark sources and receivers of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
-  options.add("minus", settings.minus, "FILE", "snapshot: less that of this file at the same time");
-  options.add("movie", settings.movie, "snapshot: all of them, FILE-0001.png and so on");
+  options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
+  options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "errors: several files in one panel");
   texts.traces.declare(options);

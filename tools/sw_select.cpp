@@ -25,10 +25,10 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "A");
-  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("where", settings.where, "CONDITION",
-              "which traces: component=vz and 100<=offset<500, shot=1:9:2 or not cdp>40, ...");
-  options.add("time", settings.time, "T0:T1", "only the samples from T0 to T1, s");
+              "traces to keep: component=vz and 100<=offset<500, shot=1:9:2 or not cdp>40, ...");
+  options.add("time", settings.time, "T0:T1", "keep only the samples from T0 to T1, s");
   settings.input_options.declare(options);
 }
 
@@ -37,7 +37,7 @@ std::optional<Expression> condition_of(const std::string& text) {
   return in_place("--where", [&] {
     Expression condition(text);
     if (condition.kind() != Expression::Kind::truth)
-      throw Error("'" + text + "' is no condition, expected one like offset>=100", ErrorKind::usage);
+      throw Error("'" + text + "' is not a condition; use one like offset>=100", ErrorKind::usage);
     return condition;
   });
 }
@@ -67,8 +67,7 @@ void run(const Settings& settings, const cli::Context& context) {
   const auto condition = condition_of(settings.where);
   std::optional<TimeWindow> window;
   if (!settings.time.empty()) window = in_place("--time", [&] { return parse_time_window(settings.time); });
-  if (!condition && !window)
-    throw Error("found neither --where nor --time, expected one of them", ErrorKind::usage);
+  if (!condition && !window) throw Error("nothing to select: give --where or --time", ErrorKind::usage);
   std::optional<SelectionCounts> counts;
   if (condition) counts = counts_of(settings, *condition);
   segy::Reader reader(settings.input, settings.input_options.read_options());
@@ -99,7 +98,7 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-select", "Traces that meet a condition, and samples between two times",
+  const cli::ToolInfo info{"sw-select", "Selects traces by a condition, and samples between two times.",
                            "[options] [A] [-o OUTPUT]",
                            "sw-select gather.sgy --where 'component=vz and offset>=100' -o vz.sgy"};
   return cli::run_tool(

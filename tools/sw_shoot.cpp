@@ -12,25 +12,26 @@ namespace {
 void declare(cli::Options& options, ShootingOptions& s) {
   declare_scene(options, s.scene);
   declare_numerics(options, s.scene);
-  options.add("snapshots", s.output.snapshots, "FILE", "write whole wave fields to this netCDF file");
+  options.add("snapshots", s.output.snapshots, "FILE",
+              "write snapshots of the wave field to this netCDF file");
   options.add("every", s.snapshot_every_s, "S", "time between snapshots, s");
   options.add("fields", s.output.snapshot_fields, "LIST", snapshot_field_help());
-  options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots of the cells on a plane, y=500, alone");
-  options.add("balance", s.balance, "say at the end how many cells slipped and where the energy went");
+  options.add("slice", s.output.slice, "AXIS=AT", "in 3-D: snapshots on this plane only, y=500");
+  options.add("balance", s.balance, "report how many cells slipped and where the energy went");
   options.add("shots-in-parallel", s.output.shots_in_parallel, "N",
-              "shots shot at once; 0: one a thread as long as 1 GiB holds them");
+              "shots computed at once; 0: one per thread while they fit 1 GiB");
   options.add("ranks-per-shot", s.output.ranks_per_shot, "N",
-              "processes of mpirun that shoot a shot together; 0: as few as it takes");
-  options.add("first-shot", s.output.first_shot, "N", "number of the first source, the others follow");
+              "with mpirun: processes per shot; 0: as few as possible");
+  options.add("first-shot", s.output.first_shot, "N", "number of the first shot; the others follow");
   options.add("checkpoint", s.output.checkpoint, "FILE",
-              "keep the state of the run here, and go on from it where there is one");
+              "save the state of the run here, and resume from it if it exists");
   options.add("checkpoint-every", s.output.checkpoint_every_s, "S",
               "wall-clock time between checkpoints, s [600]");
   options.add("keep-unstable", s.output.keep_unstable,
-              "keep what an unstable run recorded before, in files unstable-NAME");
+              "keep the output of an unstable run, in files unstable-NAME");
   options.add("error", s.wanted_error, "SHARE",
-              "choose order, cell size and time step for this expected error (0.01: 1 %), cheapest first");
-  options.add("plan", s.plan, "print what would be computed, and stop");
+              "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
+  options.add("plan", s.plan, "print grid, cost and expected error, and stop");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");
   for (const char* name : {"source", "wavelet", "time"}) options.require(name);
@@ -55,7 +56,8 @@ int main(int argc, char** argv) {
   ShootingOptions settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-shoot", "Shoots a model: what a survey over it would record.", "[options] MODEL [-o GATHER]",
+      {"sw-shoot", "Simulates shots over a model and writes the recorded gathers.",
+       "[options] MODEL [-o GATHER]",
        "sw-shoot model.nc --source 1250,5 --wavelet ricker:30 --receivers 0:2500:25,5 --time 1 "
        "-o shot.sgy"},
       [&](cli::Options& options) { declare(options, settings); },

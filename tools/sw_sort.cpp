@@ -24,11 +24,12 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.inputs, "A");
-  options.add("output,o", settings.output, "FILE", "where the traces go, - is standard output");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("key", settings.key, "KEY[,...]",
-              "what to sort by: cdp,offset; a - in front for descending: --key=-offset");
+              "sort keys: cdp,offset; a leading - sorts in descending order: --key=-offset");
   options.require("key");
-  options.add("memory", settings.memory_mib, "MIB", "memory for traces; more go through a temporary file");
+  options.add("memory", settings.memory_mib, "MIB",
+              "memory for traces; more than that go through a temporary file");
   settings.input_options.declare(options);
 }
 
@@ -97,7 +98,7 @@ void run(const Settings& settings, const cli::Context& context) {
 
 int main(int argc, char** argv) {
   Settings settings;
-  const cli::ToolInfo info{"sw-sort", "Traces of one file or several in another order",
+  const cli::ToolInfo info{"sw-sort", "Sorts the traces of one or several files.",
                            "[options] [A...] [-o OUTPUT]", "sw-sort line.sgy --key cdp,offset -o sorted.sgy"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },

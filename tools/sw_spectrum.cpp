@@ -29,15 +29,15 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "A");
-  options.add("output,o", settings.output, "FILE", "where the spectra go, - is standard output");
-  options.add("each", settings.each, "a spectrum for each trace, not the mean of each component");
-  options.add("fk", settings.fk, "over wavenumber and frequency: the mean over the shots of each component");
-  options.add("power", settings.spectrum.power, "energy density, not amplitude");
+  options.add("output,o", settings.output, "FILE", "output file; - is standard output");
+  options.add("each", settings.each, "one spectrum per trace, not the mean of each component");
+  options.add("fk", settings.fk, "over wavenumber and frequency; mean over the shots of each component");
+  options.add("power", settings.spectrum.power, "energy density instead of amplitude");
   options.add_choice("window", settings.window, window_names(),
-                     "weights on the samples, with --fk on the receivers too");
+                     "taper of the samples, with --fk also of the receivers");
   options.add("pad", settings.spectrum.pad, "FACTOR",
-              "length of the transform over that of the trace (and line), filled with zeros");
-  options.add("text", settings.text, "columns of numbers, not netCDF");
+              "zero padding: length of the transform over that of the trace (and line)");
+  options.add("text", settings.text, "columns of numbers instead of netCDF");
   settings.input_options.declare(options);
 }
 
@@ -100,8 +100,7 @@ void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, c
 
 void run(Settings& settings, const cli::Context& context) {
   if (settings.fk && settings.each)
-    throw Error("found --fk and --each, expected one of them: a gather makes one f-k spectrum",
-                ErrorKind::usage);
+    throw Error("--fk and --each exclude each other: a gather has one f-k spectrum", ErrorKind::usage);
   settings.spectrum.window = window_named(settings.window);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);
@@ -116,7 +115,8 @@ void run(Settings& settings, const cli::Context& context) {
 int main(int argc, char** argv) {
   Settings settings;
   const cli::ToolInfo info{
-      "sw-spectrum", "Amplitude or energy spectra of traces, over frequency or wavenumber and frequency",
+      "sw-spectrum",
+      "Computes amplitude or energy spectra of traces, over frequency or wavenumber and frequency.",
       "[options] [A] [-o OUTPUT]", "sw-spectrum response.sgy --window hann --pad 4 --text"};
   return cli::run_tool(
       argc, argv, info, [&](cli::Options& options) { declare(options, settings); },

@@ -10,7 +10,7 @@ struct TraceInput : segy::InputOptions {
   void declare(cli::Options& options) {
     options.add_choice("endian", endian, {"auto", "big", "little"}, "byte order of the input");
     options.add("format", format, "NAME", "sample format of the input: ibm, ieee, int16, ... or its code");
-    options.add("su", su, "the input is Seismic Unix, also where it does not look like it");
+    options.add("su", su, "read the input as Seismic Unix");
   }
 };
 

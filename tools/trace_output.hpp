@@ -16,7 +16,7 @@ struct TraceOutput {
 
   void declare(cli::Options& options) {
     options.add("format", format, "NAME", "sample format: ibm, ieee, int16, ... or its code");
-    options.add_choice("revision", revision, {"0", "1", "2"}, "of SEG-Y; 2 is written as 2.1");
+    options.add_choice("revision", revision, {"0", "1", "2"}, "revision of SEG-Y; 2 is written as 2.1");
     options.add_choice("endian", endian, {"big", "little"}, "byte order");
     options.add("su", su, "write Seismic Unix: the machine's byte order, no reel headers");
   }

@@ -101,7 +101,7 @@ constexpr SourceKind<D> kinds[] = {
     {"force", D == 2 ? "AX,AZ" : "AX,AY,AZ", "", D == 2 ? "N/m" : "N", parse_force<D>, inject_force<D>},
     {"moment", D == 2 ? "MXX,MZZ,MXZ" : "MXX,MYY,MZZ,MXY,MXZ,MYZ", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_moment<D>, inject_moment<D>},
-    {"plane", "ANGLE", "0 = down, degrees", "m/s", parse_plane_wave<D>, nullptr},
+    {"plane", "ANGLE", "degrees, 0 is down", "m/s", parse_plane_wave<D>, nullptr},
 };
 
 static_assert(std::size(kinds<2>) >= std::variant_size_v<Mechanism<2>>);

@@ -25,7 +25,7 @@ struct SourceKind {
 template <int D>
 std::span<const SourceKind<D>> source_kinds();
 
-/// "explosion, force:AX,AZ, ... (0 = down, degrees); in 3-D force:AX,AY,AZ, ...": for the help of an option.
+/// "explosion, force:AX,AZ, ... (degrees, 0 is down); in 3-D force:AX,AY,AZ, ...": for the help of an option.
 std::string source_kind_help();
 /// "explosion, moment: N m/s per m; ...; in 3-D ...": units of the amplitude, for the help of an option.
 std::string amplitude_help();

@@ -177,13 +177,13 @@ void CheckpointReader::refuse(const std::string& sentence) const { throw Error(p
 void CheckpointReader::check() {
   struct stat status {};
   if (fstat(descriptor_, &status) != 0) fail(path_, errno);
-  if (!S_ISREG(status.st_mode)) refuse("is no regular file, expected a checkpoint of sw-shoot");
+  if (!S_ISREG(status.st_mode)) refuse("is not a regular file, expected a checkpoint of sw-shoot");
   bytes_ = std::uint64_t(status.st_size);
   std::array<char, mark.size()> begin{};
   std::uint64_t format = 0, sum = 0;
-  if (bytes_ < header_bytes + sizeof sum) refuse("is no checkpoint of sw-shoot, or cut off");
+  if (bytes_ < header_bytes + sizeof sum) refuse("is not a checkpoint of sw-shoot, or cut off");
   read_at(descriptor_, path_, begin.data(), begin.size(), 0);
-  if (begin != mark) refuse("is no checkpoint of sw-shoot, or damaged");
+  if (begin != mark) refuse("is not a checkpoint of sw-shoot, or damaged");
   read_at(descriptor_, path_, reinterpret_cast<char*>(&format), sizeof format, mark.size());
   if (format != checkpoint_format)
     refuse("found a checkpoint of format " + std::to_string(format) + ", expected " +

@@ -36,7 +36,7 @@ std::string without_dashes(const std::string& name) {
 void Parser::declare_common() {
   for (auto& option : options_.options_) {
     if (option.name == "threads" && !option.store) {
-      option.help = "threads to compute with [all cores]";
+      option.help = "number of threads [all cores]";
       option.store = [this](const auto& values) {
         const auto count = parse_integer(values.back());
         if (count < 1 || count > most_threads) {
@@ -47,10 +47,10 @@ void Parser::declare_common() {
       };
     }
   }
-  options_.add("config", common_.config, "FILE", "take options from an INI file too");
-  options_.add("quiet,q", common_.quiet, "no warnings");
-  options_.add("verbose,v", common_.verbose, "say more");
-  options_.add("help,h", common_.help, "show this");
+  options_.add("config", common_.config, "FILE", "read further options from this INI file");
+  options_.add("quiet,q", common_.quiet, "suppress warnings and progress");
+  options_.add("verbose,v", common_.verbose, "print more");
+  options_.add("help,h", common_.help, "show this help");
   options_.add("version", common_.version, "show the version");
 }
 

@@ -57,7 +57,7 @@ void NetcdfFile::Impl::check(int status, const std::string& variable) const {
   }
   if (status > 0) fail("", cause_of(status));
   if (status == NC_EHDFERR) fail(variable, "damaged: the HDF5 library cannot read or write it");
-  if (status == NC_ENOTNC) fail(variable, "is no netCDF file");
+  if (status == NC_ENOTNC) fail(variable, "is not a netCDF file");
   std::string text = nc_strerror(status);
   const std::string prefix = "NetCDF: ";
   if (text.compare(0, prefix.size(), prefix) == 0) text.erase(0, prefix.size());

@@ -115,8 +115,8 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
     model.fracture[cell] = code;
   }
   if (count.marked == 0) {
-    throw Error("found " + std::to_string(count.left) +
-                " cell centres in the region and none of them solid, expected at least one solid cell");
+    throw Error("none of the " + std::to_string(count.left) +
+                " cells in the region is solid, at least one must be");
   }
   model.fracture_sets.push_back(set);
   return count;

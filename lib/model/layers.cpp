@@ -91,8 +91,8 @@ void check_pile(const Grid<D>& grid, const std::vector<Layer>& layers) {
     const auto& before = layers[i - 1].top;
     if (top.is_plane() && before.is_plane()) {
       if (top.depth_m() >= before.depth_m()) continue;
-      throw Error("the layer at " + top.name() + " stands after the one at " + before.name() +
-                      ", expected them from the top down",
+      throw Error("the layer at " + top.name() + " comes after the one at " + before.name() +
+                      "; give layers from the top down",
                   ErrorKind::usage);
     }
     if (is_above(grid, layers[i], layers[i - 1])) {
@@ -175,9 +175,8 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
   }
   const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));
   if (cells * bytes_a_cell > memory) {
-    throw Error("found " + shown(cells) + " cells, expected at most " +
-                    shown(std::floor(memory / bytes_a_cell / 1e6) * 1e6) +
-                    ", what fits the memory of this machine",
+    throw Error(shown(cells) + " cells do not fit into the memory of this machine, at most " +
+                    shown(std::floor(memory / bytes_a_cell / 1e6) * 1e6) + " do",
                 ErrorKind::usage);
   }
   return grid;

@@ -113,8 +113,8 @@ void check(const Model<D>& model, const MediumLimits& limits) {
     }
     if (!medium.is_solid(cell)) {
       refuse(model.grid(), cell, "fracture",
-             std::string("stands in ") + (medium.is_void(cell) ? "void" : "fluid") +
-                 ", expected it in solid cells only");
+             std::string("lies in ") + (medium.is_void(cell) ? "void" : "fluid") +
+                 "; only solid cells can be fractured");
     }
   }
   check_prestress(model);

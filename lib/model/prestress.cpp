@@ -121,7 +121,7 @@ void check_prestress(const Model<D>& model) {
       largest = std::max(largest, std::abs(stress.values[c]));
     }
     const auto refuse = [&](const std::string& verb, const std::string& rest) {
-      throw Error("the static stress at " + place_of(model.grid(), std::int64_t(cell)) + ' ' + verb +
+      throw Error("the prestress at " + place_of(model.grid(), std::int64_t(cell)) + ' ' + verb +
                   " the planes of fracture set " + std::to_string(code) + " '" +
                   model.fracture_sets[code - 1].name + "' " + rest);
     };
@@ -132,7 +132,8 @@ void check_prestress(const Model<D>& model) {
       const double shear = length<D, double>(traction), rounding = slack * largest;
       const double strength = system.friction * std::max(-normal, 0.) + system.strength_pa;
       if (system.opens && normal > rounding)
-        refuse("pulls", "by " + shown(normal, 4) + " Pa, expected them pressed together, as they open");
+        refuse("pulls",
+               "apart by " + shown(normal, 4) + " Pa; planes that may open must be under compression");
       if (shear > strength + rounding)
         refuse("shears", "by " + shown(shear, 4) + " Pa, expected at most their strength of " +
                              shown(strength, 4) + " Pa");

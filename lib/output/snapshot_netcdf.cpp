@@ -75,8 +75,8 @@ const SnapshotField& snapshot_field(const std::string& name) {
 }
 
 std::string snapshot_field_help() {
-  return "of " + joined(field_names<2>()) + "; in 3-D also " + joined(component_names(3, 2)) + ", and " +
-         joined(derivative_names(false, true)) + ", not " + joined(derivative_names(true, false));
+  return "fields: " + joined(field_names<2>()) + "; in 3-D also " + joined(component_names(3, 2)) + ", and " +
+         joined(derivative_names(false, true)) + " for " + joined(derivative_names(true, false));
 }
 
 template <int D>

@@ -32,7 +32,7 @@ const std::vector<SnapshotField>& snapshot_fields();
 template <int D>
 const SnapshotField& snapshot_field(const std::string& name);
 
-/// "of vx, vz, ...; in 3-D also ...": the names of all, for the help of an option.
+/// "fields: vx, vz, ...; in 3-D also ...": the names of all, for the help of an option.
 std::string snapshot_field_help();
 
 /// "vx,vz,div": names of snapshot_fields(), each once, in the order given. Throws a usage Error that lists

@@ -10,19 +10,6 @@ namespace {
 
 constexpr int tag_of_joined = 31;
 
-template <class T>
-std::span<const std::byte> bytes_of(const std::vector<T>& values) {
-  return std::as_bytes(std::span<const T>(values));
-}
-
-template <class Join>
-double folded(Ranks* ranks, double mine, const Join& join) {
-  const auto all = allgather(ranks, {mine});
-  double value = all.front();
-  for (std::size_t n = 1; n < all.size(); ++n) value = join(value, all[n]);
-  return value;
-}
-
 }  // namespace
 
 void wait_for(Message& message) {
@@ -35,32 +22,9 @@ void wait_for(Message& message) {
   }
 }
 
-std::vector<double> allgather(Ranks* ranks, const std::vector<double>& mine) {
-  if (!ranks) return mine;
-  std::vector<double> all;
-  for (const auto& bytes : ranks->all_of(bytes_of(mine))) {
-    const auto before = all.size();
-    all.resize(before + bytes.size() / sizeof(double));
-    if (!bytes.empty()) std::memcpy(all.data() + before, bytes.data(), bytes.size());
-  }
-  return all;
-}
-
-double largest_of(Ranks* ranks, double mine) {
-  return folded(ranks, mine, [](double a, double b) { return std::max(a, b); });
-}
-
-double smallest_of(Ranks* ranks, double mine) {
-  return folded(ranks, mine, [](double a, double b) { return std::min(a, b); });
-}
-
-double sum_of(Ranks* ranks, double mine) {
-  return folded(ranks, mine, [](double a, double b) { return a + b; });
-}
-
 std::vector<std::byte> gather_on_first(Ranks& ranks, std::span<const std::byte> mine) {
   constexpr std::size_t piece = std::size_t(1) << 27;  // of a message
-  const auto counts = allgather(&ranks, {double(mine.size())});
+  const auto counts = allgather(&ranks, std::vector<std::uint64_t>{mine.size()});
   if (ranks.number() > 0) {
     for (std::size_t sent = 0; sent < mine.size(); sent += piece)
       wait_for(*ranks.send(0, tag_of_joined, mine.subspan(sent, std::min(piece, mine.size() - sent))));

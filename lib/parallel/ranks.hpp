@@ -1,11 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <functional>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.hpp"
@@ -41,15 +45,47 @@ class Ranks {
 /// Until a message is delivered. Looks again and again, but leaves the processor to others meanwhile.
 void wait_for(Message& message);
 
-/// Collective: the largest, smallest and sum of what the ranks hand in; where there is one process (null),
-/// what it handed in. The sum is taken in the order of their numbers.
-double largest_of(Ranks* ranks, double mine);
-double smallest_of(Ranks* ranks, double mine);
-double sum_of(Ranks* ranks, double mine);
-/// Collective: what the ranks hand in, one after the other, on all of them.
-std::vector<double> allgather(Ranks* ranks, const std::vector<double>& mine);
-/// Collective: the same on the first rank alone, nothing on the others; of any size.
+/// Collective: what the ranks give, one after the other by their numbers, on all of them; what it was given
+/// where there is one process (null).
+template <class T>
+std::vector<T> allgather(Ranks* ranks, const std::vector<T>& mine) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  if (!ranks) return mine;
+  std::vector<T> all;
+  for (const auto& bytes : ranks->all_of(std::as_bytes(std::span<const T>(mine)))) {
+    const auto before = all.size();
+    all.resize(before + bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(all.data() + before, bytes.data(), bytes.size());
+  }
+  return all;
+}
+/// Collective: the largest, smallest and sum of what the ranks give. The sum is taken in the order of their
+/// numbers.
+template <class T>
+T largest_of(Ranks* ranks, T mine) {
+  const auto all = allgather(ranks, std::vector<T>{mine});
+  return *std::max_element(all.begin(), all.end());
+}
+template <class T>
+T smallest_of(Ranks* ranks, T mine) {
+  const auto all = allgather(ranks, std::vector<T>{mine});
+  return *std::min_element(all.begin(), all.end());
+}
+template <class T>
+T sum_of(Ranks* ranks, T mine) {
+  const auto all = allgather(ranks, std::vector<T>{mine});
+  return std::accumulate(all.begin() + 1, all.end(), all.front());
+}
+/// Collective: the bytes of all ranks on the first one alone, nothing on the others; of any size.
 std::vector<std::byte> gather_on_first(Ranks& ranks, std::span<const std::byte> mine);
+template <class T>
+std::vector<T> gather_on_first(Ranks& ranks, const std::vector<T>& mine) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  const auto bytes = gather_on_first(ranks, std::as_bytes(std::span<const T>(mine)));
+  std::vector<T> all(bytes.size() / sizeof(T));
+  if (!bytes.empty()) std::memcpy(all.data(), bytes.data(), bytes.size());
+  return all;
+}
 /// Collective: what the ranks say, by their numbers, on all of them.
 std::vector<std::string> allgather_texts(Ranks& ranks, const std::string& mine);
 

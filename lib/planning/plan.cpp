@@ -113,28 +113,29 @@ Report report_of(const Plan<D>& plan) {
   report.number("Courant number", plan.courant, "");
   report.number("slowest wave", plan.slowest.speed, "m/s");
   report.number("highest frequency", plan.highest_hz, "Hz");
-  report.text("cells a shortest wavelength",
+  report.text("cells per shortest wavelength",
               "P " + shown(plan.cells_of_shortest_p, 3) +
                   (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
-  report.text("loss of the slowest",
-              shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude a wavelength");
+  report.text("loss of the slowest wave",
+              shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
   if (D == 2 && plan.error.direct)
-    report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in the direct waves");
+    report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in direct arrivals");
   if (D == 2)
     report.text("error after " + shown(plan.duration_s, 3) + " s",
                 "P " + shown(100 * plan.error.p, 2) + " %" +
                     (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
-  report.count("cells beside contacts", plan.span_ends);
-  report.text("computed",
-              shown(100 * plan.computed_share, 2) +
-                  " % of all cells in all steps: the others no wave has come to, or none returns from");
+  report.count("cells at interfaces", plan.span_ends);
+  report.text(
+      "active cells",
+      shown(100 * plan.computed_share, 2) +
+          " % (cells that no wave has reached, or that can no longer affect a receiver, are skipped)");
   report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
-  report.text("expected time", shown(plan.seconds, 2) + " s of the processor, " +
+  report.text("expected time", shown(plan.seconds, 2) + " s of processor time, " +
                                    shown(plan.seconds / plan.threads, 2) + " s on " +
                                    std::to_string(plan.threads) + " threads");
   report.text("instruction set", plan.instruction_set);
   for (const auto& pass : plan.passes)
-    report.text("pass", pass.name + ": " + shown(100 * pass.share, 3) + " % of the cells");
+    report.text("part of step", pass.name + ": " + shown(100 * pass.share, 3) + " % of the cells");
   return report;
 }
 
@@ -145,12 +146,13 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
   const double cells = cells_a_wavelength(scene, slowest, highest);
   if (cells >= fewest_cells) return {};
   const double h = scene.model.grid().spacing_m;
-  return {"found " + shown(cells, 2) + " cells a shortest wavelength (" + shown(slowest.speed, 4) +
-          " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " + shown(highest, 3) +
-          " Hz), expected at least " + shown(fewest_cells) + ": such waves lose " +
-          shown(100 * loss_of(scene, slowest, cells), 2) + " % of their amplitude a wavelength; cells of " +
-          shown(h * cells / fewest_cells, 2) + " m would do, at " +
-          shown(std::pow(fewest_cells / cells, D + 1), 2) + " times the cost"};
+  const std::string wave = scene.model.medium.is_fluid(std::size_t(slowest.cell)) ? "P" : "S";
+  return {"only " + shown(cells, 2) + " cells per shortest " + wave + " wavelength (" +
+          shown(slowest.speed, 4) + " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " +
+          shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
+          shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
+          shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
+          " times the cost)" + (D == 2 ? " or --error" : "")};
 }
 
 template Plan<2> plan(const Scene<2>&);

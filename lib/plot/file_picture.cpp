@@ -105,7 +105,7 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
     const bool together = input.kind == kind && (kind == Kind::spectra || kind == Kind::accuracy);
     if (inputs.size() > 1 && !together)
       throw Error(shown_input(input.path) +
-                      ": several files are drawn together where all hold spectra or all hold errors",
+                      ": several files can be drawn together only if all hold spectra or all hold errors",
                   ErrorKind::usage);
   }
   std::string history;

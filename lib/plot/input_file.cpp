@@ -39,7 +39,7 @@ InputFile open_input(const std::string& path, bool su) {
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (!su && !segy::looks_like_segy(bytes))
     throw Error(shown_input(path) + ": is " +
-                (first.empty() ? "empty" : "no netCDF, SEG-Y or Seismic Unix file") +
+                (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +
                 ", expected a model, snapshots, spectra, errors or a gather");
   return input;
 }

@@ -17,7 +17,7 @@ Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::s
   if (!file.has_variable(name))
     throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model");
   if (file.variable(name).dimensions != field_dimensions<D>())
-    throw Error(file.shown_name() + ": " + name + ": is no field of z and x" +
+    throw Error(file.shown_name() + ": " + name + ": is not a field of z and x" +
                 (D == 2 ? ", expected a model in two dimensions" : " and y, expected a model"));
   const auto values = file.get_physical(name);
   Field<D> field(grid);

@@ -52,9 +52,10 @@ void check_count(double duration_s, const char* what, double interval_s, const c
               ErrorKind::usage);
 }
 
-/// The medium of all cells along an edge must be one for a plane wave to be known there.
+/// The medium of all cells along a boundary must be one for a plane wave to be known there; `needs` says so.
 template <int D>
-void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional<std::size_t>& reference) {
+void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::string& needs,
+                        std::optional<std::size_t>& reference) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
   for (std::int64_t n = 0; n < grid.size(); ++n) {
@@ -65,11 +66,11 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, std::optional
     const bool same = medium.vp[cell] == medium.vp[*reference] && medium.vs[cell] == medium.vs[*reference] &&
                       medium.rho[cell] == medium.rho[*reference];
     if (same && !medium.is_void(cell)) continue;
-    throw Error("the plane wave meets vp " + shown(medium.vp[cell]) + " vs " + shown(medium.vs[cell]) +
-                " rho " + shown(medium.rho[cell]) + " at " + place_of(grid, n) + " and vp " +
-                shown(medium.vp[*reference]) + " vs " + shown(medium.vs[*reference]) + " rho " +
-                shown(medium.rho[*reference]) + " at " + place_of(grid, std::int64_t(*reference)) +
-                ", expected one solid or fluid along the edge");
+    const auto material = [&](std::size_t of) {
+      return "vp " + shown(medium.vp[of]) + " vs " + shown(medium.vs[of]) + " rho " + shown(medium.rho[of]) +
+             " at " + place_of(grid, std::int64_t(of));
+    };
+    throw Error(needs + ", found " + material(*reference) + " and " + material(cell));
   }
 }
 
@@ -91,8 +92,9 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
         medium.rho[cell] == medium.rho[from])
       continue;
     throw Error(
-        "the plane wave would stand in another medium than that of the edge it comes from at t = 0, at " +
-        place_of(grid, n) + ", expected --source further back along its way");
+        "at t = 0 the plane wave would already be in another material than that of the boundary it enters "
+        "by, at " +
+        place_of(grid, n) + "; move --source back against its direction of travel");
   }
 }
 
@@ -106,15 +108,20 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
   const int entry = down > 0 ? 0 : 1;
   const char* entry_name = entry == 0 ? "top" : "bottom";
   if (std::abs(down) > 1e-9 && scene.edges[z][entry] != EdgeLaw::absorbing)
-    throw Error("the plane wave enters by the " + std::string(entry_name) + ", expected --" + entry_name +
+    throw Error("the plane wave enters by the " + std::string(entry_name) + "; use --" + entry_name +
                 " absorbing");
   if (std::abs(across) > 1e-9 && scene.edges[0][across > 0 ? 0 : 1] != EdgeLaw::absorbing)
-    throw Error("the plane wave enters by a side, expected --sides absorbing");
+    throw Error("the plane wave enters by a side; use --sides absorbing");
   std::optional<std::size_t> reference;
-  if (vertical) check_uniform_edge(scene, z, entry, reference);
+  if (vertical)
+    check_uniform_edge(scene, z, entry,
+                       "a plane wave needs one solid or fluid along the boundary it enters by", reference);
   for (int axis = 0; axis < D && !vertical; ++axis)
     for (const int side : {0, 1})
-      if (scene.edges[axis][side] == EdgeLaw::absorbing) check_uniform_edge(scene, axis, side, reference);
+      if (scene.edges[axis][side] == EdgeLaw::absorbing)
+        check_uniform_edge(scene, axis, side,
+                           "an oblique plane wave needs one solid or fluid along all absorbing boundaries",
+                           reference);
   check_beginning(scene, source, wave, *reference);
 }
 

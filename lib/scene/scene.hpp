@@ -20,11 +20,12 @@ const char* name_of(SlipCorrection correction);
 /// turned into heat, J/m3, and the strain by which planes stand open.
 enum class SlipField { slip, slip_rate, dissipated, opening };
 
-/// How a pass through memory is cut; it changes speed, never a result. 0: as measured best.
+/// How time steps are executed; it changes speed, never a result. 0: as measured best.
 struct Tiling {
-  int steps = 0;            // time steps in one pass
+  int steps = 0;            // time steps in one time tile
   int stripe_cells = 0;     // columns swept together, a multiple of 16
-  bool everywhere = false;  // compute also where nothing has come to, and whatever nobody will see
+  bool everywhere = false;  // compute also where no wave has come to, and whatever nobody will see
+  bool plain = false;       // no tiles: each sweep and effect on the whole grid, one after the other
 };
 
 /// How the scene is computed. Defaults are those of sw-shoot.

@@ -61,8 +61,9 @@ void OutputOptions::check_names(std::size_t shots) const {
                     ", expected {shot} in the name",
                 ErrorKind::usage);
   if (!snapshots.empty() && holds(snapshots, "{component}"))
-    throw Error("found {component} in --snapshots " + snapshots + ", expected --fields to choose them",
-                ErrorKind::usage);
+    throw Error(
+        "{component} is for traces, found it in --snapshots " + snapshots + "; choose fields with --fields",
+        ErrorKind::usage);
 }
 
 void OutputOptions::check_checkpoint() const {
@@ -75,7 +76,7 @@ void OutputOptions::check_checkpoint() const {
   if (checkpoint == "-") throw Error("--checkpoint: found -, expected the name of a file", ErrorKind::usage);
   for (const auto& output : {traces, snapshots})
     if (!checkpoint.empty() && checkpoint == output)
-      throw Error("found " + checkpoint + " for both --checkpoint and an output, expected two places",
+      throw Error("--checkpoint and an output both name " + checkpoint + "; give them different names",
                   ErrorKind::usage);
 }
 
@@ -84,8 +85,8 @@ void OutputOptions::check_parallel() const {
     throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
                 ErrorKind::usage);
   if (!snapshots.empty() && shots_in_parallel > 1)
-    throw Error("found --snapshots with " + std::to_string(shots_in_parallel) +
-                    " for --shots-in-parallel, expected 1: snapshots are written one after the other",
+    throw Error("--snapshots needs --shots-in-parallel 1, found " + std::to_string(shots_in_parallel) +
+                    ": snapshots are written one shot after the other",
                 ErrorKind::usage);
 }
 
@@ -95,7 +96,7 @@ void OutputOptions::check_scene(const Scene<D>& scene,
   const bool any_trace = !scene.survey.receivers_m.empty();
   if (any_trace) check_sampling(scene.recording, warn);
   if (any_trace && !snapshots.empty() && snapshots == traces)
-    throw Error("found " + traces + " for both --output and --snapshots, expected two places",
+    throw Error("--output and --snapshots both name " + traces + "; give them different names",
                 ErrorKind::usage);
   if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
     throw Error("found --keep-unstable and an output to standard output, expected the name of a file",

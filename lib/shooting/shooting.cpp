@@ -32,28 +32,29 @@ Scene<D> make_scene(const ShootingOptions& options) {
   auto scene = options.scene.without_model<D>();
   if (any_snapshot) {
     if (!options.snapshot_every_s)
-      throw Error("found --snapshots without --every, expected the time between them", ErrorKind::usage);
+      throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
     scene.snapshot_every_s = options.snapshot_every_s;
   }
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());
   check_outputs(options);
   if (scene.survey.receivers_m.empty() && !any_snapshot && !options.plan)
-    throw Error("found neither --receivers nor --snapshots, expected what to record", ErrorKind::usage);
+    throw Error("nothing to record: give --receivers or --snapshots", ErrorKind::usage);
   return scene;
 }
 
 /// What several processes can not do together.
 void check_on_ranks(const ShootingOptions& options, int count) {
-  const auto refuse = [&](bool given, const std::string& option, const std::string& expected) {
+  const auto refuse = [&](bool given, const std::string& option, const std::string& remedy) {
     if (given)
-      throw Error("found " + option + " and " + std::to_string(count) + " processes, expected " + expected,
+      throw Error(option + " does not work with " + std::to_string(count) + " processes; " + remedy,
                   ErrorKind::usage);
   };
-  refuse(!options.output.checkpoint.empty(), "--checkpoint", "it with one process");
-  refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "--ranks-per-shot");
-  refuse(options.wanted_error.has_value(), "--error", "what it chooses: one process says that with --plan");
-  refuse(options.scene.model == "-", "a model from standard input", "the name of a file");
+  refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
+  refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
+  refuse(options.wanted_error.has_value(), "--error",
+         "use --plan with one process, then give what it chooses");
+  refuse(options.scene.model == "-", "a model from standard input", "give the name of a file");
 }
 
 /// The cheapest way to compute the scene with the error that is wanted.
@@ -71,7 +72,7 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages&
     check(chosen);
     return chosen;
   }
-  throw Error("found --error with a model in 3-D, expected one in 2-D", ErrorKind::usage);
+  throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
 }
 
 template <int D>

@@ -148,7 +148,7 @@ std::optional<DivergedFields<D>> first_divergence(const Scene<D>& scene, std::si
     again.run_to(StabilityCheck<D, Real>::last_before(bad));
     while (again.done() < bad) {
       again.run_to(again.done() + 1);
-      again.look();
+      again.check_stability();
     }
   } catch (const DivergedFields<D>& first) {
     return first;

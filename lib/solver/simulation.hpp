@@ -11,6 +11,7 @@
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/pauses.hpp"
+#include "solver/record/shot_report.hpp"
 
 namespace slipwave {
 
@@ -22,20 +23,6 @@ using FieldReader = std::function<Field<D>(const FieldKey&)>;
 /// Takes whole fields while a shot runs.
 template <int D>
 using SnapshotSink = std::function<void(double time_s, const FieldReader<D>& field)>;
-
-/// What slip did, summed over cells (theory.md 2.3); energies in J, per metre in 2-D.
-struct SlipTotals {
-  std::int64_t cells = 0, slipped = 0;  // fractured ones, and those that slipped at any time
-  double dissipated = 0;                // turned into heat on the planes
-  double out_of_waves = 0;              // what of it the waves gave, the rest came of the static stress
-};
-
-/// What became of the energy of a shot, J (2-D: J per metre).
-struct ShotReport {
-  std::optional<SlipTotals> slip;
-  std::optional<double> source_work;  // of point sources
-  double energy_left = 0;             // kinetic and elastic, in the model at the end
-};
 
 /// A shot whose fields have grown beyond all that its energy could make. What it had recorded before is in
 /// `gather`: samples up to the last moment at which the fields are known to have been sound, zeros after it.

@@ -165,7 +165,7 @@ TEST_F(Accuracy, OfAShallowSourceAtSeaIsExpectedToBeThatOfNearReceivers) {
 TEST_F(Accuracy, ExpectedIsThatOfWavesThatArrive) {
   const auto plan = [&](const std::string& receivers) {
     return done("sw-shoot rock.nc --source 200,200 --wavelet ricker:15 --time 0.08 --plan " + receivers +
-                " | grep 'direct waves' || true");
+                " | grep 'direct arrivals' || true");
   };
   const std::string near = "--receivers 250,230 ", far = "--receivers 550,550 ";
   EXPECT_TRUE(has(plan(near), "expected error"));
@@ -224,9 +224,9 @@ TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {
       {tool + endless + "--error 0", 2, "--error: found 0, expected it above 0"},
       {tool + endless + "--error -1", 2, "--error: found -1, expected it above 0"},
       {tool + "--wavelet ricker:15 --receivers 1,1 --time 1", 2,
-       "found no --source, expected it, or --case full-space"},
+       "--source is missing; give it, or --case full-space"},
       {tool + "--source 1,1 --wavelet ricker:15 --receivers 1,1", 2,
-       "found no --time, expected it, or --case full-space"},
+       "--time is missing; give it, or --case full-space"},
       {tool + endless + "--source 700,1", 1,
        "source 2 at x=700 z=1 lies outside the model, expected x=0..600 z=0..600"},
       {"timeout 60 sw-accuracy none.nc -o t.nc " + endless, 1, "none.nc: No such file or directory"},

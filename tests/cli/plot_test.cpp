@@ -130,9 +130,10 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
     EXPECT_EQ(files(), before) << arguments;
   };
   refused("none.nc -o x.png", 1, "none.nc: No such file or directory");
-  refused("notes.txt -o x.png", 1,
-          "notes.txt: is no netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
-          "or a gather");
+  refused(
+      "notes.txt -o x.png", 1,
+      "notes.txt: is not a netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
+      "or a gather");
   refused("m.nc -o x.gif", 2, "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg");
   refused("m.nc --map jet -o x.png", 2,
           "--map: found the map 'jet', expected one of uniform, grey, white-black, blue-red, red-blue");
@@ -145,7 +146,7 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   refused("g.sgy --shot 9 -o x.png", 1, "g.sgy: has no trace of shot 9, it holds vz, p of shots 1 to 1");
   refused("s.nc --field div -o x.png", 1, "s.nc: found no field 'div', it holds p, vz");
   refused("m.nc g.sgy -o x.png", 2,
-          "m.nc: several files are drawn together where all hold spectra or all hold errors");
+          "m.nc: several files can be drawn together only if all hold spectra or all hold errors");
   refused("m.nc --movie -o x.png", 1, "m.nc: holds no snapshots, expected them for --movie");
   refused("s.nc --movie", 2, "--movie: draws one file of snapshots, and needs a name (-o NAME.png)");
 }

@@ -95,10 +95,9 @@ TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
          "found --ranks-per-shot 2 and 3 processes, expected a number that divides them");
   expect(shots + "--keep-unstable", 2,
          "found --keep-unstable and an output to standard output, expected the name of a file");
-  expect(shots + "--checkpoint c -o o.sgy", 2,
-         "found --checkpoint and 3 processes, expected it with one process");
+  expect(shots + "--checkpoint c -o o.sgy", 2, "--checkpoint does not work with 3 processes; use one");
   expect("- " + shots.substr(5) + "-o o.sgy", 2,
-         "found a model from standard input and 3 processes, expected the name of a file");
+         "a model from standard input does not work with 3 processes; give the name of a file");
 }
 
 TEST_F(ShotByRanks, KeepsWhatAnUnstableShotRecorded) {

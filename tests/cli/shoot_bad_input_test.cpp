@@ -54,10 +54,10 @@ TEST_F(ShootBadInput, WavesTooShortForTheGridAreAWarningThatSaysTheCost) {
   const std::string line = shoot + "--source 100,50 --wavelet ricker:60 --receivers 3,3 --time 0.1 ";
   const Ran ran = run(line);
   EXPECT_EQ(ran.code, 0);
-  EXPECT_EQ(ran.err.compare(0, 25, "sw-shoot: warning: found "), 0) << ran.err;
-  EXPECT_NE(ran.err.find("cells a shortest wavelength"), std::string::npos);
-  EXPECT_NE(ran.err.find("of their amplitude a wavelength; cells of "), std::string::npos);
-  EXPECT_NE(ran.err.find(" times the cost\n"), std::string::npos);
+  EXPECT_EQ(ran.err.compare(0, 24, "sw-shoot: warning: only "), 0) << ran.err;
+  EXPECT_NE(ran.err.find("cells per shortest P wavelength"), std::string::npos);
+  EXPECT_NE(ran.err.find(" % per wavelength. Use cells of "), std::string::npos);
+  EXPECT_NE(ran.err.find(" times the cost) or --error\n"), std::string::npos);
   done(line + "-q");
 }
 

@@ -141,7 +141,7 @@ TEST_F(ShootOptions, ComeFromAFileAndTheCommandLineWins) {
 TEST_F(ShootOptions, PlanTellsWhatWouldBeComputedAndStops) {
   const auto text = done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1000 --plan");
   for (const std::string word : {"grid", "steps", "time step", "Courant number  ", "memory",
-                                 "slip, second order", "cells a shortest wavelength"})
+                                 "slip, second order", "cells per shortest wavelength"})
     EXPECT_TRUE(has(text, word)) << word << " in " << text;
   EXPECT_FALSE(
       has(done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1 --without slip --plan"), "slip,"));

@@ -82,8 +82,8 @@ class Lab {
   solver::State<2, Real> state_;
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
   std::unique_ptr<solver::Pml<2, Real>> layer_;
-  std::vector<std::unique_ptr<solver::Effect>> passes_;
-  std::unique_ptr<solver::Effect> slip_;
+  std::vector<std::unique_ptr<solver::Effect<2, Real>>> passes_;
+  std::unique_ptr<solver::Effect<2, Real>> slip_;
   bool along_z_only_;
   double work_of_prestress_ = 0;
   std::vector<SweepFraction> splitting_;

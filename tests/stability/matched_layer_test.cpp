@@ -31,7 +31,7 @@ class InLayer {
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
       const auto at = domain_.grid.index(n);
-      const double zp = domain_.impedance[solver::wave_p](at), zs = domain_.impedance[solver::wave_s](at);
+      const double zp = domain_.impedance(solver::wave_p)(at), zs = domain_.impedance(solver::wave_s)(at);
       const auto set = [&](int row, double value) { state_.field_row({0, at[1]}, row)[at[0]] = value; };
       const double pressure = zp * uniform(engine);
       for (const int row : {0, 1}) set(row, zp > 0 ? uniform(engine) : 0);
@@ -46,8 +46,8 @@ class InLayer {
       sweeps_.along(1, 1);
       sweeps_.along(0, 0.5);
       if (!slip_) continue;
-      solver::run_everywhere(*slip_, {n, dt_s_}, state_.layout);
-      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_.layout);
+      solver::run_everywhere(*slip_, {n, dt_s_}, state_);
+      solver::run_after_everywhere(*slip_, {n, dt_s_}, state_);
     }
   }
   double energy() const { return solver::energy(state_, domain_, scene_.model.medium); }
@@ -59,7 +59,7 @@ class InLayer {
   solver::State<2, double> state_;
   solver::Sweeps<2, double> sweeps_;
   solver::Pml<2, double> layer_;
-  std::unique_ptr<solver::Effect> slip_;
+  std::unique_ptr<solver::Effect<2, double>> slip_;
 };
 
 Scene<2> scene_of(const std::string& medium, int cells, EdgeLaw top) {

@@ -110,7 +110,7 @@ TEST_F(NetcdfFileTest, NamesFileAndVariableInErrors) {
             path("a.nc") + ": v: found 2 dimensions, expected 1");
   EXPECT_EQ(sentence_of([] { NetcdfFile::open("none.nc"); }), "none.nc: No such file or directory");
   EXPECT_EQ(sentence_of([] { NetcdfFile::open(std::vector<char>(1000, 'x'), "junk"); }),
-            "junk: is no netCDF file");
+            "junk: is not a netCDF file");
   EXPECT_EQ(sentence_of([] { NetcdfFile::open(std::vector<char>(), "junk"); }),
             "junk: is empty, expected a netCDF file");
 }

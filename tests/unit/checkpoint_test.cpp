@@ -171,7 +171,7 @@ TEST_F(CheckpointFile, OfAnotherFormatOrRunOrNoneIsRefusedByName) {
             path() + ": found a checkpoint of format 7, expected 1");
   write(path(), std::string(5000, 'x'));
   EXPECT_EQ(refusal([&] { RunState run(settings()); }),
-            path() + ": is no checkpoint of sw-shoot, or damaged");
+            path() + ": is not a checkpoint of sw-shoot, or damaged");
   write(path(), whole);
   auto other = settings();
   other.identity[0].value = "7";

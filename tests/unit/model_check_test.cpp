@@ -74,12 +74,12 @@ TEST(ModelCheck, RefusesFracturesWithoutSetOrRock) {
   EXPECT_EQ(refusal([](Model<2>& model) { mark(model, rock, 2); }),
             "fracture at x=15 z=35 is 2, expected at most 1, the number of sets");
   EXPECT_EQ(refusal([](Model<2>& model) { mark(model, 1, 1); }),
-            "fracture at x=15 z=5 stands in fluid, expected it in solid cells only");
+            "fracture at x=15 z=5 lies in fluid; only solid cells can be fractured");
   EXPECT_EQ(refusal([](Model<2>& model) {
               mark(model, rock, 1);
               model.medium.vp[rock] = model.medium.vs[rock] = model.medium.rho[rock] = 0;
             }),
-            "fracture at x=15 z=35 stands in void, expected it in solid cells only");
+            "fracture at x=15 z=35 lies in void; only solid cells can be fractured");
 }
 
 TEST(ModelCheck, RefusesUnphysicalSlipConstants) {

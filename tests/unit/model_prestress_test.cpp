@@ -96,7 +96,7 @@ TEST(Prestress, ThatSlipsByItselfIsRefused) {
   const std::string stress = "-5e5,-1e6,0";
   EXPECT_EQ(refusal({{half, -half}, 1.0 / 3, 0, 0}, stress), "no error");
   EXPECT_EQ(refusal({{half, -half}, 0.3, 0, 0}, stress),
-            "the static stress at x=10 z=70 shears the planes of fracture set 1 'planes' by 250000 Pa, "
+            "the prestress at x=10 z=70 shears the planes of fracture set 1 'planes' by 250000 Pa, "
             "expected at "
             "most their strength of 225000 Pa");
   EXPECT_EQ(refusal({{half, -half}, 0.3, 0, 2.5e4}, stress), "no error");
@@ -106,8 +106,8 @@ TEST(Prestress, ThatSlipsByItselfIsRefused) {
 TEST(Prestress, ThatPullsPlanesApartIsRefusedWhereTheyOpen) {
   EXPECT_EQ(
       refusal({{0, 1}, 0.5, 0, 0, true}, "-3"),
-      "the static stress at x=10 z=70 pulls the planes of fracture set 1 'planes' by 3 Pa, expected them "
-      "pressed together, as they open");
+      "the prestress at x=10 z=70 pulls the planes of fracture set 1 'planes' apart by 3 Pa; planes that may "
+      "open must be under compression");
   EXPECT_EQ(refusal({{0, 1}, 0.5, 0, 0, false}, "-3"), "no error");
   EXPECT_EQ(refusal({{0, 1}, 0.5, 0, 0, true}, "3"), "no error");
 }
@@ -117,7 +117,7 @@ TEST(Prestress, ThatIsNoNumberIsRefused) {
   set_prestress(model, 1, parse_prestress<2>("3"));
   model.prestress_pa[2]({1, 4}) = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(sentence_of([&] { check(model); }),
-            "the static stress at x=30 z=90 on the planes of fracture set 1 'planes' is not finite, expected "
+            "the prestress at x=30 z=90 on the planes of fracture set 1 'planes' is not finite, expected "
             "numbers");
 }
 

@@ -48,7 +48,7 @@ TEST(OutputOptions, ThatContradictEachOtherAreRefused) {
   options = {};
   options.checkpoint = options.traces = "x";
   EXPECT_EQ(refusal([&] { options.check<2>(1); }),
-            "found x for both --checkpoint and an output, expected two places");
+            "--checkpoint and an output both name x; give them different names");
 }
 
 TEST(OutputOptions, WantSlipWhereAFieldIsOfSlip) {

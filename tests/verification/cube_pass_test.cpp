@@ -7,21 +7,14 @@
 namespace slipwave::solver {
 namespace {
 
-/// Nothing happens between steps and all of it is wanted.
+/// Sweeps alone.
 template <class Real>
-class Nothing : public EndOfStep<Real> {
- public:
-  void begin(const StepTime&) override {}
-  bool whole(const StepTime&, std::int64_t) const override { return false; }
-  bool acts_between_steps() const override { return false; }
-  bool looks(const StepTime&, std::int64_t) const override { return false; }
-  void look(const StepTime&, std::int64_t, const IndexRange&, const Real*, std::int64_t) override {}
-  bool injects(const StepTime&, std::int64_t) const override { return false; }
-  Box needed(const StepTime&, const Box&) const override { return {{0, 1 << 20}, {0, 1 << 20}}; }
-  void run(const StepTime&, std::int64_t, const IndexRange&) override {}
-  void run_after_record(const StepTime&, std::int64_t, const IndexRange&) override {}
-  void finish(const StepTime&) override {}
-};
+TimeStep<3, Real> sweeps_of(Cube<Real>& cube, double dt_s, int time_order, std::int64_t steps) {
+  std::vector<Entry<3, Real>> entries;
+  for (const auto& [axis, fraction] : splitting(3, time_order))
+    entries.push_back(Sweep<3, Real>{axis, fraction, {}});
+  return {cube.state().layout, dt_s, std::move(entries), {}, true, steps};
+}
 
 /// Passes end with a whole sweep along x, which belongs to the next step, too: here as many sweeps one after
 /// the other, each through all of the memory.
@@ -70,10 +63,10 @@ TEST(PassThroughACube, DoesWhatSweepsOneAfterTheOtherDo) {
       const ThreadLimit limit(threads);
       Cube<float> cube(medium, edges, order, dt_s, time_order);
       cube.shake(1);
-      Nothing<float> nothing;
-      TiledExecutor<3, float> pipeline(cube.sweeps(), cube.state(), time_order, dt_s, nothing, tiling);
-      pipeline.find_active_cells();
-      pipeline.run(0, steps);
+      auto step = sweeps_of(cube, dt_s, time_order, steps);
+      TiledExecutor<3, float> executor(cube.sweeps(), cube.state(), step, tiling);
+      executor.fields_changed();
+      executor.run(0, steps);
       EXPECT_TRUE(fields_of(cube) == expected)
           << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
     }

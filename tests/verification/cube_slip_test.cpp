@@ -186,8 +186,8 @@ TEST(BlockMedium, OnlyTakesEnergy) {
     for (std::int64_t step = 0; step < 20; ++step) {
       cube.steps(1);
       const double before = cube.energy();
-      run_everywhere(slip, {step, dt_s}, cube.state().layout);
-      run_after_everywhere(slip, {step, dt_s}, cube.state().layout);
+      run_everywhere(slip, {step, dt_s}, cube.state());
+      run_after_everywhere(slip, {step, dt_s}, cube.state());
       const double now = cube.energy();
       lost += before - now;
       EXPECT_LT(now, least * (1 + 1e-11)) << name_of(correction) << ", step " << step;

@@ -64,7 +64,6 @@ Record run(bool of_s, double angle_deg, double viscosity_times_strength, double 
   // Wavelengths between the wave's middle and the middle of the row: what slips first is far from the
   // receivers.
   const double lead = of_s ? 3 : 2;
-  const auto& layout = lab.state().layout;
   const auto zone = lab.domain().low_zone;
   for (std::int64_t k = 0; k < nz; ++k)
     for (std::int64_t i = 0; i < nx; ++i) {
@@ -83,13 +82,13 @@ Record run(bool of_s, double angle_deg, double viscosity_times_strength, double 
   const double end_s = (lead + 1.7) / wave_hz;
   for (std::int64_t n = 0; double(n) * dt_s < end_s; ++n) {
     lab.step();
-    if (slip) run_everywhere(*slip, {n, dt_s}, layout);
+    if (slip) run_everywhere(*slip, {n, dt_s}, lab.state());
     for (const std::size_t side : {0, 1}) {
       const std::int64_t k = (side ? below : above) + zone[1], x = nx / 2 + zone[0];
       record.vx[side].push_back(lab(L::vx, x, k));
       record.vz[side].push_back(lab(L::vz, x, k));
     }
-    if (slip) run_after_everywhere(*slip, {n, dt_s}, layout);
+    if (slip) run_after_everywhere(*slip, {n, dt_s}, lab.state());
   }
   return record;
 }

@@ -50,11 +50,11 @@ TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
               lab(L::Row(L::sxx + c), i, k) =
                   std::uniform_real_distribution<>(-6e5, 6e5)(random) + (scene == &without ? still[c] : 0);
         // Fields that were set are what the first step begins with.
-        run_after_everywhere(slip, {-1, dt_s}, lab.state().layout);
+        run_after_everywhere(slip, {-1, dt_s}, lab.state());
         for (std::int64_t step = 0; step < 30; ++step) {
           lab.step();
-          run_everywhere(slip, {step, dt_s}, lab.state().layout);
-          run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+          run_everywhere(slip, {step, dt_s}, lab.state());
+          run_after_everywhere(slip, {step, dt_s}, lab.state());
         }
       }
       double difference = 0, largest = 0;
@@ -108,10 +108,10 @@ Passed passed(double peak_pa, std::int64_t cells, double h, int order, double st
   };
   for (std::int64_t n = 0; double(n) * dt_s < 500 / rock.vp; ++n) {
     lab.sweep(1, 1);
-    run_everywhere(slip, {n, dt_s}, lab.state().layout);
+    run_everywhere(slip, {n, dt_s}, lab.state());
     note(result.through, last + 4, 1);
     note(result.back, first - 4, -1);
-    run_after_everywhere(slip, {n, dt_s}, lab.state().layout);
+    run_after_everywhere(slip, {n, dt_s}, lab.state());
   }
   return result;
 }

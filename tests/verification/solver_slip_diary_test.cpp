@@ -5,6 +5,7 @@
 
 #include "lab.hpp"
 #include "solver/effect/slip.hpp"
+#include "solver/simulation.hpp"
 #include "whole_effect.hpp"
 
 namespace slipwave::solver {
@@ -22,8 +23,8 @@ double lost_by_slip(Lab<double>& lab, Slip<2, double>& slip, std::int64_t steps,
         for (const auto row : {L::sxx, L::szz, L::sxz})
           lab(row, i, k) += std::uniform_real_distribution<>(-load_pa, load_pa)(random);
     const double before = lab.energy();
-    run_everywhere(slip, {step, dt_s}, lab.state().layout);
-    run_after_everywhere(slip, {step, dt_s}, lab.state().layout);
+    run_everywhere(slip, {step, dt_s}, lab.state());
+    run_after_everywhere(slip, {step, dt_s}, lab.state());
     lost += before - lab.energy();
   }
   return lost;

@@ -46,14 +46,14 @@ Waves solved(const Setup& setup, double h, std::vector<double>& times_s) {
   times_s.clear();
   for (std::int64_t n = 0; double(n) * dt_s < end_s; ++n) {
     lab.sweep(1, 1);
-    run_everywhere(*slip, {n, dt_s}, lab.state().layout);
+    run_everywhere(*slip, {n, dt_s}, lab.state());
     const auto wave = [&](std::int64_t k, double direction) {
       return (lab(L::sxz, 1, k) - direction * z_s * lab(L::vx, 1, k)) / 2;
     };
     waves.through.push_back(wave(last + away, 1));
     waves.back.push_back(wave(first - away, -1));
     times_s.push_back(double(n + 1) * dt_s - way_s);
-    run_after_everywhere(*slip, {n, dt_s}, lab.state().layout);
+    run_after_everywhere(*slip, {n, dt_s}, lab.state());
   }
   EXPECT_EQ(lab(L::szz, 0, last), -normal_pa);
   return waves;

@@ -1,60 +1,111 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/archive.hpp"
-#include "solver/kernels/kernels.hpp"
+#include "scene/scene.hpp"
+#include "solver/record/shot_report.hpp"
+#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
-/// The instant a pass works for: the end of step number `step` (0-based).
+/// The end of time step number `step` (0-based).
 struct StepTime {
   std::int64_t step = 0;
   double dt_s = 0;
   double end_s() const { return double(step + 1) * dt_s; }
 };
 
-/// What a pass does to how many cells, for --plan.
+/// How many cells something works on, for --plan.
 struct EffectShare {
   std::string name;
   std::int64_t cells = 0;
 };
 
-/// One part of a time step: it exists only in scenes that call for it. It works line by line and on part of a
-/// line at a time, as the fields come by; several steps may be under way at once, on different lines.
+/// Where an effect acts on the fields that stand at the end of a step.
+enum class ActsOn {
+  nothing,         // it acts within sweeps, or not at all
+  fracture_cells,  // there the two half sweeps along x round the end of a step stay apart
+  rows,            // all cells of rows(): there, too
+  all_cells,       // where the two half sweeps are merged into one, on what that one leaves
+};
+
+/// What an effect does in a time step and needs for it: all that executors know of it. Fields are sets of
+/// field rows (FieldRows), one bit each; an effect reads and writes no other cell than the one it acts on.
+struct EffectDeclaration {
+  ActsOn acts_on = ActsOn::nothing;
+  bool filters_sweeps = false;  // changes what sweeps add to the fields
+  unsigned reads = 0, writes = 0;
+  bool retains = false;  // remembers anything from one step to the next
+};
+template <int D>
+constexpr unsigned all_velocities = (1U << D) - 1;
+template <int D>
+constexpr unsigned all_fields = (1U << FieldRows<D>::count) - 1;
+template <int D>
+constexpr unsigned all_stresses = all_fields<D> & ~all_velocities<D>;
+
+/// Something that happens to the wave field besides the sweeps. It exists only in scenes that call for it.
+/// Rows of cells along x are numbered as the lines of Layout; an effect is given one row, or part of it, at a
+/// time, in any order and by any thread, but never the same row by two.
+template <int D, class Real>
 class Effect {
  public:
   virtual ~Effect() = default;
-  /// Before the first line of each step, step after step.
-  virtual void begin(const StepTime&) {}
-  /// Brings the fields of these columns of a line to time.end_s(); then they are recorded.
-  virtual void run(const StepTime& time, std::int64_t line, const IndexRange& columns) = 0;
-  /// What the next step begins with, after recording.
-  virtual void run_after_record(const StepTime&, std::int64_t, const IndexRange&) {}
-  /// What it does, for --plan.
+
+  // What it declares.
+  virtual EffectDeclaration declaration() const = 0;
   virtual std::string name() const = 0;
   /// Cells it works on.
   virtual std::int64_t cells() const = 0;
   /// The same, with the parts it consists of.
-  virtual std::vector<EffectShare> effects() const { return {{name(), cells()}}; }
-  /// Lines whose fields it changes or needs whole at the end of a step, sweeps along x included. On all other
-  /// lines the half sweeps along x of neighbouring steps are one. Only asked where acts() says so.
-  virtual std::span<const std::int64_t> lines() const { return {}; }
-  /// Whether it works on other lines too, where what two half sweeps have become comes to it as one.
-  virtual bool acts_between_steps() const { return false; }
-  /// Whether it may make something of a line that is zero.
-  virtual bool injects(const StepTime&, std::int64_t) const { return false; }
-  /// Whether it does anything at that instant.
+  virtual std::vector<EffectShare> shares() const { return {{name(), cells()}}; }
+  /// Rows of ActsOn::rows, ascending.
+  virtual std::span<const std::int64_t> rows() const { return {}; }
+  /// Whether it does anything at the end of that step.
   virtual bool active(const StepTime&) const { return true; }
-  /// Hands over all that it remembers from one step to the next, fields apart; called when no step is under
-  /// way.
-  virtual void serialize(Archive& archive) = 0;
+  /// Whether it may make something of a row whose fields are zero.
+  virtual bool injects(const StepTime&, std::int64_t /*row*/) const { return false; }
 
-  /// Steps that may be under way at once: what begin() made for a step must last that long.
+  // What it does.
+  /// Sets the fields at t = 0; returns whether it did.
+  virtual bool initialize(State<D, Real>&) { return false; }
+  /// Before the first row of each step, step after step. What it prepares for a step must last while
+  /// most_steps_in_progress steps after it begin: rows may be some steps apart.
+  virtual void begin(const StepTime&) {}
   static constexpr std::int64_t most_steps_in_progress = 32;
+  /// Brings these cells to the end of the step; then they are recorded.
+  virtual void apply(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
+  /// What the next step begins with.
+  virtual void apply_after_record(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
+
+  // What it does within sweeps, where it declares so.
+  /// Cells of these whose changes by a sweep along `axis` it filters: up to two ranges in order, else empty.
+  virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
+    return {};
+  }
+  /// Changes what a sweep over `fraction` of a step has made of one field row in such a range: `before` and
+  /// `now` point at its first cell. Only with `remember` its memory advances.
+  virtual void filter(int /*axis*/, const Index<D>& /*row*/, int /*field_row*/, const IndexRange&,
+                      Real /*fraction*/, const Real* /*before*/, Real* /*now*/, bool /*remember*/) {}
+
+  // What it retains.
+  /// Writes or reads all that it remembers from one step to the next, fields apart.
+  virtual void serialize(Archive&) {}
+  /// Shows what it remembers of these rows of the last axis (in 3-D planes), for neighbouring subdomains.
+  virtual void exchange(const IndexRange&, const std::function<void(Real* values, std::int64_t count)>&) {}
+  virtual std::int64_t memory_bytes() const { return 0; }
+
+  // What it tells.
+  /// Adds what it did to the report of the shot; of this subdomain.
+  virtual void report(ShotReport&) const {}
+  /// Fills in what it did, on the model's grid; false where it knows nothing of that.
+  virtual bool fill(SlipField, Field<D>&) const { return false; }
 };
 
 }  // namespace slipwave::solver

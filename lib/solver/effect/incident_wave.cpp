@@ -101,9 +101,11 @@ class ColumnValues {
   }
 
  private:
-  static std::size_t slot(std::int64_t step) { return std::size_t(step % Effect::most_steps_in_progress); }
+  static std::size_t slot(std::int64_t step) {
+    return std::size_t(step % Effect<2, Real>::most_steps_in_progress);
+  }
   std::int64_t cells_;
-  std::array<std::vector<Real>, std::size_t(Effect::most_steps_in_progress)> kept_;  // [row][cell]
+  std::array<std::vector<Real>, std::size_t(Effect<2, Real>::most_steps_in_progress)> kept_;  // [row][cell]
 };
 
 /// A vertical wave in a column of cells whose neighbours are all alike: sweeps along z alone, with the main

@@ -29,16 +29,15 @@ bool reflects(const std::array<double, 2>& one, const std::array<double, 2>& oth
   return false;
 }
 
-/// Parts of a step that sweeps along an axis have, each once.
-std::vector<double> parts_along(int axis, int dimension, int time_order) {
+/// Fractions of a step that sweeps along an axis are over, each once.
+std::vector<double> fractions_along(int axis, int dimension, int time_order) {
   const auto sweeps = splitting(dimension, time_order);
-  std::vector<double> parts;
-  if (axis == 0)
-    parts.push_back(2 * sweeps.front().fraction);  // the last of a step and the first of the next
+  std::vector<double> all;
+  if (axis == 0) all.push_back(2 * sweeps.front().fraction);  // the last of a step and the first of the next
   for (const auto& sweep : sweeps)
-    if (sweep.axis == axis && std::find(parts.begin(), parts.end(), sweep.fraction) == parts.end())
-      parts.push_back(sweep.fraction);
-  return parts;
+    if (sweep.axis == axis && std::find(all.begin(), all.end(), sweep.fraction) == all.end())
+      all.push_back(sweep.fraction);
+  return all;
 }
 
 }  // namespace
@@ -46,17 +45,17 @@ std::vector<double> parts_along(int axis, int dimension, int time_order) {
 template <int D, class Real>
 Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max,
                   double slow_hz, int time_order, Ranks* ranks)
-    : layout_(layout), kernels_(pml_kernels<Real>()) {
+    : layout_(layout), cells_(domain.grid.size() - domain.model_grid.size()), kernels_(pml_kernels<Real>()) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
     axis.low = domain.low_zone[std::size_t(n)];
     axis.high = domain.high_zone[std::size_t(n)];
-    for (const double part : parts_along(n, D, time_order)) {
-      axis.parts.push_back(Real(part));
+    for (const double fraction : fractions_along(n, D, time_order)) {
+      axis.fractions.push_back(Real(fraction));
       auto& factors = axis.factors.emplace_back();
-      // A part back in time gives back what one forward would take: all parts together are one step.
-      const double time = part * dt_s;
+      // A sweep back in time gives back what one forward would take: all together are one step.
+      const double time = fraction * dt_s;
       for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
         const auto width = slot < axis.low ? axis.low : axis.high;
         const auto inside = slot < axis.low ? axis.low - 1 - slot : slot - axis.low;
@@ -130,7 +129,7 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
   std::vector<double> impedances;  // [cell][run][wave]
   for (auto cell = mine.first; cell < mine.last; ++cell)
     for (std::int64_t run = 0; run < runs; ++run)
-      for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance[wave](place(run, cell)));
+      for (const Wave wave : {wave_p, wave_s}) impedances.push_back(domain.impedance(wave)(place(run, cell)));
   if (shared_out) impedances = allgather(ranks, impedances);
   const std::int64_t cells = std::int64_t(impedances.size()) / (2 * runs);
   const std::int64_t before = shared_out ? domain.grid.first[std::size_t(across)] : 0;
@@ -159,7 +158,7 @@ void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& 
 
 /// Of all axes but the last, whose layers lie above and below.
 template <int D, class Real>
-void Pml<D, Real>::show(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
+void Pml<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
   for (int n = 0; n + 1 < D; ++n) {
     auto& memory = axes_[std::size_t(n)].memory;
     const std::int64_t a_row = memory.size() / layout_.shape()[D - 1];
@@ -168,8 +167,8 @@ void Pml<D, Real>::show(const IndexRange& rows, const std::function<void(Real*, 
 }
 
 template <int D, class Real>
-std::array<IndexRange, 2> Pml<D, Real>::covered(int axis, const Index<D>& line,
-                                                const IndexRange& columns) const {
+std::array<IndexRange, 2> Pml<D, Real>::filtered(int axis, const Index<D>& line,
+                                                 const IndexRange& columns) const {
   const auto& layer = axes_[std::size_t(axis)];
   if (axis > 0) return {layer.holds(line[std::size_t(axis)]) ? columns : IndexRange{}, IndexRange{}};
   return {IndexRange{columns.first, std::min(columns.last, layer.low)},
@@ -190,23 +189,26 @@ Real* Pml<D, Real>::memory_of(int axis, const Index<D>& line, int field_row) {
 }
 
 template <int D, class Real>
-void Pml<D, Real>::stretch(int axis, const Index<D>& line, int field_row, const IndexRange& columns,
-                           Real scale, const Real* before, Real* row, bool remember) {
+void Pml<D, Real>::filter(int axis, const Index<D>& line, int field_row, const IndexRange& cells,
+                          Real fraction, const Real* before, Real* now, bool remember) {
   const auto& layer = axes_[std::size_t(axis)];
-  const auto part = std::find(layer.parts.begin(), layer.parts.end(), scale) - layer.parts.begin();
-  const auto& factors = layer.factors[std::size_t(part)];
+  const auto known = std::find(layer.fractions.begin(), layer.fractions.end(), fraction);
+  if (known == layer.fractions.end())
+    throw Error("the PML knows no sweep along " + std::string(1, axis_names<D>()[std::size_t(axis)]) +
+                " over " + std::to_string(double(fraction)) + " of a step");
+  const auto& factors = layer.factors[std::size_t(known - layer.fractions.begin())];
   Real* const memory = memory_of(axis, line, field_row);
   if (axis > 0) {
     const auto cell = line[std::size_t(axis)];
     const Real* const plates =
-        layer.plates[cell < layer.low ? 0 : 1].data() + along_edge(axis, line) - line[0] + columns.first;
-    kernels_.across(columns.count(), factors.from(layer.slot(cell)), plates, before, row,
-                    memory + columns.first, remember);
+        layer.plates[cell < layer.low ? 0 : 1].data() + along_edge(axis, line) - line[0] + cells.first;
+    kernels_.across(cells.count(), factors.from(layer.slot(cell)), plates, before, now, memory + cells.first,
+                    remember);
     return;
   }
-  const auto slot = layer.slot(columns.first);
-  const Real plate = layer.plates[columns.first < layer.low ? 0 : 1][std::size_t(along_edge(axis, line))];
-  kernels_.along(columns.count(), factors.from(slot), plate, before, row, memory + slot, remember);
+  const auto slot = layer.slot(cells.first);
+  const Real plate = layer.plates[cells.first < layer.low ? 0 : 1][std::size_t(along_edge(axis, line))];
+  kernels_.along(cells.count(), factors.from(slot), plate, before, now, memory + slot, remember);
 }
 
 template <int D, class Real>

@@ -6,11 +6,12 @@
 
 #include "base/archive.hpp"
 #include "parallel/ranks.hpp"
+#include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
 
-/// A convolutional perfectly matched layer on the increments of the sweeps (theory.md (E14)). In a zone
+/// A convolutional perfectly matched layer (PML) on the increments of the sweeps (theory.md (E14)). In a zone
 /// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): what a
 /// sweep along that axis adds to a field, over the part `scale` of a step, loses the memory phi of earlier
 /// additions,
@@ -20,32 +21,35 @@ namespace slipwave::solver {
 /// layer cuts through plates (solid between two reflectors) plain damping of all fields keeps their waves
 /// from growing; elsewhere there is hardly any, since it reflects at an angle.
 template <int D, class Real>
-class Pml {
+class Pml : public Effect<D, Real> {
  public:
   /// `slow_hz`: the frequency below which fields are stretched less and less, that of the source.
   /// `time_order`: of the splitting the sweeps follow. Collective where there are ranks (may be null).
   Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
       int time_order = 2, Ranks* ranks = nullptr);
 
-  /// Parts of the columns first <= x < last of a line that lie in the layer of this axis, in order; empty
-  /// ones where there are less than two.
-  std::array<IndexRange, 2> covered(int axis, const Index<D>& line, const IndexRange& columns) const;
-  /// Takes from a row what the layer's memory takes of its change, in columns that covered() gave. `before`
-  /// and `row` point at the first of them. `scale` is a part of the splitting. Only with `remember` the
-  /// memory moves on.
-  void stretch(int axis, const Index<D>& line, int field_row, const IndexRange& columns, Real scale,
-               const Real* before, Real* row, bool remember);
-  std::int64_t memory_bytes() const;
-  /// Shows what it remembers of these rows, outside the layers above and below them.
-  void show(const IndexRange& rows, const std::function<void(Real* values, std::int64_t count)>& to);
-  /// Hands over what it remembers from one step to the next.
-  void serialize(Archive& archive) {
+  EffectDeclaration declaration() const override {
+    return {ActsOn::nothing, true, all_fields<D>, all_fields<D>, true};
+  }
+  std::string name() const override { return "PML"; }
+  std::int64_t cells() const override { return cells_; }
+  /// The cells of the layer of this axis.
+  std::array<IndexRange, 2> filtered(int axis, const Index<D>& row, const IndexRange& cells) const override;
+  /// Takes from the change of a field row what the layer's memory takes of it. Throws an Error where no sweep
+  /// of the splitting is over that fraction of the step.
+  void filter(int axis, const Index<D>& row, int field_row, const IndexRange& cells, Real fraction,
+              const Real* before, Real* now, bool remember) override;
+  void serialize(Archive& archive) override {
     for (auto& axis : axes_) archive.fixed(axis.memory.data(), std::size_t(axis.memory.size()));
   }
+  /// Outside the layers above and below.
+  void exchange(const IndexRange& rows,
+                const std::function<void(Real* values, std::int64_t count)>& to) override;
+  std::int64_t memory_bytes() const override;
 
  private:
-  /// Of one part of the step, by slot: what the memory takes, what the change itself takes, what is left of
-  /// the memory, what the change adds to it, what is left of the field and how much less in plates.
+  /// Of one fraction of the step, by slot: what the memory takes, what the change itself takes, what is left
+  /// of the memory, what the change adds to it, what is left of the field and how much less in plates.
   struct Factors {
     std::vector<Real> of_memory, of_change, left, added, kept, lost_in_plates;
     PmlFactors<Real> from(std::int64_t slot) const {
@@ -55,8 +59,8 @@ class Pml {
   };
   struct Axis {
     std::int64_t cells = 0, low = 0, high = 0;
-    std::vector<Real> parts;       // of a step that sweeps along this axis are made of
-    std::vector<Factors> factors;  // [part], slots: low zone, then high zone, by cells
+    std::vector<Real> fractions;   // of a step that sweeps along this axis are over
+    std::vector<Factors> factors;  // [fraction], slots: low zone, then high zone, by cells
     Buffer<Real> memory;
     std::array<std::vector<Real>, 2> plates;  // low and high zone: 1 in plates, else 0, along the edge
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
@@ -68,6 +72,7 @@ class Pml {
   Real* memory_of(int axis, const Index<D>& line, int field_row);
 
   Layout<D> layout_;
+  std::int64_t cells_;
   const PmlKernels<Real>& kernels_;
   std::array<Axis, std::size_t(D)> axes_;
 };

@@ -14,7 +14,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
     : state_(state), domain_(domain), medium_(scene.model.medium), wavelet_(source.wavelet), unit_(unit) {
   if (domain.subdomain.owns(domain.model_grid, source.position_m)) weigh(source);
   if (ranks) share(*ranks);
-  find_lines();
+  find_rows();
   std::stable_sort(values_.begin(), values_.end(),
                    [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
   if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
@@ -28,7 +28,7 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   centre_ = cell_at(domain_, source.position_m);
   const double rho = medium_.rho(domain_.model_cell(centre_));
   const double volume = std::pow(domain_.grid.spacing_m, D);
-  const bool fluid = domain_.impedance[wave_s](centre_) == 0;
+  const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
@@ -38,43 +38,42 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   }
 }
 
-/// Hands what one of the ranks has weighed to all of them; each keeps what lies on its lines.
+/// Gives what one of the ranks has weighed to all of them; each keeps what lies on its rows.
 template <int D, class Real>
 void PointSource<D, Real>::share(Ranks& ranks) {
   const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
   const std::int64_t before = domain_.grid.first[D - 1];
-  std::vector<double> mine;
-  if (!values_.empty())
-    for (int axis = 0; axis < D; ++axis)
-      mine.push_back(double(centre_[std::size_t(axis)] + (axis == D - 1 ? before : 0)));
-  for (const auto& value : values_)
-    mine.insert(mine.end(), {double(value.line + before * lines_a_row), double(value.place), value.weight});
-  const auto all = allgather(&ranks, mine);
+  std::vector<Index<D>> centre;
+  if (!values_.empty()) {
+    centre.push_back(centre_);
+    centre.back()[D - 1] += before;
+  }
+  for (auto& value : values_) value.line += before * lines_a_row;
+  centre_ = allgather(&ranks, centre).at(0);
+  centre_[D - 1] -= before;
+  const auto all = allgather(&ranks, values_);
   values_.clear();
-  for (int axis = 0; axis < D; ++axis)
-    centre_[std::size_t(axis)] = std::int64_t(all[std::size_t(axis)]) - (axis == D - 1 ? before : 0);
-  for (std::size_t n = D; n < all.size(); n += 3) {
-    const auto line = std::int64_t(all[n]) - before * lines_a_row;
-    if (line >= 0 && line < state_.layout.lines())
-      values_.push_back({line, std::int64_t(all[n + 1]), all[n + 2]});
+  for (auto value : all) {
+    value.line -= before * lines_a_row;
+    if (value.line >= 0 && value.line < state_.layout.lines()) values_.push_back(value);
   }
 }
 
 template <int D, class Real>
-void PointSource<D, Real>::run(const StepTime& time, std::int64_t line, const IndexRange& columns) {
+void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
+                                 const IndexRange& cells) {
   if (!active(time)) return;
-  auto value = std::lower_bound(values_.begin(), values_.end(), line,
+  auto value = std::lower_bound(values_.begin(), values_.end(), fields.row,
                                 [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
-  if (value == values_.end() || value->line != line) return;
+  if (value == values_.end() || value->line != fields.row) return;
   const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
-  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(line)[D - 1]);
-  const double before = counts ? energy_of(line, columns) : 0;
-  Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
-  for (; value != values_.end() && value->line == line; ++value) {
+  const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
+  const double before = counts ? energy_of(fields.row, cells) : 0;
+  for (; value != values_.end() && value->line == fields.row; ++value) {
     const std::int64_t x = state_.layout.column(value->place);
-    if (x >= columns.first && x < columns.last) fields[value->place] += Real(amount * value->weight);
+    if (x >= cells.first && x < cells.last) fields.first[value->place] += Real(amount * value->weight);
   }
-  if (counts) work_[std::size_t(line)] += energy_of(line, columns) - before;
+  if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
 }
 
 /// Of the cells of these columns that the source may reach.
@@ -94,8 +93,8 @@ double PointSource<D, Real>::energy_of(std::int64_t line, const IndexRange& colu
 }
 
 template <int D, class Real>
-double PointSource<D, Real>::work() const {
-  return std::accumulate(work_.begin(), work_.end(), 0.);
+void PointSource<D, Real>::report(ShotReport& report) const {
+  report.source_work = std::accumulate(work_.begin(), work_.end(), 0.);
 }
 
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
@@ -109,20 +108,21 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
   }
 }
 
-/// All lines that a source in this cell can reach, wherever in the cell it is: lines that are acted on take
+/// All rows that a source in this cell can reach, wherever in the cell it is: rows that are acted on take
 /// two half sweeps a step, and which ones do must not depend on the place, or it would be heard.
 template <int D, class Real>
-void PointSource<D, Real>::find_lines() {
+void PointSource<D, Real>::find_rows() {
   constexpr std::int64_t reach = widest_stencil / 2;
-  lines_ = lines_of(values_);
+  rows_ = lines_of(values_);
   for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
     const auto at = state_.layout.line_index(line);
     bool near = true;
     for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach;
-    if (near) lines_.push_back(line);
+    if (near) rows_.push_back(line);
   }
-  std::sort(lines_.begin(), lines_.end());
-  lines_.erase(std::unique(lines_.begin(), lines_.end()), lines_.end());
+  std::sort(rows_.begin(), rows_.end());
+  rows_.erase(std::unique(rows_.begin(), rows_.end()), rows_.end());
+  for (const auto& value : values_) writes_ |= 1U << (value.place / state_.layout.row_pitch());
 }
 
 template class PointSource<2, float>;

@@ -13,36 +13,39 @@ namespace slipwave::solver {
 /// What a point source puts in, half before and half after the recorder, so that the
 /// fields it sees lie in the middle (trapezoidal rule in time). Keeps references.
 template <int D, class Real>
-class PointSource : public Effect {
+class PointSource : public Effect<D, Real> {
  public:
   /// Collective where there are `ranks` (may be null): the one that answers for the cell of the source weighs
-  /// the cells round it for all. Where no line of this process is near it, lines() is empty and nothing is to
-  /// be run.
+  /// the cells round it for all. Where no row of this process is near it, rows() is empty and nothing is to
+  /// be done.
   PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, const Source<D>& source,
               double unit, Ranks* ranks = nullptr);
 
-  void run(const StepTime& time, std::int64_t line, const IndexRange& columns) override;
-  void run_after_record(const StepTime& time, std::int64_t line, const IndexRange& columns) override {
-    run(time, line, columns);
+  EffectDeclaration declaration() const override {
+    return {ActsOn::rows, false, work_.empty() ? 0 : all_fields<D>, writes_, !work_.empty()};
   }
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
-  std::span<const std::int64_t> lines() const override { return lines_; }
-  bool injects(const StepTime& time, std::int64_t line) const override {
-    return active(time) && line >= lines_.front() && line <= lines_.back();
+  std::span<const std::int64_t> rows() const override { return rows_; }
+  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+  bool injects(const StepTime& time, std::int64_t row) const override {
+    return active(time) && row >= rows_.front() && row <= rows_.back();
+  }
+  void apply(const StepTime& time, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply_after_record(const StepTime& time, const RowFields<Real>& fields,
+                          const IndexRange& cells) override {
+    apply(time, fields, cells);
   }
   void serialize(Archive& archive) override { archive.fixed(work_); }
-  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
-
   /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
-  double work() const;
+  void report(ShotReport& report) const override;
 
  private:
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add(const Source<D>& source, int row, int like, double strength);
-  void find_lines();
-  double energy_of(std::int64_t line, const IndexRange& columns) const;
+  void find_rows();
+  double energy_of(std::int64_t row, const IndexRange& cells) const;
 
   State<D, Real>& state_;
   const Domain<D>& domain_;
@@ -51,7 +54,8 @@ class PointSource : public Effect {
   double unit_;
   Index<D> centre_{};  // the cell it is in, on part of the grid maybe beyond it
   std::vector<ValueWeight> values_;
-  std::vector<std::int64_t> lines_;
+  std::vector<std::int64_t> rows_;
+  unsigned writes_ = 0;
   std::vector<double> work_;  // by line; empty: not counted
 };
 

@@ -22,18 +22,19 @@ Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<
 /// Does these things, one after the other, to all stretches of fracture cells that these columns hold.
 /// Columns end between two vectors or with the line.
 template <int D, class Real>
-void Slip<D, Real>::each_stretch(Real* fields, std::int64_t pitch, std::int64_t line,
-                                 const IndexRange& columns, std::initializer_list<SlipAct> active) {
+void Slip<D, Real>::each_stretch(const RowFields<Real>& fields, const IndexRange& columns,
+                                 std::initializer_list<SlipAct> acts) {
   const std::int64_t end =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
-  Real* const stress = fields + FieldRows<D>::normal_stress(0) * pitch;
+  const std::int64_t line = fields.row, pitch = fields.pitch;
+  Real* const stress = fields.field(FieldRows<D>::normal_stress(0));
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (const auto& stretch : groups_[g].stretches(line)) {
       const std::int64_t first = std::max(stretch.first, columns.first), last = std::min(stretch.last, end);
       if (first >= last) continue;
       const auto place = stretch.place + std::size_t(first - stretch.first);
       if (diary_.empty()) {
-        for (const auto act : active) groups_[g].act(act, stress + first, pitch, place, last - first);
+        for (const auto act : acts) groups_[g].act(act, stress + first, pitch, place, last - first);
         continue;
       }
       constexpr std::int64_t piece = 64;
@@ -41,7 +42,7 @@ void Slip<D, Real>::each_stretch(Real* fields, std::int64_t pitch, std::int64_t 
       for (std::int64_t done = 0; done < last - first; done += piece) {
         const std::int64_t n = std::min(piece, last - first - done);
         Real* const now = stress + first + done;
-        for (const auto act : active) {
+        for (const auto act : acts) {
           for (int c = 0; c < SymmetricTensor<D, Real>::components; ++c)
             std::copy(now + c * pitch, now + c * pitch + n, before + c * piece);
           groups_[g].act(act, now, pitch, place + std::size_t(done), n);
@@ -88,28 +89,25 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
 }
 
 template <int D, class Real>
-void Slip<D, Real>::run(const StepTime&, std::int64_t line, const IndexRange& columns) {
-  run_in(state_.field_row(state_.layout.line_index(line), 0), state_.layout.row_pitch(), line, columns);
-}
-
-template <int D, class Real>
-void Slip<D, Real>::run_after_record(const StepTime&, std::int64_t line, const IndexRange& columns) {
-  run_after_in(state_.field_row(state_.layout.line_index(line), 0), state_.layout.row_pitch(), line, columns);
-}
-
-template <int D, class Real>
-void Slip<D, Real>::run_in(Real* fields, std::int64_t pitch, std::int64_t line, const IndexRange& columns) {
+void Slip<D, Real>::apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) {
   if (opens_)
-    each_stretch(fields, pitch, line, columns, {SlipAct::part, SlipAct::slip});
+    each_stretch(fields, cells, {SlipAct::part, SlipAct::slip});
   else
-    each_stretch(fields, pitch, line, columns, {SlipAct::slip});
+    each_stretch(fields, cells, {SlipAct::slip});
 }
 
 template <int D, class Real>
-void Slip<D, Real>::run_after_in(Real* fields, std::int64_t pitch, std::int64_t line,
-                                 const IndexRange& columns) {
+void Slip<D, Real>::apply_after_record(const StepTime&, const RowFields<Real>& fields,
+                                       const IndexRange& cells) {
   if (correction_ == SlipCorrection::first && diary_.empty()) return;
-  each_stretch(fields, pitch, line, columns, {SlipAct::begin});
+  each_stretch(fields, cells, {SlipAct::begin});
+}
+
+template <int D, class Real>
+void Slip<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
+  const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+  for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
+    for (auto& group : groups_) group.show(line, to);
 }
 
 template <int D, class Real>
@@ -125,7 +123,7 @@ std::int64_t Slip<D, Real>::cells() const {
 }
 
 template <int D, class Real>
-std::vector<EffectShare> Slip<D, Real>::effects() const {
+std::vector<EffectShare> Slip<D, Real>::shares() const {
   std::vector<EffectShare> all = {{name(), cells()}};
   const auto add = [&](const std::string& what, const auto& has) {
     std::int64_t sum = 0;

@@ -6,30 +6,33 @@
 #include "scene/scene.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/effect/slip_group.hpp"
-#include "solver/simulation.hpp"
 
 namespace slipwave::solver {
 
 /// The slip correction of all fracture cells at the end of a step (theory.md (S4)), in the order the scene
 /// asks for. Cells of the absorbing zones do not slip. Keeps references.
 template <int D, class Real>
-class Slip : public Effect {
+class Slip : public Effect<D, Real> {
  public:
   /// Fields are `unit` times SI.
   Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s, double unit = 1);
 
-  void run(const StepTime&, std::int64_t line, const IndexRange& columns) override;
-  void run_after_record(const StepTime&, std::int64_t line, const IndexRange& columns) override;
-  /// The same in a copy of the fields of these columns: cell 0 of row 0 and the way to the next row.
-  void run_in(Real* fields, std::int64_t pitch, std::int64_t line, const IndexRange& columns);
-  void run_after_in(Real* fields, std::int64_t pitch, std::int64_t line, const IndexRange& columns);
+  EffectDeclaration declaration() const override {
+    return {ActsOn::fracture_cells, false, all_stresses<D>, all_stresses<D>, true};
+  }
   std::string name() const override;
   std::int64_t cells() const override;
-  std::vector<EffectShare> effects() const override;
+  std::vector<EffectShare> shares() const override;
+  void apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply_after_record(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
   void serialize(Archive& archive) override;
-  /// Shows what the cells of a line remember from one step to the next, the diary apart.
-  void show(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to) {
-    for (auto& group : groups_) group.show(line, to);
+  /// What the cells of these rows remember from one step to the next, the diary apart.
+  void exchange(const IndexRange& rows,
+                const std::function<void(Real* values, std::int64_t count)>& to) override;
+  void report(ShotReport& report) const override { report.slip = totals(); }
+  bool fill(SlipField which, Field<D>& field) const override {
+    field = this->field(which);
+    return true;
   }
 
   /// A field of the diary on the model's grid: see SlipField. The scene must keep a diary, but for `opening`.
@@ -42,8 +45,8 @@ class Slip : public Effect {
     double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3
   };                                          // as the fields are
-  void each_stretch(Real* fields, std::int64_t pitch, std::int64_t line, const IndexRange& columns,
-                    std::initializer_list<SlipAct> active);
+  void each_stretch(const RowFields<Real>& fields, const IndexRange& cells,
+                    std::initializer_list<SlipAct> acts);
   void note(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
             std::int64_t pitch, SlipAct act);
 

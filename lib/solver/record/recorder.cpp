@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
@@ -40,11 +43,11 @@ template <int D>
 std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& part,
                                    const std::vector<Point<D>>& points_m, Ranks* ranks) {
   const auto& grid = medium.grid();
-  std::vector<double>
-      found;  // of each point: cells of fluid down to the first rock, and whether there is one
+  // Of each point: cells of fluid down to the first rock, and whether there is one.
+  std::vector<std::int64_t> found;
   for (const auto& point : points_m) {
     Index<D> at = cell_of(grid, point);
-    double fluid = 0, rock = 0;
+    std::int64_t fluid = 0, rock = 0;
     for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1] && rock == 0; ++at[D - 1]) {
       const auto cell = std::size_t(grid.flat(at));
       if (!part.owns(grid, at[D - 1])) continue;
@@ -56,13 +59,13 @@ std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& par
   found = allgather(ranks, found);
   std::vector<double> depths;
   for (std::size_t n = 0; n < points_m.size(); ++n) {
-    double fluid = 0;
+    std::int64_t fluid = 0;
     bool rock = false;
     for (auto of_part = 2 * n; of_part < found.size() && !rock; of_part += 2 * points_m.size()) {
       fluid += found[of_part];
       rock = found[of_part + 1] != 0;
     }
-    depths.push_back(fluid * grid.spacing_m);
+    depths.push_back(double(fluid) * grid.spacing_m);
   }
   return depths;
 }
@@ -105,22 +108,21 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
 template <int D, class Real>
 Gather Recorder<D, Real>::take() {
   if (!ranks_) return std::move(gather_);
-  std::vector<double> mine;  // number of the trace, samples
+  std::vector<std::int64_t> mine;  // number of a trace, its samples
+  std::vector<double> samples;
   for (std::size_t n = 0; n < gather_.traces.size(); ++n) {
     if (first_term_[n] == first_term_[n + 1]) continue;
-    const auto& samples = gather_.traces[n].samples;
-    mine.push_back(double(n));
-    mine.push_back(double(samples.size()));
-    mine.insert(mine.end(), samples.begin(), samples.end());
+    const auto& of_trace = gather_.traces[n].samples;
+    mine.insert(mine.end(), {std::int64_t(n), std::int64_t(of_trace.size())});
+    samples.insert(samples.end(), of_trace.begin(), of_trace.end());
   }
-  const auto all = gather_on_first(*ranks_, std::as_bytes(std::span<const double>(mine)));
-  std::vector<double> values(all.size() / sizeof(double));
-  if (!all.empty()) std::memcpy(values.data(), all.data(), all.size());
-  for (std::size_t n = 0; n < values.size();) {
-    auto& samples = gather_.traces[std::size_t(values[n])].samples;
-    const auto count = std::size_t(values[n + 1]);
-    samples.assign(values.begin() + std::ptrdiff_t(n + 2), values.begin() + std::ptrdiff_t(n + 2 + count));
-    n += 2 + count;
+  const auto traces = gather_on_first(*ranks_, mine);
+  samples = gather_on_first(*ranks_, samples);
+  auto next = samples.begin();
+  for (std::size_t n = 0; n < traces.size(); n += 2) {
+    const auto end = next + std::ptrdiff_t(traces[n + 1]);
+    gather_.traces[std::size_t(traces[n])].samples.assign(next, end);
+    next = end;
   }
   return std::move(gather_);
 }
@@ -146,15 +148,16 @@ bool Recorder<D, Real>::wants(const StepTime& time) const {
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::sample(const StepTime& time, std::int64_t line, const IndexRange& columns,
-                               const Real* fields, std::int64_t pitch) {
+void Recorder<D, Real>::read(const StepTime& time, const RowFields<const Real>& fields,
+                             const IndexRange& columns) {
+  const auto line = fields.row;
   if (!reads(time, line)) return;
   Real* const values = values_of(time);
   for (auto n = starts_[std::size_t(line)]; n < starts_[std::size_t(line) + 1]; ++n) {
     const auto end = runs_.begin() + std::ptrdiff_t(rows_[n].last);
     auto run = std::partition_point(runs_.begin() + std::ptrdiff_t(rows_[n].first), end,
                                     [&](const Run& one) { return one.last <= columns.first; });
-    const Real* const row = fields + rows_[n].row * pitch;
+    const Real* const row = fields.field(rows_[n].row);
     for (; run != end && run->first < columns.last; ++run) {
       const auto first = std::max(run->first, columns.first), last = std::min(run->last, columns.last);
       std::copy(row + first, row + last, values + run->value + first - run->first);
@@ -214,12 +217,85 @@ void Recorder<D, Real>::serialize(Archive& archive) {
   }
 }
 
+/// Finds the cells to read and where among their values those of each trace stand.
+template <int D, class Real>
+void Recorder<D, Real>::read_all(const Layout<D>& layout,
+                                 const std::vector<std::vector<ValueWeight>>& of_traces) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> places;  // line, place on it
+  for (const auto& weights : of_traces)
+    for (const auto& weight : weights) places.emplace_back(weight.line, weight.place);
+  std::sort(places.begin(), places.end());
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  values_a_step_ = std::int64_t(places.size());
+  values_.assign(std::size_t(Effect<D, Real>::most_steps_in_progress * values_a_step_), 0);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const auto [line, place] = places[n];
+    const auto column = layout.column(place);
+    const int row = int(place / layout.row_pitch());
+    const bool same_line = starts_.size() == std::size_t(line) + 1;
+    if (!same_line) starts_.resize(std::size_t(line) + 1, rows_.size());
+    if (!same_line || rows_.back().row != row) rows_.push_back({row, runs_.size(), runs_.size()});
+    if (rows_.back().first == runs_.size() || runs_.back().last != column) {
+      runs_.push_back({column, column, std::int64_t(n)});
+      rows_.back().last = runs_.size();
+    }
+    ++runs_.back().last;
+  }
+  starts_.resize(std::size_t(layout.lines()) + 1, rows_.size());
+
+  for (auto weights : of_traces) {
+    first_term_.push_back(terms_.size());
+    std::stable_sort(weights.begin(), weights.end(), [](const ValueWeight& one, const ValueWeight& other) {
+      return std::tie(one.line, one.place) < std::tie(other.line, other.place);
+    });
+    for (const auto& weight : weights) {
+      const auto at = std::pair(weight.line, weight.place);
+      const auto value = std::lower_bound(places.begin(), places.end(), at) - places.begin();
+      weights_.push_back(weight.weight);
+      const bool goes_on = terms_.size() > first_term_.back() &&
+                           terms_.back().value + terms_.back().count == value &&
+                           places[std::size_t(value) - 1].second + 1 == weight.place &&
+                           places[std::size_t(value) - 1].first == weight.line;
+      if (!goes_on) terms_.push_back({value, 0});
+      ++terms_.back().count;
+    }
+  }
+  first_term_.push_back(terms_.size());
+}
+
+template <int D, class Real>
+void Recorder<D, Real>::find_box(const Layout<D>& layout, std::int64_t rows_before) {
+  constexpr auto none = std::numeric_limits<std::int64_t>::max();
+  box_ = {{none, 0}, {none, 0}};
+  const auto hold = [](IndexRange& range, std::int64_t n) {
+    range = {std::min(range.first, n), std::max(range.last, n + 1)};
+  };
+  for (std::int64_t line = 0; line < layout.lines(); ++line)
+    for (auto row = starts_[std::size_t(line)]; row < starts_[std::size_t(line) + 1]; ++row)
+      for (auto n = rows_[row].first; n < rows_[row].last; ++n)
+        for (const auto column : {runs_[n].first, runs_[n].last - 1}) {
+          auto at = layout.line_index(line);
+          at[0] = column;
+          hold(box_.rows, at[D - 1]);
+          hold(box_.columns, at[D - 2]);
+        }
+  if (!ranks_) return;
+  const bool any = !runs_.empty();
+  constexpr std::int64_t far = std::int64_t(1) << 60;
+  const auto whole = [&](const IndexRange& mine, std::int64_t before) {
+    return IndexRange{smallest_of(ranks_, any ? mine.first + before : far) - before,
+                      largest_of(ranks_, any ? mine.last + before : -far) - before};
+  };
+  const Box read{whole(box_.rows, rows_before), whole(box_.columns, 0)};
+  if (!read.rows.empty()) box_ = read;
+}
+
 template std::vector<double> water_depths_m(const Medium<2>&, const Subdomain&, const std::vector<Point<2>>&,
+                                            Ranks*);
+template std::vector<double> water_depths_m(const Medium<3>&, const Subdomain&, const std::vector<Point<3>>&,
                                             Ranks*);
 template class Recorder<2, float>;
 template class Recorder<2, double>;
-template std::vector<double> water_depths_m(const Medium<3>&, const Subdomain&, const std::vector<Point<3>>&,
-                                            Ranks*);
 template class Recorder<3, float>;
 template class Recorder<3, double>;
 

@@ -6,7 +6,7 @@
 #include "base/archive.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
-#include "solver/effect/effect.hpp"
+#include "solver/record/record.hpp"
 #include "solver/sweep/point_weights.hpp"
 
 namespace slipwave::solver {
@@ -14,7 +14,7 @@ namespace slipwave::solver {
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
 /// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)).
 template <int D, class Real>
-class Recorder {
+class Recorder : public Record<D, Real> {
  public:
   /// `shot` is the 1-based number traces carry, `unit` what fields are multiples of (Step). Collective where
   /// there are `ranks` (may be null): each records the receivers in the cells it answers for.
@@ -22,17 +22,12 @@ class Recorder {
            double unit, Ranks* ranks = nullptr);
 
   /// Whether it reads anything of a line at the end of that step.
-  bool reads(const StepTime& time, std::int64_t line) const {
+  bool reads(const StepTime& time, std::int64_t line) const override {
     return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && wants(time);
   }
-  /// The rows and columns of all that is read, in 3-D the planes and their rows; on all ranks.
-  const Box& box() const { return box_; }
-  /// Takes what it needs of these columns of a line from the fields whole at the end of the step; `fields` is
-  /// where cell 0 of row 0 stands or would stand, rows `pitch` apart. Several steps may be under way.
-  void sample(const StepTime& time, std::int64_t line, const IndexRange& columns, const Real* fields,
-              std::int64_t pitch);
-  /// Step after step, when all columns of all lines have been taken.
-  void finish(const StepTime& time);
+  Box box() const override { return box_; }
+  void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) override;
+  void finish(const StepTime& time) override;
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
   /// Hands over what it remembers when no step is under way: the samples so far and the steps the next ones
   /// are made of.
@@ -59,7 +54,7 @@ class Recorder {
   }
   void interpolate(std::int64_t newest, double dt_s);
   Real* values_of(const StepTime& time) {
-    return values_.data() + time.step % Effect::most_steps_in_progress * values_a_step_;
+    return values_.data() + time.step % Effect<D, Real>::most_steps_in_progress * values_a_step_;
   }
 
   /// Neighbouring cells of a row that any trace reads, once however many traces do.

@@ -108,7 +108,7 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
 }
 
 template <int D, class Real>
-void StabilityCheck<D, Real>::look(const StepTime& time) const {
+void StabilityCheck<D, Real>::check(const StepTime& time) const {
   using Limits = std::numeric_limits<Real>;
   const double limit = limit_ * unit_;
   const Real beyond = limit < Limits::max() ? std::max(Real(limit), Limits::min()) : Limits::max();
@@ -184,40 +184,11 @@ Divergence<D> StabilityCheck<D, Real>::first_of(const std::vector<char>& bad_lin
   return first;
 }
 
-template <int D, class Real>
-Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeLine<Real>& whole_line,
-                  Component component, double unit) {
-  Field<D> field(domain.model_grid);
-  const std::int64_t nx = domain.model_grid.shape[0], lines = domain.model_grid.size() / nx;
-  const auto pitch = layout.row_pitch();
-  const auto terms = slipwave::row_of(component).terms_in(D);
-  const int count = int(terms.size());
-  parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t line = begin; line < end; ++line) {
-      const Index<D> first = domain.computed_cell(domain.model_grid.index(line * nx));
-      if (!domain.owns(first[D - 1])) continue;
-      const Real* cells = whole_line(layout.line_number(first)) + first[0];
-      auto out = field.line(line);
-      for (std::int64_t i = 0; i < nx; ++i) {
-        double value = count == 1 ? -0. : 0.;  // a field alone keeps the sign of its zeros
-        for (const auto& term : terms)
-          value += cells[row_of<D>(term.field) * pitch + i] / Real(term.sign * count);
-        out[std::size_t(i)] = float(value / unit);
-      }
-    }
-  });
-  return field;
-}
-
 template double largest_velocity(const Scene<2>&, std::size_t, Ranks*);
 template double largest_velocity(const Scene<3>&, std::size_t, Ranks*);
 template class StabilityCheck<2, float>;
 template class StabilityCheck<2, double>;
 template class StabilityCheck<3, float>;
 template class StabilityCheck<3, double>;
-template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<float>&, Component, double);
-template Field<2> field_of(const Layout<2>&, const Domain<2>&, const WholeLine<double>&, Component, double);
-template Field<3> field_of(const Layout<3>&, const Domain<3>&, const WholeLine<float>&, Component, double);
-template Field<3> field_of(const Layout<3>&, const Domain<3>&, const WholeLine<double>&, Component, double);
 
 }  // namespace slipwave::solver

@@ -45,7 +45,7 @@ class StabilityCheck {
       : state_(state), domain_(domain), unit_(unit), limit_(limit) {}
   /// To be called when no step is under way. Names the fastest cell, or where any is not finite the one in
   /// the middle of those: what is not finite spreads alike to all sides.
-  void look(const StepTime& time) const;
+  void check(const StepTime& time) const;
   /// The first step after `step` that ends with a look.
   static std::int64_t next_after(std::int64_t step) { return (step / every + 1) * every - 1; }
   /// Steps made at the last look before so many were made.
@@ -68,14 +68,5 @@ class StabilityCheck {
 /// v^2 = 2 E/(rho_min V). Collective where there are ranks (may be null).
 template <int D>
 double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks = nullptr);
-
-/// Where the fields of a line stand whole at the end of a step: cell 0 of row 0.
-template <class Real>
-using WholeLine = std::function<const Real*(std::int64_t line)>;
-
-/// The model's part of one component of the wave field, line by line as it stands whole.
-template <int D, class Real>
-Field<D> field_of(const Layout<D>& layout, const Domain<D>& domain, const WholeLine<Real>& whole_line,
-                  Component component, double unit);
 
 }  // namespace slipwave::solver

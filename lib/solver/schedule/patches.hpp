@@ -5,7 +5,6 @@
 
 #include "model/model.hpp"
 #include "solver/sweep/domain.hpp"
-#include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
 
@@ -42,15 +41,6 @@ class Patches {
   std::vector<std::int64_t> whole_lines_;
   std::vector<Patch> patches_;
   std::vector<std::size_t> starts_;  // of each line, and the end
-};
-
-/// What the patches of a line leave for its next stripe.
-template <class Real>
-struct PatchBoundary {
-  static constexpr std::int64_t behind = 32, width = behind + 80;
-  std::int64_t line = -1, step = -1, next = 0;  // the stripe begins there
-  StripeBoundary<Real> first, second;           // of both half sweeps
-  std::vector<Real> fields;                     // rows of `width`, from `behind` cells before the next on
 };
 
 }  // namespace slipwave::solver

@@ -27,16 +27,14 @@ std::int64_t stripe_for(const Layout<D>& layout) {
 }  // namespace
 
 template <int D, class Real>
-TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, const State<D, Real>& state, int time_order,
-                                      double dt_s, EndOfStep<Real>& end, const Tiling& tiling,
-                                      std::int64_t rows_beside)
+TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step,
+                                      const Tiling& tiling, std::int64_t rows_beside)
     : sweeps_(sweeps),
+      state_(state),
       layout_(state.layout),
       active_(state),
       everywhere_(tiling.everywhere),
-      splitting_(splitting(D, time_order)),
-      dt_s_(dt_s),
-      end_(end),
+      step_(step),
       steps_per_tile_(steps_of_a_tile(tiling)),
       stripe_width_(tiling.stripe_cells > 0 ? tiling.stripe_cells : stripe_for(layout_)),
       rows_(layout_.shape()[D - 1]),
@@ -48,7 +46,7 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, const State<D, Re
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
-  const auto most = std::int64_t(Effect::most_steps_in_progress / steps_per_tile_);
+  const auto most = std::int64_t(Effect<D, Real>::most_steps_in_progress / steps_per_tile_);
   in_progress_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
   const auto ring = [&](int axis) { return sweeps.make_ring(axis, 0, layout_.padded_nx()); };
   for (auto& pass : in_progress_)
@@ -64,6 +62,7 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, const State<D, Re
     for (std::int64_t m = 0; m < along_y * boundaries_per_sweep(); ++m)
       workers_.back().rings.push_back(ring(1));
   }
+  if (!step_.patches().empty()) make_patch_memory();
 }
 
 template <int D, class Real>
@@ -92,15 +91,15 @@ template <int D, class Real>
 auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const -> std::vector<Stage> {
   std::vector<Stage> all;
   // The last sweep of a step and the first of the next are alike: both belong to the end of a step.
-  const Real end = Real(splitting_.front().fraction);
-  if (first == 0) all.push_back({Stage::along_x, end, {0, dt_s_}});
+  const Real end = Real(step_.sweeps().front().fraction);
+  if (first == 0) all.push_back({Stage::along_x, end, {0, step_.dt_s()}});
   for (std::int64_t step = first; step < last; ++step) {
-    for (std::size_t n = 1; n + 1 < splitting_.size(); ++n) {
-      const int axis = splitting_[n].axis;
+    for (std::size_t n = 1; n + 1 < step_.sweeps().size(); ++n) {
+      const int axis = step_.sweeps()[n].axis;
       const auto kind = axis == 0 ? Stage::along_x : axis == D - 1 ? Stage::along_z : Stage::along_y;
-      all.push_back({kind, Real(splitting_[n].fraction), {step, dt_s_}});
+      all.push_back({kind, Real(step_.sweeps()[n].fraction), {step, step_.dt_s()}});
     }
-    all.push_back({Stage::end_of_step, end, {step, dt_s_}});
+    all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
   }
   std::int64_t behind = 0;
   int along_x = 0, along_y = 0, along_z = 0, ends = 0;
@@ -187,13 +186,13 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
     pass.stages = stages(first, last);
     const Box all{{0, rows_}, {0, cut_cells_}}, growth = growth_of_a_step();
     for (auto& stage : pass.stages) {
-      stage.needed = everywhere_ ? all : end_.needed(stage.time, growth);
+      stage.needed = everywhere_ ? all : step_.needed(stage.time, growth);
       if (!halo_) continue;
       const auto right = halo_->right_after(stage.time.step - first, growth.rows);
       stage.needed.rows = {std::max(stage.needed.rows.first, right.first),
                            std::min(stage.needed.rows.last, right.last)};
     }
-    for (std::int64_t step = first; step < last; ++step) end_.begin({step, dt_s_});
+    for (std::int64_t step = first; step < last; ++step) step_.begin({step, step_.dt_s()});
   }
   const bool ends = band + 1 == bands_;
   const IndexRange rows{band * band_rows_, ends ? rows_ + longest_ : (band + 1) * band_rows_};
@@ -211,7 +210,7 @@ void TiledExecutor<D, Real>::run_band(std::int64_t number, std::int64_t band, st
   }
   if (halo_) halo_->after(rows.first - longest_, ends ? rows_ : rows.last - longest_);
   if (ends)
-    for (std::int64_t step = first; step < last; ++step) end_.finish({step, dt_s_});
+    for (std::int64_t step = first; step < last; ++step) step_.finish({step, step_.dt_s()});
 }
 
 /// Rows that came from neighbours.
@@ -223,7 +222,7 @@ void TiledExecutor<D, Real>::refresh(const IndexRange& rows) {
 }
 
 template <int D, class Real>
-void TiledExecutor<D, Real>::find_active_cells() {
+void TiledExecutor<D, Real>::fields_changed() {
   for (std::int64_t line = 0; line < layout_.lines(); ++line) mark_active(line, whole_lines());
 }
 
@@ -232,7 +231,9 @@ template <int D, class Real>
 Box TiledExecutor<D, Real>::growth_of_a_step() const {
   std::array<std::int64_t, std::size_t(D)> bends;
   for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = bend_rows(axis);
-  const auto along = [&](int axis) { return spread_of_a_step<D>(splitting_, axis, sweeps_.reach(), bends); };
+  const auto along = [&](int axis) {
+    return spread_of_a_step<D>(step_.sweeps(), axis, sweeps_.reach(), bends);
+  };
   const auto rows = along(D - 1), columns = along(D - 2);
   return {{rows, rows}, {columns, columns}};
 }
@@ -242,6 +243,386 @@ std::int64_t TiledExecutor<D, Real>::swept_cells() const {
   std::int64_t cells = 0;
   for (const auto& worker : workers_) cells += worker.swept;
   return cells;
+}
+
+namespace {
+
+/// Rows that are asked for before the first sweep comes to them.
+constexpr std::int64_t rows_ahead = 1;
+
+}  // namespace
+
+template <int D, class Real>
+void TiledExecutor<D, Real>::run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker) {
+  for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
+    if (D == 2 && arriving + rows_ahead < rows_)
+      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.coming());
+    const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
+    for (std::size_t n = 0; n < pass.stages.size(); ++n) {
+      const auto& stage = pass.stages[n];
+      const auto* const columns = &worker.columns[2 * n];
+      const std::int64_t row = arriving - stage.behind;
+      if (stage.kind == Stage::along_z) {
+        if (row >= 0 && row < rows_ + sweeps_.rows_behind() && !columns->empty())
+          along_z(stage, row, *columns, pass, worker);
+      } else if (stage.kind == Stage::along_y) {
+        if (!columns->empty())
+          sweep_plane(stage, row, *columns,
+                      worker.rings[std::size_t(stage.number * boundaries_per_sweep() + in_band)], worker);
+      } else {
+        sweep_rows(stage, row, in_band, columns, worker);
+      }
+    }
+  }
+}
+
+/// A sweep along x or the end of a step, of all lines of a row (in 3-D of a plane).
+template <int D, class Real>
+void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band,
+                                        const IndexRange* columns, Worker& worker) {
+  const bool ends = stage.kind == Stage::end_of_step;
+  const auto side_rows = bend_rows(0);
+  if (side_rows > 0 && row >= 0 && row < rows_ && !columns->empty()) {
+    if (D == 2) {
+      sweeps_.keep(0, row, *columns);
+    } else {
+      const std::int64_t first = columns->first == 0 ? 0 : columns->first + side_rows;
+      for (auto y = first; y < std::min(columns->last + side_rows, cut_cells_); ++y)
+        sweeps_.keep(0, line_of(row, y), whole_lines());
+    }
+  }
+  row -= side_rows;
+  // The first cells of the next stripe come of what this one leaves, too.
+  const std::int64_t left = D == 2 ? Sweeps<D, Real>::lag + 1 : 0;
+  if (row < 0 || row >= rows_ ||
+      !stage.needed.meets({row, row + 1}, {columns[D == 2 && ends ? 1 : 0].first, columns->last + left}))
+    return;
+  const auto boundary = [&](int sweep) -> StripeBoundary<Real>& {
+    const auto number = stage.number + sweep;
+    return worker.boundaries[std::size_t(D == 2 ? number * boundaries_per_sweep() + in_band : number)];
+  };
+  PatchBoundary<Real>* patches = nullptr;
+  if (ends && !step_.patches().empty())
+    patches = &worker.patches[std::size_t(D == 2 ? stage.end * boundaries_per_sweep() + in_band : stage.end)];
+  const auto line = [&](std::int64_t number, const IndexRange& first, const IndexRange& second) {
+    if (!first.empty()) sweeps_.measure_side_surfaces(number);
+    if (ends)
+      end_of_step(stage, number, first, second, boundary(0), boundary(1), patches, worker);
+    else if (!first.empty())
+      along_x(number, first, stage.fraction, boundary(0), worker);
+  };
+  if (D == 2) line(row, columns[0], columns[1]);
+  for (auto y = columns->first; D == 3 && y < columns->last; ++y)
+    line(line_of(row, y), whole_lines(), whole_lines());
+}
+
+/// A sweep along y of these lines of a plane.
+template <int D, class Real>
+void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines,
+                                         Ring<Real>& ring, Worker& worker) {
+  if constexpr (D == 3) {
+    const auto behind = sweeps_.rows_behind(), flank_rows = bend_rows(1);
+    const IndexRange steps{lines.first == 0 ? 0 : lines.first + behind, lines.last + behind};
+    // What is beyond the last line is read some steps before that line is brought forward.
+    const bool low = lines.first == 0, high = steps.first <= cut_cells_ && steps.last > cut_cells_;
+    if (flank_rows > 0 && row >= 0 && row < rows_) {
+      if (low) sweeps_.keep(1, line_of(row, 0), whole_lines());
+      if (high) sweeps_.keep(1, line_of(row, cut_cells_ - 1), whole_lines());
+    }
+    row -= flank_rows;
+    if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
+    if (low || high) sweeps_.measure_flank_surfaces(row);
+    for (auto step = steps.first; step < steps.last; ++step) {
+      const auto done = step - behind;
+      if (is_quiet({row - flank_rows, row + flank_rows + 1}, {done - 1 - sweeps_.reach(), step + 1},
+                   whole_lines())) {
+        sweeps_.pass_over(step, whole_lines(), ring);
+        continue;
+      }
+      sweeps_.across(1, {0, 0, row}, step, whole_lines(), stage.fraction, ring, worker.work);
+      if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), whole_lines());
+    }
+  }
+}
+
+/// Whether all cells of these lines are zero; lines: in 3-D those of each of the rows.
+template <int D, class Real>
+bool TiledExecutor<D, Real>::is_quiet(const IndexRange& rows, const IndexRange& lines,
+                                      const IndexRange& columns) const {
+  if (everywhere_) return false;
+  const auto within = [](const IndexRange& some, std::int64_t cells) {
+    return IndexRange{std::max<std::int64_t>(some.first, 0), std::min(some.last, cells)};
+  };
+  const IndexRange all = D == 2 ? IndexRange{0, 1} : within(lines, cut_cells_), of = within(rows, rows_);
+  for (auto row = of.first; row < of.last; ++row)
+    for (auto y = all.first; y < all.last; ++y)
+      if (!active_.is_quiet(line_of(row, y), columns)) return false;
+  return true;
+}
+
+template <int D, class Real>
+void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& columns) {
+  if (!everywhere_) active_.look(line, columns);
+}
+
+/// A sweep along z, of these columns or, in 3-D, lines.
+template <int D, class Real>
+void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
+                                     TileInProgress& pass, Worker& worker) {
+  constexpr auto lag = Sweeps<D, Real>::lag;
+  const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeSurface<D, Real>::reach;
+  if (!stage.needed.meets({done, step + 1}, columns)) return;
+  // All that row `done` comes of, also rows that have been brought forward since.
+  const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};
+  const auto measure = [&] {
+    sweeps_.measure_end_surfaces(step,
+                                 {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
+  };
+  const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
+    sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
+    if (done < 0 || done >= rows_) return;
+    mark_active(line_of(done, at[D - 2]), across);
+    worker.swept += across.count();
+  };
+  if constexpr (D == 2) {
+    auto& ring = pass.rings[std::size_t(stage.number)];
+    // Free edges read some cells of the columns beside these.
+    if (is_quiet(rows, {}, {columns.first - lag, columns.last + lag})) {
+      sweeps_.pass_over(step, columns, ring);
+      return;
+    }
+    measure();
+    sweep({}, columns, ring);
+  } else {
+    measure();
+    for (auto y = columns.first; y < columns.last; ++y) {
+      auto& ring = pass.rings[std::size_t(stage.number * cut_cells_ + y)];
+      if (is_quiet(rows, with_bends(D - 1, {y, y + 1}), whole_lines()))
+        sweeps_.pass_over(step, whole_lines(), ring);
+      else
+        sweep({0, y, 0}, whole_lines(), ring);
+    }
+  }
+}
+
+template <int D, class Real>
+void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real part,
+                                     StripeBoundary<Real>& boundary, Worker& worker, bool begins) {
+  constexpr auto reach = 2 * Sweeps<D, Real>::lag;
+  const auto at = layout_.line_index(line);
+  const auto row = at[D - 1], y = at[D - 2];
+  if (is_quiet(with_bends(0, {row, row + 1}), with_bends(0, {y, y + 1}),
+               {columns.first - reach, columns.last + reach})) {
+    boundary = {};
+    return;
+  }
+  sweeps_.along_x(line, columns, part, boundary, worker.work, begins);
+  mark_active(line, columns);
+}
+
+template <int D, class Real>
+void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, const IndexRange& first,
+                                         const IndexRange& second, StripeBoundary<Real>& boundary,
+                                         StripeBoundary<Real>& second_boundary, PatchBoundary<Real>* patches,
+                                         Worker& worker) {
+  using Cells = typename TimeStep<D, Real>::Cells;
+  const StepTime& time = stage.time;
+  const auto at = layout_.line_index(line);
+  const auto fields = state_.row_fields(line);
+  const auto effects = [&](auto&& apply) {
+    const bool injects = step_.injects(time, line);
+    // They make nothing of rock at rest.
+    if (!injects && is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
+    apply();
+    if (injects) mark_active(line, first);
+  };
+  if (step_.splits(time, line)) {
+    if (!first.empty()) {
+      along_x(line, first, stage.fraction, boundary, worker);
+      effects([&] { step_.apply(time, Cells::split, fields, first); });
+      step_.read(time, fields, first);
+      effects([&] { step_.apply_after_record(time, Cells::split, fields, first); });
+    }
+    if (!second.empty()) along_x(line, second, stage.fraction, second_boundary, worker);
+    return;
+  }
+  const bool patched = patches && !step_.patches().of(line).empty();
+  const auto copy = patched ? work_on_patches(stage, line, first, second, *patches, worker) : std::nullopt;
+  if (!first.empty()) {
+    if (step_.reads(time, line)) {
+      constexpr auto lag = Sweeps<D, Real>::lag;
+      const IndexRange seen{first.first == 0 ? 0 : first.first + lag,
+                            first.last == layout_.shape()[0] ? first.last : first.last + lag};
+      read_beside_patches(stage, seen, sweeps_.ahead_along_x(line, seen, stage.fraction, worker.work));
+    }
+    if (copy)
+      sweep_beside_patches(line, first, 2 * stage.fraction, boundary, worker);
+    else
+      along_x(line, first, 2 * stage.fraction, boundary, worker);
+    if (step_.acts_on(Cells::merged))
+      effects([&] {
+        step_.apply(time, Cells::merged, fields, first);
+        step_.apply_after_record(time, Cells::merged, fields, first);
+      });
+  }
+  if (copy) put_patches(second, *copy);
+}
+
+namespace {
+
+IndexRange common(const IndexRange& one, const IndexRange& other) {
+  return {std::max(one.first, other.first), std::min(one.last, other.last)};
+}
+
+}  // namespace
+
+template <int D, class Real>
+void TiledExecutor<D, Real>::make_patch_memory() {
+  const auto ends = std::size_t(steps_per_tile_) * std::size_t(D == 2 ? boundaries_per_sweep() : 1);
+  for (auto& worker : workers_) {
+    worker.strip_pitch = worker.work.pitch() + 2 * PatchBoundary<Real>::width;
+    worker.strip = Buffer<Real>(worker.strip_pitch * FieldRows<D>::count);
+    std::fill(worker.strip.data(), worker.strip.data() + worker.strip.size(), Real(0));
+    worker.patches.resize(ends);
+    for (auto& boundary : worker.patches)
+      boundary.fields.resize(std::size_t(FieldRows<D>::count * PatchBoundary<Real>::width));
+  }
+}
+
+/// Brings the fields of the patches of a line, in a copy, to the end of the step and into the next one. As on
+/// lines that take half sweeps as a whole, the second of them stays behind the first. Returns the
+/// copy, nothing where nothing moves.
+template <int D, class Real>
+std::optional<RowFields<Real>> TiledExecutor<D, Real>::work_on_patches(const Stage& stage, std::int64_t line,
+                                                                       const IndexRange& first,
+                                                                       const IndexRange& second,
+                                                                       PatchBoundary<Real>& boundary,
+                                                                       Worker& worker) {
+  using Kept = PatchBoundary<Real>;
+  using Cells = typename TimeStep<D, Real>::Cells;
+  constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
+  const std::int64_t pitch = worker.strip_pitch, nx = layout_.shape()[0];
+  const std::int64_t origin = second.first - Kept::behind - margin;
+  Real* const copy = worker.strip.data() + margin - origin;
+  const auto fields = state_.row_fields(line);
+  const RowFields<Real> strip{line, copy, pitch};
+  const auto each_row = [](auto&& what) {
+    for (int row = 0; row < FieldRows<D>::count; ++row) what(row);
+  };
+  const auto patches = step_.patches().of(line);
+  // Whether any patch has to do with these columns.
+  const auto wanted = [&](const IndexRange& columns) {
+    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+      return patch.blocks.first - margin - beyond < columns.last &&
+             patch.blocks.last + margin + beyond > columns.first;
+    });
+  };
+  if (!wanted({second.first, first.last + beyond})) return std::nullopt;
+  const auto at = layout_.line_index(line);
+  const bool reads = step_.reads(stage.time, line);
+  const auto read = [&](const Patch& patch, const RowFields<Real>& from) {
+    if (const auto seen = common(patch.cells, first); reads && !seen.empty())
+      step_.read(stage.time, from, seen);
+  };
+  if (is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
+               {second.first - Kept::behind, first.last + beyond})) {
+    for (const auto& patch : patches) read(patch, fields);
+    // The next stripe begins with zeros as well as it would go on from them.
+    boundary.line = -1;
+    return std::nullopt;
+  }
+  const bool begins = boundary.line != line || boundary.step != stage.time.step ||
+                      boundary.next != second.first || second.first == 0;
+  if (!begins)
+    each_row([&](int row) {
+      const Real* const kept = boundary.fields.data() + row * Kept::width;
+      std::copy(kept, kept + first.first - second.first + Kept::behind,
+                copy + row * pitch + second.first - Kept::behind);
+    });
+  // What no sweep of this stage has changed yet.
+  const IndexRange unchanged{begins ? std::max<std::int64_t>(origin, 0) : first.first,
+                             std::min(first.last + beyond, nx)};
+  for (const auto& patch : patches) {
+    const auto needed =
+        common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
+    if (!needed.empty())
+      each_row([&](int row) {
+        std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
+                  strip.field(row) + needed.first);
+      });
+  }
+  for (const auto& patch : patches) {
+    const auto sweep = [&](const IndexRange& all, const IndexRange& now, StripeBoundary<Real>& of_sweep) {
+      const auto columns = common(all, now);
+      if (!columns.empty())
+        sweeps_.along_copy(strip, columns, begins || columns.first == all.first, stage.fraction, of_sweep,
+                           worker.work);
+      return columns;
+    };
+    const auto slipping =
+        sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, boundary.first);
+    if (!slipping.empty()) {
+      step_.apply(stage.time, Cells::patch, strip, slipping);
+      read(patch, strip);
+      step_.apply_after_record(stage.time, Cells::patch, strip, slipping);
+    }
+    sweep(patch.blocks, second, boundary.second);
+  }
+  boundary.line = line;
+  boundary.step = stage.time.step;
+  boundary.next = second.last;
+  if (second.last < nx && wanted({second.last, nx}))
+    each_row([&](int row) {
+      const Real* const from = copy + row * pitch + second.last - Kept::behind;
+      std::copy(from, from + first.last - second.last + Kept::behind,
+                boundary.fields.data() + row * Kept::width);
+    });
+  return strip;
+}
+
+/// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves
+/// work.
+template <int D, class Real>
+void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real part,
+                                                  StripeBoundary<Real>& boundary, Worker& worker) {
+  constexpr auto block = Layout<D>::block, least = 4 * block;
+  std::int64_t first = columns.first;
+  bool begins = false;
+  for (const auto& patch : step_.patches().of(line)) {
+    const IndexRange left = {(patch.cells.first + block - 1) / block * block,
+                             patch.cells.last / block * block};
+    if (left.count() < least || left.last < first || left.first >= columns.last) continue;
+    if (first < left.first) along_x(line, {first, left.first}, part, boundary, worker, begins);
+    first = std::min(left.last, columns.last);
+    begins = true;
+  }
+  if (first < columns.last) along_x(line, {first, columns.last}, part, boundary, worker, begins);
+}
+
+/// Puts what became of the patches in these columns into the line.
+template <int D, class Real>
+void TiledExecutor<D, Real>::put_patches(const IndexRange& columns, const RowFields<Real>& copy) {
+  for (const auto& patch : step_.patches().of(copy.row)) {
+    const auto here = common(patch.cells, columns);
+    if (here.empty()) continue;
+    sweeps_.put(copy, here);
+    mark_active(copy.row, here);
+  }
+}
+
+/// Has those of these columns of a line read that are in no patch.
+template <int D, class Real>
+void TiledExecutor<D, Real>::read_beside_patches(const Stage& stage, const IndexRange& columns,
+                                                 const RowFields<Real>& fields) {
+  std::int64_t first = columns.first;
+  const auto read = [&](std::int64_t last) {
+    if (first < last) step_.read(stage.time, fields, {first, last});
+  };
+  for (const auto& patch : step_.patches().of(fields.row)) {
+    read(std::min(patch.cells.first, columns.last));
+    first = std::max(first, patch.cells.last);
+  }
+  read(columns.last);
 }
 
 template class TiledExecutor<2, float>;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "parallel/threads.hpp"
@@ -46,8 +47,15 @@ Index<D> Domain<D>::model_cell(Index<D> at) const {
 }
 
 template <int D>
+const Field<D>& Domain<D>::impedance(Wave wave) const {
+  if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
+  return impedances_[wave];
+}
+
+template <int D>
 bool Domain<D>::shear() const {
-  return std::any_of(impedance[wave_s].begin(), impedance[wave_s].end(), [](float z) { return z > 0; });
+  const auto& z_s = impedance(wave_s);
+  return std::any_of(z_s.begin(), z_s.end(), [](float z) { return z > 0; });
 }
 
 template <int D>
@@ -78,7 +86,8 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   const auto held = domain.model_grid.first[z];
   if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
   if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
-  for (auto& z : domain.impedance) z = Field<D>(domain.grid);
+  std::array<Field<D>, 2> impedance;
+  for (auto& z : impedance) z = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
   parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
@@ -88,11 +97,12 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
       for (std::int64_t x = 0; x < nx; ++x) {
         const auto cell =
             std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
-        domain.impedance[wave_p][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vp[cell];
-        domain.impedance[wave_s][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vs[cell];
+        impedance[wave_p][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vp[cell];
+        impedance[wave_s][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vs[cell];
       }
     }
   });
+  domain.set_impedances(std::move(impedance));
   return domain;
 }
 
@@ -189,7 +199,7 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
   return total;
 }
 
-template struct Domain<2>;
+template class Domain<2>;
 template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
 template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
@@ -198,7 +208,7 @@ template double energy_of_cell(const State<2, float>&, const Domain<2>&, const M
 template double energy_of_cell(const State<2, double>&, const Domain<2>&, const Medium<2>&, Index<2>);
 template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
-template struct Domain<3>;
+template class Domain<3>;
 template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
 template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);

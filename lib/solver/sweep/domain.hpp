@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "model/model.hpp"
 #include "scene/edges.hpp"
@@ -13,7 +14,8 @@ namespace slipwave::solver {
 
 /// The computed grid: the model and, outside its absorbing edges, zones that continue the medium of the edge.
 template <int D>
-struct Domain {
+class Domain {
+ public:
   Grid<D> model_grid;
   Grid<D> grid;             // zones included
   Index<D> low_zone{};      // cells added below the model along each axis
@@ -21,8 +23,14 @@ struct Domain {
   EdgeLaws<D> edges;        // absorbing, without a zone, where other processes go on
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
-  IndexRange own;                     // rows of the computed grid that this process answers for
-  std::array<Field<D>, 2> impedance;  // [wave], kg/(m2 s), 0 where the wave is not carried
+  IndexRange own;  // rows of the computed grid that this process answers for
+
+  /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
+  /// records are made of it: throws std::logic_error after release_impedances().
+  const Field<D>& impedance(Wave wave) const;
+  /// Gives back their memory.
+  void release_impedances() { impedances_ = {}; }
+  void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
 
   /// Whether any cell carries S waves.
   bool shear() const;
@@ -36,6 +44,9 @@ struct Domain {
     for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
     return at;
   }
+
+ private:
+  std::array<Field<D>, 2> impedances_;
 };
 
 /// `medium` is of the model or of what this process holds of it; `edges` are those of the whole model.

@@ -15,10 +15,12 @@ constexpr auto fewest_across = std::int64_t(2) * max_reach;
 
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const auto& z : domain.impedance)
+  for (const Wave wave : {wave_p, wave_s}) {
+    const auto& z = domain.impedance(wave);
     if (z(other) == 0 || z(one) >= strong_interface_ratio * z(other) ||
         z(other) >= strong_interface_ratio * z(one))
       return false;
+  }
   return true;
 }
 
@@ -52,7 +54,7 @@ template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row) {
   using Rows = FieldRows<D>;
-  const double zp = domain.impedance[wave_p](at), zs = domain.impedance[wave_s](at);
+  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
   if (domain.edges[axis][side] != EdgeLaw::free || zs == 0) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {

@@ -40,7 +40,7 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
 template <int D>
 std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
   const auto kind = [&](const Index<D>& at) {
-    return (domain.impedance[wave_p](at) > 0) + (domain.impedance[wave_s](at) > 0);
+    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
   };
   std::array<AxisCells, D> box;
   for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
@@ -142,7 +142,7 @@ template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row) {
   const Index<D> centre = cell_at(domain, point_m);
-  const bool fluid = domain.impedance[wave_s](centre) == 0;
+  const bool fluid = domain.impedance(wave_s)(centre) == 0;
   const auto usable = continued_cells(domain, centre, field_row, fluid);
   std::vector<ValueWeight> weights = weights_within(layout, domain, point_m, usable, field_row);
   if (!fluid && field_row < D)
@@ -157,7 +157,7 @@ template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row) {
   const Index<D> centre = cell_at(domain, point_m);
-  if (field_row < D || domain.impedance[wave_s](centre) == 0)
+  if (field_row < D || domain.impedance(wave_s)(centre) == 0)
     return row_weights(layout, domain, point_m, field_row);
   auto usable = continued_cells(domain, centre, field_row, false);
   for (int axis = 0; axis < D; ++axis) {

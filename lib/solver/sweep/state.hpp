@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <memory>
 #include <new>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "grid/field.hpp"
@@ -107,6 +109,17 @@ struct Stretch {
   MaterialRows<Real> rows() const { return {&b, &zp, &zs}; }
 };
 
+/// The fields of a row of cells, in the state or in a copy: where its cell 0 of field row 0 stands, and the
+/// way to the next field row.
+template <class Real>
+struct RowFields {
+  std::int64_t row;  // number of the line (Layout)
+  Real* first;
+  std::int64_t pitch;
+  Real* field(int field_row) const { return first + field_row * pitch; }
+  operator RowFields<const Real>() const requires(!std::is_const_v<Real>) { return {row, first, pitch}; }
+};
+
 /// Wave field and material of the computed grid: the model and the absorbing zones round it.
 template <int D, class Real>
 struct State {
@@ -124,6 +137,9 @@ struct State {
   }
   const Real* field_row(const Index<D>& at, int row) const {
     return fields.data() + layout.line(at) + row * layout.row_pitch();
+  }
+  RowFields<Real> row_fields(std::int64_t line) {
+    return {line, field_row(layout.line_index(line), 0), layout.row_pitch()};
   }
   Real* material_row(const Index<D>& at, int row) {
     return material.data() + material_layout.line(at) + row * material_layout.row_pitch();

@@ -1,6 +1,7 @@
 #include "solver/sweep/sweeps.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 
 #include "parallel/threads.hpp"
@@ -36,7 +37,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      ends_[axis][wave] = InterfaceStencils(domain.impedance[wave], edges_, axis, wave, reach_, bent);
+      ends_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
     }
   });
 }
@@ -131,10 +132,15 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
   // Made in place: a copy would wait for all that loops before this have written.
-  const auto covered = layer_ ? layer_->covered(axis, line, columns) : std::array<IndexRange, 2>{};
-  for (const auto& part : covered)
-    for (int n = 0; n < row_count && !part.empty(); ++n)
-      std::copy(field(n) + part.first, field(n) + part.last, work.before(n) + part.first - columns.first);
+  const auto each_filtered = [&](auto&& what) {
+    for (auto* filter : filters_)
+      for (const auto& part : filter->filtered(axis, line, columns))
+        for (int n = 0; n < row_count && !part.empty(); ++n)
+          what(*filter, part, n, work.before(n) + part.first - columns.first);
+  };
+  each_filtered([&](const auto&, const IndexRange& part, int n, Real* before) {
+    std::copy(field(n) + part.first, field(n) + part.last, before);
+  });
   const auto swept = [&](std::int64_t x) -> SweptRows<Real> {
     const auto at = [&](int n) { return field(n) + x; };
     if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
@@ -159,10 +165,9 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   };
   tell_apart(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, inside, between_faces);
   work.coming().prefetch_one();
-  for (const auto& part : covered)
-    for (int n = 0; n < row_count && !part.empty(); ++n)
-      layer_->stretch(axis, line, rows[n], part, scale, work.before(n) + part.first - columns.first,
-                      field(n) + part.first, remember);
+  each_filtered([&](auto& filter, const IndexRange& part, int n, const Real* before) {
+    filter.filter(axis, line, rows[n], part, scale, before, field(n) + part.first, remember);
+  });
 }
 
 template <int D, class Real>
@@ -200,6 +205,380 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
         across(axis, at, step, columns, scale, ring, work[std::size_t(worker)]);
     }
   });
+}
+
+namespace {
+
+/// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
+/// the edge is part of the law (fill_material).
+template <class Real>
+void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering) {
+  const bool motionless = extension_of(law, wave) == Extension::motionless;
+  for (std::int64_t i = 0; i < n; ++i) entering[i] = motionless ? -leaving[i] : Real(0);
+}
+
+}  // namespace
+
+template <int D, class Real>
+void Sweeps<D, Real>::expect(std::int64_t line, const IndexRange& columns,
+                             PrefetchQueue<Real>& coming) const {
+  const Index<D> at = state_.layout.line_index(line);
+  coming.clear();
+  coming.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
+             FieldRows<D>::count);
+  if (!state_.stretch(line, columns.first, columns.last))
+    coming.add(state_.material_row(at, 0) + columns.first, columns.count(),
+               state_.material_layout.row_pitch(), material_rows);
+}
+
+/// At the low edge what goes up comes from what went down, at the high one the other way round.
+template <int D, class Real>
+void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> leaving,
+                               OutgoingWaves<Real> entering) const {
+  const EdgeLaw law = edges_[axis][side];
+  for (int p = 0; p < D; ++p)
+    enter(law, pairs_[axis][p].wave, n, side ? leaving.up(p) : leaving.down(p),
+          side ? entering.down(p) : entering.up(p));
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real scale,
+                              StripeBoundary<Real>& boundary, Workspace<Real>& work, bool begins) {
+  const auto& layout = state_.layout;
+  const bool low = columns.first == 0, high = columns.last == layout.shape()[0];
+  const std::int64_t first = low ? 0 : begins ? columns.first - lag : columns.first + lag;
+  const IndexRange leave{first, high ? layout.padded_nx() : columns.last + lag};
+  go_on({line,
+         leave,
+         {columns.first, high ? leave.last : columns.last},
+         state_.field_row(layout.line_index(line), 0),
+         layout.row_pitch(),
+         true},
+        begins || low, high, scale, boundary, work);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::along_copy(const RowFields<Real>& copy, const IndexRange& columns, bool begins,
+                                 Real scale, StripeBoundary<Real>& boundary, Workspace<Real>& work) {
+  const IndexRange leave{begins ? columns.first - lag : columns.first + lag, columns.last + lag};
+  go_on({copy.row, leave, columns, copy.first, copy.pitch, false}, begins, false, scale, boundary, work);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::put(const RowFields<Real>& copy, const IndexRange& columns) {
+  const auto to = state_.row_fields(copy.row);
+  for (int row = 0; row < FieldRows<D>::count; ++row)
+    std::copy(copy.field(row) + columns.first, copy.field(row) + columns.last, to.field(row) + columns.first);
+}
+
+/// A piece of a sweep along x with what the piece before it left, unless it begins.
+template <int D, class Real>
+void Sweeps<D, Real>::go_on(const Piece& piece, bool begins, bool ends, Real scale,
+                            StripeBoundary<Real>& boundary, Workspace<Real>& work) {
+  const auto faces = work.faces();
+  const auto leaving = work.leaving();
+  const std::int64_t last = piece.leave.last - std::min(piece.leave.first, piece.update.first);
+  // Of the cells that wait their faces, what leaves them and what leaves the one before upwards.
+  const bool uniform_interior = !state_.uniform_interior[0].empty();
+  const auto waiting = [&](std::int64_t from, auto&& copy) {
+    for (int p = 0; p < D; ++p) {
+      copy(faces.v(p) + from, boundary.v[p]);
+      copy(faces.s(p) + from, boundary.s[p]);
+      if (uniform_interior) copy(leaving.up(p) + from - 1, boundary.up[p]);
+      if (uniform_interior) copy(leaving.down(p) + from, boundary.down[p]);
+      copy(leaving.up(p) + from + lag - 1, boundary.last_up[p]);
+    }
+  };
+  // Of known size, so that nothing is called for it.
+  if (!begins) waiting(0, [](Real* to, const auto& kept) { std::memcpy(to, kept, sizeof kept); });
+  for (int p = 0; begins && p < D && piece.leave.first > 0; ++p) leaving.up(p)[-1] = 0;
+  sweep_piece(piece, scale, work);
+  if (ends) return;
+  waiting(last - lag, [](const Real* from, auto& kept) { std::memcpy(kept, from, sizeof kept); });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy,
+                                 Workspace<Real>& work) {
+  const std::int64_t nx = state_.layout.shape()[0];
+  const IndexRange leave{std::max<std::int64_t>(columns.first - lag, 0),
+                         columns.last + lag >= nx ? state_.layout.padded_nx() : columns.last + lag};
+  const auto from = state_.row_fields(copy.row);
+  for (int row = 0; row < FieldRows<D>::count; ++row)
+    std::copy(from.field(row) + leave.first - max_reach, from.field(row) + leave.last + max_reach,
+              copy.field(row) + leave.first - max_reach);
+  const auto leaving = work.leaving();
+  for (int p = 0; p < D && leave.first > 0; ++p) leaving.up(p)[-1] = 0;
+  sweep_piece({copy.row, leave, columns, copy.first, copy.pitch, false}, scale, work);
+}
+
+template <int D, class Real>
+RowFields<Real> Sweeps<D, Real>::ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
+                                               Workspace<Real>& work) {
+  // Cell 0 of the copy would stand here.
+  const RowFields<Real> copy{line, work.copy() - std::max<std::int64_t>(columns.first - lag, 0),
+                             work.pitch()};
+  copy_ahead(columns, scale, copy, work);
+  return copy;
+}
+
+/// What leaves the cell before the first that sends out is in its place.
+template <int D, class Real>
+void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work) {
+  const std::int64_t nx = state_.layout.shape()[0], base = std::min(piece.leave.first, piece.update.first);
+  const bool begins = piece.leave.first == 0, ends = piece.leave.last >= nx;
+  const Index<D> at = state_.layout.line_index(piece.line);
+  const auto first = work.leaving().at(piece.leave.first - base);
+  if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
+  if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
+  reconstruct_row(0, at, piece.leave, piece.fields, piece.pitch, 1, scale, first, work.coming());
+  if (begins) enter_at(0, 0, 1, first, first.at(-1));
+  IndexRange met = piece.leave;
+  if (ends) {
+    const auto beyond = first.at(nx - piece.leave.first);
+    met.last += lag;  // where the row fills whole blocks its last face is in the next one
+    for (int p = 0; p < D; ++p)
+      for (Real* const zero : {beyond.up(p), beyond.down(p)}) std::fill(zero, zero + met.last - nx, Real(0));
+    enter_at(0, 1, 1, beyond.at(-1), beyond);
+  }
+  // The faces at the ends of a line have other material on one side.
+  const std::int64_t inner_first = begins ? std::min(lag, met.last) : met.first;
+  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : met.last;
+  const auto faces = work.faces();
+  const auto meet = [&](const IndexRange& part) {
+    const auto here = first.at(part.first - piece.leave.first);
+    const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
+    const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
+    face_kernels(stretch).meet(part.count(), here.at(-1), here, lo,
+                               stretch ? lo : state_.material_from(at, part.first),
+                               faces.at(part.first - base));
+  };
+  const auto uniform_interior = state_.uniform_interior[0].of(piece.line);
+  for (const IndexRange& part : {IndexRange{met.first, inner_first}, IndexRange{inner_first, inner_last},
+                                 IndexRange{inner_last, met.last}})
+    // The first face of a run is that of the cell before it, too.
+    tell_apart(
+        uniform_interior, 1, part, [](const IndexRange&) {}, meet);
+  work.coming().prefetch_one();
+  const auto here = work.leaving().at(piece.update.first - base);
+  const auto lo = faces.at(piece.update.first - base);
+  update(0, at, piece.update, piece.fields, piece.pitch, scale, {lo, lo.at(1), here.at(-1), here, here.at(1)},
+         work, piece.remember);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns,
+                             Real scale, Ring<Real>& ring, Workspace<Real>& work) {
+  const auto& layout = state_.layout;
+  const std::int64_t rows = layout.shape()[axis], row = step - reach_;
+  const IndexRange wide{columns.first, columns.last == layout.shape()[0] ? layout.padded_nx() : columns.last};
+  const auto line = [&](std::int64_t k) {
+    Index<D> index = at;
+    index[axis] = k;
+    return index;
+  };
+  if (row == 0) fill_ghost_rows(axis, at, 0, wide, scale);
+  if (row == std::max<std::int64_t>(0, rows - reach_)) fill_ghost_rows(axis, at, 1, wide, scale);
+  if (fused_row(axis, at, row, wide, scale, ring, work)) return;
+  const std::int64_t x = wide.first, n = wide.count();
+  if (row >= 0 && row < rows)
+    reconstruct_row(axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(),
+                    layout.stride(axis), scale, ring.leaving(row, x), work.coming());
+  if (row >= 0 && row <= rows) {
+    const auto above = ring.leaving(row - 1, x), here = ring.leaving(row, x);
+    if (row == 0) enter_at(axis, 0, n, here, above);
+    if (row == rows) enter_at(axis, 1, n, above, here);
+    const auto inside = [&](std::int64_t k) {
+      return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
+                                : std::span<const IndexRange>();
+    };
+    const auto meet = [&](const IndexRange& part) {
+      const auto stretch = [&](std::int64_t k) {
+        return k >= 0 && k < rows ? state_.stretch(layout.line_number(line(k)), part.first, part.last)
+                                  : nullptr;
+      };
+      const auto *lo = stretch(row - 1), *hi = stretch(row);
+      const bool uniform = lo && hi;
+      const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
+      face_kernels(uniform).meet(part.count(), above.at(part.first - x), here.at(part.first - x),
+                                 uniform ? lo->rows() : from(row - 1), uniform ? hi->rows() : from(row),
+                                 ring.faces(row, part.first));
+    };
+    // Faces between cells that need none are left out.
+    const auto below = inside(row - 1);
+    tell_apart(
+        inside(row), 0, wide,
+        [&](const IndexRange& part) {
+          tell_apart(
+              below, 0, part, [](const IndexRange&) {}, meet);
+        },
+        meet);
+  }
+  work.coming().prefetch_one();
+  const std::int64_t done = step - rows_behind();
+  if (done >= 0 && done < rows)
+    update(axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
+           {ring.faces(done, x), ring.faces(done + 1, x), ring.leaving(done - 1, x), ring.leaving(done, x),
+            ring.leaving(done + 1, x)},
+           work, true);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::pass_over(std::int64_t step, const IndexRange& columns, Ring<Real>& ring) const {
+  const std::int64_t row = step - reach_;
+  if (row < 0) return;
+  const std::int64_t last =
+      columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
+  const auto leaving = ring.leaving(row, columns.first);
+  const auto faces = ring.faces(row, columns.first);
+  const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
+  for (int p = 0; p < D; ++p)
+    for (Real* const zero : {leaving.up(p), leaving.down(p), faces.v(p), faces.s(p)}) clear(zero);
+}
+
+/// A row across in one loop, unless something comes between its parts: then it does nothing.
+template <int D, class Real>
+bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                Real scale, Ring<Real>& ring, Workspace<Real>& work) {
+  const auto& layout = state_.layout;
+  const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
+  if (D != 2 || !shear_ || done < 0 || row >= layout.shape()[axis]) return false;
+  Index<D> here = at, below = at, brought = at;
+  here[axis] = row, below[axis] = row - 1, brought[axis] = done;
+  const auto number = layout.line_number(here);
+  // One material is better off with loops of its own.
+  if (state_.stretch(number, x, columns.last)) return false;
+  // What leaves downwards is not kept, which cells inside one material would need.
+  for (const auto& line : {here, below, brought})
+    for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
+      if (run.first < columns.last && run.last > columns.first) return false;
+  for (const auto& ends : ends_[axis])
+    if (ends.any(number, columns)) return false;
+  for (const auto* filter : filters_)
+    for (const auto& part : filter->filtered(axis, brought, columns))
+      if (!part.empty()) return false;
+  const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
+  const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
+  const auto from = ring.leaving(row - 1, x), to = ring.leaving(row, x);
+  const auto faces = ring.faces(row, x);
+  work.coming().prefetch_one(), work.coming().prefetch_one();
+  kernels_[false]->across(columns.count(), scale,
+                          {{field(0), field(1), field(2), field(3), field(4)},
+                           layout.stride(axis),
+                           state_.material_layout.row_pitch(),
+                           to.up(1) - to.up(0),
+                           faces.pitch,
+                           material(below),
+                           material(here),
+                           material(brought),
+                           from.up(0),
+                           to.up(0),
+                           faces.first,
+                           ring.faces(done, x).first,
+                           ring.faces(done + 1, x).first});
+  work.coming().prefetch_one(), work.coming().prefetch_one();
+  return true;
+}
+
+namespace {
+
+/// Signs of the mirror image of a pair.
+template <class Real>
+struct Mirror {
+  Real v, s;
+  bool level;
+  explicit Mirror(Extension law)
+      : v(law == Extension::motionless ? -1 : 1),
+        s(law == Extension::traction_free ? -1 : 1),
+        level(law == Extension::level) {}
+  /// The cell, counted from the edge, that stands for ghost j.
+  std::int64_t image(std::int64_t j, std::int64_t cells) const { return level ? 0 : std::min(j, cells - 1); }
+};
+
+}  // namespace
+
+template <int D, class Real>
+void Sweeps<D, Real>::keep(int axis, std::int64_t line, const IndexRange& columns) {
+  const IndexRange at = axis == 0 ? columns : [&] {
+    const auto row = state_.layout.line_index(line)[std::size_t(axis)];
+    return IndexRange{row, row + 1};
+  }();
+  auto& edges = free_edges_[axis];
+  if (at.first == 0 && !edges[0].empty()) edges[0].keep(state_, line);
+  if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].keep(state_, line);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::measure_side_surfaces(std::int64_t line) {
+  for (auto& edge : free_edges_[0])
+    if (!edge.empty()) edge.measure(state_, line, line + 1);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::measure_flank_surfaces(std::int64_t plane) {
+  const auto cells = state_.layout.padded_nx();
+  for (auto& edge : free_edges_[1])
+    if (!edge.empty()) edge.measure(state_, plane * cells, (plane + 1) * cells);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::measure_end_surfaces(std::int64_t step, const IndexRange& columns) {
+  const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
+  const auto measure = [&](int side) {
+    free_edges_[z_axis][side].measure(state_, columns.first * cells, columns.last * cells);
+  };
+  if (step == reach_) measure(0);
+  if (step == state_.layout.shape()[z_axis]) measure(1);
+}
+
+/// The values a stencil finds beyond an end of a line.
+template <int D, class Real>
+void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch,
+                                       Real scale) const {
+  const std::int64_t n = state_.layout.shape()[0];
+  const auto& edge = free_edges_[0][side];
+  const auto& all = pairs_[0];
+  for (int p = 0; p < pair_count(); ++p) {
+    const Mirror<Real> mirror(extension_of(edges_[0][side], all[p].wave));
+    Real* const v = fields + all[p].v * pitch;
+    Real* const s = fields + all[p].s * pitch;
+    for (std::int64_t j = 0; j < reach_; ++j) {
+      const std::int64_t from = mirror.image(j, n);
+      const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - from : from;
+      v[ghost] = mirror.v * v[cell];
+      s[ghost] = mirror.s * s[cell];
+      if (edge.empty()) continue;
+      v[ghost] += Real(2 * j + 1) * edge.bend(p)[line];
+      s[ghost] += scale * edge.jump(p)[line];
+    }
+  }
+}
+
+/// The same beyond the first or the last row of another axis.
+template <int D, class Real>
+void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns,
+                                      Real scale) {
+  const std::int64_t n = state_.layout.shape()[axis];
+  const auto& edge = free_edges_[axis][side];
+  const auto& all = pairs_[axis];
+  const auto first = edge.empty() ? 0 : edge.number(at);
+  for (int p = 0; p < pair_count(); ++p) {
+    const Mirror<Real> mirror(extension_of(edges_[axis][side], all[p].wave));
+    for (std::int64_t j = 0; j < reach_; ++j) {
+      const std::int64_t from = mirror.image(j, n);
+      Index<D> ghost = at, cell = at;
+      ghost[axis] = side ? n + j : -1 - j;
+      cell[axis] = side ? n - 1 - from : from;
+      const auto fill = [&](int row, Real sign, const Real* gain, Real share) {
+        Real* const to = state_.field_row(ghost, row);
+        const Real* const source = state_.field_row(cell, row);
+        for (std::int64_t i = columns.first; i < columns.last; ++i)
+          to[i] = sign * source[i] + (gain ? share * gain[i] : Real(0));
+      };
+      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.bend(p) + first, Real(2 * j + 1));
+      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.jump(p) + first, scale);
+    }
+  }
 }
 
 template class Sweeps<2, float>;

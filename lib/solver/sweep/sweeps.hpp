@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "scene/edges.hpp"
-#include "solver/effect/pml.hpp"
+#include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_stencils.hpp"
@@ -16,16 +16,16 @@ namespace slipwave::solver {
 /// Grid-characteristic sweeps in flux form along each axis (theory.md (E3)-(E10)). A sweep moves the fields
 /// by `scale` of the time step, back in time where it is negative, under the part of the equations with
 /// derivatives along its axis. Lines of a sweep along x, and columns of a sweep across, do not depend on each
-/// other. Sweeps come in pieces, for the passes through memory of Pipeline: the results do not depend on how
-/// they are cut.
+/// other. Sweeps come in pieces, for the time tiles of TiledExecutor: the results do not depend on how they
+/// are cut.
 template <int D, class Real>
 class Sweeps {
  public:
   /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
-  /// From now on sweeps are stretched in this layer (null: nowhere), which must outlive them.
-  void use(Pml<D, Real>* layer) { layer_ = layer; }
+  /// From now on this effect filters what sweeps add; it must outlive them.
+  void use(Effect<D, Real>* filter) { filters_.push_back(filter); }
 
   /// A whole sweep along any axis, shared out to threads.
   void along(int axis, Real scale);
@@ -37,20 +37,18 @@ class Sweeps {
   void along_x(std::int64_t line, const IndexRange& columns, Real scale, StripeBoundary<Real>& boundary,
                Workspace<Real>& work, bool begins = false);
   static constexpr std::int64_t lag = Layout<D>::block;
-  /// What along_x() will make of these columns, read from lag more cells on both sides; the state stays as it
-  /// is. Pointer to the line's cell 0 in row 0 of a copy, in the workspace, rows ahead_pitch() apart.
-  const Real* ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale, Workspace<Real>& work);
-  /// Cell 0 of row 0 of a copy of a line's fields, and the way to the next row.
-  struct Copy {
-    Real* fields;
-    std::int64_t pitch;
-  };
-  /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the line and
-  /// from the matched layer. The first piece `begins`; the copy must hold 2 * lag cells more on both sides.
-  void along_copy(std::int64_t line, const Copy& copy, const IndexRange& columns, bool begins, Real scale,
+  /// Makes in `copy` what along_x() would make of these columns, of lag more cells on both sides; the state
+  /// and the memory of filters stay as they are. The copy must have room for the reconstruction beyond those.
+  void copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy, Workspace<Real>& work);
+  /// The same in the workspace.
+  RowFields<Real> ahead_along_x(std::int64_t line, const IndexRange& columns, Real scale,
+                                Workspace<Real>& work);
+  /// A piece of a sweep along x in a copy of some columns, which must be far from the ends of the row and
+  /// from filters. The first piece `begins`; the copy must hold 2 * lag cells more on both sides.
+  void along_copy(const RowFields<Real>& copy, const IndexRange& columns, bool begins, Real scale,
                   StripeBoundary<Real>& boundary, Workspace<Real>& work);
-  /// Puts these columns of a copy into the line.
-  void put(std::int64_t line, const IndexRange& columns, const Real* copy, std::int64_t pitch);
+  /// Puts these columns of a copy into its row.
+  void put(const RowFields<Real>& copy, const IndexRange& columns);
 
   /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
   /// out what leaves it and row step - rows_behind() is brought forward, where there are such rows; `at` says
@@ -85,10 +83,6 @@ class Sweeps {
   /// These columns of a line will be needed soon.
   void expect(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& coming) const;
   Workspace<Real> make_workspace(std::int64_t widest) const;
-  /// Cell 0 of row 0.
-  const Real* fields_of(std::int64_t line) const {
-    return state_.field_row(state_.layout.line_index(line), 0);
-  }
   /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
   std::int64_t interface_stencil_cells() const;
   /// Whether S waves are swept at all.
@@ -140,7 +134,7 @@ class Sweeps {
 
   State<D, Real>& state_;
   std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
-  Pml<D, Real>* layer_ = nullptr;
+  std::vector<Effect<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace slipwave {
+
+/// What slip did, summed over cells (theory.md 2.3); energies in J, per metre in 2-D.
+struct SlipTotals {
+  std::int64_t cells = 0, slipped = 0;  // fractured ones, and those that slipped at any time
+  double dissipated = 0;                // turned into heat on the planes
+  double out_of_waves = 0;              // what of it the waves gave, the rest came of the static stress
+};
+
+/// What became of the energy of a shot, J (2-D: J per metre).
+struct ShotReport {
+  std::optional<SlipTotals> slip;
+  std::optional<double> source_work;  // of point sources
+  double energy_left = 0;             // kinetic and elastic, in the model at the end
+};
+
+}  // namespace slipwave

@@ -1,0 +1,105 @@
+#include "solver/schedule/plain.hpp"
+
+#include <algorithm>
+
+#include "solver/schedule/active_cells.hpp"
+
+namespace slipwave::solver {
+
+template <int D, class Real>
+PlainExecutor<D, Real>::PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step)
+    : sweeps_(sweeps),
+      state_(state),
+      step_(step),
+      half_(Real(step.sweeps().front().fraction)),
+      work_(sweeps.make_workspace(state.layout.padded_nx())),
+      copy_pitch_(state.layout.row_pitch()) {
+  copy_ = Buffer<Real>(copy_pitch_ * FieldRows<D>::count);
+}
+
+/// A step is its list of sweeps, then what happens between its last sweep, along x, and the first of the next
+/// step. What comes before that first sweep of all is the half sweep the first step begins with.
+template <int D, class Real>
+std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
+                                         const std::function<bool()>& pause) {
+  const auto& sweeps = step_.sweeps();
+  if (first == 0) sweeps_.along(0, half_);
+  for (auto n = first; n < last; ++n) {
+    if (n > first && pause && pause()) return n;
+    const StepTime time{n, step_.dt_s()};
+    step_.begin(time);
+    for (std::size_t k = 1; k + 1 < sweeps.size(); ++k) {
+      sweeps_.along(sweeps[k].axis, Real(sweeps[k].fraction));
+      if (sweeps[k].axis == D - 1) swept_ += state_.layout.shape()[0] * state_.layout.lines();
+    }
+    end_of_step(time);
+    step_.finish(time);
+  }
+  return last;
+}
+
+/// Rows along x do not depend on each other, but for the velocities that corrections at free sides read.
+template <int D, class Real>
+void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
+  const std::int64_t rows = state_.layout.lines();
+  if (sweeps_.bends(0))
+    for (std::int64_t row = 0; row < rows; ++row) sweeps_.keep(0, row, {0, state_.layout.shape()[0]});
+  for (std::int64_t row = 0; row < rows; ++row) {
+    sweeps_.measure_side_surfaces(row);
+    if (step_.splits(time, row))
+      split_row(time, row);
+    else
+      merged_row(time, row);
+  }
+}
+
+/// Two half sweeps, and between them what happens at the end of the step.
+template <int D, class Real>
+void PlainExecutor<D, Real>::split_row(const StepTime& time, std::int64_t row) {
+  using Cells = typename TimeStep<D, Real>::Cells;
+  const IndexRange all{0, state_.layout.shape()[0]};
+  const auto fields = state_.row_fields(row);
+  StripeBoundary<Real> none{};
+  sweeps_.along_x(row, all, half_, none, work_);
+  step_.apply(time, Cells::split, fields, all);
+  step_.read(time, fields, all);
+  step_.apply_after_record(time, Cells::split, fields, all);
+  sweeps_.along_x(row, all, half_, none, work_);
+}
+
+/// Both half sweeps as one. A copy takes them one after the other: records read it, and patches, where
+/// effects act between both, come from it.
+template <int D, class Real>
+void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) {
+  using Cells = typename TimeStep<D, Real>::Cells;
+  const IndexRange all{0, state_.layout.shape()[0]};
+  const auto fields = state_.row_fields(row);
+  const auto patches = step_.patches().of(row);
+  const RowFields<Real> copy{row, copy_.data() + Layout<D>::lead, copy_pitch_};
+  StripeBoundary<Real> none{};
+  sweeps_.copy_ahead(all, half_, copy, work_);
+  for (const auto& patch : patches) step_.apply(time, Cells::patch, copy, patch.blocks);
+  step_.read(time, copy, all);
+  for (const auto& patch : patches) step_.apply_after_record(time, Cells::patch, copy, patch.blocks);
+  for (const auto& patch : patches) sweeps_.along_copy(copy, patch.blocks, true, half_, none, work_);
+
+  sweeps_.along_x(row, all, 2 * half_, none, work_);
+  step_.apply(time, Cells::merged, fields, all);
+  step_.apply_after_record(time, Cells::merged, fields, all);
+  for (const auto& patch : patches) sweeps_.put(copy, patch.cells);
+}
+
+/// As the tiled executor, which remembers where fields may be other than zero: here they may everywhere.
+template <int D, class Real>
+void PlainExecutor<D, Real>::serialize(Archive& archive) {
+  std::vector<char> active(std::size_t(state_.layout.lines() * state_.layout.padded_nx() / Layout<D>::block),
+                           1);
+  archive.fixed(active);
+}
+
+template class PlainExecutor<2, float>;
+template class PlainExecutor<2, double>;
+template class PlainExecutor<3, float>;
+template class PlainExecutor<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/schedule/executor.hpp"
+#include "solver/schedule/time_step.hpp"
+#include "solver/sweep/sweeps.hpp"
+
+namespace slipwave::solver {
+
+/// The reference: each entry of the time step on the whole grid, one entry after the other. Slow and short:
+/// whoever wants to know what a time step is reads run() and end_of_step(). One process only.
+template <int D, class Real>
+class PlainExecutor : public Executor {
+ public:
+  /// Keeps references.
+  PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& state, TimeStep<D, Real>& step);
+  using Executor::run;
+  std::int64_t run(std::int64_t first, std::int64_t last, const std::function<bool()>& pause) override;
+  void serialize(Archive& archive) override;
+  std::int64_t swept_cells() const override { return swept_; }
+
+ private:
+  void end_of_step(const StepTime& time);
+  void split_row(const StepTime& time, std::int64_t row);
+  void merged_row(const StepTime& time, std::int64_t row);
+
+  Sweeps<D, Real>& sweeps_;
+  State<D, Real>& state_;
+  TimeStep<D, Real>& step_;
+  Real half_;  // fraction of the half sweeps along x
+  Workspace<Real> work_;
+  Buffer<Real> copy_;
+  std::int64_t copy_pitch_, swept_ = 0;
+};
+
+}  // namespace slipwave::solver

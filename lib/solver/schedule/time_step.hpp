@@ -1,0 +1,116 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/progress.hpp"
+#include "scene/splitting.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/record/record.hpp"
+#include "solver/schedule/patches.hpp"
+
+namespace slipwave::solver {
+
+/// A sweep of all cells along an axis over a fraction of the time step (theory.md (E3)-(E9)), and the effects
+/// that filter what it adds.
+template <int D, class Real>
+struct Sweep {
+  int axis;
+  double fraction;
+  std::vector<Effect<D, Real>*> filters;
+};
+/// An effect on the fields at the end of the step.
+template <int D, class Real>
+struct Apply {
+  Effect<D, Real>* effect;
+  bool after_record;  // what the next step begins with
+};
+/// Reading the fields at the end of the step.
+template <int D, class Real>
+struct Read {
+  Record<D, Real>* record;
+};
+template <int D, class Real>
+using Entry = std::variant<Sweep<D, Real>, Apply<D, Real>, Read<D, Real>>;
+
+/// One time step as a list of sweeps, effects and records in the order in which they happen, and the rules by
+/// which executors may carry it out. Made once from the scene (build_time_step); it knows nothing of how it
+/// is executed.
+///
+/// The first and the last sweep run along x over half a step. Where no effect acts at the end of the step,
+/// its last sweep and the first of the next are merged into one over the whole step, and records read a copy
+/// that took the first half only. They stay apart where an effect needs the end of the step: on whole rows
+/// (splits()), and in patches of other rows: fracture cells and those whose second half sweep reads them.
+/// That choice is part of the numerics: a sweep over a step is not two over half of it, to the last digits.
+template <int D, class Real>
+class TimeStep {
+ public:
+  TimeStep(const Layout<D>& layout, double dt_s, std::vector<Entry<D, Real>> entries, Patches<D> patches,
+           bool all_needed, std::int64_t steps);
+
+  const std::vector<Entry<D, Real>>& entries() const { return entries_; }
+  /// The sweeps alone. The first and the last are the half sweeps along x.
+  const std::vector<SweepFraction>& sweeps() const { return sweeps_; }
+  double dt_s() const { return dt_s_; }
+  /// The list as text, one line per entry: "sweep along x, 0.5 (PML)", "slip, second order".
+  std::vector<std::string> text() const;
+
+  /// Before the first row of a step, step after step.
+  void begin(const StepTime& time);
+  /// Whether the half sweeps round the end of that step stay apart on all of a row.
+  bool splits(const StepTime& time, std::int64_t row) const {
+    return split_rows_[std::size_t(time.step % most_in_progress)][std::size_t(row)];
+  }
+  const Patches<D>& patches() const { return patches_; }
+
+  /// What some cells of a row are to the effects at the end of a step: of a split row, of a row whose half
+  /// sweeps are merged, of a patch of such a row.
+  enum class Cells { split, merged, patch };
+  /// Whether any effect acts on such cells.
+  bool acts_on(Cells cells) const { return acts_on_[std::size_t(cells)]; }
+  /// The effects before the records, in order.
+  void apply(const StepTime& time, Cells of, const RowFields<Real>& fields, const IndexRange& cells) const {
+    apply_those(false, time, of, fields, cells);
+  }
+  void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) const;
+  /// The effects after the records.
+  void apply_after_record(const StepTime& time, Cells of, const RowFields<Real>& fields,
+                          const IndexRange& cells) const {
+    apply_those(true, time, of, fields, cells);
+  }
+  /// When all rows have come to the end of the step, step after step.
+  void finish(const StepTime& time);
+  /// From now on `progress` (may be null) is told of each finished step.
+  void tell(const Progress* progress) { progress_ = progress; }
+
+  /// Whether a record reads anything of the row.
+  bool reads(const StepTime& time, std::int64_t row) const;
+  /// Whether an effect may make something of a row whose fields are zero.
+  bool injects(const StepTime& time, std::int64_t row) const;
+  /// The fields at the end of the step that are read then or later, or that anything read later comes of.
+  /// `growth`: by how many rows and columns fields spread in a step at most.
+  Box needed(const StepTime& time, const Box& growth) const;
+
+ private:
+  static constexpr std::int64_t most_in_progress = Effect<D, Real>::most_steps_in_progress;
+  static bool acts_on(ActsOn where, Cells cells);
+  void apply_those(bool after_record, const StepTime& time, Cells of, const RowFields<Real>& fields,
+                   const IndexRange& cells) const;
+
+  std::int64_t rows_;
+  Index<D> shape_;
+  double dt_s_;
+  std::vector<Entry<D, Real>> entries_;
+  std::vector<SweepFraction> sweeps_;
+  std::vector<Effect<D, Real>*> effects_;  // that act at the end of a step
+  std::vector<Record<D, Real>*> records_;
+  Patches<D> patches_;
+  bool all_needed_;
+  std::int64_t steps_;
+  const Progress* progress_ = nullptr;
+  std::array<bool, 3> acts_on_{};
+  std::array<std::vector<char>, std::size_t(most_in_progress)> split_rows_;  // [step in progress][row]
+};
+
+}  // namespace slipwave::solver

@@ -1,0 +1,179 @@
+#include <gtest/gtest.h>
+
+#include "cube.hpp"
+#include "parallel/threads.hpp"
+#include "solver/shot_simulation.hpp"
+
+// The tiled executor against the plain one, which does each entry of the time step on the whole grid.
+namespace slipwave::solver {
+namespace {
+
+constexpr Rock rock{4500, 2250, 2500}, water{1500, 0, 1000}, soft{2500, 1200, 2000};
+
+/// All that comes out of a shot: samples, snapshots, energies and the fields at its end.
+struct Outcome {
+  std::vector<double> samples, energies;
+  std::vector<float> snapshots;
+};
+
+template <int D>
+Outcome outcome_of(const Scene<D>& scene) {
+  Outcome outcome;
+  const SnapshotSink<D> sink = [&](double, const FieldReader<D>& read) {
+    for (const Component component : {Component::vx, Component::szz}) {
+      const auto field = read(component);
+      outcome.snapshots.insert(outcome.snapshots.end(), field.begin(), field.end());
+    }
+    const auto slip = read(SlipField::slip);
+    outcome.snapshots.insert(outcome.snapshots.end(), slip.begin(), slip.end());
+  };
+  ShotReport report;
+  outcome.samples = samples_of(shoot(scene, 1, {}, scene.snapshot_every_s ? sink : SnapshotSink<D>(), nullptr,
+                                     scene.slip_diary ? &report : nullptr));
+  const auto slip = report.slip.value_or(SlipTotals{});
+  outcome.energies = {report.energy_left, report.source_work.value_or(0), slip.dissipated, slip.out_of_waves};
+  return outcome;
+}
+
+template <int D>
+void expect_same(Scene<D> scene) {
+  check(scene);
+  scene.numerics.tiling = {};
+  scene.numerics.tiling.plain = true;
+  const auto plain = outcome_of(scene);
+  double largest = 0;
+  for (const double sample : plain.samples) largest = std::max(largest, std::abs(sample));
+  ASSERT_GT(largest, 0);
+  for (const auto& tiling : {Tiling{}, Tiling{2, 48, true}, Tiling{3, 16}})
+    for (const int threads : {1, 3}) {
+      const ThreadLimit limit(threads);
+      scene.numerics.tiling = tiling;
+      SCOPED_TRACE(std::to_string(tiling.steps) + " steps, " + std::to_string(tiling.stripe_cells) +
+                   " cells, " + std::to_string(threads) + " threads");
+      const auto tiled = outcome_of(scene);
+      EXPECT_TRUE(tiled.samples == plain.samples);
+      EXPECT_TRUE(tiled.snapshots == plain.snapshots);
+      // Energies are sums over the pieces of rows.
+      for (std::size_t n = 0; n < plain.energies.size(); ++n)
+        EXPECT_NEAR(tiled.energies[n], plain.energies[n], 1e-9 * plain.energies[0]) << n;
+    }
+}
+
+/// Water over two rocks; fractures that take patches of rows, and some near an end that take whole rows.
+Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(nx, nz, 5, rock);
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+  for (std::int64_t k = 0; k < nz; ++k)
+    for (std::int64_t i = 0; i < nx; ++i) {
+      if (k < 20 + i / 40) put(scene.model.medium, {i, k}, water);
+      if (k > 90) put(scene.model.medium, {i, k}, soft);
+      const bool cluster = k >= 50 && k < 60 && i >= 120 && i < 150, at_end = k >= 70 && k < 73 && i < 20;
+      if (cluster) scene.model.fracture({i, k}) = 1;
+      if (at_end) scene.model.fracture({i, k}) = 2;
+    }
+  const SlipSystem<2> level{{0, 1}, 0.5, 1000, 0}, upright{{1, 0}, 0.2, 2000, 5};
+  scene.model.fracture_sets = {{"cracks", {level}}, {"block", {level, upright}}};
+  scene.survey.sources = {{{700, 160}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e9}};
+  scene.survey.receivers_m = {{560, 130}, {662.5, 261.3}, {620, 333}, {40, 362}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.12, 0.001};
+  return scene;
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
+  for (const int order : orders)
+    for (const auto correction :
+         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+      auto scene = sea();
+      scene.numerics.order = order;
+      scene.numerics.correction = correction;
+      scene.numerics.double_precision = order == 3;
+      expect_same(scene);
+    }
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesWithSnapshotsAndADiary) {
+  auto scene = sea();
+  scene.snapshot_every_s = 0.03;
+  expect_same(scene);
+  scene.slip_diary = true;
+  expect_same(scene);
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesWithOpeningUnderStaticStress) {
+  auto scene = sea();
+  for (auto& set : scene.model.fracture_sets)
+    for (auto& system : set.systems) {
+      system.opens = true;
+      system.strength_pa = 10;
+    }
+  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -20.F));
+  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 3.F);
+  scene.slip_diary = true;
+  expect_same(scene);
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
+  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing})
+    for (const int time_order : {2, 4}) {
+      SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
+      auto scene = sea();
+      scene.edges[0] = {sides, sides};
+      scene.numerics.time_order = time_order;
+      scene.numerics.order = time_order == 4 ? 7 : 5;
+      scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
+      expect_same(scene);
+    }
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesUnderPlaneWaves) {
+  for (const char* mechanism : {"plane:0", "plane:20"}) {
+    SCOPED_TRACE(mechanism);
+    auto scene = sea();
+    scene.model.medium = uniform_medium(330, 120, 5, rock);
+    scene.edges[1][0] = EdgeLaw::absorbing;
+    scene.survey.sources = {{{0, 0}, parse_mechanism<2>(mechanism), parse_wavelet("ricker:40"), 1}};
+    scene.slip_diary = true;
+    expect_same(scene);
+  }
+}
+
+TEST(PlainExecutor, GivesTheBitsOfTilesInThreeDimensions) {
+  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::absorbing}) {
+    Scene<3> scene;
+    const Index<3> shape = {70, 24, 40};
+    scene.model.medium = lumps(shape, 5, 7);
+    scene.model.fracture = Field<3, std::uint8_t>(scene.model.grid());
+    for (std::int64_t k = 15; k < 20; ++k)
+      for (std::int64_t j = 8; j < 14; ++j)
+        for (std::int64_t i = 30; i < 38; ++i) {
+          put(scene.model.medium, {i, j, k}, rock);
+          scene.model.fracture({i, j, k}) = 1;
+        }
+    put(scene.model.medium, {30, 6, 10}, rock);
+    scene.model.fracture_sets = {{"cracks", {{{0, 0.6, 0.8}, 0.4, 1000, 0}}}};
+    scene.survey.sources = {
+        {{152, 32, 52}, parse_mechanism<3>("force:1,2,3"), parse_wavelet("ricker:80"), 1e9}};
+    scene.survey.receivers_m = {{172.5, 52.5, 87.5}};
+    put(scene.model.medium, {34, 10, 17}, rock);
+    for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {sides, sides};
+    scene.numerics.zone_cells = 6;
+    scene.recording = {{Component::vx, Component::vz}, 0.02, 0.001};
+    scene.slip_diary = true;
+    expect_same(scene);
+  }
+}
+
+TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
+  auto scene = sea();
+  const ShotSimulation<2, float> shot(scene, 1, {});
+  EXPECT_EQ(shot.time_step().text(),
+            (std::vector<std::string>{"sweep along x, 0.5 (PML)", "sweep along z, 1 (PML)",
+                                      "sweep along x, 0.5 (PML)", "source", "slip, second order", "record",
+                                      "slip, second order, after recording", "source, after recording"}));
+}
+
+}  // namespace
+}  // namespace slipwave::solver
