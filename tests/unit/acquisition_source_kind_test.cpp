@@ -7,6 +7,11 @@
 namespace slipwave {
 namespace {
 
+template <int D>
+Source<D> source_of(const std::string& kind) {
+  return {{}, parse_mechanism<D>(kind), parse_wavelet("ricker:30"), 1};
+}
+
 /// The kind with numbers 1, 2, ... for its parameters.
 template <int D>
 std::string typed(const SourceKind<D>& kind) {
@@ -21,10 +26,9 @@ std::string typed(const SourceKind<D>& kind) {
 template <int D>
 void expect_rows_agree() {
   for (const auto& kind : source_kinds<D>()) {
-    const auto mechanism = parse_mechanism<D>(typed(kind));
+    const auto source = source_of<D>(typed(kind));
+    const auto& mechanism = source.mechanism;
     EXPECT_STREQ(name_of<D>(mechanism), source_kinds<D>()[mechanism.index()].name);
-    Source<D> source;
-    source.mechanism = mechanism;
     EXPECT_EQ(point_injection(source).has_value(), kind.inject != nullptr) << kind.name;
   }
 }
@@ -39,11 +43,8 @@ TEST(SourceKinds, SayTheirUnits) {
 }
 
 TEST(SourceKinds, AreIsotropicWhereAllDirectionsAreAlike) {
-  Source<2> source;
-  source.mechanism = parse_mechanism<2>("explosion");
-  EXPECT_TRUE(point_injection(source)->isotropic);
-  source.mechanism = parse_mechanism<2>("moment:1,1,0");
-  EXPECT_FALSE(point_injection(source)->isotropic);
+  EXPECT_TRUE(point_injection(source_of<2>("explosion"))->isotropic);
+  EXPECT_FALSE(point_injection(source_of<2>("moment:1,1,0"))->isotropic);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ TEST(Components, OfTwoDimensionsHaveNoY) {
   EXPECT_EQ(joined(component_names(3, 2)), "vy, syy, sxy, syz");
   for (const auto& row : component_rows())
     for (const int dimension : {2, 3})
-      if (row.in(dimension)) EXPECT_FALSE(row.terms_in(dimension).empty()) << row.name;
+      EXPECT_EQ(row.in(dimension), !row.terms_in(dimension).empty()) << row.name;
 }
 
 TEST(Components, ThatAreMeansSayTheirFormula) {
