@@ -26,9 +26,8 @@ bool absorbs(const Scene<D>& scene, const Source<D>& source) {
 
 template <int D, class Real>
 Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D, Real>& state,
-                               const Domain<D>& domain, double unit, Ranks* ranks) {
+                               const Domain<D>& domain, double dt_s, double unit, Ranks* ranks) {
   const auto& source = scene.survey.sources[shot - 1];
-  const double dt_s = time_step_s(scene);
   const double vp_max = std::max(fastest_wave(scene.model.medium), scene.subdomain.fastest);
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
   Effects<D, Real> effects;
@@ -52,7 +51,8 @@ Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D,
 template <int D, class Real>
 TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain, Sweeps<D, Real>& sweeps,
                                   const Layout<D>& layout, const Effects<D, Real>& effects,
-                                  const std::vector<Record<D, Real>*>& records, std::int64_t steps) {
+                                  const std::vector<Record<D, Real>*>& records, double dt_s,
+                                  std::int64_t steps) {
   std::vector<Effect<D, Real>*> filters;
   std::vector<Entry<D, Real>> before, after, step;
   for (const auto& effect : effects) {
@@ -73,8 +73,7 @@ TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain
   for (auto* record : records) step.push_back(Read<D, Real>{record});
   step.insert(step.end(), after.begin(), after.end());
   const bool all_needed = scene.slip_diary || (scene.snapshot_every_s && records.size() > 1);
-  return {layout, time_step_s(scene), std::move(step), Patches<D>(layout, domain, scene.model), all_needed,
-          steps};
+  return {layout, dt_s, std::move(step), Patches<D>(layout, domain, scene.model), all_needed, steps};
 }
 
 template <int D, class Real>
@@ -92,31 +91,31 @@ std::unique_ptr<Executor> make_executor(const Scene<D>& scene, const Domain<D>& 
 }
 
 template Effects<2, float> build_effects(const Scene<2>&, std::size_t, State<2, float>&, const Domain<2>&,
-                                         double, Ranks*);
+                                         double, double, Ranks*);
 template TimeStep<2, float> build_time_step(const Scene<2>&, const Domain<2>&, Sweeps<2, float>&,
                                             const Layout<2>&, const Effects<2, float>&,
-                                            const std::vector<Record<2, float>*>&, std::int64_t);
+                                            const std::vector<Record<2, float>*>&, double, std::int64_t);
 template std::unique_ptr<Executor> make_executor(const Scene<2>&, const Domain<2>&, State<2, float>&,
                                                  Sweeps<2, float>&, TimeStep<2, float>&, Halo<2, float>*);
 template Effects<2, double> build_effects(const Scene<2>&, std::size_t, State<2, double>&, const Domain<2>&,
-                                          double, Ranks*);
+                                          double, double, Ranks*);
 template TimeStep<2, double> build_time_step(const Scene<2>&, const Domain<2>&, Sweeps<2, double>&,
                                              const Layout<2>&, const Effects<2, double>&,
-                                             const std::vector<Record<2, double>*>&, std::int64_t);
+                                             const std::vector<Record<2, double>*>&, double, std::int64_t);
 template std::unique_ptr<Executor> make_executor(const Scene<2>&, const Domain<2>&, State<2, double>&,
                                                  Sweeps<2, double>&, TimeStep<2, double>&, Halo<2, double>*);
 template Effects<3, float> build_effects(const Scene<3>&, std::size_t, State<3, float>&, const Domain<3>&,
-                                         double, Ranks*);
+                                         double, double, Ranks*);
 template TimeStep<3, float> build_time_step(const Scene<3>&, const Domain<3>&, Sweeps<3, float>&,
                                             const Layout<3>&, const Effects<3, float>&,
-                                            const std::vector<Record<3, float>*>&, std::int64_t);
+                                            const std::vector<Record<3, float>*>&, double, std::int64_t);
 template std::unique_ptr<Executor> make_executor(const Scene<3>&, const Domain<3>&, State<3, float>&,
                                                  Sweeps<3, float>&, TimeStep<3, float>&, Halo<3, float>*);
 template Effects<3, double> build_effects(const Scene<3>&, std::size_t, State<3, double>&, const Domain<3>&,
-                                          double, Ranks*);
+                                          double, double, Ranks*);
 template TimeStep<3, double> build_time_step(const Scene<3>&, const Domain<3>&, Sweeps<3, double>&,
                                              const Layout<3>&, const Effects<3, double>&,
-                                             const std::vector<Record<3, double>*>&, std::int64_t);
+                                             const std::vector<Record<3, double>*>&, double, std::int64_t);
 template std::unique_ptr<Executor> make_executor(const Scene<3>&, const Domain<3>&, State<3, double>&,
                                                  Sweeps<3, double>&, TimeStep<3, double>&, Halo<3, double>*);
 

@@ -19,14 +19,15 @@ using Effects = std::vector<std::unique_ptr<Effect<D, Real>>>;
 /// null).
 template <int D, class Real>
 Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D, Real>& state,
-                               const Domain<D>& domain, double unit, Ranks* ranks);
+                               const Domain<D>& domain, double dt_s, double unit, Ranks* ranks);
 
 /// The time step of the scene: its sweeps and, at the end of the step, effects and records. Makes sweeps use
 /// the effects that filter them.
 template <int D, class Real>
 TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain, Sweeps<D, Real>& sweeps,
                                   const Layout<D>& layout, const Effects<D, Real>& effects,
-                                  const std::vector<Record<D, Real>*>& records, std::int64_t steps);
+                                  const std::vector<Record<D, Real>*>& records, double dt_s,
+                                  std::int64_t steps);
 
 /// What is needed to execute it: in time tiles, or plainly where the scene asks for that. `halo` (may be
 /// null): of neighbouring subdomains.

@@ -14,6 +14,32 @@ bool same(double a, double b) {
 
 }  // namespace
 
+double Expression::result_of(Step::Code code, double a, double b) {
+  using Code = Step::Code;
+  switch (code) {
+    case Code::add:
+      return a + b;
+    case Code::subtract:
+      return a - b;
+    case Code::multiply:
+      return a * b;
+    case Code::divide:
+      return a / b;
+    case Code::remainder:
+      return a - b * std::floor(a / b);
+    case Code::equal:
+      return same(a, b);
+    case Code::less:
+      return a < b && !same(a, b);
+    case Code::not_greater:
+      return a < b || same(a, b);
+    case Code::both:
+      return a != 0 && b != 0;
+    default:
+      return a != 0 || b != 0;
+  }
+}
+
 double Expression::value(const TraceView& view) const {
   std::vector<double> stack;
   stack.reserve(steps_.size());
@@ -41,43 +67,12 @@ double Expression::value(const TraceView& view) const {
       continue;
     }
     const double a = pop();
-    switch (step.code) {
-      case Code::add:
-        stack.push_back(a + b);
-        break;
-      case Code::subtract:
-        stack.push_back(a - b);
-        break;
-      case Code::multiply:
-        stack.push_back(a * b);
-        break;
-      case Code::divide:
-        stack.push_back(a / b);
-        break;
-      case Code::remainder:
-        stack.push_back(a - b * std::floor(a / b));
-        break;
-      case Code::equal:
-        stack.push_back(same(a, b));
-        break;
-      case Code::less:
-        stack.push_back(a < b && !same(a, b));
-        break;
-      case Code::not_greater:
-        stack.push_back(a < b || same(a, b));
-        break;
-      case Code::in_steps: {
-        const double steps = (pop() - a) / b;
-        stack.push_back(std::fabs(steps - std::nearbyint(steps)) <= 1e-6);
-        break;
-      }
-      case Code::both:
-        stack.push_back(a != 0 && b != 0);
-        break;
-      default:
-        stack.push_back(a != 0 || b != 0);
-        break;
+    if (step.code == Code::in_steps) {
+      const double steps = (pop() - a) / b;
+      stack.push_back(std::fabs(steps - std::nearbyint(steps)) <= 1e-6);
+      continue;
     }
+    stack.push_back(result_of(step.code, a, b));
   }
   return stack.back();
 }

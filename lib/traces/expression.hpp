@@ -54,6 +54,9 @@ class Expression {
     double number = 0;
   };
 
+  /// Of a step that takes two numbers, the one below and the one on top of the stack.
+  static double result_of(Step::Code code, double a, double b);
+
   std::vector<Step> steps_;
   std::vector<HeaderKey> keys_;
   Kind kind_ = Kind::truth;

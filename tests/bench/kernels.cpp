@@ -45,12 +45,12 @@ void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
   const auto& face = kernels.face[0][1];
   Rows<Real> rows;
   const auto leave = [&](int v, int s, int z, int pair) {
-    kernels.leave(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1, Real(1),
-                  rows.leaving().up(pair) - 1, rows.leaving().down(pair) - 1);
+    kernels.reconstruct(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1,
+                        Real(1), rows.leaving().up(pair) - 1, rows.leaving().down(pair) - 1);
   };
   const auto meet = [&] {
-    face.meet(cells + 1, rows.leaving().at(-1), rows.leaving(), rows.material(-1), rows.material(0),
-              rows.faces());
+    face.solve_riemann(cells + 1, rows.leaving().at(-1), rows.leaving(), rows.material(-1), rows.material(0),
+                       rows.faces());
   };
   const auto update = [&] {
     face.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
@@ -58,8 +58,8 @@ void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
   };
   const auto inside = [&] {
     const auto here = rows.leaving();
-    face.inside(cells, Real(1), here.at(-1), here, here.at(1), rows.material(0),
-                {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
+    face.update_uniform(cells, Real(1), here.at(-1), here, here.at(1), rows.material(0),
+                        {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };
   const bool all = part == Subdomain::sweep;
   const double least = least_seconds(state, [&] {

@@ -22,12 +22,15 @@ class Checkpoint : public Shell {
   const std::string often = "--checkpoint c --checkpoint-every 0.01 ";
 
   const std::string seldom = "--checkpoint c --checkpoint-every 0.1 ";
+  /// Waits until the run in the background has written a checkpoint, or has ended.
+  const std::string next_checkpoint =
+      "touch $TMPDIR/now; await '[ c -nt $TMPDIR/now ] || ! kill -0 $! 2> $TMPDIR/gone'; ";
 
   /// Ends a line by a signal when its first checkpoint is there.
   Ran ended_once_begun(const std::string& line, const std::string& signal) const {
     // A shell's background children ignore INT unless they are jobs.
-    return run("set -m; " + line + "& tool=$!; until [ -e c ] || ! kill -0 $!; do sleep 0.01; done; kill -" +
-               signal + " $tool; wait $tool");
+    return run("set -m; " + line + "& tool=$!; await '[ -e c ] || ! kill -0 $!'; kill -" + signal +
+               " $tool; wait $tool");
   }
   /// Ends a line by a signal some seconds after it was begun, or after it has written a checkpoint; its exit
   /// code, what it said in `said`.
@@ -119,20 +122,24 @@ TEST_F(Checkpoint, ASignalWritesOneAndShowsInTheExitStatus) {
 }
 
 TEST_F(Checkpoint, ASecondSignalEndsTheRunAtOnce) {
-  // Nobody reads what is written at the end, so the run hangs there.
+  // Hardly anything is read of what is written at the end, so the run hangs there.
   const Ran ran =
-      run("mkfifo pipe; sleep 10 < pipe & sleeper=$!; sw-shoot m.nc --source 700,50 --wavelet ricker:20 "
-          "--receivers 0:1500:5,20 --time 0.05 --dt 0.0001 --checkpoint c > pipe & tool=$!; sleep 1.5; "
-          "kill -TERM $tool; sleep 0.3; kill -0 $tool && echo hangs; kill -TERM $tool; wait $tool; "
-          "code=$?; kill $sleeper; exit $code");
-  EXPECT_EQ(ran.out, "hangs\n");
+      run("mkfifo pipe; exec 3<> pipe; sw-shoot m.nc --source 700,50 --wavelet ricker:20 "
+          "--receivers 0:1500:5,20 --time 0.05 --dt 0.0001 --checkpoint c > pipe & tool=$!; "
+          "timeout 60 head -c 1 <&3 > first; kill -TERM $tool; "
+          "await '! grep -q \"^...Pnd:.*[1-9a-f]\" /proc/$tool/status'; "
+          "timeout 60 head -c 200000 <&3 | wc -c; kill -TERM $tool; wait $tool");
+  // More than a pipe holds: it went on writing after the first signal.
+  EXPECT_EQ(ran.out, "200000\n");
   EXPECT_EQ(ran.code, 128 + 15);
 }
 
 TEST_F(Checkpoint, WithoutOneASignalLeavesNothing) {
-  std::string said;
-  EXPECT_EQ(ended(shoot + "--snapshots s.nc --every 0.05 -o out.sgy ", "TERM", 0.2, said), 128 + 15);
-  EXPECT_EQ(said, "");
+  const Ran ran = run(shoot +
+                      "--snapshots s.nc --every 0.05 -o out.sgy & tool=$!; "
+                      "await 'ls .out.sgy* .s.nc* > $TMPDIR/seen 2>&1'; kill -TERM $tool; wait $tool");
+  EXPECT_EQ(ran.code, 128 + 15);
+  EXPECT_EQ(ran.err, "");
   EXPECT_EQ(files(), "m.nc");
 }
 
@@ -151,9 +158,8 @@ TEST_F(Checkpoint, ShotsThatAreDoneAreNotShotAgain) {
   done(shots + "-o 'whole{shot}.sgy'");
   for (const std::string parallel : {"1", "2", "3"}) {
     const std::string line = shots + seldom + "--shots-in-parallel " + parallel + " -o 'out{shot}.sgy' ";
-    const std::string moment = parallel == "1"
-                                   ? "until [ -e out1.sgy ] || ! kill -0 $!; do sleep 0.01; done; "
-                                   : "until [ -e c.1 ] || ! kill -0 $!; do sleep 0.01; done; ";
+    const std::string moment = parallel == "1" ? "await '[ -e out1.sgy ] || ! kill -0 $!'; "
+                                               : "await '[ -e c.1 ] || ! kill -0 $!'; ";
     const Ran ran = run("(exec " + line + ") & " + moment + "kill -TERM $!; wait $!");
     ASSERT_EQ(ran.code, 128 + 15) << ran.err;
     const auto first = parallel == "1" ? done("stat -c '%i %y' out1.sgy") : "";
@@ -178,11 +184,10 @@ TEST_F(Checkpoint, AFileOfAFinishedShotThatIsGoneIsMadeAgain) {
        "--snapshots 's{shot}.nc' --every 0.1 -o 'whole{shot}.sgy'; "
        "mv s1.nc whole1.nc; mv s2.nc whole2.nc");
   for (const std::string gone : {"out1.sgy", "s1.nc"}) {
-    const Ran ran = run(
-        "(exec " + line +
-        "'out{shot}.sgy') 2> /dev/null & "
-        "while [ ! -e c.shot2 ] && kill -0 $!; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!; rm " +
-        gone);
+    const Ran ran = run("(exec " + line +
+                        "'out{shot}.sgy') 2> /dev/null & "
+                        "await '[ -e c.shot2 ] || ! kill -0 $!'; " +
+                        next_checkpoint + "kill -KILL $!; wait $!; rm " + gone);
     const Ran rest = run(line + "'out{shot}.sgy'");
     EXPECT_EQ(rest.code, 0) << rest.err;
     for (const std::string shot : {"1", "2"})
@@ -196,11 +201,10 @@ TEST_F(Checkpoint, TheOlderOneServesToo) {
   done(shoot + "--snapshots s.nc --every 0.05 -o whole.sgy; mv s.nc whole.nc");
   const std::string line = shoot + often + "--snapshots s.nc --every 0.05 -o out.sgy ";
   for (const std::string loss : {"mv c.1 c", "rm c"}) {
-    EXPECT_EQ(
-        run("(exec " + line +
-            ") & until [ -e c.1 ] || ! kill -0 $!; do sleep 0.01; done; sleep 0.1; kill -KILL $!; wait $!")
-            .code,
-        128 + 9);
+    EXPECT_EQ(run("(exec " + line + ") & await '[ -e c.1 ] || ! kill -0 $!'; " + next_checkpoint +
+                  "kill -KILL $!; wait $!")
+                  .code,
+              128 + 9);
     const Ran rest = run(loss + "; " + line);
     EXPECT_EQ(rest.code, 0) << rest.err;
     EXPECT_GT(step_of(rest.err), 0) << rest.err;
@@ -223,8 +227,7 @@ TEST_F(Checkpoint, ADiskWithoutRoomForOneIsSaidAndDoesNotEndTheRun) {
 
 TEST_F(Checkpoint, ASecondRunDoesNotTouchTheCheckpointOfTheFirst) {
   const std::string line = scene + "--time 3 --threads 1 --checkpoint c --checkpoint-every 0.05 -o ";
-  const Ran ran = run("(exec " + line +
-                      "first.sgy) 2> first & tool=$!; until [ -e c ] || ! kill -0 $!; do sleep 0.01; done; " +
+  const Ran ran = run("(exec " + line + "first.sgy) 2> first & tool=$!; await '[ -e c ] || ! kill -0 $!'; " +
                       line + "second.sgy; code=$?; ls -A > there; kill -KILL $tool; wait $tool; exit $code");
   EXPECT_EQ(ran.code, 1);
   EXPECT_EQ(ran.err.substr(0, ran.err.find('\n')),
@@ -234,7 +237,7 @@ TEST_F(Checkpoint, ASecondRunDoesNotTouchTheCheckpointOfTheFirst) {
   EXPECT_EQ(content("there").find("second.sgy"), std::string::npos);
   // The lock of a run that was killed keeps nobody out, and goes with the one that ends.
   EXPECT_TRUE(exists("c.lock"));
-  const Ran next = run("(exec " + line + "out.sgy) & sleep 0.5; kill -TERM $!; wait $!");
+  const Ran next = run("(exec " + line + "out.sgy) & " + next_checkpoint + "kill -TERM $!; wait $!");
   EXPECT_EQ(next.code, 128 + 15) << next.err;
   EXPECT_GT(step_of(next.err), 0) << next.err;
   EXPECT_FALSE(exists("c.lock"));

@@ -16,6 +16,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
+const std::string await =
+    "() { local n; for ((n = 0; n < 3000; ++n)); do eval \"$1\" && return; sleep 0.01; done; "
+    "echo \"waited in vain for: $1\" >&2; return 1; }";
+const std::string next_second = "() { local then=$(date +%s); await \"[ \\$(date +%s) -gt $then ]\"; }";
+
 std::string content_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -58,6 +63,9 @@ Ran Shell::run(const std::string& line) const {
     setenv("PATH", path.c_str(), 1);
     setenv("TMPDIR", beside.c_str(), 1);
     setenv("LC_ALL", "C", 1);
+    // The way bash hands functions to the bash it starts.
+    setenv("BASH_FUNC_await%%", await.c_str(), 1);
+    setenv("BASH_FUNC_next_second%%", next_second.c_str(), 1);
     execlp("bash", "bash", "-o", "pipefail", "-c", line.c_str(), nullptr);
     _exit(127);
   }

@@ -12,7 +12,9 @@ struct Ran {
 };
 
 /// A test that runs shell lines in a fresh temporary directory, removed afterwards, with the tools of this
-/// build first on PATH. The name of a file in a line is relative to that directory.
+/// build first on PATH. The name of a file in a line is relative to that directory. A line may use
+///   await 'COMMAND'  until the command succeeds, for half a minute at most, then says what it waited for
+///   next_second      until the clock shows another second, so that a time of making would differ
 class Shell : public ::testing::Test {
  protected:
   Shell();

@@ -109,15 +109,15 @@ want() {
           # weights: the Courant number 2, then as reconstruction.hpp makes them.
           sums = reach == 0 ? 3 : 2 * 6 * reach + 6
           weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : 32)
-          need("leave<" (2 * reach + 1) ", true, " real ">", sums)
-          need("leave<" (2 * reach + 1) ", false, " real ">", sums + weights)
+          need("reconstruct<" (2 * reach + 1) ", true, " real ">", sums)
+          need("reconstruct<" (2 * reach + 1) ", false, " real ">", sums + weights)
           # Two pairs, meet and update, of which the first product is one.
-          need("across<" (2 * reach + 1) ", " real ">", 2 * (sums + weights) + 20 + 21)
+          need("fused_row<" (2 * reach + 1) ", " real ">", 2 * (sums + weights) + 20 + 21)
         }
         # By S pairs.
-        need("meet<true, 0, " real ">", 6); need("meet<false, 0, " real ">", 9)
-        need("meet<true, 1, " real ">", 12); need("meet<false, 1, " real ">", 20)
-        need("meet<true, 2, " real ">", 18); need("meet<false, 2, " real ">", 26)
+        need("solve_riemann<true, 0, " real ">", 6); need("solve_riemann<false, 0, " real ">", 9)
+        need("solve_riemann<true, 1, " real ">", 12); need("solve_riemann<false, 1, " real ">", 20)
+        need("solve_riemann<true, 2, " real ">", 18); need("solve_riemann<false, 2, " real ">", 26)
         # By dimension and shear.
         need("update<true, 2, false, " real ">", 7); need("update<false, 2, false, " real ">", 11)
         need("update<true, 2, true, " real ">", 14); need("update<false, 2, true, " real ">", 22)
@@ -126,7 +126,7 @@ want() {
         # Along and across, with and without memory of the change.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
-          need("stretch_in<" along ", true, " real ">", 11); need("stretch_in<" along ", false, " real ">", 8)
+          need("filter_in<" along ", true, " real ">", 11); need("filter_in<" along ", false, " real ">", 8)
           # One factor and target a cell, or one of all.
           need("damp_in<" along ", true, " real ">", 3); need("damp_in<" along ", false, " real ">", 3)
         }

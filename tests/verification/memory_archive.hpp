@@ -31,7 +31,8 @@ class FromMemory : public Archive {
   explicit FromMemory(const std::vector<char>& kept) : kept_(kept) {}
   void bytes(void* first, std::size_t count) override {
     ASSERT_LE(used_ + count, kept_.size());
-    std::memcpy(first, kept_.data() + used_, count);
+    // Of no bytes there may be no place either.
+    if (count > 0) std::memcpy(first, kept_.data() + used_, count);
     used_ += count;
   }
   std::size_t count(std::size_t, std::size_t) override {

@@ -36,8 +36,8 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
   const auto& kernel = kernels<Real>(order, uniform);
   int pair = 0;
   for (const auto& [v, s, z] : {std::tuple(&vp, &sp, &zp), {&vs, &ss, &zs}, {&vs2, &ss2, &zs}}) {
-    kernel.leave(n, 1, v->data() + gap, s->data() + gap, z->data(), b.data(), scale, all_left.up(pair),
-                 all_left.down(pair));
+    kernel.reconstruct(n, 1, v->data() + gap, s->data() + gap, z->data(), b.data(), scale, all_left.up(pair),
+                       all_left.down(pair));
     ++pair;
   }
   std::vector<std::vector<Real>> rows = {left_cells};
@@ -45,7 +45,7 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
     for (const auto& face : of_dimension) {
       auto met = six_rows();
       const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
-      face.meet(n, all_left, all_left, material, material, hi);
+      face.solve_riemann(n, all_left, all_left, material, material, hi);
       face.update(n, scale, lo, hi, material,
                   {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
                    passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
@@ -116,16 +116,16 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
     const auto done = row - behind;
     if (at_once && done >= 0) {
       const auto faces = ring.faces(row, 0);
-      kernel.across(n, scale,
-                    {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b,
-                     of.b, rows_of(done).b, above.up(0), here.up(0), faces.first, ring.faces(done, 0).first,
-                     ring.faces(done + 1, 0).first});
+      kernel.fused_row(n, scale,
+                       {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b,
+                        of.b, rows_of(done).b, above.up(0), here.up(0), faces.first,
+                        ring.faces(done, 0).first, ring.faces(done + 1, 0).first});
       continue;
     }
-    kernel.leave(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up(0), here.down(0));
-    kernel.leave(n, stride, field(row, 0), field(row, 4), of.zs, of.b, scale, here.up(1), here.down(1));
+    kernel.reconstruct(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up(0), here.down(0));
+    kernel.reconstruct(n, stride, field(row, 0), field(row, 4), of.zs, of.b, scale, here.up(1), here.down(1));
     if (row == 0) continue;
-    kernel.face[0][1].meet(n, above, here, rows_of(row - 1), of, ring.faces(row, 0));
+    kernel.face[0][1].solve_riemann(n, above, here, rows_of(row - 1), of, ring.faces(row, 0));
     if (done >= 0)
       kernel.face[0][1].update(n, scale, ring.faces(done, 0), ring.faces(done + 1, 0), rows_of(done),
                                swept(done));
@@ -169,10 +169,10 @@ std::vector<double> brought_forward(int dimensions, bool shear, bool faces, Real
   if (faces) {
     std::vector<Real> met(std::size_t(6 * pitch));
     const InterfaceStates<Real> at{met.data() + gap, pitch};
-    kernel.meet(n + 1, here.at(-1), here, material, material, at);
+    kernel.solve_riemann(n + 1, here.at(-1), here, material, material, at);
     kernel.update(n, scale, at, at.at(1), material, swept);
   } else {
-    kernel.inside(n, scale, here.at(-1), here, here.at(1), material, swept);
+    kernel.update_uniform(n, scale, here.at(-1), here, here.at(1), material, swept);
   }
   return {fields.begin(), fields.end()};
 }

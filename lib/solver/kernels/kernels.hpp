@@ -75,16 +75,18 @@ template <class Real>
 struct InterfaceKernels {
   /// The exact Riemann solutions at the faces where `up` from the cells below (lo) and `down` from the cells
   /// above (hi) meet (E8), of all pairs, with one division.
-  void (*meet)(std::int64_t n, OutgoingWaves<Real> up, OutgoingWaves<Real> down, const MaterialRows<Real>& lo,
-               const MaterialRows<Real>& hi, InterfaceStates<Real> faces);
+  void (*solve_riemann)(std::int64_t n, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
+                        const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+                        InterfaceStates<Real> faces);
   /// (E9): v += b [s*], s_nn += (lambda + 2 mu) dt/h [v*], passive normal stresses += lambda dt/h [v*];
   /// v_t += b [s_nt*], s_nt += mu dt/h [v_t*].
   void (*update)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
                  const MaterialRows<Real>& material, const SweptRows<Real>& rows);
   /// Both in one for cells of the first one's material with neighbours of that material, from what leaves
   /// them and the neighbours below and above: there (E8) and (E9) come to (E9a).
-  void (*inside)(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
-                 OutgoingWaves<Real> above, const MaterialRows<Real>& material, const SweptRows<Real>& rows);
+  void (*update_uniform)(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
+                         OutgoingWaves<Real> above, const MaterialRows<Real>& material,
+                         const SweptRows<Real>& rows);
 };
 
 /// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
@@ -110,13 +112,13 @@ template <class Real>
 struct Kernels {
   /// What leaves every cell upwards and downwards within the time step (theory.md (E6), (E7)):
   /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
-  void (*leave)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
-                const Real* b, Real scale, Real* up, Real* down);
+  void (*reconstruct)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
+                      const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   InterfaceKernels<Real> face[2][2];
   /// All of a row across: leave, meet and update, in 2-D, of solid (null where stretches are of one
   /// material).
-  void (*across)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  void (*fused_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
 };
 
 /// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;

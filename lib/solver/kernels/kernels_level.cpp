@@ -1,8 +1,8 @@
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
+#include "solver/kernels/cell_formulas.hpp"
 #include "solver/kernels/fused_row.hpp"
 #include "solver/kernels/kernel_tables.hpp"
-#include "solver/kernels/reconstruction.hpp"
 
 namespace slipwave::solver {
 
@@ -16,9 +16,9 @@ namespace {
 // is then reckoned there, too. Elsewhere that is a value read in vain.
 
 template <int Order, bool Uniform, int Sign, class Real>
-void leave_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
-              const Real* __restrict impedance, const Real* __restrict b, Real size, Real* __restrict up,
-              Real* __restrict down) {
+void reconstruct_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
+                    const Real* __restrict impedance, const Real* __restrict b, Real size,
+                    Real* __restrict up, Real* __restrict down) {
   const Real z0 = impedance[0], b0 = b[0];
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
@@ -28,18 +28,18 @@ void leave_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, con
 }
 
 template <int Order, bool Uniform, class Real>
-void leave(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
-           const Real* b, Real scale, Real* up, Real* down) {
+void reconstruct(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, const Real* impedance,
+                 const Real* b, Real scale, Real* up, Real* down) {
   if (scale < 0)
-    leave_in<Order, Uniform, -1>(n, stride, v, s, impedance, b, -scale, up, down);
+    reconstruct_in<Order, Uniform, -1>(n, stride, v, s, impedance, b, -scale, up, down);
   else
-    leave_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
+    reconstruct_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
 }
 
-/// Of the P pair and so many S pairs: the common division is that of all.
+/// Of the P pair and so many S pairs.
 template <bool Uniform, int Shears, class Real>
-void meet(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above, const MaterialRows<Real>& lo,
-          const MaterialRows<Real>& hi, InterfaceStates<Real> faces) {
+void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
+                   const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, InterfaceStates<Real> faces) {
   const Real *zp_lo = lo.zp, *zp_hi = hi.zp, *zs_lo = lo.zs, *zs_hi = hi.zs;
   const Real zp_lo0 = zp_lo[0], zp_hi0 = zp_hi[0], zs_lo0 = zs_lo[0], zs_hi0 = zs_hi[0];
   const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0);
@@ -52,20 +52,11 @@ void meet(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above, 
   for (std::int64_t i = 0; i < n; ++i) {
     const Real p_lo = Uniform ? zp_lo0 : zp_lo[i], p_hi = Uniform ? zp_hi0 : zp_hi[i];
     const Real s_lo = Uniform ? zs_lo0 : zs_lo[i], s_hi = Uniform ? zs_hi0 : zs_hi[i];
-    const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none);
-    // Of P alone the sum of S does not come into it.
-    const Real both = 1 / (Shears == 0 ? sum_p : sum_p * sum_s);
-    const Real share_p = Shears == 0 ? both : both * sum_s, share_s = both * sum_p;
-    v_p[i] = (up_p[i] + down_p[i]) * share_p;
-    s_p[i] = (p_lo * down_p[i] - p_hi * up_p[i]) * share_p;
-    if constexpr (Shears > 0) {
-      v_s[i] = (up_s[i] + down_s[i]) * share_s;
-      s_s[i] = (s_lo * down_s[i] - s_hi * up_s[i]) * share_s;
-    }
-    if constexpr (Shears > 1) {
-      v_s2[i] = (up_s2[i] + down_s2[i]) * share_s;
-      s_s2[i] = (s_lo * down_s2[i] - s_hi * up_s2[i]) * share_s;
-    }
+    Real share_p, share_s;
+    riemann_shares<(Shears > 0)>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
+    riemann(up_p[i], down_p[i], p_lo, p_hi, share_p, v_p[i], s_p[i]);
+    if constexpr (Shears > 0) riemann(up_s[i], down_s[i], s_lo, s_hi, share_s, v_s[i], s_s[i]);
+    if constexpr (Shears > 1) riemann(up_s2[i], down_s2[i], s_lo, s_hi, share_s, v_s2[i], s_s2[i]);
   }
 }
 
@@ -83,28 +74,22 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real b_i = Uniform ? b0 : b[i], zp_i = Uniform ? zp0 : zp[i], zs_i = Uniform ? zs0 : zs[i];
-    const Real moved = scale * b_i, strained = size * b_i;
-    // Times dt/h; multiplied first, so that the smallest velocities do not vanish on the way.
-    const Real p_modulus = strained * zp_i * zp_i, s_modulus = Shear ? strained * zs_i * zs_i : Real(0);
-    const Real dv = v_hi[i] - v_lo[i], along = (Shear ? p_modulus - 2 * s_modulus : p_modulus) * dv;
-    v[i] += moved * (s_hi[i] - s_lo[i]);
-    s[i] += p_modulus * dv;
+    Real moved, p_modulus, s_modulus, along;
+    update_coefficients<Shear>(scale, size, b_i, zp_i, zs_i, moved, p_modulus, s_modulus);
+    update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
     passive[i] += along;
     if constexpr (D == 3) passive2[i] += along;
-    if constexpr (Shear) {
-      vt[i] += moved * (t_hi[i] - t_lo[i]);
-      st[i] += s_modulus * (w_hi[i] - w_lo[i]);
-    }
-    if constexpr (Shear && D == 3) {
-      vt2[i] += moved * (t2_hi[i] - t2_lo[i]);
-      st2[i] += s_modulus * (w2_hi[i] - w2_lo[i]);
-    }
+    if constexpr (Shear) update_s(w_hi[i] - w_lo[i], t_hi[i] - t_lo[i], moved, s_modulus, vt[i], st[i]);
+    if constexpr (Shear && D == 3)
+      update_s(w2_hi[i] - w2_lo[i], t2_hi[i] - t2_lo[i], moved, s_modulus, vt2[i], st2[i]);
   }
 }
 
+/// (E8) and (E9) in one, (E9a): in a cell whose neighbours have its material.
 template <int D, bool Shear, class Real>
-void inside(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
-            OutgoingWaves<Real> above, const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
+void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
+                    OutgoingWaves<Real> above, const MaterialRows<Real>& material,
+                    const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale, b = material.b[0], zp = material.zp[0];
   const Real zs = Shear ? material.zs[0] : Real(0), moved = Real(0.5) * (scale * b), strained = size * b;
   const Real p_modulus = strained * zp * zp, s_modulus = strained * zs * zs;
@@ -139,8 +124,8 @@ void inside(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves
 }
 
 template <bool Along, bool Remember, class Real>
-void stretch_in(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
-                const Real* __restrict before, Real* __restrict now, Real* __restrict phi) {
+void filter_in(std::int64_t n, const PmlFactors<Real>& factors, Real plate, const Real* plates,
+               const Real* __restrict before, Real* __restrict now, Real* __restrict phi) {
   const Real *of_memory = factors.of_memory, *of_change = factors.of_change, *left = factors.left,
              *added = factors.added, *kept = factors.kept, *lost = factors.lost_in_plates;
 #pragma omp simd
@@ -154,16 +139,16 @@ void stretch_in(std::int64_t n, const PmlFactors<Real>& factors, Real plate, con
 }
 
 template <class Real>
-void stretch_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
-                   Real* phi, bool remember) {
-  const auto loop = remember ? stretch_in<true, true, Real> : stretch_in<true, false, Real>;
+void filter_along(std::int64_t n, const PmlFactors<Real>& by_cell, Real plate, const Real* before, Real* now,
+                  Real* phi, bool remember) {
+  const auto loop = remember ? filter_in<true, true, Real> : filter_in<true, false, Real>;
   loop(n, by_cell, plate, nullptr, before, now, phi);
 }
 
 template <class Real>
-void stretch_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
-                    Real* now, Real* phi, bool remember) {
-  const auto loop = remember ? stretch_in<false, true, Real> : stretch_in<false, false, Real>;
+void filter_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* plates, const Real* before,
+                   Real* now, Real* phi, bool remember) {
+  const auto loop = remember ? filter_in<false, true, Real> : filter_in<false, false, Real>;
   loop(n, of_all, Real(0), plates, before, now, phi);
 }
 
@@ -178,14 +163,14 @@ void damp_in(std::int64_t n, const Real* __restrict factor, const Real* __restri
 }
 
 template <bool Uniform, int D, bool Shear, class Real>
-constexpr InterfaceKernels<Real> face = {meet<Uniform, Shear ? D - 1 : 0, Real>,
-                                         update<Uniform, D, Shear, Real>, inside<D, Shear, Real>};
+constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 0, Real>,
+                                         update<Uniform, D, Shear, Real>, update_uniform<D, Shear, Real>};
 
 template <int Order, bool Uniform, class Real>
-constexpr Kernels<Real> table = {leave<Order, Uniform, Real>,
+constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
                                   {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
-                                 Uniform ? nullptr : across<Order, Real>};
+                                 Uniform ? nullptr : fused_row<Order, Real>};
 
 template <bool Uniform, class Real>
 const Kernels<Real>* of_order(int order) {
@@ -205,7 +190,7 @@ const Kernels<Real>* of_order(int order) {
 template <class Real>
 constexpr KernelTables<Real> tables = {of_order<false, Real>,
                                        of_order<true, Real>,
-                                       {stretch_along<Real>, stretch_across<Real>},
+                                       {filter_along<Real>, filter_across<Real>},
                                        {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
                                          {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
                                        SLIPWAVE_SLIP_LEVEL};

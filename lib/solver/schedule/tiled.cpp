@@ -447,7 +447,7 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
     return;
   }
   const bool patched = patches && !step_.patches().of(line).empty();
-  const auto copy = patched ? work_on_patches(stage, line, first, second, *patches, worker) : std::nullopt;
+  const auto copy = patched ? advance_patches(stage, line, first, second, *patches, worker) : std::nullopt;
   if (!first.empty()) {
     if (step_.reads(time, line)) {
       constexpr auto lag = Sweeps<D, Real>::lag;
@@ -489,95 +489,113 @@ void TiledExecutor<D, Real>::make_patch_memory() {
   }
 }
 
-/// Brings the fields of the patches of a line, in a copy, to the end of the step and into the next one. As on
-/// lines that take half sweeps as a whole, the second of them stays behind the first. Returns the
-/// copy, nothing where nothing moves.
+/// Whether any patch of a row reads or changes these columns.
 template <int D, class Real>
-std::optional<RowFields<Real>> TiledExecutor<D, Real>::work_on_patches(const Stage& stage, std::int64_t line,
+bool TiledExecutor<D, Real>::patches_reach(std::int64_t line, const IndexRange& columns) const {
+  constexpr auto reach = Patches<D>::margin + Patches<D>::beyond;
+  const auto patches = step_.patches().of(line);
+  return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
+    return patch.blocks.first - reach < columns.last && patch.blocks.last + reach > columns.first;
+  });
+}
+
+/// Brings the fields of the patches of a row, in a copy, to the end of the step and into the next one. As on
+/// split rows, the second half sweep stays behind the first. Returns the copy, nothing where all is at rest.
+template <int D, class Real>
+std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Stage& stage, std::int64_t line,
                                                                        const IndexRange& first,
                                                                        const IndexRange& second,
                                                                        PatchBoundary<Real>& boundary,
                                                                        Worker& worker) {
-  using Kept = PatchBoundary<Real>;
-  using Cells = typename TimeStep<D, Real>::Cells;
-  constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
+  constexpr auto behind = PatchBoundary<Real>::behind, beyond = Patches<D>::beyond;
   const std::int64_t pitch = worker.strip_pitch, nx = layout_.shape()[0];
-  const std::int64_t origin = second.first - Kept::behind - margin;
-  Real* const copy = worker.strip.data() + margin - origin;
-  const auto fields = state_.row_fields(line);
-  const RowFields<Real> strip{line, copy, pitch};
-  const auto each_row = [](auto&& what) {
-    for (int row = 0; row < FieldRows<D>::count; ++row) what(row);
-  };
+  if (!patches_reach(line, {second.first, first.last + beyond})) return std::nullopt;
   const auto patches = step_.patches().of(line);
-  // Whether any patch has to do with these columns.
-  const auto wanted = [&](const IndexRange& columns) {
-    return std::any_of(patches.begin(), patches.end(), [&](const Patch& patch) {
-      return patch.blocks.first - margin - beyond < columns.last &&
-             patch.blocks.last + margin + beyond > columns.first;
-    });
-  };
-  if (!wanted({second.first, first.last + beyond})) return std::nullopt;
   const auto at = layout_.line_index(line);
-  const bool reads = step_.reads(stage.time, line);
-  const auto read = [&](const Patch& patch, const RowFields<Real>& from) {
-    if (const auto seen = common(patch.cells, first); reads && !seen.empty())
-      step_.read(stage.time, from, seen);
-  };
   if (is_quiet({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
-               {second.first - Kept::behind, first.last + beyond})) {
-    for (const auto& patch : patches) read(patch, fields);
-    // The next stripe begins with zeros as well as it would go on from them.
+               {second.first - behind, first.last + beyond})) {
+    const auto fields = state_.row_fields(line);
+    for (const auto& patch : patches) read_patch(stage, patch, first, fields);
+    // The next stripe begins with zeros as well as it would continue from them.
     boundary.line = -1;
     return std::nullopt;
   }
+  // Cell 0 of the copy would stand here.
+  const RowFields<Real> strip{
+      line, worker.strip.data() + Patches<D>::margin - (second.first - behind - Patches<D>::margin), pitch};
   const bool begins = boundary.line != line || boundary.step != stage.time.step ||
                       boundary.next != second.first || second.first == 0;
-  if (!begins)
-    each_row([&](int row) {
-      const Real* const kept = boundary.fields.data() + row * Kept::width;
-      std::copy(kept, kept + first.first - second.first + Kept::behind,
-                copy + row * pitch + second.first - Kept::behind);
-    });
-  // What no sweep of this stage has changed yet.
-  const IndexRange unchanged{begins ? std::max<std::int64_t>(origin, 0) : first.first,
-                             std::min(first.last + beyond, nx)};
-  for (const auto& patch : patches) {
-    const auto needed =
-        common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
-    if (!needed.empty())
-      each_row([&](int row) {
-        std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
-                  strip.field(row) + needed.first);
-      });
-  }
-  for (const auto& patch : patches) {
-    const auto sweep = [&](const IndexRange& all, const IndexRange& now, StripeBoundary<Real>& of_sweep) {
-      const auto columns = common(all, now);
-      if (!columns.empty())
-        sweeps_.along_copy(strip, columns, begins || columns.first == all.first, stage.fraction, of_sweep,
-                           worker.work);
-      return columns;
-    };
-    const auto slipping =
-        sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, boundary.first);
-    if (!slipping.empty()) {
-      step_.apply(stage.time, Cells::patch, strip, slipping);
-      read(patch, strip);
-      step_.apply_after_record(stage.time, Cells::patch, strip, slipping);
-    }
-    sweep(patch.blocks, second, boundary.second);
-  }
+  load_patches(strip, first, second, begins, boundary);
+  for (const auto& patch : patches)
+    advance_patch(stage, patch, strip, first, second, begins, boundary, worker);
   boundary.line = line;
   boundary.step = stage.time.step;
   boundary.next = second.last;
-  if (second.last < nx && wanted({second.last, nx}))
-    each_row([&](int row) {
-      const Real* const from = copy + row * pitch + second.last - Kept::behind;
-      std::copy(from, from + first.last - second.last + Kept::behind,
-                boundary.fields.data() + row * Kept::width);
-    });
+  if (second.last < nx && patches_reach(line, {second.last, nx}))
+    for (int row = 0; row < FieldRows<D>::count; ++row) {
+      const Real* const from = strip.field(row) + second.last - behind;
+      std::copy(from, from + first.last - second.last + behind,
+                boundary.fields.data() + row * PatchBoundary<Real>::width);
+    }
   return strip;
+}
+
+/// Puts into the copy what the stripe before left of the patches, and what no sweep of this stage has
+/// changed.
+template <int D, class Real>
+void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const IndexRange& first,
+                                          const IndexRange& second, bool begins,
+                                          const PatchBoundary<Real>& boundary) {
+  using Boundary = PatchBoundary<Real>;
+  constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
+  const auto fields = state_.row_fields(strip.row);
+  for (int row = 0; row < FieldRows<D>::count && !begins; ++row) {
+    const Real* const left = boundary.fields.data() + row * Boundary::width;
+    std::copy(left, left + first.first - second.first + Boundary::behind,
+              strip.field(row) + second.first - Boundary::behind);
+  }
+  const std::int64_t origin = second.first - Boundary::behind - margin;
+  const IndexRange unchanged{begins ? std::max<std::int64_t>(origin, 0) : first.first,
+                             std::min(first.last + beyond, layout_.shape()[0])};
+  for (const auto& patch : step_.patches().of(strip.row)) {
+    const auto needed =
+        common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
+    for (int row = 0; row < FieldRows<D>::count && !needed.empty(); ++row)
+      std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
+                strip.field(row) + needed.first);
+  }
+}
+
+/// Half a sweep, what happens at the end of the step, half a sweep of the next.
+template <int D, class Real>
+void TiledExecutor<D, Real>::advance_patch(const Stage& stage, const Patch& patch,
+                                           const RowFields<Real>& strip, const IndexRange& first,
+                                           const IndexRange& second, bool begins,
+                                           PatchBoundary<Real>& boundary, Worker& worker) {
+  using Cells = typename TimeStep<D, Real>::Cells;
+  constexpr auto margin = Patches<D>::margin;
+  const auto sweep = [&](const IndexRange& all, const IndexRange& now, StripeBoundary<Real>& of_sweep) {
+    const auto columns = common(all, now);
+    if (!columns.empty())
+      sweeps_.along_copy(strip, columns, begins || columns.first == all.first, stage.fraction, of_sweep,
+                         worker.work);
+    return columns;
+  };
+  const auto ended = sweep({patch.blocks.first - margin, patch.blocks.last + margin}, first, boundary.first);
+  if (!ended.empty()) {
+    step_.apply(stage.time, Cells::patch, strip, ended);
+    read_patch(stage, patch, first, strip);
+    step_.apply_after_record(stage.time, Cells::patch, strip, ended);
+  }
+  sweep(patch.blocks, second, boundary.second);
+}
+
+/// Has those of these columns read that are in the patch.
+template <int D, class Real>
+void TiledExecutor<D, Real>::read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
+                                        const RowFields<Real>& fields) {
+  const auto seen = common(patch.cells, columns);
+  if (!seen.empty() && step_.reads(stage.time, fields.row)) step_.read(stage.time, fields, seen);
 }
 
 /// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves

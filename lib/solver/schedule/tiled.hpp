@@ -97,9 +97,17 @@ class TiledExecutor : public Executor {
                    StripeBoundary<Real>& boundary, StripeBoundary<Real>& second_boundary,
                    PatchBoundary<Real>* patches, Worker& worker);
   void make_patch_memory();
-  std::optional<RowFields<Real>> work_on_patches(const Stage& stage, std::int64_t line,
+  bool patches_reach(std::int64_t line, const IndexRange& columns) const;
+  std::optional<RowFields<Real>> advance_patches(const Stage& stage, std::int64_t line,
                                                  const IndexRange& first, const IndexRange& second,
                                                  PatchBoundary<Real>& boundary, Worker& worker);
+  void load_patches(const RowFields<Real>& strip, const IndexRange& first, const IndexRange& second,
+                    bool begins, const PatchBoundary<Real>& boundary);
+  void advance_patch(const Stage& stage, const Patch& patch, const RowFields<Real>& strip,
+                     const IndexRange& first, const IndexRange& second, bool begins,
+                     PatchBoundary<Real>& boundary, Worker& worker);
+  void read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
+                  const RowFields<Real>& fields);
   void sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real part,
                             StripeBoundary<Real>& boundary, Worker& worker);
   void put_patches(const IndexRange& columns, const RowFields<Real>& copy);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "parallel/threads.hpp"
 
@@ -40,6 +41,12 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       ends_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
     }
   });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::use(Effect<D, Real>* filter) {
+  if (filters_.size() == most_filters) throw std::length_error("too many effects filter sweeps");
+  filters_.push_back(filter);
 }
 
 template <int D, class Real>
@@ -106,7 +113,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     const auto* stretch = state_.stretch(number, part.first, part.last);
     const auto material = stretch ? stretch->rows() : state_.material_from(line, part.first);
     const auto from = part.first - columns.first;
-    kernels_[stretch != nullptr]->leave(
+    kernels_[stretch != nullptr]->reconstruct(
         part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
         pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up + from, down + from);
   };
@@ -132,11 +139,13 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const int row_count = shear_ ? changed : changed_by_p;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
   // Made in place: a copy would wait for all that loops before this have written.
+  std::array<std::array<IndexRange, 2>, most_filters> filtered;
+  for (std::size_t f = 0; f < filters_.size(); ++f) filtered[f] = filters_[f]->filtered(axis, line, columns);
   const auto each_filtered = [&](auto&& what) {
-    for (auto* filter : filters_)
-      for (const auto& part : filter->filtered(axis, line, columns))
+    for (std::size_t f = 0; f < filters_.size(); ++f)
+      for (const auto& part : filtered[f])
         for (int n = 0; n < row_count && !part.empty(); ++n)
-          what(*filter, part, n, work.before(n) + part.first - columns.first);
+          what(*filters_[f], part, n, work.before(n) + part.first - columns.first);
   };
   each_filtered([&](const auto&, const IndexRange& part, int n, Real* before) {
     std::copy(field(n) + part.first, field(n) + part.last, before);
@@ -153,8 +162,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto inside = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     // Its material is known without looking for it in memory.
-    face_kernels(true).inside(part.count(), scale, flux.below.at(from), flux.here.at(from),
-                              flux.above.at(from), stretch_of(part)->rows(), swept(part.first));
+    face_kernels(true).update_uniform(part.count(), scale, flux.below.at(from), flux.here.at(from),
+                                      flux.above.at(from), stretch_of(part)->rows(), swept(part.first));
   };
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
@@ -349,9 +358,9 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
     const auto here = first.at(part.first - piece.leave.first);
     const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
     const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
-    face_kernels(stretch).meet(part.count(), here.at(-1), here, lo,
-                               stretch ? lo : state_.material_from(at, part.first),
-                               faces.at(part.first - base));
+    face_kernels(stretch).solve_riemann(part.count(), here.at(-1), here, lo,
+                                        stretch ? lo : state_.material_from(at, part.first),
+                                        faces.at(part.first - base));
   };
   const auto uniform_interior = state_.uniform_interior[0].of(piece.line);
   for (const IndexRange& part : {IndexRange{met.first, inner_first}, IndexRange{inner_first, inner_last},
@@ -400,9 +409,9 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
       const auto *lo = stretch(row - 1), *hi = stretch(row);
       const bool uniform = lo && hi;
       const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
-      face_kernels(uniform).meet(part.count(), above.at(part.first - x), here.at(part.first - x),
-                                 uniform ? lo->rows() : from(row - 1), uniform ? hi->rows() : from(row),
-                                 ring.faces(row, part.first));
+      face_kernels(uniform).solve_riemann(part.count(), above.at(part.first - x), here.at(part.first - x),
+                                          uniform ? lo->rows() : from(row - 1),
+                                          uniform ? hi->rows() : from(row), ring.faces(row, part.first));
     };
     // Faces between cells that need none are left out.
     const auto below = inside(row - 1);
@@ -462,20 +471,20 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   const auto from = ring.leaving(row - 1, x), to = ring.leaving(row, x);
   const auto faces = ring.faces(row, x);
   work.coming().prefetch_one(), work.coming().prefetch_one();
-  kernels_[false]->across(columns.count(), scale,
-                          {{field(0), field(1), field(2), field(3), field(4)},
-                           layout.stride(axis),
-                           state_.material_layout.row_pitch(),
-                           to.up(1) - to.up(0),
-                           faces.pitch,
-                           material(below),
-                           material(here),
-                           material(brought),
-                           from.up(0),
-                           to.up(0),
-                           faces.first,
-                           ring.faces(done, x).first,
-                           ring.faces(done + 1, x).first});
+  kernels_[false]->fused_row(columns.count(), scale,
+                             {{field(0), field(1), field(2), field(3), field(4)},
+                              layout.stride(axis),
+                              state_.material_layout.row_pitch(),
+                              to.up(1) - to.up(0),
+                              faces.pitch,
+                              material(below),
+                              material(here),
+                              material(brought),
+                              from.up(0),
+                              to.up(0),
+                              faces.first,
+                              ring.faces(done, x).first,
+                              ring.faces(done + 1, x).first});
   work.coming().prefetch_one(), work.coming().prefetch_one();
   return true;
 }

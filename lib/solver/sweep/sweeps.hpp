@@ -24,8 +24,10 @@ class Sweeps {
   /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
-  /// From now on this effect filters what sweeps add; it must outlive them.
-  void use(Effect<D, Real>* filter) { filters_.push_back(filter); }
+  /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
+  /// most_filters.
+  void use(Effect<D, Real>* filter);
+  static constexpr std::size_t most_filters = 4;
 
   /// A whole sweep along any axis, shared out to threads.
   void along(int axis, Real scale);

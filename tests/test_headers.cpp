@@ -1,0 +1,1 @@
+// Holds nothing: CMake wants a source to compile headers for.
