@@ -5,7 +5,7 @@
 
 namespace slipwave {
 
-/// What one step does to a plane wave of `cells` cells a wavelength along an axis in a uniform medium: the
+/// What one step does to a plane wave of `cells` cells per wavelength along an axis in a uniform medium: the
 /// factor on its complex amplitude (theory.md (E12)); exp(-2 pi i courant/cells) would be exact.
 std::complex<double> amplification(int order, double courant, double cells);
 
@@ -19,7 +19,7 @@ struct UniformScheme {
 
 enum class WaveKind { p, s };
 
-/// By what a whole step in 2-D errs for a plane P or S wave of `cells` cells a wavelength that travels at
+/// By what a whole step in 2-D errs for a plane P or S wave of `cells` cells per wavelength that travels at
 /// `angle` (radians from the z axis): the logarithm of the factor on its amplitude over the exact factor.
 /// Real part: below zero for loss; imaginary part: phase in radians, above zero when the wave is late. After
 /// n steps the wave is exp(n step_error) times what it should be (theory.md (E15)).

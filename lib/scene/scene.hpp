@@ -75,7 +75,7 @@ double largest_cfl(const Numerics& numerics);
 template <int D>
 double time_step_s(const Scene<D>& scene);
 
-/// Width in cells of the absorbing layers of a shot: 20 for the matched layer, 40 for the zones of a plane
+/// Width in cells of the absorbing layers of a shot: 20 for the PML, 40 for the zones of a plane
 /// wave, unless numerics say otherwise. Either sends back less than 2 % of what meets it at up to 60 degrees.
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source);

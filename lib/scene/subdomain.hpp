@@ -13,7 +13,7 @@ namespace slipwave {
 struct Subdomain {
   std::int64_t rows = 0;             // of the whole model; 0: there is one process
   std::int64_t first = 0, last = 0;  // first <= row < last
-  /// Rows beside them that are put right by neighbours before each pass through memory.
+  /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
   bool slips = false;  // whether anything slips in any part
   double fastest = 0;  // largest vp of the whole model, m/s

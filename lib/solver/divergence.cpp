@@ -57,7 +57,7 @@ std::string contact_of(const Medium<D>& medium, std::size_t a, std::size_t b) {
   return largest >= strong_interface_ratio ? "a contact" : "";
 }
 
-/// The free, rigid or mirror edges of the whole model and its absorbing zones; `at` in cells of it, outside
+/// The free, rigid or mirror edges of the whole model and its sponge; `at` in cells of it, outside
 /// it in the zones.
 template <int D>
 void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const Index<D>& at) {

@@ -7,7 +7,7 @@
 
 namespace slipwave {
 
-/// Hands over all that the steps to come of a shot depend on.
+/// Gives all that the steps to come of a shot depend on.
 using Serialize = std::function<void(Archive&)>;
 
 /// Where a shot is.
@@ -15,7 +15,7 @@ struct ShotPlace {
   std::int64_t done = 0, steps = 0;
 };
 
-/// Somebody who may let a shot pause between two passes through memory.
+/// Somebody who may let a shot pause between two time tiles.
 class Pauses {
  public:
   virtual ~Pauses() = default;
@@ -23,7 +23,7 @@ class Pauses {
   virtual void begin(const Serialize& keep) = 0;
   /// Whether to pause as soon as may be. Asked before each pass, by any thread.
   virtual bool wanted() = 0;
-  /// No step is under way. What it throws ends the shot.
+  /// No step is in progress. What it throws ends the shot.
   virtual void pause(const Serialize& keep, const ShotPlace& place) = 0;
 };
 

@@ -45,7 +45,7 @@ class Unstable : public Error {
 
 /// Shoots one shot (1-based number) of a checked scene and returns its traces, component by component in the
 /// order of scene.recording, receivers in their order. The traces do not depend on the number of threads.
-/// `pauses` (may be null) can interrupt it between passes through memory and take it up again; that changes
+/// `pauses` (may be null) can interrupt it between time tiles and take it up again; that changes
 /// no bit of what comes out. `report` (may be null) wants a scene that keeps a diary. Throws Unstable, which
 /// says where, when, in what medium and near which effect the fields were first seen to be so.
 /// `ranks` (may be null): processes that shoot it together, each with its part of the scene, to the last bit

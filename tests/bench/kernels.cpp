@@ -46,10 +46,10 @@ void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
   Rows<Real> rows;
   const auto leave = [&](int v, int s, int z, int pair) {
     kernels.reconstruct(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1,
-                        Real(1), rows.leaving().up(pair) - 1, rows.leaving().down(pair) - 1);
+                        Real(1), rows.outgoing().up(pair) - 1, rows.outgoing().down(pair) - 1);
   };
   const auto meet = [&] {
-    face.solve_riemann(cells + 1, rows.leaving().at(-1), rows.leaving(), rows.material(-1), rows.material(0),
+    face.solve_riemann(cells + 1, rows.outgoing().at(-1), rows.outgoing(), rows.material(-1), rows.material(0),
                        rows.faces());
   };
   const auto update = [&] {
@@ -57,7 +57,7 @@ void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
                 {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };
   const auto inside = [&] {
-    const auto here = rows.leaving();
+    const auto here = rows.outgoing();
     face.update_uniform(cells, Real(1), here.at(-1), here, here.at(1), rows.material(0),
                         {rows.row(0), rows.row(1), rows.row(2), rows.row(3), rows.row(4)});
   };

@@ -111,7 +111,7 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
   Ring<Real> ring(0, n, 2, int(behind) + 1, 2);
   const auto& kernel = kernels<Real>(order, false);
   for (std::int64_t row = 0; row < rows; ++row) {
-    const auto here = ring.leaving(row, 0), above = ring.leaving(row + 1, 0);
+    const auto here = ring.outgoing(row, 0), above = ring.outgoing(row + 1, 0);
     const auto of = rows_of(row);
     const auto done = row - behind;
     if (at_once && done >= 0) {

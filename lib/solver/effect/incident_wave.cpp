@@ -88,7 +88,7 @@ int row_lying(int row) {
   return row;
 }
 
-/// Values of all rows in the cells of a column at the ends of the steps under way.
+/// Values of all rows in the cells of a column at the ends of the steps in progress.
 template <class Real>
 class ColumnValues {
  public:
@@ -133,7 +133,7 @@ class Column {
     const IndexRange all{0, domain_.grid.shape[0]};
     for (const auto& sweep : splitting_)
       if (sweep.axis == 1) {
-        if (sweeps_.bends(0)) sweeps_.keep(0, 0, all);
+        if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
         sweeps_.measure_side_surfaces(0);
         sweeps_.along_x(0, all, Real(sweep.fraction), carry_, work_);
       }

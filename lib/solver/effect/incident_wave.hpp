@@ -16,7 +16,7 @@ struct IncidentValues {
   bool by_cell;
 };
 
-/// The wave field that comes in from outside, known in the absorbing zones: what the zones damp the fields
+/// The wave field that comes in from outside, known in the sponge: what the zones damp the fields
 /// to. In scenes without such a wave there is none and the zones damp to zero.
 template <int D, class Real>
 class IncidentWave {
@@ -24,7 +24,7 @@ class IncidentWave {
   virtual ~IncidentWave() = default;
   /// Puts the wave of t = 0 into the fields of the computed grid.
   virtual void begin(State<D, Real>& state) = 0;
-  /// Brings it to time.end_s(), step after step. It still knows the steps under way (Pass).
+  /// Brings it to time.end_s(), step after step. It still knows the steps in progress (Pass).
   virtual void advance(const StepTime& time) = 0;
   /// Its values at that step in `count` cells of a line from x_first on, which lie in the zone of `axis`,
   /// `side` (0 low, 1 high). They last until another line of the same number of a step `most_steps_under_way`
@@ -33,7 +33,7 @@ class IncidentWave {
                                       std::int64_t x_first, std::int64_t count, Real* room) const = 0;
   /// Whether it needs the fields whole (not split between sweeps) where it is compared with them.
   virtual bool needs_whole_step() const = 0;
-  /// Hands over what it remembers from one step to the next; called when no step is under way.
+  /// Gives what it remembers from one step to the next; called when no step is in progress.
   virtual void serialize(Archive& archive) = 0;
 };
 

@@ -11,7 +11,7 @@
 
 namespace slipwave::solver {
 
-/// A convolutional perfectly matched layer (PML) on the increments of the sweeps (theory.md (E14)). In a zone
+/// A convolutional perfectly PML (PML) on the increments of the sweeps (theory.md (E14)). In a zone
 /// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): what a
 /// sweep along that axis adds to a field, over the part `scale` of a step, loses the memory phi of earlier
 /// additions,

@@ -10,14 +10,14 @@ namespace slipwave::solver {
 namespace {
 
 /// Reconstruction, Riemann solution and update of a row of a sweep across the rows in one loop: the same bits
-/// as the three loops (Kernels.OfARowAcrossAtOnceGiveTheSameBits). What leaves downwards and half of the new
-/// values stay in registers, and what waits for the memory or the division in one part leaves the others
-/// room.
+/// as the three loops (Kernels.OfARowAcrossAtOnceGiveTheSameBits). Outgoing waves of downwards and half of
+/// the new values stay in registers, and what waits for the memory or the division in one part leaves the
+/// others room.
 template <int Order, int Sign, class Real>
 [[gnu::always_inline]] inline void fused_row_in(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   const Real size = Sign < 0 ? -scale : scale;
   const std::int64_t stride = rows.stride, m = rows.material_pitch, ups = rows.up_pitch, f = rows.face_pitch;
-  // The row that is brought forward is one that `leave` reads: a field has one pointer for both.
+  // The row that is advanced is one that `leave` reads: a field has one pointer for both.
   constexpr int behind = Order < 3 ? 1 : (Order - 1) / 2;
   Real* __restrict v = rows.fields.v, * __restrict s = rows.fields.s, * __restrict passive = rows.fields.passive;
   Real* __restrict vt = rows.fields.vt, * __restrict st = rows.fields.st;

@@ -39,7 +39,7 @@ struct InterfaceStates {
   InterfaceStates at(std::int64_t i) const { return {first + i, pitch}; }
 };
 
-/// What leaves cells up and down along the axis, by pair, in rows as in Faces.
+/// Outgoing waves of cells up and down along the axis, by pair, in rows as in Faces.
 template <class Real>
 struct OutgoingWaves {
   Real* first;
@@ -63,7 +63,7 @@ struct SweptRows {
   Real *passive2 = passive, *vt2 = vt, *st2 = st;
 };
 
-/// What the matched layer does to a change (MatchedLayer), one value for all cells or one a cell.
+/// What the PML does to a change (MatchedLayer), one value for all cells or one a cell.
 template <class Real>
 struct PmlFactors {
   const Real *of_memory, *of_change, *left, *added, *kept, *lost_in_plates;
@@ -92,7 +92,7 @@ struct InterfaceKernels {
 /// A row of a sweep across the lines in 2-D where nothing comes between its loops. The row that sends out:
 /// its `fields` and its material `here`, with `below` that of the row before; what left that one upwards
 /// (up_from) and will leave this one (up_to), P and up_pitch on S; the faces between both. The row `done`,
-/// that is brought forward, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
+/// that is advanced, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Of
 /// material and faces the first rows, the others a pitch apart.
 template <class Real>
 struct FusedRow {
@@ -110,7 +110,7 @@ struct FusedRow {
 /// forward in time of -v (E19): `leave` and the updates turn the sign of v, and faces hold -v*.
 template <class Real>
 struct Kernels {
-  /// What leaves every cell upwards and downwards within the time step (theory.md (E6), (E7)):
+  /// Outgoing waves of every cell upwards and downwards within the time step (theory.md (E6), (E7)):
   /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = part of the step.
   void (*reconstruct)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
                       const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
@@ -121,7 +121,7 @@ struct Kernels {
   void (*fused_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
 };
 
-/// Loops of the matched layer: now -= of_memory phi + of_change (now - before), then the plain damping;
+/// Loops of the PML: now -= of_memory phi + of_change (now - before), then the plain damping;
 /// phi = left phi + added (now - before) unless phi is to stay.
 template <class Real>
 struct PmlKernels {
@@ -133,7 +133,7 @@ struct PmlKernels {
                  Real* now, Real* phi, bool remember);
 };
 
-/// Loops of the absorbing zones: now = target + factor (now - target).
+/// Loops of the sponge: now = target + factor (now - target).
 template <class Real>
 struct SpongeKernels {
   /// By whether there is one factor a cell, else one for all, and by the same of targets.

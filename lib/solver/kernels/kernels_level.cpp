@@ -13,7 +13,7 @@ const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
 namespace {
 
 // Of a stretch of one material (Uniform) only the first cell is read, before the loop: what comes of it alone
-// is then reckoned there, too. Elsewhere that is a value read in vain.
+// is then computed there, too. Elsewhere that is a value read in vain.
 
 template <int Order, bool Uniform, int Sign, class Real>
 void reconstruct_in(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,

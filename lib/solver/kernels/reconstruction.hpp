@@ -15,7 +15,7 @@ template <int Order, class Real>
   if constexpr (Order > 1) {
     // All but e0 have the factor 1 - a, so they are exactly 0 where a = 1. What a neighbour further out adds
     // to the weights of the order below are multiples (alternating binomial coefficients) of its own two:
-    // hardly anything is reckoned twice.
+    // hardly anything is computed twice.
     const Real left = Real(1. / 4) - Real(1. / 4) * a;
     if constexpr (Order == 3) {
       e1 = left * (Real(1. / 3) - Real(2. / 3) * a);

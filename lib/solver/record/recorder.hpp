@@ -29,7 +29,7 @@ class Recorder : public Record<D, Real> {
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) override;
   void finish(const StepTime& time) override;
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
-  /// Hands over what it remembers when no step is under way: the samples so far and the steps the next ones
+  /// Gives what it remembers when no step is in progress: the samples so far and the steps the next ones
   /// are made of.
   void serialize(Archive& archive);
 
@@ -82,7 +82,7 @@ class Recorder : public Record<D, Real> {
   std::vector<std::size_t> starts_;      // of each line in rows_, and the end
   Box box_;
   std::int64_t values_a_step_ = 0;
-  std::vector<Real> values_;     // [step modulo those under way][value]
+  std::vector<Real> values_;     // [step modulo those in progress][value]
   std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples are made of
   std::vector<double> sums_;     // of a sample, one a trace
   std::int64_t next_sample_ = 0;

@@ -43,7 +43,7 @@ class StabilityCheck {
   /// `limit` in m/s: largest_velocity().
   StabilityCheck(const State<D, Real>& state, const Domain<D>& domain, double unit, double limit)
       : state_(state), domain_(domain), unit_(unit), limit_(limit) {}
-  /// To be called when no step is under way. Names the fastest cell, or where any is not finite the one in
+  /// To be called when no step is in progress. Names the fastest cell, or where any is not finite the one in
   /// the middle of those: what is not finite spreads alike to all sides.
   void check(const StepTime& time) const;
   /// The first step after `step` that ends with a look.

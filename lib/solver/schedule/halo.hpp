@@ -14,7 +14,7 @@
 namespace slipwave::solver {
 
 /// The rows (in 3-D planes) beyond a process's own. It computes them too, so that within a pass nobody waits
-/// for a neighbour; what has gone wrong in them is put right with the neighbour's own rows before the next
+/// for a neighbour; what is stale in them is refreshed with the neighbour's own rows before the next
 /// pass comes to them. A rank needs the rows above it first and those below it last: neighbours below run a
 /// little behind, by as much as a message takes, and then none waits for another (docs/scaling.md).
 template <int D, class Real>
@@ -29,7 +29,7 @@ class Halo {
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
 
-  /// Before a pass comes to these rows: puts right those of them that are the neighbours'. They are returned,
+  /// Before a pass comes to these rows: refreshes those of them that are the neighbours'. They are returned,
   /// above and below.
   std::array<IndexRange, 2> before(const IndexRange& rows);
   /// When a pass has brought all rows before `now` to its end, and had those before `earlier` at the last

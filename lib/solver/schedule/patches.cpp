@@ -25,7 +25,7 @@ Patches<D>::Patches(const Layout<D>& layout, const Domain<D>& domain, const Mode
       of_line.push_back({at[0] - reach, 0});
     of_line.back().last = at[0] + reach + 1;
   }
-  // Copies of a line know neither its ends nor what the matched layer remembers there.
+  // Copies of a line know neither its ends nor what the PML remembers there.
   const std::int64_t nx = layout.shape()[0], low = domain.low_zone[0];
   const IndexRange inside = {std::max(low + 2 * margin, least_gap),
                              std::min(low + domain.model_grid.shape[0] - 2 * margin, nx - least_gap)};

@@ -34,7 +34,7 @@ class Patches {
   }
   bool empty() const { return patches_.empty(); }
 
-  /// What the first half sweep brings forward beyond a patch, and what it reads beyond that at most.
+  /// What the first half sweep advances beyond a patch, and what it reads beyond that at most.
   static constexpr std::int64_t margin = Layout<D>::block, beyond = 2 * margin;
 
  private:

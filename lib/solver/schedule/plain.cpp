@@ -42,8 +42,8 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
 template <int D, class Real>
 void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
   const std::int64_t rows = state_.layout.lines();
-  if (sweeps_.bends(0))
-    for (std::int64_t row = 0; row < rows; ++row) sweeps_.keep(0, row, {0, state_.layout.shape()[0]});
+  if (sweeps_.corrects_surface(0))
+    for (std::int64_t row = 0; row < rows; ++row) sweeps_.retain(0, row, {0, state_.layout.shape()[0]});
   for (std::int64_t row = 0; row < rows; ++row) {
     sweeps_.measure_side_surfaces(row);
     if (step_.splits(time, row))

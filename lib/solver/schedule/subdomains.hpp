@@ -10,16 +10,16 @@
 
 namespace slipwave::solver {
 
-/// Steps that a pass through memory makes.
+/// Steps that a time tile makes.
 int steps_of_a_tile(const Tiling& tiling);
 
 /// Cells by which the fields of a cell spread along an axis in a step at most: a sweep along it reads `reach`
-/// more, free edges of the others `bends` (by axis).
+/// more, free surfaces of the others `bends` (by axis).
 template <int D>
 std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int axis, std::int64_t reach,
                               const std::array<std::int64_t, std::size_t(D)>& bends);
 
-/// Rows (in 3-D planes) by which what is wrong with a cell spreads in a pass through memory at most.
+/// Rows (in 3-D planes) by which what is wrong with a cell spreads in a time tile at most.
 template <int D>
 std::int64_t spread_of_a_tile(const Scene<D>& scene);
 

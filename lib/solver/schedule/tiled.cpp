@@ -40,9 +40,9 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
   const auto longest = stages(0, steps_per_tile_);
-  longest_ = longest.back().behind + bend_rows(0);
+  longest_ = longest.back().behind + surface_rows(0);
   const auto [along_x, along_y, along_z] = counts(longest);
-  // What is handed to neighbours or put right is then not what the pass behind or the one before is at.
+  // What is handed to neighbours or refreshed is then not what the pass behind or the one before is at.
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
@@ -111,12 +111,12 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
         stage.number = along_z++;
         break;
       case Stage::along_y:
-        behind += bend_rows(1);
+        behind += surface_rows(1);
         stage.number = along_y++;
         break;
       case Stage::along_x:
       case Stage::end_of_step:
-        behind += bend_rows(0);
+        behind += surface_rows(0);
         stage.number = along_x;
         along_x += stage.kind == Stage::end_of_step ? 2 : 1;
         if (stage.kind == Stage::end_of_step) stage.end = ends++;
@@ -136,7 +136,7 @@ template <int D, class Real>
 std::int64_t TiledExecutor<D, Real>::columns_behind(const Stage& stage) const {
   if (D == 2) return 2 * Sweeps<D, Real>::lag;
   if (stage.kind == Stage::along_y) return sweeps_.rows_behind();
-  return stage.kind == Stage::along_z ? 2 * bend_rows(D - 1) : bend_rows(0);
+  return stage.kind == Stage::along_z ? 2 * surface_rows(D - 1) : surface_rows(0);
 }
 
 template <int D, class Real>
@@ -230,7 +230,7 @@ void TiledExecutor<D, Real>::fields_changed() {
 template <int D, class Real>
 Box TiledExecutor<D, Real>::growth_of_a_step() const {
   std::array<std::int64_t, std::size_t(D)> bends;
-  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = bend_rows(axis);
+  for (int axis = 0; axis < D; ++axis) bends[std::size_t(axis)] = surface_rows(axis);
   const auto along = [&](int axis) {
     return spread_of_a_step<D>(step_.sweeps(), axis, sweeps_.reach(), bends);
   };
@@ -247,7 +247,7 @@ std::int64_t TiledExecutor<D, Real>::swept_cells() const {
 
 namespace {
 
-/// Rows that are asked for before the first sweep comes to them.
+/// Rows that are required before the first sweep comes to them.
 constexpr std::int64_t rows_ahead = 1;
 
 }  // namespace
@@ -256,7 +256,7 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::run_stripe(TileInProgress& pass, const IndexRange& rows, Worker& worker) {
   for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
     if (D == 2 && arriving + rows_ahead < rows_)
-      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.coming());
+      sweeps_.expect(arriving + rows_ahead, worker.columns.front(), worker.work.prefetch());
     const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
     for (std::size_t n = 0; n < pass.stages.size(); ++n) {
       const auto& stage = pass.stages[n];
@@ -281,14 +281,14 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band,
                                         const IndexRange* columns, Worker& worker) {
   const bool ends = stage.kind == Stage::end_of_step;
-  const auto side_rows = bend_rows(0);
+  const auto side_rows = surface_rows(0);
   if (side_rows > 0 && row >= 0 && row < rows_ && !columns->empty()) {
     if (D == 2) {
-      sweeps_.keep(0, row, *columns);
+      sweeps_.retain(0, row, *columns);
     } else {
       const std::int64_t first = columns->first == 0 ? 0 : columns->first + side_rows;
       for (auto y = first; y < std::min(columns->last + side_rows, cut_cells_); ++y)
-        sweeps_.keep(0, line_of(row, y), whole_lines());
+        sweeps_.retain(0, line_of(row, y), whole_lines());
     }
   }
   row -= side_rows;
@@ -321,13 +321,13 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines,
                                          Ring<Real>& ring, Worker& worker) {
   if constexpr (D == 3) {
-    const auto behind = sweeps_.rows_behind(), flank_rows = bend_rows(1);
+    const auto behind = sweeps_.rows_behind(), flank_rows = surface_rows(1);
     const IndexRange steps{lines.first == 0 ? 0 : lines.first + behind, lines.last + behind};
-    // What is beyond the last line is read some steps before that line is brought forward.
+    // What is beyond the last line is read some steps before that line is advanced.
     const bool low = lines.first == 0, high = steps.first <= cut_cells_ && steps.last > cut_cells_;
     if (flank_rows > 0 && row >= 0 && row < rows_) {
-      if (low) sweeps_.keep(1, line_of(row, 0), whole_lines());
-      if (high) sweeps_.keep(1, line_of(row, cut_cells_ - 1), whole_lines());
+      if (low) sweeps_.retain(1, line_of(row, 0), whole_lines());
+      if (high) sweeps_.retain(1, line_of(row, cut_cells_ - 1), whole_lines());
     }
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
@@ -372,7 +372,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   constexpr auto lag = Sweeps<D, Real>::lag;
   const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeSurface<D, Real>::reach;
   if (!stage.needed.meets({done, step + 1}, columns)) return;
-  // All that row `done` comes of, also rows that have been brought forward since.
+  // All that row `done` comes of, also rows that have been advanced since.
   const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};
   const auto measure = [&] {
     sweeps_.measure_end_surfaces(step,
@@ -386,7 +386,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   };
   if constexpr (D == 2) {
     auto& ring = pass.rings[std::size_t(stage.number)];
-    // Free edges read some cells of the columns beside these.
+    // Free surfaces read some cells of the columns beside these.
     if (is_quiet(rows, {}, {columns.first - lag, columns.last + lag})) {
       sweeps_.pass_over(step, columns, ring);
       return;
@@ -397,7 +397,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
     measure();
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = pass.rings[std::size_t(stage.number * cut_cells_ + y)];
-      if (is_quiet(rows, with_bends(D - 1, {y, y + 1}), whole_lines()))
+      if (is_quiet(rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
         sweeps_.pass_over(step, whole_lines(), ring);
       else
         sweep({0, y, 0}, whole_lines(), ring);
@@ -411,7 +411,7 @@ void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& column
   constexpr auto reach = 2 * Sweeps<D, Real>::lag;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
-  if (is_quiet(with_bends(0, {row, row + 1}), with_bends(0, {y, y + 1}),
+  if (is_quiet(with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
                {columns.first - reach, columns.last + reach})) {
     boundary = {};
     return;

@@ -22,7 +22,7 @@ struct PatchBoundary {
   std::vector<Real> fields;                     // rows of `width`, from `behind` cells before the next on
 };
 
-/// Executes time steps in time tiles: one or several steps in one pass through memory. Row after row comes to
+/// Executes time steps in time tiles: one or several steps in one time tile. Row after row comes to
 /// the first sweep, and each following sweep works some rows behind the one before it, so that what it needs
 /// is still in the cache. Rows are cut into stripes of columns that fit the first cache; a sweep
 /// stays some columns behind the one before it, too. In 3-D what comes are planes, cut along y into stripes
@@ -119,11 +119,13 @@ class TiledExecutor : public Executor {
   /// Lines of a row: one; in 3-D those of a plane, by y.
   std::int64_t line_of(std::int64_t row, std::int64_t y) const { return D == 2 ? row : row * cut_cells_ + y; }
   IndexRange whole_lines() const { return {0, layout_.shape()[0]}; }
-  /// How far sweeps along an axis must stay behind what its free edges read.
-  std::int64_t bend_rows(int axis) const { return sweeps_.bends(axis) ? FreeSurface<D, Real>::reach : 0; }
-  /// The same rows (in 3-D of a plane) and those beside them that free edges of an axis read.
-  IndexRange with_bends(int axis, const IndexRange& rows) const {
-    return {rows.first - bend_rows(axis), rows.last + bend_rows(axis)};
+  /// How far sweeps along an axis must stay behind what its free surfaces read.
+  std::int64_t surface_rows(int axis) const {
+    return sweeps_.corrects_surface(axis) ? FreeSurface<D, Real>::reach : 0;
+  }
+  /// The same rows (in 3-D of a plane) and those beside them that free surfaces of an axis read.
+  IndexRange with_surface_rows(int axis, const IndexRange& rows) const {
+    return {rows.first - surface_rows(axis), rows.last + surface_rows(axis)};
   }
 
   Sweeps<D, Real>& sweeps_;

@@ -20,7 +20,7 @@ class Domain {
   Grid<D> grid;             // zones included
   Index<D> low_zone{};      // cells added below the model along each axis
   Index<D> high_zone{};     // and above
-  EdgeLaws<D> edges;        // absorbing, without a zone, where other processes go on
+  EdgeLaws<D> edges;        // absorbing, without a zone, where other processes continue
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;  // rows of the computed grid that this process answers for

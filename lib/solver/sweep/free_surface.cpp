@@ -121,7 +121,7 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
   Index<D> last = shape_;
   for (auto& n : last) --n;
   if (axis < D - 1) kept_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
-  for (auto* lists : {&bends_, &jumps_})
+  for (auto* lists : {&velocity_corrections_, &traction_corrections_})
     for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
 }
 
@@ -135,7 +135,7 @@ std::int64_t FreeSurface<D, Real>::number(const Index<D>& at) const {
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::keep(const State<D, Real>& state, std::int64_t line) {
+void FreeSurface<D, Real>::retain(const State<D, Real>& state, std::int64_t line) {
   const auto at = state.layout.line_index(line);
   const bool along_x = axis_ > 0;
   const Real* const cell = state.field_row(at, 0) + (!along_x && side_ ? shape_[0] - 1 : 0);
@@ -156,8 +156,8 @@ void FreeSurface<D, Real>::measure(const State<D, Real>& state, std::int64_t fir
     for (auto term = cell->terms_begin; term < cell->terms_end; ++term)
       bend += terms_[term].weight * fields[terms_[term].place];
     const Real z = material[cell->impedance], stiffness = z * z * material[cell->b];
-    bends_[std::size_t(cell->pair)][std::size_t(cell->number)] = bend;
-    jumps_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * bend;
+    velocity_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = bend;
+    traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * bend;
   }
 }
 

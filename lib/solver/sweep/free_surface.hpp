@@ -17,18 +17,18 @@ struct SurfaceTerm {
   double weight = 0;
 };
 
-/// What the velocity `row` gains from cell j before a free edge (side 0 low, 1 high of an axis) of a solid to
-/// its mirror image beyond it, over 2 j + 1, as a sum of velocities of cells along the edge (theory.md
+/// What the velocity `row` gains from cell j before a free surface (side 0 low, 1 high of an axis) of a solid
+/// to its mirror image beyond it, over 2 j + 1, as a sum of velocities of cells along the edge (theory.md
 /// (E12)). `at` is a cell of the edge. Empty where the mirror image stays as it is: in fluid and void, beside
-/// them, contacts that end a span and free edges of another axis, and on grids of a few cells along the edge
-/// (in 3-D: along both axes of it).
+/// them, contacts that end a span and free surfaces of another axis, and on grids of a few cells along the
+/// edge (in 3-D: along both axes of it).
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row);
 
-/// How the fields of solids run on beyond a free edge of the grid, besides evenly (v) and oddly (s): v bends
-/// by edge_slope(), and a sweep across the edge starts with what sweeps along it have left of its tractions,
-/// half of what they add in a whole step.
+/// How the fields of solids run on beyond a free surface of the grid, besides evenly (v) and oddly (s): v
+/// bends by edge_slope(), and a sweep across the edge starts with what sweeps along it have left of its
+/// tractions, half of what they add in a whole step.
 template <int D, class Real>
 class FreeSurface {
  public:
@@ -39,7 +39,7 @@ class FreeSurface {
   bool empty() const { return cells_.empty(); }
   /// Keeps the velocities of the edge's cells on this line as they are now, at an edge of another axis than
   /// the last: measure() works with those, since sweeps change line after line.
-  void keep(const State<D, Real>& state, std::int64_t line);
+  void retain(const State<D, Real>& state, std::int64_t line);
   /// Makes bend() and jump() at cells first <= number < last of the edge for a sweep across it that follows,
   /// from the fields as they are, or were kept, up to two cells beyond.
   void measure(const State<D, Real>& state, std::int64_t first, std::int64_t last);
@@ -47,8 +47,8 @@ class FreeSurface {
   static constexpr std::int64_t reach = 2;
   /// Of a pair of the sweep across (0 P, then S by axes), at the cells of the edge (number()): what v gains,
   /// over 2 j + 1, and what s gains in a sweep of a whole step.
-  const Real* bend(int pair) const { return bends_[std::size_t(pair)].data(); }
-  const Real* jump(int pair) const { return jumps_[std::size_t(pair)].data(); }
+  const Real* velocity_correction(int pair) const { return velocity_corrections_[std::size_t(pair)].data(); }
+  const Real* traction_correction(int pair) const { return traction_corrections_[std::size_t(pair)].data(); }
   /// Place of a cell of the edge in these lists: cells along x follow each other.
   std::int64_t number(const Index<D>& at) const;
 
@@ -70,7 +70,7 @@ class FreeSurface {
   std::vector<Cell> cells_;  // by number
   std::vector<Term> terms_;  // places in the fields, at the edges of all axes but the last in kept_
   std::vector<Real> kept_;   // [number][velocity]
-  std::array<std::vector<Real>, D> bends_, jumps_;
+  std::array<std::vector<Real>, D> velocity_corrections_, traction_corrections_;
 };
 
 }  // namespace slipwave::solver

@@ -73,8 +73,8 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
   return side;
 }
 
-/// Cells the reconstruction may reach beside a bent free edge, a contact or a contrast: with three, solids
-/// between free edges, plates and random densities grew at Courant numbers from 0.9 on.
+/// Cells the reconstruction may reach beside a corrected free surface, a contact or a contrast: with three,
+/// solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
 constexpr int most_at_kinks = 2;
 /// From this ratio of impedances on a face within the stencil of a cell there is a contrast.
 constexpr double contrast_ratio = 1.2;

@@ -14,7 +14,7 @@ enum Wave : int { wave_p, wave_s };
 
 /// How a pair (v, s) continues beyond an end of its span.
 enum class Extension : std::uint8_t {
-  none,           // the span goes on as far as the stencil reaches
+  none,           // the span continues as far as the stencil reaches
   traction_free,  // v evenly, s oddly
   motionless,     // v oddly, s evenly
   level,          // the last value stays
@@ -58,7 +58,7 @@ template <int D>
 using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
 
 /// Such cells of all lines of one axis and wave; the bulk kernel runs over everything without a branch, then
-/// these are put right.
+/// these are refreshed.
 class InterfaceStencils {
  public:
   InterfaceStencils() = default;

@@ -10,8 +10,8 @@
 namespace slipwave::solver {
 namespace {
 
-/// How a field row goes on beyond an edge across `axis`. Stresses that are no traction on the edge follow it
-/// only in fluid, where all of them are the pressure.
+/// How a field row continues beyond an edge across `axis`. Stresses that are no traction on the edge follow
+/// it only in fluid, where all of them are the pressure.
 template <int D>
 Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   using Rows = FieldRows<D>;
@@ -73,7 +73,7 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
-/// The cells round a point and how the field goes on beyond those at an edge of the grid.
+/// The cells round a point and how the field continues beyond those at an edge of the grid.
 template <int D>
 std::array<AxisCells, std::size_t(D)> continued_cells(const Domain<D>& domain, const Index<D>& centre,
                                                       int field_row, bool fluid) {
@@ -98,7 +98,7 @@ std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>
   return weights;
 }
 
-/// What the images beyond a free edge of a solid add to a velocity over their mirrored values.
+/// What the images beyond a free surface of a solid add to a velocity over their mirrored values.
 template <int D>
 void add_bend(const Layout<D>& layout, const Domain<D>& domain, const Point<D>& point_m,
               std::array<AxisCells, std::size_t(D)> usable, int axis, int side, int row,

@@ -24,8 +24,8 @@ template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row);
 
-/// The same for a source, which adds with them. Stresses of solids that would reach beyond a free edge go to
-/// the two nearest cells across it instead, or are led on from them beyond the last centre.
+/// The same for a source, which adds with them. Stresses of solids that would reach beyond a free surface go
+/// to the two nearest cells across it instead, or are led on from them beyond the last centre.
 template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row);

@@ -27,7 +27,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
     for (const int side : {0, 1})
-      if (reach_ > 0) free_edges_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
+      if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
   }
   // Each looks at all cells.
   parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
@@ -38,7 +38,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      ends_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
+      stencils_[axis][wave] = InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, bent);
     }
   });
 }
@@ -57,15 +57,15 @@ Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
 template <int D, class Real>
 Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t width) const {
   const int waiting = int(rows_behind() - reach_);
-  // Faces need what leaves two rows. Without them it is kept until its row is brought forward.
-  const int leaving = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
-  return Ring<Real>(first, width, leaving, waiting + 1, D);
+  // Faces need what leaves two rows. Without them it is kept until its row is advanced.
+  const int outgoing = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
+  return Ring<Real>(first, width, outgoing, waiting + 1, D);
 }
 
 template <int D, class Real>
 std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
   std::size_t cells = 0;
-  for (const auto& axis : ends_)
+  for (const auto& axis : stencils_)
     for (const auto& wave : axis) cells += wave.size();
   return std::int64_t(cells);
 }
@@ -98,11 +98,11 @@ auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
   return rows;
 }
 
-/// What leaves the cells of these columns; `leaving` begins with the first of them.
+/// Outgoing waves of the cells of these columns; `leaving` begins with the first of them.
 template <int D, class Real>
 void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns,
                                       const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
-                                      OutgoingWaves<Real> leaving, PrefetchQueue<Real>& coming) const {
+                                      OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
   const std::int64_t nx = state_.layout.shape()[0];
   // What fills up the last block of a line is of no material: it would keep all of a piece from being of one.
@@ -119,14 +119,14 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   };
   for (int p = 0; p < pair_count(); ++p) {
     const Pair& pair = pairs_[axis][p];
-    Real* const up = leaving.up(p);
-    Real* const down = leaving.down(p);
+    Real* const up = outgoing.up(p);
+    Real* const down = outgoing.down(p);
     leave(pair, whole, up, down);
     leave(pair, {whole.last, columns.last}, up, down);
-    ends_[axis][pair.wave].correct(order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-                                   fields + pair.s * pitch + columns.first,
-                                   state_.material_from(line, columns.first), scale, up, down);
-    coming.prefetch_one();
+    stencils_[axis][pair.wave].correct(
+        order_, number, columns, stride, fields + pair.v * pitch + columns.first,
+        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down);
+    prefetch.prefetch_one();
   }
 }
 
@@ -173,7 +173,7 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
                 stretch ? stretch->rows() : state_.material_from(line, part.first), swept(part.first));
   };
   tell_apart(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, inside, between_faces);
-  work.coming().prefetch_one();
+  work.prefetch().prefetch_one();
   each_filtered([&](auto& filter, const IndexRange& part, int n, const Real* before) {
     filter.filter(axis, line, rows[n], part, scale, before, field(n) + part.first, remember);
   });
@@ -186,8 +186,8 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
   const std::int64_t widest = axis == 0 ? nx : stripe_width;
   std::vector<Workspace<Real>> work;
   for (int worker = 0; worker < parallel_workers(); ++worker) work.push_back(make_workspace(widest));
-  for (std::int64_t line = 0; line < lines && axis < z_axis && bends(axis); ++line)
-    keep(axis, line, {0, layout.shape()[0]});
+  for (std::int64_t line = 0; line < lines && axis < z_axis && corrects_surface(axis); ++line)
+    retain(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {
     parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
       StripeBoundary<Real> boundary{};
@@ -199,9 +199,9 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
     return;
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
-  // Free edges read columns of neighbouring stripes: these must not have moved.
+  // Free surfaces read columns of neighbouring stripes: these must not have moved.
   for (const int side : {0, 1})
-    free_edges_[axis][side].measure(state_, 0, std::numeric_limits<std::int64_t>::max());
+    free_surfaces_[axis][side].measure(state_, 0, std::numeric_limits<std::int64_t>::max());
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -221,32 +221,32 @@ namespace {
 /// What enters the grid through an edge given what leaves it there (E11). The impedance of the ghost beyond
 /// the edge is part of the law (fill_material).
 template <class Real>
-void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* leaving, Real* entering) {
+void enter(EdgeLaw law, Wave wave, std::int64_t n, const Real* outgoing, Real* entering) {
   const bool motionless = extension_of(law, wave) == Extension::motionless;
-  for (std::int64_t i = 0; i < n; ++i) entering[i] = motionless ? -leaving[i] : Real(0);
+  for (std::int64_t i = 0; i < n; ++i) entering[i] = motionless ? -outgoing[i] : Real(0);
 }
 
 }  // namespace
 
 template <int D, class Real>
 void Sweeps<D, Real>::expect(std::int64_t line, const IndexRange& columns,
-                             PrefetchQueue<Real>& coming) const {
+                             PrefetchQueue<Real>& prefetch) const {
   const Index<D> at = state_.layout.line_index(line);
-  coming.clear();
-  coming.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
-             FieldRows<D>::count);
+  prefetch.clear();
+  prefetch.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
+               FieldRows<D>::count);
   if (!state_.stretch(line, columns.first, columns.last))
-    coming.add(state_.material_row(at, 0) + columns.first, columns.count(),
-               state_.material_layout.row_pitch(), material_rows);
+    prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
+                 state_.material_layout.row_pitch(), material_rows);
 }
 
 /// At the low edge what goes up comes from what went down, at the high one the other way round.
 template <int D, class Real>
-void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> leaving,
+void Sweeps<D, Real>::enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                                OutgoingWaves<Real> entering) const {
   const EdgeLaw law = edges_[axis][side];
   for (int p = 0; p < D; ++p)
-    enter(law, pairs_[axis][p].wave, n, side ? leaving.up(p) : leaving.down(p),
+    enter(law, pairs_[axis][p].wave, n, side ? outgoing.up(p) : outgoing.down(p),
           side ? entering.down(p) : entering.up(p));
 }
 
@@ -256,21 +256,22 @@ void Sweeps<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real
   const auto& layout = state_.layout;
   const bool low = columns.first == 0, high = columns.last == layout.shape()[0];
   const std::int64_t first = low ? 0 : begins ? columns.first - lag : columns.first + lag;
-  const IndexRange leave{first, high ? layout.padded_nx() : columns.last + lag};
-  go_on({line,
-         leave,
-         {columns.first, high ? leave.last : columns.last},
-         state_.field_row(layout.line_index(line), 0),
-         layout.row_pitch(),
-         true},
-        begins || low, high, scale, boundary, work);
+  const IndexRange reconstructed{first, high ? layout.padded_nx() : columns.last + lag};
+  advance_piece({line,
+                 reconstructed,
+                 {columns.first, high ? reconstructed.last : columns.last},
+                 state_.field_row(layout.line_index(line), 0),
+                 layout.row_pitch(),
+                 true},
+                begins || low, high, scale, boundary, work);
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::along_copy(const RowFields<Real>& copy, const IndexRange& columns, bool begins,
                                  Real scale, StripeBoundary<Real>& boundary, Workspace<Real>& work) {
-  const IndexRange leave{begins ? columns.first - lag : columns.first + lag, columns.last + lag};
-  go_on({copy.row, leave, columns, copy.first, copy.pitch, false}, begins, false, scale, boundary, work);
+  const IndexRange reconstructed{begins ? columns.first - lag : columns.first + lag, columns.last + lag};
+  advance_piece({copy.row, reconstructed, columns, copy.first, copy.pitch, false}, begins, false, scale,
+                boundary, work);
 }
 
 template <int D, class Real>
@@ -282,25 +283,26 @@ void Sweeps<D, Real>::put(const RowFields<Real>& copy, const IndexRange& columns
 
 /// A piece of a sweep along x with what the piece before it left, unless it begins.
 template <int D, class Real>
-void Sweeps<D, Real>::go_on(const Piece& piece, bool begins, bool ends, Real scale,
-                            StripeBoundary<Real>& boundary, Workspace<Real>& work) {
+void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, Real scale,
+                                    StripeBoundary<Real>& boundary, Workspace<Real>& work) {
   const auto faces = work.faces();
-  const auto leaving = work.leaving();
-  const std::int64_t last = piece.leave.last - std::min(piece.leave.first, piece.update.first);
-  // Of the cells that wait their faces, what leaves them and what leaves the one before upwards.
+  const auto outgoing = work.outgoing();
+  const std::int64_t last =
+      piece.reconstructed.last - std::min(piece.reconstructed.first, piece.update.first);
+  // Of the cells that wait their faces, their outgoing waves and what leaves the one before upwards.
   const bool uniform_interior = !state_.uniform_interior[0].empty();
   const auto waiting = [&](std::int64_t from, auto&& copy) {
     for (int p = 0; p < D; ++p) {
       copy(faces.v(p) + from, boundary.v[p]);
       copy(faces.s(p) + from, boundary.s[p]);
-      if (uniform_interior) copy(leaving.up(p) + from - 1, boundary.up[p]);
-      if (uniform_interior) copy(leaving.down(p) + from, boundary.down[p]);
-      copy(leaving.up(p) + from + lag - 1, boundary.last_up[p]);
+      if (uniform_interior) copy(outgoing.up(p) + from - 1, boundary.up[p]);
+      if (uniform_interior) copy(outgoing.down(p) + from, boundary.down[p]);
+      copy(outgoing.up(p) + from + lag - 1, boundary.last_up[p]);
     }
   };
   // Of known size, so that nothing is called for it.
   if (!begins) waiting(0, [](Real* to, const auto& kept) { std::memcpy(to, kept, sizeof kept); });
-  for (int p = 0; begins && p < D && piece.leave.first > 0; ++p) leaving.up(p)[-1] = 0;
+  for (int p = 0; begins && p < D && piece.reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
   sweep_piece(piece, scale, work);
   if (ends) return;
   waiting(last - lag, [](const Real* from, auto& kept) { std::memcpy(kept, from, sizeof kept); });
@@ -310,15 +312,16 @@ template <int D, class Real>
 void Sweeps<D, Real>::copy_ahead(const IndexRange& columns, Real scale, const RowFields<Real>& copy,
                                  Workspace<Real>& work) {
   const std::int64_t nx = state_.layout.shape()[0];
-  const IndexRange leave{std::max<std::int64_t>(columns.first - lag, 0),
-                         columns.last + lag >= nx ? state_.layout.padded_nx() : columns.last + lag};
+  const IndexRange reconstructed{std::max<std::int64_t>(columns.first - lag, 0),
+                                 columns.last + lag >= nx ? state_.layout.padded_nx() : columns.last + lag};
   const auto from = state_.row_fields(copy.row);
   for (int row = 0; row < FieldRows<D>::count; ++row)
-    std::copy(from.field(row) + leave.first - max_reach, from.field(row) + leave.last + max_reach,
-              copy.field(row) + leave.first - max_reach);
-  const auto leaving = work.leaving();
-  for (int p = 0; p < D && leave.first > 0; ++p) leaving.up(p)[-1] = 0;
-  sweep_piece({copy.row, leave, columns, copy.first, copy.pitch, false}, scale, work);
+    std::copy(from.field(row) + reconstructed.first - max_reach,
+              from.field(row) + reconstructed.last + max_reach,
+              copy.field(row) + reconstructed.first - max_reach);
+  const auto outgoing = work.outgoing();
+  for (int p = 0; p < D && reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
+  sweep_piece({copy.row, reconstructed, columns, copy.first, copy.pitch, false}, scale, work);
 }
 
 template <int D, class Real>
@@ -331,20 +334,21 @@ RowFields<Real> Sweeps<D, Real>::ahead_along_x(std::int64_t line, const IndexRan
   return copy;
 }
 
-/// What leaves the cell before the first that sends out is in its place.
+/// Outgoing waves of the cell before the first that sends out is in its place.
 template <int D, class Real>
 void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work) {
-  const std::int64_t nx = state_.layout.shape()[0], base = std::min(piece.leave.first, piece.update.first);
-  const bool begins = piece.leave.first == 0, ends = piece.leave.last >= nx;
+  const std::int64_t nx = state_.layout.shape()[0],
+                     base = std::min(piece.reconstructed.first, piece.update.first);
+  const bool begins = piece.reconstructed.first == 0, ends = piece.reconstructed.last >= nx;
   const Index<D> at = state_.layout.line_index(piece.line);
-  const auto first = work.leaving().at(piece.leave.first - base);
+  const auto first = work.outgoing().at(piece.reconstructed.first - base);
   if (begins) fill_ghost_cells(piece.line, 0, piece.fields, piece.pitch, scale);
   if (ends) fill_ghost_cells(piece.line, 1, piece.fields, piece.pitch, scale);
-  reconstruct_row(0, at, piece.leave, piece.fields, piece.pitch, 1, scale, first, work.coming());
+  reconstruct_row(0, at, piece.reconstructed, piece.fields, piece.pitch, 1, scale, first, work.prefetch());
   if (begins) enter_at(0, 0, 1, first, first.at(-1));
-  IndexRange met = piece.leave;
+  IndexRange met = piece.reconstructed;
   if (ends) {
-    const auto beyond = first.at(nx - piece.leave.first);
+    const auto beyond = first.at(nx - piece.reconstructed.first);
     met.last += lag;  // where the row fills whole blocks its last face is in the next one
     for (int p = 0; p < D; ++p)
       for (Real* const zero : {beyond.up(p), beyond.down(p)}) std::fill(zero, zero + met.last - nx, Real(0));
@@ -355,7 +359,7 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : met.last;
   const auto faces = work.faces();
   const auto meet = [&](const IndexRange& part) {
-    const auto here = first.at(part.first - piece.leave.first);
+    const auto here = first.at(part.first - piece.reconstructed.first);
     const auto* stretch = state_.stretch(piece.line, part.first - 1, part.last);
     const auto lo = stretch ? stretch->rows() : state_.material_from(at, part.first - 1);
     face_kernels(stretch).solve_riemann(part.count(), here.at(-1), here, lo,
@@ -368,8 +372,8 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
     // The first face of a run is that of the cell before it, too.
     tell_apart(
         uniform_interior, 1, part, [](const IndexRange&) {}, meet);
-  work.coming().prefetch_one();
-  const auto here = work.leaving().at(piece.update.first - base);
+  work.prefetch().prefetch_one();
+  const auto here = work.outgoing().at(piece.update.first - base);
   const auto lo = faces.at(piece.update.first - base);
   update(0, at, piece.update, piece.fields, piece.pitch, scale, {lo, lo.at(1), here.at(-1), here, here.at(1)},
          work, piece.remember);
@@ -392,9 +396,9 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
   const std::int64_t x = wide.first, n = wide.count();
   if (row >= 0 && row < rows)
     reconstruct_row(axis, line(row), wide, state_.field_row(line(row), 0), layout.row_pitch(),
-                    layout.stride(axis), scale, ring.leaving(row, x), work.coming());
+                    layout.stride(axis), scale, ring.outgoing(row, x), work.prefetch());
   if (row >= 0 && row <= rows) {
-    const auto above = ring.leaving(row - 1, x), here = ring.leaving(row, x);
+    const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_at(axis, 0, n, here, above);
     if (row == rows) enter_at(axis, 1, n, above, here);
     const auto inside = [&](std::int64_t k) {
@@ -423,12 +427,12 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
         },
         meet);
   }
-  work.coming().prefetch_one();
+  work.prefetch().prefetch_one();
   const std::int64_t done = step - rows_behind();
   if (done >= 0 && done < rows)
     update(axis, line(done), wide, state_.field_row(line(done), 0), layout.row_pitch(), scale,
-           {ring.faces(done, x), ring.faces(done + 1, x), ring.leaving(done - 1, x), ring.leaving(done, x),
-            ring.leaving(done + 1, x)},
+           {ring.faces(done, x), ring.faces(done + 1, x), ring.outgoing(done - 1, x), ring.outgoing(done, x),
+            ring.outgoing(done + 1, x)},
            work, true);
 }
 
@@ -438,11 +442,11 @@ void Sweeps<D, Real>::pass_over(std::int64_t step, const IndexRange& columns, Ri
   if (row < 0) return;
   const std::int64_t last =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
-  const auto leaving = ring.leaving(row, columns.first);
+  const auto outgoing = ring.outgoing(row, columns.first);
   const auto faces = ring.faces(row, columns.first);
   const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
   for (int p = 0; p < D; ++p)
-    for (Real* const zero : {leaving.up(p), leaving.down(p), faces.v(p), faces.s(p)}) clear(zero);
+    for (Real* const zero : {outgoing.up(p), outgoing.down(p), faces.v(p), faces.s(p)}) clear(zero);
 }
 
 /// A row across in one loop, unless something comes between its parts: then it does nothing.
@@ -457,20 +461,20 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   const auto number = layout.line_number(here);
   // One material is better off with loops of its own.
   if (state_.stretch(number, x, columns.last)) return false;
-  // What leaves downwards is not kept, which cells inside one material would need.
+  // Outgoing waves of downwards is not kept, which cells inside one material would need.
   for (const auto& line : {here, below, brought})
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
       if (run.first < columns.last && run.last > columns.first) return false;
-  for (const auto& ends : ends_[axis])
+  for (const auto& ends : stencils_[axis])
     if (ends.any(number, columns)) return false;
   for (const auto* filter : filters_)
     for (const auto& part : filter->filtered(axis, brought, columns))
       if (!part.empty()) return false;
   const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
   const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
-  const auto from = ring.leaving(row - 1, x), to = ring.leaving(row, x);
+  const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
-  work.coming().prefetch_one(), work.coming().prefetch_one();
+  work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
   kernels_[false]->fused_row(columns.count(), scale,
                              {{field(0), field(1), field(2), field(3), field(4)},
                               layout.stride(axis),
@@ -485,7 +489,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
                               faces.first,
                               ring.faces(done, x).first,
                               ring.faces(done + 1, x).first});
-  work.coming().prefetch_one(), work.coming().prefetch_one();
+  work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
   return true;
 }
 
@@ -507,26 +511,26 @@ struct Mirror {
 }  // namespace
 
 template <int D, class Real>
-void Sweeps<D, Real>::keep(int axis, std::int64_t line, const IndexRange& columns) {
+void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& columns) {
   const IndexRange at = axis == 0 ? columns : [&] {
     const auto row = state_.layout.line_index(line)[std::size_t(axis)];
     return IndexRange{row, row + 1};
   }();
-  auto& edges = free_edges_[axis];
-  if (at.first == 0 && !edges[0].empty()) edges[0].keep(state_, line);
-  if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].keep(state_, line);
+  auto& edges = free_surfaces_[axis];
+  if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
+  if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::measure_side_surfaces(std::int64_t line) {
-  for (auto& edge : free_edges_[0])
+  for (auto& edge : free_surfaces_[0])
     if (!edge.empty()) edge.measure(state_, line, line + 1);
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::measure_flank_surfaces(std::int64_t plane) {
   const auto cells = state_.layout.padded_nx();
-  for (auto& edge : free_edges_[1])
+  for (auto& edge : free_surfaces_[1])
     if (!edge.empty()) edge.measure(state_, plane * cells, (plane + 1) * cells);
 }
 
@@ -534,7 +538,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::measure_end_surfaces(std::int64_t step, const IndexRange& columns) {
   const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
   const auto measure = [&](int side) {
-    free_edges_[z_axis][side].measure(state_, columns.first * cells, columns.last * cells);
+    free_surfaces_[z_axis][side].measure(state_, columns.first * cells, columns.last * cells);
   };
   if (step == reach_) measure(0);
   if (step == state_.layout.shape()[z_axis]) measure(1);
@@ -545,7 +549,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch,
                                        Real scale) const {
   const std::int64_t n = state_.layout.shape()[0];
-  const auto& edge = free_edges_[0][side];
+  const auto& edge = free_surfaces_[0][side];
   const auto& all = pairs_[0];
   for (int p = 0; p < pair_count(); ++p) {
     const Mirror<Real> mirror(extension_of(edges_[0][side], all[p].wave));
@@ -557,8 +561,8 @@ void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields
       v[ghost] = mirror.v * v[cell];
       s[ghost] = mirror.s * s[cell];
       if (edge.empty()) continue;
-      v[ghost] += Real(2 * j + 1) * edge.bend(p)[line];
-      s[ghost] += scale * edge.jump(p)[line];
+      v[ghost] += Real(2 * j + 1) * edge.velocity_correction(p)[line];
+      s[ghost] += scale * edge.traction_correction(p)[line];
     }
   }
 }
@@ -568,7 +572,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns,
                                       Real scale) {
   const std::int64_t n = state_.layout.shape()[axis];
-  const auto& edge = free_edges_[axis][side];
+  const auto& edge = free_surfaces_[axis][side];
   const auto& all = pairs_[axis];
   const auto first = edge.empty() ? 0 : edge.number(at);
   for (int p = 0; p < pair_count(); ++p) {
@@ -584,8 +588,8 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
         for (std::int64_t i = columns.first; i < columns.last; ++i)
           to[i] = sign * source[i] + (gain ? share * gain[i] : Real(0));
       };
-      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.bend(p) + first, Real(2 * j + 1));
-      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.jump(p) + first, scale);
+      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
+      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
     }
   }
 }

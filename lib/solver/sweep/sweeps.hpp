@@ -32,8 +32,8 @@ class Sweeps {
   /// A whole sweep along any axis, shared out to threads.
   void along(int axis, Real scale);
 
-  /// A piece of a sweep along x: brings columns `columns` of a line forward. Pieces of a line follow each
-  /// other from cell 0 to the last, `carry` goes on from one to the next. 2 * lag further cells must not
+  /// A piece of a sweep along x: advances columns `columns` of a line. Pieces of a line follow each
+  /// other from cell 0 to the last, `carry` continues from one to the next. 2 * lag further cells must not
   /// change before (as many as there are).
   /// A piece that `begins` in the middle of a line reads 2 * lag cells before it instead of the carry.
   void along_x(std::int64_t line, const IndexRange& columns, Real scale, StripeBoundary<Real>& boundary,
@@ -53,7 +53,7 @@ class Sweeps {
   void put(const RowFields<Real>& copy, const IndexRange& columns);
 
   /// A piece of a sweep along an axis other than x, from row to row: row `step` - reach along the axis sends
-  /// out what leaves it and row step - rows_behind() is brought forward, where there are such rows; `at` says
+  /// out what leaves it and row step - rows_behind() is advanced, where there are such rows; `at` says
   /// where on the third axis they are. Rows up to `step` and `reach` cells on both sides must be there as
   /// they were before the sweep. Call for each step from 0 up to the number of rows + rows_behind() - 1 with
   /// the same columns; the ring goes along.
@@ -66,14 +66,16 @@ class Sweeps {
   /// For a sweep along that axis of columns from `first` on, once the material is there.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
-  /// Whether free edges of an axis bend the fields: sweeps along it then need the velocities there of
+  /// Whether free surfaces of an axis bend the fields: sweeps along it then need the velocities there of
   /// FreeEdge::reach cells on all sides as they were before the sweep.
-  bool bends(int axis) const { return !free_edges_[axis][0].empty() || !free_edges_[axis][1].empty(); }
+  bool corrects_surface(int axis) const {
+    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
+  }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
   /// Keeps the velocities at the edges of x on this line, or of an axis between x and z on this line of
   /// theirs.
-  void keep(int axis, std::int64_t line, const IndexRange& columns);
+  void retain(int axis, std::int64_t line, const IndexRange& columns);
   /// Before the first piece of a line is swept along x.
   void measure_side_surfaces(std::int64_t line);
   /// In 3-D, before a plane of rows is swept along y.
@@ -83,38 +85,39 @@ class Sweeps {
   void measure_end_surfaces(std::int64_t step, const IndexRange& columns);
 
   /// These columns of a line will be needed soon.
-  void expect(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& coming) const;
+  void expect(std::int64_t line, const IndexRange& columns, PrefetchQueue<Real>& prefetch) const;
   Workspace<Real> make_workspace(std::int64_t widest) const;
-  /// Cells beside contacts, voids and span ends, which stencils do not run across: all axes and waves.
+  /// Cells beside contacts, voids and interface stencils, which stencils do not run across: all axes and
+  /// waves.
   std::int64_t interface_stencil_cells() const;
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
 
  private:
   static constexpr int z_axis = D - 1;
-  /// A wave family along one axis: its fields' rows and span ends.
+  /// A wave family along one axis: its fields' rows and interface stencils.
   struct Pair {
     Wave wave;
     int v, s;  // rows of the line
   };
-  /// A stretch of a line: cells that send out, cells that are brought forward, and where its fields stand.
+  /// A stretch of a line: cells that send out, cells that are advanced, and where its fields stand.
   struct Piece {
     std::int64_t line;
-    IndexRange leave, update;
+    IndexRange reconstructed, update;
     Real* fields;  // cell 0 of row 0
     std::int64_t pitch;
     bool remember;
   };
-  void go_on(const Piece& piece, bool begins, bool ends, Real scale, StripeBoundary<Real>& boundary,
-             Workspace<Real>& work);
+  void advance_piece(const Piece& piece, bool begins, bool ends, Real scale, StripeBoundary<Real>& boundary,
+                     Workspace<Real>& work);
   void sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work);
   void reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                       std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> leaving,
-                       PrefetchQueue<Real>& coming) const;
+                       std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
+                       PrefetchQueue<Real>& prefetch) const;
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     return kernels_[uniform]->face[D - 2][shear_];
   }
-  /// What brings cells forward, beginning with the first of them: faces before and behind them, what leaves
+  /// What advances cells, beginning with the first of them: faces before and behind them, what leaves
   /// them and their neighbours.
   struct Flux {
     InterfaceStates<Real> lo, hi;
@@ -124,7 +127,7 @@ class Sweeps {
               Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
-  void enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> leaving,
+  void enter_at(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                 OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
@@ -140,10 +143,10 @@ class Sweeps {
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;
-  std::array<std::array<InterfaceStencils, 2>, D> ends_;           // [axis][wave]
-  std::array<std::array<Pair, D>, D> pairs_;                       // [axis]: P, then S by axes
-  std::array<std::array<int, changed>, D> changed_;                // [axis]
-  std::array<std::array<FreeSurface<D, Real>, 2>, D> free_edges_;  // [axis][side]
+  std::array<std::array<InterfaceStencils, 2>, D> stencils_;          // [axis][wave]
+  std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
+  std::array<std::array<int, changed>, D> changed_;                   // [axis]
+  std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
 };
 
 }  // namespace slipwave::solver

@@ -18,27 +18,27 @@ struct StripeBoundary {
 };
 
 /// What a sweep across the rows keeps between them: faces of so many rows, of those that are still to be
-/// brought forward, and what leaves the newest rows, at least two. Columns from `first` on, of `pairs` pairs
+/// advanced, and what leaves the newest rows, at least two. Columns from `first` on, of `pairs` pairs
 /// (2, in 3-D 3).
 template <class Real>
 class Ring {
  public:
-  Ring(std::int64_t first, std::int64_t width, int leaving_rows, int face_rows, int pairs)
+  Ring(std::int64_t first, std::int64_t width, int outgoing_rows, int face_rows, int pairs)
       : first_(first),
         pitch_(width + 2 * gap),
-        leaving_rows_(leaving_rows),
+        outgoing_rows_(outgoing_rows),
         face_rows_(face_rows),
         pairs_(pairs),
-        values_(pitch_ * 2 * pairs * (leaving_rows + face_rows)) {
+        values_(pitch_ * 2 * pairs * (outgoing_rows + face_rows)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
   /// From column x on, of row -1 or a later one.
-  OutgoingWaves<Real> leaving(std::int64_t row, std::int64_t x) {
-    const int first = 2 * pairs_ * int((row + 1) % leaving_rows_);
+  OutgoingWaves<Real> outgoing(std::int64_t row, std::int64_t x) {
+    const int first = 2 * pairs_ * int((row + 1) % outgoing_rows_);
     return {at(first, x), pitch_};
   }
   InterfaceStates<Real> faces(std::int64_t row, std::int64_t x) {
-    const int first = 2 * pairs_ * (leaving_rows_ + int(row % face_rows_));
+    const int first = 2 * pairs_ * (outgoing_rows_ + int(row % face_rows_));
     return {at(first, x), pitch_};
   }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
@@ -47,11 +47,11 @@ class Ring {
   static constexpr std::int64_t gap = 16;
   Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
   std::int64_t first_, pitch_;
-  int leaving_rows_, face_rows_, pairs_;
+  int outgoing_rows_, face_rows_, pairs_;
   Buffer<Real> values_;
 };
 
-/// Rows of memory that are asked for before they are needed, half a row after each loop over a piece: stripes
+/// Rows of memory that are required before they are needed, half a row after each loop over a piece: stripes
 /// are too short for the processor to guess what comes next, and more at once would wait for each other.
 template <class Real>
 class PrefetchQueue {
@@ -84,13 +84,13 @@ class Workspace {
       : pitch_(widest + 6 * gap), pairs_(pairs), values_(pitch_ * (4 * pairs + most_changed + field_rows)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
-  OutgoingWaves<Real> leaving() { return {row(0), pitch_}; }
+  OutgoingWaves<Real> outgoing() { return {row(0), pitch_}; }
   InterfaceStates<Real> faces() { return {row(2 * pairs_), pitch_}; }
-  /// Fields as they were, while the matched layer needs them.
+  /// Fields as they were, while the PML needs them.
   Real* before(int n) { return row(4 * pairs_ + n); }
   /// A copy of all fields of a piece.
   Real* copy() { return row(4 * pairs_ + most_changed); }
-  PrefetchQueue<Real>& coming() { return coming_; }
+  PrefetchQueue<Real>& prefetch() { return prefetch_; }
   /// From a row of the copy to the next; room for 32 cells before and behind the piece.
   std::int64_t pitch() const { return pitch_; }
 
@@ -101,7 +101,7 @@ class Workspace {
   std::int64_t pitch_;
   int pairs_;
   Buffer<Real> values_;
-  PrefetchQueue<Real> coming_;
+  PrefetchQueue<Real> prefetch_;
 };
 
 }  // namespace slipwave::solver
