@@ -15,11 +15,10 @@ Source<D> source_of(const std::string& kind) {
 /// The kind with numbers 1, 2, ... for its parameters.
 template <int D>
 std::string typed(const SourceKind<D>& kind) {
-  std::string text = kind.name, separator = ":";
-  int number = 0;
+  std::string text = kind.name;
   if (*kind.parameters != '\0')
-    for (std::size_t n = 0; n < split(kind.parameters, ',').size(); ++n, separator = ",")
-      text += separator + std::to_string(++number);
+    for (std::size_t n = 0; n < split(kind.parameters, ',').size(); ++n)
+      text += (n == 0 ? ':' : ',') + std::to_string(n + 1);
   return text;
 }
 

@@ -39,14 +39,14 @@ TEST(OutputOptions, NumberShotsFromTheFirst) {
 
 TEST(OutputOptions, ThatContradictEachOtherAreRefused) {
   OutputOptions options;
-  options.snapshots = "s.nc";
+  options.snapshots = std::string("s.nc");
   EXPECT_EQ(refusal([&] { options.check<2>(1); }), "");
   EXPECT_EQ(refusal([&] { options.check<2>(2); }),
             "found 2 sources and --snapshots s.nc, expected {shot} in the name");
   options.shots_in_parallel = 2;
   EXPECT_NE(refusal([&] { options.check<2>(1); }), "");
   options = {};
-  options.checkpoint = options.traces = "x";
+  options.checkpoint = options.traces = std::string("x");
   EXPECT_EQ(refusal([&] { options.check<2>(1); }),
             "--checkpoint and an output both name x; give them different names");
 }
@@ -54,7 +54,7 @@ TEST(OutputOptions, ThatContradictEachOtherAreRefused) {
 TEST(OutputOptions, WantSlipWhereAFieldIsOfSlip) {
   OutputOptions options;
   EXPECT_FALSE(options.wants_slip());
-  options.snapshot_fields = "vx,slip_rate";
+  options.snapshot_fields = std::string("vx,slip_rate");
   EXPECT_TRUE(options.wants_slip());
 }
 
