@@ -4,7 +4,8 @@
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "model/property.hpp"
-#include "plot_kinds.hpp"
+#include "plot/file_picture.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -12,10 +13,11 @@ namespace {
 
 /// Options as they are written.
 struct Texts {
+  TraceInput traces;
   std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density";
 };
 
-void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
+void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.positional(settings.files, "FILE");
   options.add("output,o", settings.output, "FILE",
               "the picture: .png, .pdf or .svg; - is a PNG on standard output");
@@ -47,10 +49,10 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "errors: several files in one panel");
-  settings.traces.declare(options);
+  texts.traces.declare(options);
 }
 
-void run(PlotSettings& settings, const Texts& texts, const cli::Context& context) {
+void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& context) {
   if (texts.map != "auto") settings.look.map = texts.map;
   in_place("--map", [&] { plot::map_of(settings.look, "grey"); });
   in_place("--clip", [&] { plot::check_clip(settings.look); });
@@ -70,11 +72,12 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
   settings.gather.density = texts.style != "wiggle";
   settings.gather.wiggle = texts.style != "density";
   settings.page.history = context.command_line;
-  if (settings.movie) return draw_movie(settings, context.progress("frames"));
+  settings.traces = texts.traces;
+  if (settings.movie) return plot::draw_movie(settings, context.progress("frames"));
 
-  const auto page = page_of(settings);
+  const auto page = plot::page_of(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const auto picture = picture_of(settings, page);
+  const auto picture = plot::picture_of(settings, page);
   for (const auto& note : picture.notes) context.warn(note);
   out.write(picture.bytes.data(), picture.bytes.size());
   out.commit();
@@ -83,7 +86,7 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
 }  // namespace
 
 int main(int argc, char** argv) {
-  PlotSettings settings;
+  plot::PlotOptions settings;
   Texts texts;
   return cli::run_tool(
       argc, argv,

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 
@@ -127,38 +128,15 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
 }
 
 template <int D>
-bool has(Component component) {
-  switch (component) {
-    case Component::vx:
-    case Component::vz:
-    case Component::p:
-    case Component::sxx:
-    case Component::szz:
-    case Component::sxz:
-      return true;
-    case Component::vy:
-    case Component::syy:
-    case Component::sxy:
-    case Component::syz:
-      return D == 3;
-    case Component::other:
-      break;
-  }
-  return false;
-}
-
-template <int D>
 void check_components(const std::vector<Component>& components) {
   for (const Component component : components) {
     if (std::count(components.begin(), components.end(), component) > 1)
       throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
                   ErrorKind::usage);
-    if (!has<D>(component))
-      throw Error(
-          "found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
-              "-D, expected " +
-              (D == 2 ? "vx, vz, p, sxx, szz or sxz" : "vx, vy, vz, p, sxx, syy, szz, sxy, sxz or syz"),
-          ErrorKind::usage);
+    if (!row_of(component).in(D))
+      throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
+                      "-D, expected " + joined(component_names(D), " or "),
+                  ErrorKind::usage);
   }
 }
 
