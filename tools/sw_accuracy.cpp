@@ -7,14 +7,15 @@
 #include "cli/tool.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
-#include "shot_settings.hpp"
+#include "planning/measured.hpp"
+#include "scene_options.hpp"
 
 using namespace slipwave;
 
 namespace {
 
 struct Settings {
-  ShotSettings shot;
+  SceneOptions shot;
   std::string built_in, orders = "5,7", time_orders = "2", cfls = "0.9,0.5", steps, corrections = "second",
                         reference;
   std::optional<double> wanted;
@@ -22,7 +23,7 @@ struct Settings {
 };
 
 void declare(cli::Options& options, Settings& s) {
-  s.shot.declare_scene(options);
+  declare_scene(options, s.shot);
   options.add_choice("case", s.built_in, {"full-space"},
                      "a built-in scene with a closed form, instead of a model");
   options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");

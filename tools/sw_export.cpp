@@ -25,11 +25,18 @@ struct Settings {
   TraceOutput output_options;
 };
 
+/// "vp, vs, rho or fracture"
+std::string names_of_model() {
+  std::string names;
+  for (const auto& name : property_names()) names += (names.empty() ? "" : ", ") + name;
+  return names + " or fracture";
+}
+
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.input, "M");
   options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("property", settings.property, "NAME",
-              "model: vp, vs, rho or fracture; snapshots: vx, vz, p, ...");
+              "model: " + names_of_model() + "; snapshots: vx, vz, p, ...");
   options.require("property");
   options.add("time", settings.time_s, "T", "snapshots: the one nearest to T s [the last]");
   settings.output_options.declare(options);
@@ -40,26 +47,23 @@ struct Exported {
   SectionFacts facts;
 };
 
-Field<2> property_of(const Model<2>& model, const std::string& property, const std::string& name) {
-  if (property == "vp") return model.medium.vp;
-  if (property == "vs") return model.medium.vs;
-  if (property == "rho") return model.medium.rho;
-  if (property != "fracture")
-    throw Error(
-        "--property: " + name + " is a model: found '" + property + "', expected vp, vs, rho or fracture",
-        ErrorKind::usage);
-  Field<2> codes(model.grid());
-  for (std::size_t n = 0; n < model.fracture.size(); ++n) codes[n] = static_cast<float>(model.fracture[n]);
-  return codes;
-}
-
 Exported of_model(const NetcdfFile& file, const Settings& settings) {
   if (settings.time_s)
     throw Error("--time: " + file.shown_name() + " is a model, expected snapshots", ErrorKind::usage);
   const auto model = read_model<2>(file);
   const auto& name = settings.property;
-  const std::string unit = name == "rho" ? "kg/m3" : name == "fracture" ? "" : "m/s";
-  return {property_of(model, name, file.shown_name()), {name, unit, {}}};
+  if (const auto property = find_property(name)) {
+    if (!model.medium.has(*property))
+      throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model with it");
+    return {model.medium[*property], {name, row_of(*property).shown_unit, {}}};
+  }
+  if (name != "fracture")
+    throw Error("--property: " + file.shown_name() + " is a model: found '" + name + "', expected " +
+                    names_of_model(),
+                ErrorKind::usage);
+  Field<2> codes(model.grid());
+  for (std::size_t n = 0; n < model.fracture.size(); ++n) codes[n] = static_cast<float>(model.fracture[n]);
+  return {std::move(codes), {name, "", {}}};
 }
 
 Exported of_snapshots(NetcdfFile file, const Settings& settings) {

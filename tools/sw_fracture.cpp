@@ -21,6 +21,7 @@ struct Settings {
   std::string body;
   std::vector<std::string> dips, normals;
   double friction = 0, viscosity_s = 0, strength_pa = 0;
+  std::string law = "coulomb";
   bool block = false, opening = false;
   std::string prestress;
   std::string name;
@@ -51,6 +52,8 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("friction", settings.friction, "Q", "coefficient of friction");
   options.add("viscosity", settings.viscosity_s, "ETA", "viscosity of slip, s");
   options.add("strength", settings.strength_pa, "PA", "cohesion, Pa");
+  options.add("law", settings.law, "LAW",
+              "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m");
   options.add("block", settings.block, "blocks: add planes at right angles to those of --dip or --normal");
   options.add("opening", settings.opening, "planes open under tension; otherwise they carry it");
   options.add(
@@ -159,12 +162,24 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
 }
 
 template <int D>
+void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
+  const auto [length_m, cell] = critical_length(model, model.fracture_sets.size());
+  if (length_m > model.grid().spacing_m) return;
+  context.warn("cells of " + shown(model.grid().spacing_m) +
+               " m are too large for slip weakening: friction falls to the dynamic one at once where the "
+               "prestress presses most, at " +
+               place_of(model.grid(), cell) + ". Use cells below " + shown(length_m, 3) +
+               " m or a longer slip distance");
+}
+
+template <int D>
 void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
               const cli::Context& context) {
   FractureSet<D> set;
   for (const auto& normal : normals_of<D>(settings)) {
     set.systems.push_back(
         {normal, settings.friction, settings.viscosity_s, settings.strength_pa, settings.opening});
+    in_place("--law", [&] { set_friction_law(set.systems.back(), settings.law); });
   }
   const auto prestress = in_place("--prestress", [&] {
     return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
@@ -179,6 +194,7 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   const auto count = add_fractures<D>(model, set, region.contains);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
   check(model, {.allow_auxetic = true});
+  warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) + " cells are fractured");

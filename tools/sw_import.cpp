@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 
 #include "base/error.hpp"
@@ -19,7 +20,7 @@ using namespace slipwave;
 namespace {
 
 struct Settings {
-  std::string vp, vs, rho;
+  std::vector<std::string> files = std::vector<std::string>(property_names().size());  // by property
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
@@ -29,12 +30,13 @@ struct Settings {
   MediumLimits limits;
   std::string title = "imported model";
   std::string output = "-";
+
+  const std::string& file(Property property) const { return files[std::size_t(property)]; }
 };
 
 void declare(cli::Options& options, Settings& settings) {
-  options.add("vp", settings.vp, "F", "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)");
-  options.add("vs", settings.vs, "F", "S-wave speed; 0 is fluid");
-  options.add("rho", settings.rho, "F", "density; 0 is void (air)");
+  for (const Property property : all_properties())
+    options.add(row_of(property).name, settings.files[std::size_t(property)], "F", row_of(property).help);
   options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
   options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
   options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");
@@ -52,7 +54,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("title", settings.title, "TEXT", "title of the model file");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
-  options.require("vp");
+  options.require(row_of(Property::vp).name);
 }
 
 void check_choices(const Settings& settings) {
@@ -62,14 +64,14 @@ void check_choices(const Settings& settings) {
                     (file.empty() ? " nor --" : " and --") + name + "-from-vp, expected one of them",
                 ErrorKind::usage);
   };
-  one_of(settings.vs, settings.vs_from, "vs");
-  one_of(settings.rho, settings.rho_from, "rho");
+  one_of(settings.file(Property::vs), settings.vs_from, "vs");
+  one_of(settings.file(Property::rho), settings.rho_from, "rho");
   if (!settings.shape.empty() && !settings.step_m)
     throw Error("--step is missing; raw files need it", ErrorKind::usage);
   if (settings.step_m && !(*settings.step_m > 0)) {
     throw Error("--step: found " + shown(*settings.step_m) + ", expected it above zero", ErrorKind::usage);
   }
-  if ((settings.vp == "-") + (settings.vs == "-") + (settings.rho == "-") > 1) {
+  if (std::count(settings.files.begin(), settings.files.end(), "-") > 1) {
     throw Error("found - more than once; only one input can be standard input", ErrorKind::usage);
   }
 }
@@ -98,8 +100,8 @@ Field<2> read_segy(const Settings& settings, const std::string& path, const std:
 }
 
 /// A property from a file of any kind; `history` is what a netCDF file says of its own.
-Field<2> read_property(const Settings& settings, const std::string& name, const std::string& given,
-                       std::string& history) {
+Field<2> read_property(const Settings& settings, Property property, std::string& history) {
+  const auto& given = settings.file(property);
   if (!settings.shape.empty()) return read_raw(settings, given);
   std::string path = given, variable;
   std::error_code failed;
@@ -114,11 +116,28 @@ Field<2> read_property(const Settings& settings, const std::string& name, const 
     const auto file = start.is_regular() ? NetcdfFile::open(path)
                                          : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
     history = file.text_attribute("", "history").value_or("");
-    return field_from_netcdf(file, name, variable, settings.step_m);
+    return field_from_netcdf(file, row_of(property), variable, settings.step_m);
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (segy::looks_like_segy(bytes)) return read_segy(settings, path, start.taken());
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
+}
+
+/// With the history of the file of vp.
+Medium<2> read_medium(const Settings& settings, std::string& history) {
+  std::string other;
+  auto vp = read_property(settings, Property::vp, history);
+  const auto read_given = [&](Property property) -> std::optional<Field<2>> {
+    if (settings.file(property).empty()) return {};
+    return read_property(settings, property, other);
+  };
+  auto vs = read_given(Property::vs), rho = read_given(Property::rho);
+  auto medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
+  for (const Property property : all_properties()) {
+    if (!row_of(property).if_absent) continue;
+    if (auto field = read_given(property)) add_property(medium, property, std::move(*field));
+  }
+  return medium;
 }
 
 template <int D>
@@ -134,12 +153,7 @@ void run(const Settings& settings, const cli::Context& context) {
   check_choices(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<2> model;
-  std::string other;
-  auto vp = read_property(settings, "vp", settings.vp, model.history);
-  std::optional<Field<2>> vs, rho;
-  if (!settings.vs.empty()) vs = read_property(settings, "vs", settings.vs, other);
-  if (!settings.rho.empty()) rho = read_property(settings, "rho", settings.rho, other);
-  model.medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
+  model.medium = read_medium(settings, model.history);
   check(model, settings.limits);
   if (settings.resample_m)
     model =

@@ -3,7 +3,9 @@
 #include "base/error.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
-#include "plot_kinds.hpp"
+#include "model/property.hpp"
+#include "plot/file_picture.hpp"
+#include "trace_input.hpp"
 
 using namespace slipwave;
 
@@ -11,10 +13,11 @@ namespace {
 
 /// Options as they are written.
 struct Texts {
+  TraceInput traces;
   std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density";
 };
 
-void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
+void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.positional(settings.files, "FILE");
   options.add("output,o", settings.output, "FILE",
               "the picture: .png, .pdf or .svg; - is a PNG on standard output");
@@ -33,8 +36,9 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
                      "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
-  options.add_choice("property", settings.property, {"vp", "vs", "rho", "fractures"},
-                     "model: property to draw");
+  auto drawn = property_names();
+  drawn.push_back("fractures");
+  options.add_choice("property", settings.property, drawn, "model: property to draw");
   options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
   options.add("survey", settings.survey, "GATHER",
               "model, snapshot: mark sources and receivers of this gather");
@@ -45,10 +49,10 @@ void declare(cli::Options& options, PlotSettings& settings, Texts& texts) {
   options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "errors: several files in one panel");
-  settings.traces.declare(options);
+  texts.traces.declare(options);
 }
 
-void run(PlotSettings& settings, const Texts& texts, const cli::Context& context) {
+void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& context) {
   if (texts.map != "auto") settings.look.map = texts.map;
   in_place("--map", [&] { plot::map_of(settings.look, "grey"); });
   in_place("--clip", [&] { plot::check_clip(settings.look); });
@@ -68,11 +72,12 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
   settings.gather.density = texts.style != "wiggle";
   settings.gather.wiggle = texts.style != "density";
   settings.page.history = context.command_line;
-  if (settings.movie) return draw_movie(settings, context.progress("frames"));
+  settings.traces = texts.traces;
+  if (settings.movie) return plot::draw_movie(settings, context.progress("frames"));
 
-  const auto page = page_of(settings);
+  const auto page = plot::page_of(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const auto picture = picture_of(settings, page);
+  const auto picture = plot::picture_of(settings, page);
   for (const auto& note : picture.notes) context.warn(note);
   out.write(picture.bytes.data(), picture.bytes.size());
   out.commit();
@@ -81,7 +86,7 @@ void run(PlotSettings& settings, const Texts& texts, const cli::Context& context
 }  // namespace
 
 int main(int argc, char** argv) {
-  PlotSettings settings;
+  plot::PlotOptions settings;
   Texts texts;
   return cli::run_tool(
       argc, argv,

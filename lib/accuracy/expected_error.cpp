@@ -10,8 +10,6 @@
 namespace slipwave {
 namespace {
 
-using solver::WaveKind;
-
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
 constexpr std::size_t receivers_followed = 48, shots_followed = 4;
 /// Directions of travel over which waves of unknown direction are averaged.

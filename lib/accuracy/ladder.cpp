@@ -5,11 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/plan.hpp"
 #include "base/error.hpp"
-#include "base/processor_time.hpp"
 #include "model/resample.hpp"
-#include "solver/simulation.hpp"
 
 namespace slipwave {
 namespace {
@@ -67,42 +64,6 @@ GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gat
   // A NaN counts as the larger.
   const auto larger = [](double a, double b) { return std::isnan(a) || a > b ? a : b; };
   return {larger(whole[0].relative(), whole[1].relative()), larger(late[0].relative(), late[1].relative())};
-}
-
-std::vector<Gather> shoot_all(const Scene<2>& scene, double& seconds, const Progress& progress) {
-  std::vector<Gather> gathers;
-  const double start = processor_time_s();
-  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
-    gathers.push_back(shoot(scene, shot, progress));
-  seconds = processor_time_s() - start;
-  return gathers;
-}
-
-AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, const std::vector<Gather>& exact,
-                     const Progress& progress, std::vector<Gather>* result) {
-  const auto changed = with_setting(scene, setting);
-  check(changed);
-  const auto expected = plan(changed);
-  AccuracyRow row;
-  row.order = setting.order;
-  row.time_order = setting.time_order;
-  row.courant = setting.cfl;  // that of the plan differs by rounding
-  row.spacing_m = setting.spacing_m;
-  if (scene.slips()) row.slip_order = int(setting.correction) + 1;
-  row.cells = expected.computed.size();
-  row.steps = expected.steps;
-  row.predicted_error = expected.error.overall();
-  row.predicted_seconds = expected.seconds;
-  row.memory_bytes = double(expected.memory_bytes);
-  auto gathers = shoot_all(changed, row.seconds, progress);
-  row.error = row.late_error = std::numeric_limits<double>::quiet_NaN();
-  if (!exact.empty()) {
-    const auto error = gather_error(gathers, exact);
-    row.error = error.whole;
-    row.late_error = error.late;
-  }
-  if (result) *result = std::move(gathers);
-  return row;
 }
 
 }  // namespace slipwave

@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "accuracy/table.hpp"
-#include "base/progress.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
@@ -33,13 +31,5 @@ struct GatherError {
 };
 /// Shot by shot the same traces in the same order.
 GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gather>& exact);
-
-/// All shots of a checked scene. `seconds` receives the processor time they took.
-std::vector<Gather> shoot_all(const Scene<2>& scene, double& seconds, const Progress& progress = {});
-
-/// Runs the scene by a setting and measures it against `exact`. Empty `exact`: the errors are NaN.
-/// `result` receives the gathers if given.
-AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, const std::vector<Gather>& exact,
-                     const Progress& progress = {}, std::vector<Gather>* result = nullptr);
 
 }  // namespace slipwave

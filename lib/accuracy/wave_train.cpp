@@ -56,16 +56,15 @@ double squared_error(const Discretisation& cells, const WaveTrain& train) {
   for (std::size_t n = 0; n < train.band.hz.size(); ++n) {
     std::complex<double> exponent = 0;
     for (const auto& medium : media) {
-      const double speed = train.kind == solver::WaveKind::p ? medium.vp : medium.vs;
+      const double speed = train.kind == WaveKind::p ? medium.vp : medium.vs;
       const double wavelength = speed / train.band.hz[n] / h;
       // Waves shorter than two cells are not on the grid at all.
       if (wavelength <= 2) {
         exponent = -1e3;
         break;
       }
-      const solver::UniformScheme scheme{cells.order, medium.vp * dt / h, medium.vs * dt / h,
-                                         cells.time_order};
-      exponent += medium.time_s / dt * solver::step_error(scheme, train.kind, wavelength, train.angle);
+      const UniformScheme scheme{cells.order, medium.vp * dt / h, medium.vs * dt / h, cells.time_order};
+      exponent += medium.time_s / dt * step_error(scheme, train.kind, wavelength, train.angle);
     }
     error += train.band.energy[n] * std::norm(std::exp(exponent) - 1.0);
   }

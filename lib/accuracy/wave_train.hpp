@@ -3,8 +3,8 @@
 #include <map>
 #include <vector>
 
+#include "accuracy/dispersion.hpp"
 #include "acquisition/wavelet.hpp"
-#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave {
 
@@ -36,7 +36,7 @@ class WayOfWave {
 /// Waves of one kind that go one way, in one direction (radians from the vertical).
 struct WaveTrain {
   double energy = 1;  // against that of the other trains
-  solver::WaveKind kind = solver::WaveKind::p;
+  WaveKind kind = WaveKind::p;
   double angle = 0;
   WayOfWave way;
   WaveBand band;

@@ -63,6 +63,8 @@ template <int D>
 struct PointInjection {
   Point<D> force{};
   SymmetricTensor<D, double> moment_rate;
+  /// The same for every direction: it must not make shear of its own, however it is spread over cells.
+  bool isotropic = false;
 };
 
 /// Nothing for a plane wave.
@@ -76,7 +78,7 @@ std::optional<PointInjection<D>> point_injection(const Source<D>& source);
 template <int D>
 Mechanism<D> parse_mechanism(const std::string& text);
 
-/// "explosion", "force", "moment" or "plane".
+/// "explosion", "force", "moment" or "plane" (acquisition/source_kind.hpp).
 template <int D>
 const char* name_of(const Mechanism<D>& mechanism);
 

@@ -97,6 +97,13 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
+std::string joined(const std::vector<std::string>& parts, const std::string& last) {
+  std::string all;
+  for (std::size_t n = 0; n < parts.size(); ++n)
+    all += (n == 0 ? "" : n + 1 < parts.size() ? ", " : last) + parts[n];
+  return all;
+}
+
 std::vector<double> parse_numbers(std::string_view text, char separator) {
   const std::string notation = std::string("numbers with '") + separator + "' between them";
   std::vector<double> numbers;

@@ -45,10 +45,14 @@ class Digest {
   }
   template <int D>
   void add(const SlipSystem<D>& system) {
-    const auto& [normal, friction, viscosity_s, strength_pa, opens] = system;
+    const auto& [normal, friction, viscosity_s, strength_pa, opens, law, dynamic_friction, slip_distance_m] =
+        system;
     add(normal);
     add(opens);
     for (const double constant : {friction, viscosity_s, strength_pa}) add(constant);
+    if (law == FrictionLaw::coulomb) return;
+    add(int(law));
+    for (const double constant : {dynamic_friction, slip_distance_m}) add(constant);
   }
   template <int D>
   void add(const FractureSet<D>& set) {
@@ -56,11 +60,18 @@ class Digest {
     add(name);
     add(systems);
   }
+  /// Which optional properties there are counts, too.
+  template <int D>
+  void add(const Medium<D>& medium) {
+    for (const Property property : medium.properties()) {
+      if (row_of(property).if_absent) add(row_of(property).name);
+      add(medium[property]);
+    }
+  }
   template <int D>
   void add(const Model<D>& model) {
     const auto& [medium, fracture, sets, prestress_pa, title, source, history] = model;
-    const auto& [vp, vs, rho] = medium;
-    add(vp), add(vs), add(rho);
+    add(medium);
     add(fracture);
     add(sets);
     add(prestress_pa);

@@ -53,6 +53,12 @@ void Context::note(const std::string& sentence) const {
   if (verbose && !quiet) cli::say(tool, sentence);
 }
 
+Messages Context::messages() const {
+  return {[own = *this](const std::string& sentence) { own.say(sentence); },
+          [own = *this](const std::string& sentence) { own.warn(sentence); },
+          [own = *this](const std::string& what) { return own.progress(what); }};
+}
+
 void say_error(const std::string& tool, const std::string& sentence) { cli::say(tool, sentence); }
 
 int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<void(Options&)>& declare,

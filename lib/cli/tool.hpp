@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/messages.hpp"
 #include "base/progress.hpp"
 
 namespace slipwave::cli {
@@ -81,6 +82,8 @@ struct Context {
   void note(const std::string& sentence) const;
   /// A bar with rate and ETA on a terminal, a line every 10 % under --verbose without one, else nothing.
   Progress progress(const std::string& what) const;
+  /// The three for what knows nothing of tools; they hold a copy of this.
+  Messages messages() const;
 };
 
 /// Thrown to end a tool with this exit status and without a word: another process says why.

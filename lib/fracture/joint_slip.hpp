@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "fracture/slip_law.hpp"
+#include "fracture/friction_policy.hpp"
 #include "grid/tensor.hpp"
 
 namespace slipwave {
@@ -27,73 +27,124 @@ void add_shear(Stress<D, Real>& s, Real factor, const Traction<D, Real>& change,
 
 /// Any number of slip systems in one cell, in any directions: blocks in 3-D, planes that cross at any angle.
 /// Each takes off the shear traction that the others leave, round after round to and fro, until nothing
-/// changes (S12): at most `most_rounds` times, and energy falls in each of them.
-template <int D, class Real>
+/// changes (S12): at most `most_rounds` times, and energy falls in each of them. With a law that has a state
+/// the rounds are made again at the strengths of the end.
+template <int D, class Real, class Law>
 class JointSlip {
  public:
   struct System {
     Traction<D, Real> normal;
-    Real friction, cohesion_pa;
+    FrictionConstants<Real> law;
   };
   static constexpr int most_rounds = 24;
   static constexpr std::size_t most_systems = D;
 
+  /// What the systems of a cell have besides its stress, by system.
+  struct Cell {
+    const Real* relaxation;  // c
+    const bool* open;        // whether the planes stand apart
+    // Of laws with a state: slip so far, and h/mu.
+    Real* slip_m = nullptr;
+    Real slip_per_pa = 0;
+  };
+
   JointSlip(SlipCorrection correction, std::vector<System> systems)
       : correction_(correction), systems_(std::move(systems)) {}
-  /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the static part, `creep`
-  /// and `open` (whether its planes stand apart) are by system.
-  void slip(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open) const {
+  /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the static stress.
+  void slip(Stress<D, Real>& s, Stress<D, Real> total, const Cell& cell) const {
     const Stress<D, Real> before = total;
     if (correction_ == SlipCorrection::exponential)
-      for (std::size_t n = systems_.size(); n-- > 0;) crept(n, creep[n], open[n], total);
+      for (std::size_t n = systems_.size(); n-- > 0;) end_half(n, cell, total);
     else
-      relax(total, creep, open);
+      relax(total, cell);
     add(s, before, total);
   }
   /// What the next step begins with.
-  void begin(Stress<D, Real>& s, Stress<D, Real> total, const Real* creep, const bool* open) const {
+  void begin(Stress<D, Real>& s, Stress<D, Real> total, const Cell& cell) const {
     if (correction_ == SlipCorrection::first) return;
     const Stress<D, Real> before = total;
-    if (correction_ == SlipCorrection::exponential) {
-      for (std::size_t n = 0; n < systems_.size(); ++n) crept(n, creep[n], open[n], total);
-    } else {
-      for (std::size_t n = 0; n < systems_.size(); ++n) {
-        Traction<D, Real> tau;
-        resolve<D, Real>(systems_[n].normal, before, tau);
-        const Real size = length<D, Real>(tau);
-        const Real off =
-            slip::taken_first(size, strength(n, open[n], before), creep[n], int(systems_.size()));
-        if (off > 0) add_shear<D, Real>(total, -off / size, tau, systems_[n].normal);
-      }
+    for (std::size_t n = 0; n < systems_.size(); ++n) {
+      const bool exponential = correction_ == SlipCorrection::exponential;
+      const auto on = resolved(n, cell, exponential ? total : before);
+      const Real loss =
+          exponential ? slip::unloaded_loss(on.size, on.strength, cell.relaxation[n] * Real(0.5))
+                      : slip::explicit_half(on.size, on.strength, cell.relaxation[n], int(systems_.size()));
+      take_off(n, on, loss, cell, total);
     }
     add(s, before, total);
   }
 
  private:
-  Real strength(std::size_t n, bool open, const Stress<D, Real>& s) const {
+  /// Of one system.
+  struct Resolved {
     Traction<D, Real> tau;
-    if (open) return 0;
-    return systems_[n].friction * std::max(-resolve<D, Real>(systems_[n].normal, s, tau), Real(0)) +
-           systems_[n].cohesion_pa;
+    Real size, s_n, strength;
+  };
+  using Losses = std::array<Traction<D, Real>, most_systems>;
+  using Strengths = std::array<Real, most_systems>;
+
+  Resolved resolved(std::size_t n, const Cell& cell, const Stress<D, Real>& s) const {
+    Resolved on;
+    on.s_n = resolve<D, Real>(systems_[n].normal, s, on.tau);
+    on.size = length<D, Real>(on.tau);
+    on.strength = cell.open[n] ? Real(0) : Law::strength(systems_[n].law, on.s_n, slip_of(n, cell));
+    return on;
   }
-  /// Half a step of slip of one system alone.
-  void crept(std::size_t n, Real creep, bool open, Stress<D, Real>& s) const {
-    Traction<D, Real> tau;
-    const Real strength_pa = strength(n, open, s);
-    resolve<D, Real>(systems_[n].normal, s, tau);
-    const Real size = length<D, Real>(tau), off = slip::crept(size, strength_pa, creep * Real(0.5));
-    if (off > 0) add_shear<D, Real>(s, -off / size, tau, systems_[n].normal);
+  static Real slip_of(std::size_t n, const Cell& cell) {
+    if constexpr (Law::has_state) return cell.slip_m[n];
+    return 0;
   }
-  void relax(Stress<D, Real>& s, const Real* creep, const bool* open) const {
+  /// Strength at the end of a step in which the slip of a system takes off so much, theta c being `weighted`.
+  Real strength_at_end(std::size_t n, const Cell& cell, const Resolved& on, Real loss, Real weighted) const {
+    if (cell.open[n]) return 0;
+    return Law::strength_at_end(systems_[n].law, on.s_n, slip_of(n, cell), cell.slip_per_pa, loss,
+                                weighted / std::max(on.strength + weighted, slip::least<Real>));
+  }
+  void note_slip(std::size_t n, Real loss, const Cell& cell) const {
+    if constexpr (Law::has_state) cell.slip_m[n] = Law::slip_after(cell.slip_m[n], cell.slip_per_pa, loss);
+  }
+  void take_off(std::size_t n, const Resolved& on, Real loss, const Cell& cell, Stress<D, Real>& s) const {
+    if (!(loss > 0)) return;
+    add_shear<D, Real>(s, -loss / on.size, on.tau, systems_[n].normal);
+    note_slip(n, loss, cell);
+  }
+  /// The second half of a step of slip of one system alone, by the exponential rule.
+  void end_half(std::size_t n, const Cell& cell, Stress<D, Real>& s) const {
+    const auto on = resolved(n, cell, s);
+    const Real half = cell.relaxation[n] * Real(0.5);
+    Real loss = slip::unloaded_loss(on.size, on.strength, half);
+    if constexpr (Law::has_state)
+      loss = slip::unloaded_loss(on.size, strength_at_end(n, cell, on, loss, half), half);
+    take_off(n, on, loss, cell, s);
+  }
+  Real weighted(std::size_t n, const Cell& cell, Real strength) const {
+    return correction_ == SlipCorrection::first
+               ? cell.relaxation[n]
+               : slip::relaxation_of_end(cell.relaxation[n], strength, int(systems_.size()));
+  }
+  void relax(Stress<D, Real>& s, const Cell& cell) const {
     const std::size_t count = systems_.size();
-    std::array<Real, most_systems> strengths{}, weighted{};
-    std::array<Traction<D, Real>, most_systems> off{};
-    for (std::size_t n = 0; n < count; ++n) {
-      strengths[n] = strength(n, open[n], s);
-      weighted[n] = correction_ == SlipCorrection::first
-                        ? creep[n]
-                        : slip::creep_of_end(creep[n], strengths[n], int(count));
+    Strengths strengths{};
+    for (std::size_t n = 0; n < count; ++n) strengths[n] = resolved(n, cell, s).strength;
+    const Stress<D, Real> before = s;
+    auto losses = relax_at(s, cell, strengths);
+    if constexpr (Law::has_state) {
+      Strengths ends{};
+      for (std::size_t n = 0; n < count; ++n)
+        ends[n] = strength_at_end(n, cell, resolved(n, cell, before), length<D, Real>(losses[n]),
+                                  weighted(n, cell, strengths[n]));
+      if (ends != strengths) {
+        s = before;
+        losses = relax_at(s, cell, strengths = ends);
+      }
     }
+    for (std::size_t n = 0; n < count; ++n) note_slip(n, length<D, Real>(losses[n]), cell);
+    take_off_rest(s, cell, strengths, losses);
+  }
+  /// The rounds at given strengths. Returns what each system took off.
+  Losses relax_at(Stress<D, Real>& s, const Cell& cell, const Strengths& strengths) const {
+    const std::size_t count = systems_.size();
+    Losses off{};
     Real scale = 0;
     for (const Real value : s.values) scale = std::max(scale, std::abs(value));
     for (int round = 0; round < most_rounds; ++round) {
@@ -105,7 +156,7 @@ class JointSlip {
         resolve<D, Real>(systems_[n].normal, s, tau);
         const Real size = length<D, Real>(tau);
         Real over;
-        const Real now = slip::relaxed(size, strengths[n], weighted[n], over);
+        const Real now = slip::relaxed(size, strengths[n], weighted(n, cell, strengths[n]), over);
         const Real share = now < size ? 1 - now / size : Real(0);
         for (std::size_t i = 0; i < D; ++i) {
           moved = std::max(moved, std::abs(share * tau[i] - off[n][i]));
@@ -115,15 +166,21 @@ class JointSlip {
       }
       if (!(moved > std::numeric_limits<Real>::epsilon() * scale)) break;
     }
-    // Rounds that end early leave some planes with more than their slip carries: dry ones hold S to the bit.
-    for (std::size_t n = 0; n < count; ++n) {
+    return off;
+  }
+  /// Rounds that end early leave some planes with more than their slip carries: dry ones hold S to the bit.
+  void take_off_rest(Stress<D, Real>& s, const Cell& cell, const Strengths& strengths,
+                     const Losses& losses) const {
+    for (std::size_t n = 0; n < systems_.size(); ++n) {
       Traction<D, Real> tau;
       resolve<D, Real>(systems_[n].normal, s, tau);
       const Real size = length<D, Real>(tau);
       const Real carried =
-          strengths[n] * (1 + length<D, Real>(off[n]) / std::max(weighted[n], slip::least<Real>));
-      if (creep[n] > 0 && size > carried)
-        add_shear<D, Real>(s, -(size - carried) / size, tau, systems_[n].normal);
+          strengths[n] *
+          (1 + length<D, Real>(losses[n]) / std::max(weighted(n, cell, strengths[n]), slip::least<Real>));
+      if (!(cell.relaxation[n] > 0 && size > carried)) continue;
+      add_shear<D, Real>(s, -(size - carried) / size, tau, systems_[n].normal);
+      note_slip(n, size - carried, cell);
     }
   }
   static void add(Stress<D, Real>& s, const Stress<D, Real>& before, const Stress<D, Real>& after) {

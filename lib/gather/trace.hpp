@@ -6,17 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "gather/component.hpp"
+
 namespace slipwave {
-
-/// What a trace recorded. p = -(sxx + szz)/2 in 2-D, -(sxx + syy + szz)/3 in 3-D.
-enum class Component { vx, vy, vz, p, sxx, syy, szz, sxy, sxz, syz, other };
-
-/// "vx" .. "syz", "other".
-const char* name_of(Component component);
-/// The component of that name; throws Error listing the names otherwise.
-Component component_named(const std::string& name);
-/// "m/s", "Pa" or "" (other).
-const char* unit_of(Component component);
 
 /// Times of the samples of every trace of a gather: start + n interval, n = 0 .. count-1.
 struct SampleAxis {

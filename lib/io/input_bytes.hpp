@@ -42,8 +42,8 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// The first bytes of an input, to detect its kind. From a pipe they are taken for good: whoever reads on must
-/// be given taken() first. Keeps a fifo open meanwhile, so that its writer does not see it closed.
+/// The first bytes of an input, to detect its kind. From a pipe they are taken for good: whoever reads on
+/// must be given taken() first. Keeps a fifo open meanwhile, so that its writer does not see it closed.
 class InputStart {
  public:
   /// At most `count` bytes; fewer only where the input ends. Errors as read_all().

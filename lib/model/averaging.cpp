@@ -8,14 +8,15 @@ bool same_kind(const Material& a, const Material& b) {
   return (a.rho == 0) == (b.rho == 0) && (a.rho == 0 || (a.vs == 0) == (b.vs == 0));
 }
 
-void MaterialMean::add(const Material& part, double volume) {
-  if (!(volume > 0) || !same_kind(part, centre_)) return;
+bool MaterialMean::add(const Material& part, double volume) {
+  if (!(volume > 0) || !same_kind(part, centre_)) return false;
   if (volume_ == 0) first_ = part;
   uniform_ = uniform_ && part == first_;
   volume_ += volume;
   mass_ += volume * part.rho;
   if (part.rho > 0) compliance_p_ += volume / (part.rho * part.vp * part.vp);
   if (part.vs > 0) compliance_s_ += volume / (part.rho * part.vs * part.vs);
+  return true;
 }
 
 Material MaterialMean::mean() const {
@@ -24,6 +25,16 @@ Material MaterialMean::mean() const {
   // All parts are of one kind and differ, so none is void.
   return {std::sqrt(volume_ * volume_ / (compliance_p_ * mass_)),
           compliance_s_ > 0 ? std::sqrt(volume_ * volume_ / (compliance_s_ * mass_)) : 0, mass_ / volume_};
+}
+
+void ScalarMean::add(float part, double volume) {
+  volume_ += volume;
+  sum_ += rule_ == Mean::harmonic ? volume / double(part) : volume * double(part);
+}
+
+double ScalarMean::mean() const {
+  if (volume_ == 0) return centre_;
+  return rule_ == Mean::harmonic ? volume_ / sum_ : sum_ / volume_;
 }
 
 }  // namespace slipwave

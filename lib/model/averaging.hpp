@@ -4,7 +4,7 @@
 
 namespace slipwave {
 
-/// What a point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
+/// What an elastic point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
 struct Material {
   double vp = 0, vs = 0;  // m/s
   double rho = 0;         // kg/m3
@@ -36,8 +36,8 @@ bool same_kind(const Material& a, const Material& b);
 class MaterialMean {
  public:
   explicit MaterialMean(const Material& centre) : centre_(centre) {}
-  /// A part of the cell; volumes need not add up to anything.
-  void add(const Material& part, double volume);
+  /// A part of the cell; volumes need not add up to anything. Says whether it counts.
+  bool add(const Material& part, double volume);
   /// The mean; where all that counts is one material, exactly that. The centre's if nothing was added.
   Material mean() const;
 
@@ -46,6 +46,20 @@ class MaterialMean {
   bool uniform_ = true;
   double volume_ = 0;                                      // of what counts
   double mass_ = 0, compliance_p_ = 0, compliance_s_ = 0;  // sums of volume times rho, 1/(lambda+2mu), 1/mu
+};
+
+/// The mean of a property that stands by itself, over the parts of a cell that count for MaterialMean.
+class ScalarMean {
+ public:
+  /// `centre` is the mean while nothing is added.
+  ScalarMean(Mean rule, float centre) : rule_(rule), centre_(double(centre)) {}
+  void add(float part, double volume);
+  double mean() const;
+
+ private:
+  Mean rule_;
+  double centre_;
+  double volume_ = 0, sum_ = 0;  // sum: of volume times the value, or its inverse
 };
 
 }  // namespace slipwave

@@ -1,10 +1,14 @@
 #include "model/fracture.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
+#include "grid/tensor.hpp"
 
 namespace slipwave {
 
@@ -57,6 +61,56 @@ Point<D> unit_normal(const Point<D>& direction) {
   return normal;
 }
 
+std::string name_of(FrictionLaw law) { return law == FrictionLaw::coulomb ? "coulomb" : "slip-weakening"; }
+
+template <int D>
+void set_friction_law(SlipSystem<D>& system, const std::string& text) {
+  const auto parts = split(text, ':');
+  const bool coulomb = parts[0] == name_of(FrictionLaw::coulomb);
+  if (!(coulomb && parts.size() == 1) &&
+      !(parts[0] == name_of(FrictionLaw::slip_weakening) && parts.size() == 3)) {
+    throw Error("found '" + text + "', expected coulomb or slip-weakening:QD:DC", ErrorKind::usage);
+  }
+  if (coulomb) {
+    system.law = FrictionLaw::coulomb;
+    return;
+  }
+  system.law = FrictionLaw::slip_weakening;
+  system.dynamic_friction = parse_number(parts[1]);
+  system.slip_distance_m = parse_number(parts[2]);
+  if (!(system.dynamic_friction >= 0) || system.dynamic_friction > system.friction) {
+    throw Error("found a dynamic friction of " + shown(system.dynamic_friction) +
+                    ", expected it from 0 to the static friction of " + shown(system.friction),
+                ErrorKind::usage);
+  }
+  if (!(system.slip_distance_m > 0)) {
+    throw Error("found a slip distance of " + shown(system.slip_distance_m) + " m, expected it above zero",
+                ErrorKind::usage);
+  }
+}
+
+template <int D>
+CriticalLength critical_length(const Model<D>& model, std::size_t code) {
+  CriticalLength least = {std::numeric_limits<double>::infinity(), 0};
+  if (model.prestress_pa.empty()) return least;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    if (model.fracture[cell] != code) continue;
+    SymmetricTensor<D, double> stress;
+    for (std::size_t c = 0; c < stress.values.size(); ++c)
+      stress.values[c] = double(model.prestress_pa[c][cell]);
+    const double vs = double(model.medium.vs[cell]), mu = double(model.medium.rho[cell]) * vs * vs;
+    for (const auto& system : model.fracture_sets[code - 1].systems) {
+      if (system.law != FrictionLaw::slip_weakening) continue;
+      Point<D> traction{};
+      const double pressed = std::max(-resolve<D, double>(system.normal, stress, traction), 0.);
+      const double drop_pa = (system.friction - system.dynamic_friction) * pressed;
+      if (drop_pa > 0 && mu * system.slip_distance_m / drop_pa < least.length_m)
+        least = {mu * system.slip_distance_m / drop_pa, std::int64_t(cell)};
+    }
+  }
+  return least;
+}
+
 SlipEffect slip_effect_named(const std::string& name) {
   const char* const names[] = {"slip", "friction", "viscosity", "cohesion", "opening", "prestress"};
   std::string all;
@@ -72,7 +126,7 @@ void remove_effect(Model<D>& model, SlipEffect effect) {
   if (effect == SlipEffect::prestress) model.prestress_pa.clear();
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
-      if (effect == SlipEffect::friction) system.friction = 0;
+      if (effect == SlipEffect::friction) system.friction = system.dynamic_friction = 0;
       if (effect == SlipEffect::viscosity) system.viscosity_s = 0;
       if (effect == SlipEffect::cohesion) system.strength_pa = 0;
       if (effect == SlipEffect::opening) system.opens = false;
@@ -124,6 +178,10 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
 
 template Point<2> unit_normal<2>(const Point<2>&);
 template Point<3> unit_normal<3>(const Point<3>&);
+template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
+template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
+template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
+template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
 template void remove_effect(Model<2>&, SlipEffect);
 template void remove_effect(Model<3>&, SlipEffect);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,

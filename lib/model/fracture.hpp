@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <string>
 
 #include "model/model.hpp"
 
@@ -27,6 +28,24 @@ DipAndAzimuth dip_and_azimuth_of(const Point<3>& normal);
 /// `direction` scaled to length 1. Throws a usage Error when it has none.
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);
+
+/// "coulomb", "slip-weakening".
+std::string name_of(FrictionLaw law);
+
+/// Gives a system the law "coulomb" or "slip-weakening:QD:DC": friction falls from that of the system to QD
+/// over a slip of DC m. Throws a usage Error when the text is another.
+template <int D>
+void set_friction_law(SlipSystem<D>& system, const std::string& text);
+
+/// The least mu D_c/((q_s - q_d) |s_n|) of the cells of a set under the prestress, m (theory.md S18), and
+/// the cell it is in. Infinite where nothing weakens. Cells larger than that fall to dynamic friction at
+/// once.
+struct CriticalLength {
+  double length_m;
+  std::int64_t cell;
+};
+template <int D>
+CriticalLength critical_length(const Model<D>& model, std::size_t code);
 
 /// What slip of a model consists of: each can be left out of a run.
 enum class SlipEffect { slip, friction, viscosity, cohesion, opening, prestress };

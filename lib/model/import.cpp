@@ -17,6 +17,12 @@ float little_endian_float(const char* from) {
   return std::bit_cast<float>(bits);
 }
 
+template <int D>
+void check_grid(const Field<D>& field, const std::string& name, const Grid<D>& grid) {
+  if (field.grid() == grid) return;
+  throw Error(name + ": found " + shown(field.grid()) + ", expected " + shown(grid) + " as of vp");
+}
+
 }  // namespace
 
 template <int D>
@@ -57,17 +63,19 @@ Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, dou
 
 template <int D>
 Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp) {
-  const auto check_grid = [&](const std::optional<Field<D>>& field, const std::string& name) {
-    if (!field || field->grid() == vp.grid()) return;
-    throw Error(name + ": found " + shown(field->grid()) + ", expected " + shown(vp.grid()) + " as of vp");
-  };
-  check_grid(vs, "vs");
-  check_grid(rho, "rho");
+  if (vs) check_grid(*vs, "vs", vp.grid());
+  if (rho) check_grid(*rho, "rho", vp.grid());
   Medium<D> medium;
   medium.vs = vs ? std::move(*vs) : vs_by_castagna(vp, fluid_vp);
   medium.rho = rho ? std::move(*rho) : rho_by_gardner(vp, medium.vs);
   medium.vp = std::move(vp);
   return medium;
+}
+
+template <int D>
+void add_property(Medium<D>& medium, Property property, Field<D> field) {
+  check_grid(field, row_of(property).name, medium.grid());
+  medium[property] = std::move(field);
 }
 
 template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);
@@ -77,19 +85,18 @@ Medium<3> extruded(const Medium<2>& medium, double length_m) {
   const auto& flat = medium.grid();
   auto grid = grid_of_size<3>({flat.end(0) - flat.origin_m[0], length_m, flat.end(1)}, flat.spacing_m);
   grid.origin_m = {flat.origin_m[0], 0, flat.origin_m[1]};
-  Medium<3> deep{Field<3>(grid), Field<3>(grid), Field<3>(grid)};
-  const auto fill = [&](const Field<2>& from, Field<3>& to) {
+  Medium<3> deep(grid, medium);
+  for (const Property property : medium.properties()) {
     for (std::int64_t line = 0; line < grid.shape[1] * grid.shape[2]; ++line) {
-      const auto row = from.line(line / grid.shape[1]);
-      std::copy(row.begin(), row.end(), to.line(line).begin());
+      const auto row = medium[property].line(line / grid.shape[1]);
+      std::copy(row.begin(), row.end(), deep[property].line(line).begin());
     }
-  };
-  fill(medium.vp, deep.vp);
-  fill(medium.vs, deep.vs);
-  fill(medium.rho, deep.rho);
+  }
   return deep;
 }
 
+template void add_property(Medium<2>&, Property, Field<2>);
+template void add_property(Medium<3>&, Property, Field<3>);
 template Medium<2> medium_of(Field<2>, std::optional<Field<2>>, std::optional<Field<2>>, double);
 template Medium<3> medium_of(Field<3>, std::optional<Field<3>>, std::optional<Field<3>>, double);
 

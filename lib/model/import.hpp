@@ -22,18 +22,22 @@ Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, Fas
 /// down).
 Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, double spacing_m);
 
-/// A section from a netCDF variable of two dimensions. `name` "" takes the variable called `property`, else
+/// A section from a netCDF variable of two dimensions. `name` "" takes the variable called as the row, else
 /// the only one of two dimensions. Depth is the dimension named z or depth or whose coordinate has axis "Z"
 /// or a `positive` attribute, else the first one. Coordinates give the step (or must agree with `spacing_m`),
-/// in m or km; speeds in m/s or km/s, densities in kg/m3 or g/cm3; ascending depth may run up or down. Throws
-/// Error naming file and variable.
-Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, const std::string& name,
+/// in m or km; values in the units of the row (speeds in m/s or km/s, densities in kg/m3 or g/cm3); ascending
+/// depth may run up or down. Throws Error naming file and variable.
+Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
                            std::optional<double> spacing_m);
 
 /// The medium of imported fields. Without vs: Castagna's line, fluid where vp is at most `fluid_vp`; without
 /// rho: Gardner's relation (model/relations.hpp). Throws Error when the grids differ.
 template <int D>
 Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp);
+
+/// Adds an optional property, or replaces it. Throws Error when the grids differ.
+template <int D>
+void add_property(Medium<D>& medium, Property property, Field<D> field);
 
 /// The same all along y, `length_m` long in cells of the medium's. Throws a usage Error when that is no whole
 /// number of cells.

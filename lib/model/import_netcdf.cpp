@@ -29,14 +29,6 @@ bool is_depth(const NetcdfFile& file, const std::string& dimension) {
   return file.text_attribute(dimension, "axis") == "Z" || file.text_attribute(dimension, "positive");
 }
 
-double property_factor(const NetcdfFile& file, const std::string& property, const std::string& variable) {
-  if (property == "rho") {
-    return unit_factor(file, variable, {"kg m-3", "kg/m3", "kg/m^3", "kg m^-3"},
-                       {"g cm-3", "g/cm3", "g/cc", "g/cm^3", "g cm^-3"});
-  }
-  return unit_factor(file, variable, {"m s-1", "m/s", "m s^-1"}, {"km s-1", "km/s", "km s^-1"});
-}
-
 struct Axis {
   double first_m = 0, step_m = 0;  // step 0: no coordinates
 };
@@ -63,9 +55,9 @@ double tidy(double step) {
 
 }  // namespace
 
-Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, const std::string& name,
+Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
                            std::optional<double> spacing_m) {
-  const auto variable = file.variable(chosen_variable(file, property, name));
+  const auto variable = file.variable(chosen_variable(file, row.name, name));
   if (variable.shape.size() != 2 || variable.shape[0] == 0 || variable.shape[1] == 0) {
     throw Error(file.shown_name() + ": " + variable.name + ": found " +
                 std::to_string(variable.shape.size()) + " dimensions, expected two that are not empty");
@@ -87,7 +79,7 @@ Field<2> field_from_netcdf(const NetcdfFile& file, const std::string& property, 
   }
   if (step == 0)
     throw Error(file.shown_name() + ": " + variable.name + ": found no coordinates, expected --step");
-  const double factor = property_factor(file, property, variable.name);
+  const double factor = unit_factor(file, variable.name, row.si, row.thousand);
   const auto values = file.get_physical(variable.name);
   Grid<2> grid;
   grid.shape = {std::int64_t(nx), std::int64_t(nz)};

@@ -185,7 +185,7 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
 template <int D>
 Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average) {
   check_pile(grid, layers);
-  Medium<D> medium{Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+  Medium<D> medium(grid);
   const double h = grid.spacing_m;
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);

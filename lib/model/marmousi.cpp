@@ -135,7 +135,7 @@ void check_settings(const Grid<2>& grid, const MarmousiSettings& settings) {
 
 Medium<2> marmousi_medium(const Grid<2>& grid, const MarmousiSettings& settings, bool average) {
   check_settings(grid, settings);
-  Medium<2> medium{Field<2>(grid), Field<2>(grid), Field<2>(grid)};
+  Medium<2> medium(grid);
   const auto column_at = [&](double cells) {
     return Column(settings, grid.origin_m[0] + cells * grid.spacing_m);
   };

@@ -4,21 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "fracture/friction_policy.hpp"
 #include "grid/field.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
-
-/// Isotropic elastic medium, one value per cell. vs = 0 marks fluid, rho = 0 marks void (air).
-template <int D>
-struct Medium {
-  Field<D> vp, vs;  // m/s
-  Field<D> rho;     // kg/m3
-
-  const Grid<D>& grid() const { return vp.grid(); }
-  bool is_void(std::size_t cell) const { return rho[cell] == 0; }
-  bool is_fluid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] == 0; }
-  bool is_solid(std::size_t cell) const { return rho[cell] != 0 && vs[cell] != 0; }
-};
 
 /// One family of parallel slip planes (theory.md, slip law).
 template <int D>
@@ -28,6 +18,10 @@ struct SlipSystem {
   double viscosity_s = 0;  // eta, s
   double strength_pa = 0;  // cohesion added to q max(-s_n, 0)
   bool opens = false;      // planes part under tension; otherwise they carry it
+  FrictionLaw law = FrictionLaw::coulomb;
+  // Of slip weakening: friction falls from q to this over that slip of the planes of a cell.
+  double dynamic_friction = 0;
+  double slip_distance_m = 0;
 };
 
 /// Cells that share slip systems: 1 to D systems.
@@ -56,11 +50,12 @@ struct MediumLimits {
   bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
 };
 
-/// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values, rho = 0 with
-/// vp or vs set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D,
-/// where the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip
-/// normal that is no unit vector, negative or non-finite slip constants, a static stress that is not finite
-/// or under which planes slip or part by themselves.
+/// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values or others
+/// that the row of a property does not let through (of an optional one outside void), rho = 0 with vp or vs
+/// set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D, where
+/// the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip normal
+/// that is no unit vector, negative or non-finite slip constants, a static stress that is not finite or under
+/// which planes slip or part by themselves.
 template <int D>
 void check(const Model<D>& model, const MediumLimits& limits = {});
 

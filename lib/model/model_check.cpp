@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -25,14 +26,38 @@ template <int D>
   throw Error(name + " at " + place_of(grid, std::int64_t(cell)) + " " + rest);
 }
 
+std::string expected_values(const PropertyRow& row) {
+  const std::string finite = "a finite number";
+  if (std::isinf(row.largest))
+    return finite + (row.least == 0 ? " not below zero" : " of at least " + shown(row.least));
+  return finite + " from " + shown(row.least) + " to " + shown(row.largest);
+}
+
 template <int D>
-void check_values(const Field<D>& field, const std::string& name) {
+void check_values(const Medium<D>& medium, Property property) {
+  const auto& row = row_of(property);
+  const auto& field = medium[property];
   for (std::size_t cell = 0; cell < field.size(); ++cell) {
     const double value = double(field[cell]);
-    if (value >= 0 && std::isfinite(value)) continue;
-    const std::string found = std::isnan(value) ? "NaN" : shown_float(field[cell]);
-    refuse(field.grid(), cell, name, "is " + found + ", expected a finite number not below zero");
+    if (value >= row.least && value <= row.largest && std::isfinite(value)) continue;
+    if (row.if_absent && medium.is_void(cell)) continue;
+    const std::string found = std::isnan(value) ? "NaN" : shown_float(value);
+    refuse(field.grid(), cell, row.name, "is " + found + ", expected " + expected_values(row));
   }
+}
+
+template <int D>
+void check_grids(const Medium<D>& medium) {
+  const auto properties = medium.properties();
+  const auto alike = [&](Property property) { return medium[property].grid() == medium.grid(); };
+  if (std::all_of(properties.begin(), properties.end(), alike)) return;
+  std::string names, grids;
+  for (const Property property : properties) {
+    const bool first = property == properties.front(), last = property == properties.back();
+    names += (first ? "" : last ? " and " : ", ") + row_of(property).name;
+    grids += (first ? "" : ", ") + shown(medium[property].grid());
+  }
+  throw Error(names + " have different grids: " + grids);
 }
 
 template <int D>
@@ -80,6 +105,14 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
+    if (system.law == FrictionLaw::coulomb) continue;
+    check_constant("dynamic friction", system.dynamic_friction);
+    if (system.dynamic_friction > system.friction)
+      throw Error(name + ": dynamic friction is " + shown(system.dynamic_friction) +
+                  ", expected at most the static friction of " + shown(system.friction));
+    if (!(system.slip_distance_m > 0))
+      throw Error(name + ": slip distance is " + shown(system.slip_distance_m) +
+                  " m, expected it above zero");
   }
 }
 
@@ -89,13 +122,8 @@ template <int D>
 void check(const Model<D>& model, const MediumLimits& limits) {
   const auto& medium = model.medium;
   if (medium.vp.empty()) throw Error("the model has no cells");
-  if (!(medium.vs.grid() == medium.grid()) || !(medium.rho.grid() == medium.grid())) {
-    throw Error("vp, vs and rho have different grids: " + shown(medium.grid()) + ", " +
-                shown(medium.vs.grid()) + ", " + shown(medium.rho.grid()));
-  }
-  check_values(medium.vp, "vp");
-  check_values(medium.vs, "vs");
-  check_values(medium.rho, "rho");
+  check_grids(medium);
+  for (const Property property : medium.properties()) check_values(medium, property);
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) check_cell(medium, cell, limits);
   for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) check_set(model.fracture_sets[k], k + 1);
   if (model.fracture.empty()) return;

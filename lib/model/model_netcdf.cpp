@@ -84,6 +84,15 @@ bool any_opens(const std::vector<FractureSet<D>>& sets) {
   return false;
 }
 
+/// Whether any system has another law than Coulomb's, the only one that files without a law know.
+template <int D>
+bool any_law(const std::vector<FractureSet<D>>& sets) {
+  for (const auto& set : sets)
+    for (const auto& system : set.systems)
+      if (system.law != FrictionLaw::coulomb) return true;
+  return false;
+}
+
 template <int D>
 void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   std::size_t systems = 0;
@@ -110,6 +119,10 @@ void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   define("slip_viscosity", Type::f64, "viscosity of slip", "s");
   define("slip_strength", Type::f64, "cohesion", "Pa");
   if (any_opens(sets)) define("slip_opening", Type::u8, "1: the planes part under tension", "");
+  if (!any_law(sets)) return;
+  define("slip_law", Type::u8, "friction law: 0 Coulomb, 1 slip weakening", "");
+  define("slip_dynamic_friction", Type::f64, "coefficient of friction after weakening", "1");
+  define("slip_distance", Type::f64, "slip over which friction falls to the dynamic one", "m");
 }
 
 template <int D>
@@ -118,7 +131,8 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   std::vector<std::string> names;
   std::vector<int> owner;
   std::vector<double> normal, friction, viscosity, strength;
-  std::vector<std::uint8_t> opening;
+  std::vector<double> dynamic_friction, distance;
+  std::vector<std::uint8_t> opening, law;
   for (const auto& set : model.fracture_sets) {
     for (const auto& system : set.systems) {
       owner.push_back(int(names.size()));
@@ -127,6 +141,9 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
       viscosity.push_back(system.viscosity_s);
       strength.push_back(system.strength_pa);
       opening.push_back(system.opens ? 1 : 0);
+      law.push_back(std::uint8_t(system.law));
+      dynamic_friction.push_back(system.dynamic_friction);
+      distance.push_back(system.slip_distance_m);
     }
     names.push_back(set.name);
   }
@@ -137,6 +154,27 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   file.put("slip_viscosity", viscosity.data());
   file.put("slip_strength", strength.data());
   if (any_opens(model.fracture_sets)) file.put("slip_opening", opening.data());
+  if (!any_law(model.fracture_sets)) return;
+  file.put("slip_law", law.data());
+  file.put("slip_dynamic_friction", dynamic_friction.data());
+  file.put("slip_distance", distance.data());
+}
+
+/// The friction law of each system.
+template <int D>
+void read_laws(const NetcdfFile& file, std::vector<SlipSystem<D>>& systems) {
+  if (!file.has_variable("slip_law")) return;
+  const auto law = read_column(file, "slip_law", systems.size());
+  const auto friction = read_column(file, "slip_dynamic_friction", systems.size());
+  const auto distance = read_column(file, "slip_distance", systems.size());
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    if (law[i] != 0 && law[i] != 1)
+      throw Error(file.shown_name() + ": slip_law: found " + shown(law[i]) +
+                  ", expected 0 (Coulomb) or 1 (slip weakening)");
+    systems[i].law = FrictionLaw(int(law[i]));
+    systems[i].dynamic_friction = friction[i];
+    systems[i].slip_distance_m = distance[i];
+  }
 }
 
 std::string prestress_variable(const std::string& component) { return "prestress_" + component; }
@@ -169,12 +207,14 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
   const auto strength = read_column(file, "slip_strength", owner.size());
   const auto opening = file.has_variable("slip_opening") ? read_column(file, "slip_opening", owner.size())
                                                          : std::vector<double>(owner.size(), 0);
+  std::vector<SlipSystem<D>> systems(owner.size());
+  read_laws(file, systems);
   for (std::size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
       throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +
                   std::to_string(std::int64_t(sets.size()) - 1));
     }
-    SlipSystem<D> system;
+    auto& system = systems[i];
     for (std::size_t axis = 0; axis < D; ++axis) system.normal[axis] = normal[i * D + axis];
     system.friction = friction[i];
     system.viscosity_s = viscosity[i];
@@ -189,7 +229,7 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
 
 template <int D>
 Grid<D> read_model_grid(const NetcdfFile& file) {
-  check_dimensions<D>(file, "vp");
+  check_dimensions<D>(file, row_of(Property::vp).name);
   return read_grid<D>(file);
 }
 
@@ -204,9 +244,11 @@ Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_
   grid.first[D - 1] = first;
   grid.shape[D - 1] = last - first;
   Model<D> model;
-  model.medium.vp = read_field(file, grid, "vp");
-  model.medium.vs = read_field(file, grid, "vs");
-  model.medium.rho = read_field(file, grid, "rho");
+  for (const Property property : all_properties()) {
+    const auto& row = row_of(property);
+    if (row.if_absent && !file.has_variable(row.name)) continue;
+    model.medium[property] = read_field(file, grid, row.name);
+  }
   if (file.has_variable("fracture")) {
     check_dimensions<D>(file, "fracture");
     const auto [start, count] = block_of(grid);
@@ -236,9 +278,11 @@ void write_model(const Model<D>& model, OutputFile& out) {
   if (!model.source.empty()) file.put_attribute("", "source", model.source);
   if (!model.history.empty()) file.put_attribute("", "history", model.history);
   define_grid(file, model.grid());
-  define_property(file, model.medium.vp, "vp", "P-wave speed", "m s-1");
-  define_property(file, model.medium.vs, "vs", "S-wave speed, 0 = fluid", "m s-1");
-  define_property(file, model.medium.rho, "rho", "density, 0 = void", "kg m-3");
+  const auto properties = model.medium.properties();
+  for (const Property property : properties) {
+    const auto& row = row_of(property);
+    define_property(file, model.medium[property], row.name, row.long_name, row.units);
+  }
   if (fractured) define_sets(file, model.fracture_sets);
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c) {
     const auto& name = stress_names<D>()[c];
@@ -246,9 +290,7 @@ void write_model(const Model<D>& model, OutputFile& out) {
                     "static stress " + name + ", tension positive", "Pa");
   }
   put_grid(file, model.grid());
-  file.put("vp", model.medium.vp.data());
-  file.put("vs", model.medium.vs.data());
-  file.put("rho", model.medium.rho.data());
+  for (const Property property : properties) file.put(row_of(property).name, model.medium[property].data());
   if (fractured) put_sets(file, model);
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c)
     file.put(prestress_variable(stress_names<D>()[c]), model.prestress_pa[c].data());

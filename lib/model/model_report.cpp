@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
+#include "model/fracture.hpp"
 #include "model/prestress.hpp"
 
 namespace slipwave {
@@ -64,6 +65,10 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
     systems.back().number("viscosity", system.viscosity_s, "s");
     systems.back().number("strength", system.strength_pa, "Pa");
     if (system.opens) systems.back().text("opens", "under tension");
+    if (system.law == FrictionLaw::coulomb) continue;
+    systems.back().text("law", name_of(system.law));
+    systems.back().number("dynamic friction", system.dynamic_friction, "");
+    systems.back().number("slip distance", system.slip_distance_m, "m");
   }
   of_set.list("slip", systems);
   return of_set;
@@ -99,9 +104,8 @@ Report report_of(const Model<D>& model) {
   Report of_model;
   const auto& medium = model.medium;
   report_grid(of_model, model.grid());
-  report_field(of_model, "vp", medium.vp, "m/s");
-  report_field(of_model, "vs", medium.vs, "m/s");
-  report_field(of_model, "rho", medium.rho, "kg/m3");
+  for (const Property property : medium.properties())
+    report_field(of_model, row_of(property).name, medium[property], row_of(property).shown_unit);
   std::int64_t solid = 0, fluid = 0, nothing = 0;
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
@@ -169,10 +173,9 @@ Report report_of(const NetcdfFile& file) {
 }
 
 std::string kind_of(const NetcdfFile& file) {
-  if (file.has_variable("vp") && file.has_variable("vs") && file.has_variable("rho") &&
-      !file.dimension_length("time")) {
-    return "model";
-  }
+  const auto rows = material_properties();
+  const auto is_there = [&](const PropertyRow& row) { return row.if_absent || file.has_variable(row.name); };
+  if (std::all_of(rows.begin(), rows.end(), is_there) && !file.dimension_length("time")) return "model";
   const bool in_space = has_coordinates<2>(file) || has_coordinates<3>(file);
   return in_space && file.dimension_length("time") ? "snapshots" : "netCDF";
 }

@@ -16,7 +16,7 @@ Report report_of(const Model<D>& model);
 /// of the first dimension at a time.
 Report report_of(const NetcdfFile& file);
 
-/// "model" (it has vp, vs and rho), "snapshots" (it has time and a grid) or "netCDF".
+/// "model" (it has all properties that every model has), "snapshots" (it has time and a grid) or "netCDF".
 std::string kind_of(const NetcdfFile& file);
 
 }  // namespace slipwave

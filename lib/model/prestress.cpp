@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "fracture/coulomb.hpp"
 
 namespace slipwave {
 namespace {
@@ -130,7 +131,8 @@ void check_prestress(const Model<D>& model) {
       Point<D> traction{};
       const double normal = resolve<D, double>(system.normal, stress, traction);
       const double shear = length<D, double>(traction), rounding = slack * largest;
-      const double strength = system.friction * std::max(-normal, 0.) + system.strength_pa;
+      const double strength = Coulomb::strength<double>(
+          {.friction = system.friction, .cohesion_pa = system.strength_pa}, normal, 0);
       if (system.opens && normal > rounding)
         refuse("pulls",
                "apart by " + shown(normal, 4) + " Pa; planes that may open must be under compression");

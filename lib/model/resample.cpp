@@ -94,7 +94,7 @@ struct Regridding {
     model.source = from.source;
     model.history = from.history;
     model.fracture_sets = from.fracture_sets;
-    model.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+    model.medium = Medium<D>(grid, from.medium);
     if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
     model.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
   }
@@ -145,6 +145,8 @@ template <int D>
 Model<D> regridded(const Model<D>& model, double spacing_m) {
   Regridding<D> to(model, spacing_m);
   const auto& from = model.grid();
+  auto by_themselves = model.medium.properties();  // those whose means depend on nothing else
+  std::erase_if(by_themselves, [](Property property) { return row_of(property).mean == Mean::elastic; });
   std::array<std::vector<Overlap>, D> overlaps;
   for (std::size_t axis = 0; axis < D; ++axis) {
     overlaps[axis] = overlaps_of(from.shape[axis], from.spacing_m, to.model.grid().shape[axis], spacing_m);
@@ -154,6 +156,9 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
     for (std::size_t axis = 0; axis < D; ++axis)
       block.shape[axis] = std::int64_t(overlaps[axis][std::size_t(at[axis])].lengths.size());
     MaterialMean mean(material_of(model.medium, source));
+    std::vector<ScalarMean> scalars;
+    for (const Property property : by_themselves)
+      scalars.emplace_back(row_of(property).mean, model.medium[property][source]);
     for (std::int64_t n = 0; n < block.size(); ++n) {
       Index<D> old = block.index(n);
       double volume = 1;
@@ -162,9 +167,14 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
         volume *= overlap.lengths[std::size_t(old[axis])];
         old[axis] += overlap.first;
       }
-      mean.add(material_of(model.medium, std::size_t(from.flat(old))), volume);
+      const auto part = std::size_t(from.flat(old));
+      if (!mean.add(material_of(model.medium, part), volume)) continue;
+      for (std::size_t n = 0; n < scalars.size(); ++n)
+        scalars[n].add(model.medium[by_themselves[n]][part], volume);
     }
     put(to.model.medium, cell, mean.mean());
+    for (std::size_t n = 0; n < scalars.size(); ++n)
+      to.model.medium[by_themselves[n]][cell] = float(scalars[n].mean());
   });
 }
 
@@ -172,13 +182,13 @@ template <int D>
 Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
   if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
   Regridding<D> to(model, spacing_m);
+  const auto properties = model.medium.properties();
   return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
     std::array<const Foot*, D> round{};
     for (std::size_t axis = 0; axis < D; ++axis) round[axis] = &to.feet[axis][std::size_t(at[axis])];
     const auto corners = corners_of<D>(model.medium, round, source);
-    to.model.medium.vp[cell] = blend(model.medium.vp, corners);
-    to.model.medium.vs[cell] = blend(model.medium.vs, corners);
-    to.model.medium.rho[cell] = blend(model.medium.rho, corners);
+    for (const Property property : properties)
+      to.model.medium[property][cell] = blend(model.medium[property], corners);
   });
 }
 
@@ -206,16 +216,15 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   }
   grid.origin_m[D - 1] = 0;
   Model<D> result = model;
-  result.medium = {Field<D>(grid), Field<D>(grid), Field<D>(grid)};
+  result.medium = Medium<D>(grid, model.medium);
   if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
   result.prestress_pa.assign(model.prestress_pa.size(), Field<D>(grid));
+  const auto properties = model.medium.properties();
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     auto at = grid.index(n);
     for (std::size_t axis = 0; axis < D; ++axis) at[axis] += first[axis];
     const auto source = std::size_t(from.flat(at)), cell = std::size_t(n);
-    result.medium.vp[cell] = model.medium.vp[source];
-    result.medium.vs[cell] = model.medium.vs[source];
-    result.medium.rho[cell] = model.medium.rho[source];
+    for (const Property property : properties) result.medium[property][cell] = model.medium[property][source];
     if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
     for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
       result.prestress_pa[c][cell] = model.prestress_pa[c][source];

@@ -8,14 +8,14 @@ namespace slipwave {
 /// The same geology in cells of another size; the extent stays and must be a whole number of new steps (usage
 /// Error). A new cell is fluid, solid or void, and fractured, as the old cell its centre lies in (the one
 /// behind, where it lies on a face), and its material is the mean over the parts of old cells of that kind in
-/// it (theory.md M1, M2), each part weighted by its exact volume. So a cell split into whole ones gives
-/// copies of itself, and joining those gives it back, bit for bit.
+/// it (theory.md M1, M2; of other properties as their rows say), each part weighted by its exact volume. So a
+/// cell split into whole ones gives copies of itself, and joining those gives it back, bit for bit.
 template <int D>
 Model<D> regridded(const Model<D>& model, double spacing_m);
 
 /// The same model made smoother by smaller cells, or averaged into larger ones (regridded()); its extent
 /// stays and must be a whole number of new steps (usage Error). A smaller cell is fluid, solid or void, and
-/// fractured, as the old cell its centre lies in; so no interface is smeared. Its vp, vs and rho are
+/// fractured, as the old cell its centre lies in; so no interface is smeared. Its properties are
 /// interpolated (bi-, trilinearly) between the centres of the old cells round it that are of its kind, their
 /// weights scaled up to 1: exact for linear fields where all of them are, never outside the range of the old
 /// values. `average` = false interpolates for larger cells, too.

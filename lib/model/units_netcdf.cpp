@@ -14,7 +14,7 @@ double unit_factor(const NetcdfFile& file, const std::string& variable, const st
   if (std::find(small.begin(), small.end(), *unit) != small.end()) return 1;
   if (std::find(large.begin(), large.end(), *unit) != large.end()) return 1000;
   throw Error(file.shown_name() + ": " + variable + ": found the unit '" + *unit + "', expected " +
-              small.front() + " or " + large.front());
+              small.front() + (large.empty() ? "" : " or " + large.front()));
 }
 
 double length_factor(const NetcdfFile& file, const std::string& variable) {

@@ -13,68 +13,77 @@ namespace slipwave {
 
 namespace {
 
+struct DerivativeRow {
+  Derivative content;
+  const char* name;
+  const char* long_name;
+  bool in_2d, in_3d;
+};
+
+constexpr DerivativeRow derivatives[] = {
+    {Derivative::divergence, "div", "divergence of particle velocity", true, true},
+    {Derivative::curl, "curl", "curl of particle velocity, dvx/dz - dvz/dx", true, false},
+    {Derivative::curl_x, "curlx", "curl of particle velocity along x, dvz/dy - dvy/dz", false, true},
+    {Derivative::curl_y, "curly", "curl of particle velocity along y, dvx/dz - dvz/dx", false, true},
+    {Derivative::curl_z, "curlz", "curl of particle velocity along z, dvy/dx - dvx/dy", false, true},
+};
+
 template <int D>
-const SnapshotField& field_named(const std::string& name) {
-  const auto& known = snapshot_fields<D>();
-  const auto at =
-      std::find_if(known.begin(), known.end(), [&](const auto& field) { return field.name == name; });
-  if (at != known.end()) return *at;
-  std::string names;
-  for (const auto& field : known) names += (names.empty() ? "" : ", ") + field.name;
-  throw Error("found the field '" + name + "', expected one of " + names, ErrorKind::usage);
+std::vector<SnapshotField> make_fields() {
+  std::vector<SnapshotField> fields;
+  for (const auto& row : component_rows())
+    if (row.in(D)) fields.push_back({row.name, row.description(D), cf_unit(row.unit), row.component});
+  for (const auto& row : derivatives)
+    if (D == 2 ? row.in_2d : row.in_3d) fields.push_back({row.name, row.long_name, "s-1", row.content});
+  fields.push_back({"slip", "accumulated slip on fracture planes, as a strain", "1", SlipField::slip});
+  fields.push_back({"slip_rate", "slip strain rate in the last step", "s-1", SlipField::slip_rate});
+  fields.push_back({"dissipated", "energy dissipated by slip", "J m-3", SlipField::dissipated});
+  fields.push_back({"opening", "strain by which fracture planes stand open", "1", SlipField::opening});
+  return fields;
+}
+
+std::vector<std::string> derivative_names(bool in_2d, bool in_3d) {
+  std::vector<std::string> names;
+  for (const auto& row : derivatives)
+    if (row.in_2d == in_2d && row.in_3d == in_3d) names.emplace_back(row.name);
+  return names;
+}
+
+template <int D>
+std::vector<std::string> field_names() {
+  std::vector<std::string> names;
+  for (const auto& field : snapshot_fields<D>()) names.push_back(field.name);
+  return names;
 }
 
 }  // namespace
 
-template <>
-const std::vector<SnapshotField>& snapshot_fields<2>() {
-  static const std::vector<SnapshotField> fields = {
-      {"vx", "particle velocity along x", "m s-1"},
-      {"vz", "particle velocity along z, positive down", "m s-1"},
-      {"p", "pressure, -(sxx + szz)/2", "Pa"},
-      {"sxx", "normal stress along x, tension positive", "Pa"},
-      {"szz", "normal stress along z, tension positive", "Pa"},
-      {"sxz", "shear stress", "Pa"},
-      {"div", "divergence of particle velocity", "s-1"},
-      {"curl", "curl of particle velocity, dvx/dz - dvz/dx", "s-1"},
-      {"slip", "accumulated slip on fracture planes, as a strain", "1"},
-      {"slip_rate", "slip strain rate in the last step", "s-1"},
-      {"dissipated", "energy dissipated by slip", "J m-3"},
-      {"opening", "strain by which fracture planes stand open", "1"},
-  };
+template <int D>
+const std::vector<SnapshotField>& snapshot_fields() {
+  static const std::vector<SnapshotField> fields = make_fields<D>();
   return fields;
 }
 
-template <>
-const std::vector<SnapshotField>& snapshot_fields<3>() {
-  static const std::vector<SnapshotField> fields = {
-      {"vx", "particle velocity along x", "m s-1"},
-      {"vy", "particle velocity along y", "m s-1"},
-      {"vz", "particle velocity along z, positive down", "m s-1"},
-      {"p", "pressure, -(sxx + syy + szz)/3", "Pa"},
-      {"sxx", "normal stress along x, tension positive", "Pa"},
-      {"syy", "normal stress along y, tension positive", "Pa"},
-      {"szz", "normal stress along z, tension positive", "Pa"},
-      {"sxy", "shear stress", "Pa"},
-      {"sxz", "shear stress", "Pa"},
-      {"syz", "shear stress", "Pa"},
-      {"div", "divergence of particle velocity", "s-1"},
-      {"curlx", "curl of particle velocity along x, dvz/dy - dvy/dz", "s-1"},
-      {"curly", "curl of particle velocity along y, dvx/dz - dvz/dx", "s-1"},
-      {"curlz", "curl of particle velocity along z, dvy/dx - dvx/dy", "s-1"},
-      {"slip", "accumulated slip on fracture planes, as a strain", "1"},
-      {"slip_rate", "slip strain rate in the last step", "s-1"},
-      {"dissipated", "energy dissipated by slip", "J m-3"},
-      {"opening", "strain by which fracture planes stand open", "1"},
-  };
-  return fields;
+template <int D>
+const SnapshotField& snapshot_field(const std::string& name) {
+  const auto& known = snapshot_fields<D>();
+  const auto at =
+      std::find_if(known.begin(), known.end(), [&](const auto& field) { return field.name == name; });
+  if (at != known.end()) return *at;
+  throw Error("found the field '" + name + "', expected one of " + joined(field_names<D>()),
+              ErrorKind::usage);
+}
+
+std::string snapshot_field_help() {
+  return "fields: " + joined(field_names<2>()) + "; in 3-D also " + joined(component_names(3, 2)) + ", and " +
+         joined(derivative_names(false, true)) + " for " + joined(derivative_names(true, false));
 }
 
 template <int D>
 std::vector<std::string> parse_snapshot_fields(const std::string& text) {
   auto names = split(text, ',');
   for (auto name = names.begin(); name != names.end(); ++name) {
-    field_named<D>(*name);
+    snapshot_field<D>(*name);
     if (std::find(names.begin(), name, *name) != name)
       throw Error("found the field '" + *name + "' twice, expected each once", ErrorKind::usage);
   }
@@ -107,7 +116,7 @@ SnapshotWriter<D>::SnapshotWriter(const std::string& path, const Grid<D>& grid,
   std::vector<std::size_t> chunk = {1};
   for (int axis = D; axis-- > 0;) chunk.push_back(std::size_t(grid.shape[std::size_t(axis)]));
   for (const auto& name : fields_) {
-    const auto& field = field_named<D>(name);
+    const auto& field = snapshot_field<D>(name);
     file_.define_variable(name, NetcdfFile::Type::f32, dimensions, {true, chunk});
     file_.put_attribute(name, "_FillValue", std::vector<float>{std::numeric_limits<float>::quiet_NaN()});
     file_.put_attribute(name, "long_name", field.long_name);
@@ -160,6 +169,10 @@ void SnapshotWriter<D>::commit_as(const std::string& path) {
   out_.commit_as(path);
 }
 
+template const std::vector<SnapshotField>& snapshot_fields<2>();
+template const std::vector<SnapshotField>& snapshot_fields<3>();
+template const SnapshotField& snapshot_field<2>(const std::string&);
+template const SnapshotField& snapshot_field<3>(const std::string&);
 template std::vector<std::string> parse_snapshot_fields<2>(const std::string&);
 template std::vector<std::string> parse_snapshot_fields<3>(const std::string&);
 template class SnapshotWriter<2>;

@@ -3,24 +3,37 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "gather/component.hpp"
 #include "grid/field.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "scene/scene.hpp"
 
 namespace slipwave {
 
-/// A field a snapshot file can hold.
+/// Spatial derivatives of the velocity (output/derivatives.hpp); curl is that of 2-D, dvx/dz - dvz/dx.
+enum class Derivative { divergence, curl, curl_x, curl_y, curl_z };
+
+/// A field a snapshot file can hold, and what it is.
 struct SnapshotField {
   std::string name, long_name, units;
+  std::variant<Component, Derivative, SlipField> content;
 };
 
-/// All of them. 2-D: vx vz p sxx szz sxz div curl (div and curl of the velocity, curl = dvx/dz - dvz/dx).
-/// 3-D: vx vy vz p sxx syy szz sxy sxz syz div curlx curly curlz. In both also slip slip_rate dissipated
-/// opening.
+/// All of them: every component that is recorded (gather/component.hpp), derivatives of the velocity (2-D:
+/// div curl; 3-D: div curlx curly curlz), and slip slip_rate dissipated opening.
 template <int D>
 const std::vector<SnapshotField>& snapshot_fields();
+
+/// The field of that name. Throws a usage Error that lists them.
+template <int D>
+const SnapshotField& snapshot_field(const std::string& name);
+
+/// "fields: vx, vz, ...; in 3-D also ...": the names of all, for the help of an option.
+std::string snapshot_field_help();
 
 /// "vx,vz,div": names of snapshot_fields(), each once, in the order given. Throws a usage Error that lists
 /// them.

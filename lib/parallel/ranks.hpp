@@ -94,6 +94,10 @@ class CollectiveError : public Error {
  public:
   using Error::Error;
 };
+/// Thrown where another rank says what went wrong: this one ends with the same exit status, silently.
+struct EndedElsewhere {
+  ErrorKind kind = ErrorKind::data;
+};
 /// Collective: does what each rank has to do of it. Where that throws an Error on any of them, the sentence
 /// of the first of those is thrown on all.
 void collective_try(Ranks* ranks, const std::function<void()>& what);

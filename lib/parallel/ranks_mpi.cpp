@@ -110,8 +110,8 @@ class MpiRanks : public Ranks {
   int count_ = 1, number_ = 0;
 };
 
-/// Launchers describe the processes to each other in the environment. Nothing of MPI is begun without one: that
-/// takes a good part of a second.
+/// Launchers describe the processes to each other in the environment. Nothing of MPI is begun without one:
+/// that takes a good part of a second.
 bool launched() {
   for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
     if (std::getenv(name)) return true;

@@ -14,8 +14,12 @@ namespace {
 
 template <int D>
 Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
-  if (!file.has_variable(name))
-    throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model");
+  if (!file.has_variable(name)) {
+    const auto property = find_property(name);
+    const bool optional = property && row_of(*property).if_absent;
+    throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model" +
+                (optional ? " with it" : ""));
+  }
   if (file.variable(name).dimensions != field_dimensions<D>())
     throw Error(file.shown_name() + ": " + name + ": is not a field of z and x" +
                 (D == 2 ? ", expected a model in two dimensions" : " and y, expected a model"));
@@ -64,13 +68,19 @@ bool may_have_void(const NetcdfFile& file) {
   return !range || range->empty() || !(range->front() > 0);
 }
 
+/// "kg/m3" with its power raised.
+std::string typeset(std::string unit) {
+  if (const auto power = unit.find("m3"); power != std::string::npos) unit.replace(power, 2, "m\u00b3");
+  return unit;
+}
+
 }  // namespace
 
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice) {
   ModelSection section;
   section.property = property;
-  section.unit = property == "rho" ? "kg/m\u00b3" : "m/s";
+  if (const auto row = find_property(property)) section.unit = typeset(row_of(*row).shown_unit);
   section.title = file.text_attribute("", "title").value_or("");
   Field<2> rho;
   if (dimension_of(file) == 3) {

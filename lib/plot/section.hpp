@@ -30,8 +30,8 @@ struct ModelSection {
   const Grid<2>& grid() const { return values.grid(); }
 };
 
-/// Reads vp, vs or rho, and nothing else that is large, from a model file; of a model in 3-D what lies on a
-/// plane. Throws Error naming the file.
+/// Reads a property by its name, and nothing else that is large, from a model file; of a model in 3-D what
+/// lies on a plane. Throws Error naming the file.
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice = std::nullopt);
 

@@ -7,7 +7,9 @@
 #include <type_traits>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "grid/locate.hpp"
+#include "model/coefficients.hpp"
 
 namespace slipwave {
 namespace {
@@ -51,6 +53,15 @@ void check_count(double duration_s, const char* what, double interval_s, const c
               ErrorKind::usage);
 }
 
+/// "vp 1500 vs 0 rho 1000 at x=5 z=10"
+template <int D>
+std::string described(const Medium<D>& medium, std::size_t cell) {
+  std::string text;
+  for (const Property property : medium.properties())
+    text += row_of(property).name + ' ' + shown(medium[property][cell]) + ' ';
+  return text + "at " + place_of(medium.grid(), std::int64_t(cell));
+}
+
 /// The medium of all cells along a boundary must be one for a plane wave to be known there; `needs` says so.
 template <int D>
 void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::string& needs,
@@ -62,14 +73,8 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::st
     if (at[std::size_t(axis)] != (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
     const auto cell = std::size_t(n);
     if (!reference) reference = cell;
-    const bool same = medium.vp[cell] == medium.vp[*reference] && medium.vs[cell] == medium.vs[*reference] &&
-                      medium.rho[cell] == medium.rho[*reference];
-    if (same && !medium.is_void(cell)) continue;
-    const auto material = [&](std::size_t of) {
-      return "vp " + shown(medium.vp[of]) + " vs " + shown(medium.vs[of]) + " rho " + shown(medium.rho[of]) +
-             " at " + place_of(grid, std::int64_t(of));
-    };
-    throw Error(needs + ", found " + material(*reference) + " and " + material(cell));
+    if (medium.same(cell, *reference) && !medium.is_void(cell)) continue;
+    throw Error(needs + ", found " + described(medium, *reference) + " and " + described(medium, cell));
   }
 }
 
@@ -87,9 +92,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
       behind += (source.position_m[axis] - grid.centre(int(axis), at[axis])) * wave.direction[axis];
     const auto cell = std::size_t(n);
     if (behind < 0 || behind > length) continue;
-    if (medium.vp[cell] == medium.vp[from] && medium.vs[cell] == medium.vs[from] &&
-        medium.rho[cell] == medium.rho[from])
-      continue;
+    if (medium.same(cell, from)) continue;
     throw Error(
         "at t = 0 the plane wave would already be in another material than that of the boundary it enters "
         "by, at " +
@@ -97,8 +100,8 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
   }
 }
 
-/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it reaches at the sides are
-/// followed there. An oblique one is known only where all absorbing edges lie in one medium.
+/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it reaches at the sides
+/// are followed there. An oblique one is known only where all absorbing edges lie in one medium.
 template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
@@ -125,38 +128,15 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
 }
 
 template <int D>
-bool has(Component component) {
-  switch (component) {
-    case Component::vx:
-    case Component::vz:
-    case Component::p:
-    case Component::sxx:
-    case Component::szz:
-    case Component::sxz:
-      return true;
-    case Component::vy:
-    case Component::syy:
-    case Component::sxy:
-    case Component::syz:
-      return D == 3;
-    case Component::other:
-      break;
-  }
-  return false;
-}
-
-template <int D>
 void check_components(const std::vector<Component>& components) {
   for (const Component component : components) {
     if (std::count(components.begin(), components.end(), component) > 1)
       throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
                   ErrorKind::usage);
-    if (!has<D>(component))
-      throw Error(
-          "found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
-              "-D, expected " +
-              (D == 2 ? "vx, vz, p, sxx, szz or sxz" : "vx, vy, vz, p, sxx, syy, szz, sxy, sxz or syz"),
-          ErrorKind::usage);
+    if (!row_of(component).in(D))
+      throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
+                      "-D, expected " + joined(component_names(D), " or "),
+                  ErrorKind::usage);
   }
 }
 
@@ -181,9 +161,7 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  double fastest = scene.subdomain.fastest;
-  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell)
-    if (!scene.model.medium.is_void(cell)) fastest = std::max(fastest, double(scene.model.medium.vp[cell]));
+  const double fastest = std::max(scene.subdomain.fastest, fastest_speed(scene.model.medium));
   return scene.model.grid().spacing_m / fastest;
 }
 

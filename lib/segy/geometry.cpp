@@ -13,17 +13,6 @@
 namespace slipwave::segy {
 namespace {
 
-struct CodeRow {
-  Component component;
-  std::int64_t code;
-};
-
-constexpr CodeRow codes[] = {
-    {Component::p, 11},    {Component::vz, 12},   {Component::vy, 13},   {Component::vx, 14},
-    {Component::sxx, 257}, {Component::syy, 258}, {Component::szz, 259}, {Component::syz, 260},
-    {Component::sxz, 261}, {Component::sxy, 262}, {Component::other, 1},
-};
-
 constexpr double foot_m = 0.3048;
 
 /// All lengths that become words of one trace header.
@@ -98,15 +87,11 @@ std::int64_t unit_code(Component component) {
 
 }  // namespace
 
-std::int64_t code_of(Component component) {
-  for (const CodeRow& row : codes)
-    if (row.component == component) return row.code;
-  return 1;
-}
+std::int64_t code_of(Component component) { return row_of(component).trace_code; }
 
 Component component_of_code(std::int64_t code) {
-  for (const CodeRow& row : codes)
-    if (row.code == code) return row.component;
+  for (const auto& row : component_rows())
+    if (row.trace_code == code) return row.component;
   return Component::other;
 }
 

@@ -29,7 +29,7 @@ class Rows {
   solver::MaterialRows<Real> material(std::int64_t i) { return {row(5) + i, row(6) + i, row(7) + i}; }
   /// Faces between the cells: what lies before cell i stands at i.
   solver::InterfaceStates<Real> faces() { return {row(8), pitch}; }
-  solver::OutgoingWaves<Real> leaving() { return {row(12), pitch}; }
+  solver::OutgoingWaves<Real> outgoing() { return {row(12), pitch}; }
 
  private:
   static constexpr int count = 16;

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "base/error.hpp"
-#include "checkpoint/run_book.hpp"
+#include "checkpoint/run_state.hpp"
 #include "memory_file.hpp"
 #include "solver/simulation.hpp"
 
@@ -77,16 +77,16 @@ struct LeftOff {};
 /// Leaves a shot off after some passes.
 class Leaver : public Pauses {
  public:
-  Leaver(Pauses& book, int passes) : book_(book), left_(passes) {}
-  void begin(const Serialize& keep) override { book_.begin(keep); }
+  Leaver(Pauses& run, int passes) : run_(run), left_(passes) {}
+  void begin(const Serialize& keep) override { run_.begin(keep); }
   bool wanted() override { return --left_ < 0; }
   void pause(const Serialize& keep, const ShotPlace& place) override {
-    book_.pause(keep, place);
+    run_.pause(keep, place);
     throw LeftOff();
   }
 
  private:
-  Pauses& book_;
+  Pauses& run_;
   int left_;
 };
 
@@ -99,17 +99,17 @@ RunState::Settings settings() {
 void go_on() {
   const std::string place = folder().checkpoint();
   try {
-    RunState book(settings());
+    RunState run(settings());
     for (std::size_t shot = 1; shot <= all_shots; ++shot) {
-      if (const auto* gather = book.gather(shot)) {
+      if (const auto* gather = run.gather(shot)) {
         for (const auto& trace : gather->traces) {
           if (std::int64_t(trace.samples.size()) != gather->axis.count) fail("a trace of another length");
           name_of(trace.header.component);
         }
         continue;
       }
-      if (book.finished(shot)) continue;
-      const auto pauses = book.pauses_of(shot);
+      if (run.finished(shot)) continue;
+      const auto pauses = run.pauses_of(shot);
       for (const auto& trace : shoot(scene(), shot, {}, {}, pauses.get()).traces)
         if (std::int64_t(trace.samples.size()) != scene().recording.samples())
           fail("the run recorded a trace of another length");
@@ -125,10 +125,10 @@ void go_on() {
 
 std::vector<std::uint8_t> checkpoint_content(int passes, int shots) {
   {
-    RunState book(settings());
-    for (std::size_t shot = 1; shot <= std::size_t(shots); ++shot) book.finish(shot, shoot(scene(), shot));
+    RunState run(settings());
+    for (std::size_t shot = 1; shot <= std::size_t(shots); ++shot) run.finish(shot, shoot(scene(), shot));
     const std::size_t next = std::size_t(shots) + 1;
-    const auto pauses = book.pauses_of(next);
+    const auto pauses = run.pauses_of(next);
     Leaver leaver(*pauses, passes);
     try {
       shoot(scene(), next, {}, {}, &leaver);

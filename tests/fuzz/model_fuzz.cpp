@@ -102,8 +102,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* first, std::size_t siz
   answers([&] { kind_of(file); });
   answers([&] { report_of(file); });
   const bool plane = read_models<2>(file), deep = read_models<3>(file), table = read_tables(file);
-  for (const std::string property : {"vp", "rho"})
-    answers([&] { field_from_netcdf(file, property, property == "vp" ? "" : "rho", {}); });
+  for (const Property property : {Property::vp, Property::rho})
+    answers([&] { field_from_netcdf(file, row_of(property), property == Property::vp ? "" : "rho", {}); });
   // Opening takes most of the time: once is enough.
   const bool shots =
       file.has_variable("y") ? read_snapshots<3>(std::move(file)) : read_snapshots<2>(std::move(file));

@@ -9,12 +9,13 @@ status=0
 # fresh: a small house that keeps every rule.
 fresh() {
   rm -rf "$house"
-  mkdir -p "$house/lib/base" "$house/lib/gather" "$house/lib/output" "$house/tools" "$house/tests/unit" \
+  mkdir -p "$house/lib/base" "$house/lib/gather" "$house/lib/output" "$house/lib/accuracy" "$house/tools" "$house/tests/unit" \
     "$house/docs/man" "$house/surveys" "$house/build/bin"
   echo '#include <vector>' > "$house/lib/base/error.hpp"
   echo '#include <fftw3.h>' > "$house/lib/base/fft.cpp"
   echo '#include "base/error.hpp"' > "$house/lib/gather/trace.cpp"
-  echo '#include "solver/sweep/state.hpp"' > "$house/lib/output/snapshot.cpp"
+  echo '#include "scene/scene.hpp"' > "$house/lib/output/snapshot.cpp"
+  echo '#include "solver/kernels/reconstruction.hpp"' > "$house/lib/accuracy/dispersion.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
   echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
   printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
@@ -61,6 +62,8 @@ noticed() {
 noticed layers lib/base/error.hpp '#include "gather/trace.hpp"' 'lib/base/error.hpp:2: base must not include'
 noticed layers lib/gather/trace.cpp '#include "model/model.hpp"' 'gather must not include'
 noticed layers lib/output/snapshot.cpp '#include "solver/sweep/sweeps.hpp"' 'output must not include'
+noticed layers lib/accuracy/dispersion.cpp '#include "solver/kernels/kernels.hpp"' 'accuracy must not include'
+noticed layers lib/plot/panel.cpp '#include "solver/simulation.hpp"' 'plot must not include'
 noticed layers lib/gather/trace.cpp '#include "trace.hpp"' 'write "room/file.hpp"'
 noticed layers lib/gather/trace.cpp '#include <fftw3.h>' '<fftw3.h> belongs in'
 noticed layers lib/gather/trace.cpp '#include <tbb/task_arena.h>' '<tbb/task_arena.h> belongs in'

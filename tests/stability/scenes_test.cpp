@@ -99,7 +99,7 @@ struct Drawn {
   bool absorbs = false;
 };
 
-/// One system, blocks, or two that cross at any angle; each may open.
+/// One system, blocks, or two that cross at any angle; each may open or weaken.
 FractureSet<2> any_set(Draws& draws) {
   const double angle_deg = draws.between(0, 360);
   const double between = draws.chance(0.5) ? 90 : draws.between(10, 80);
@@ -114,6 +114,9 @@ FractureSet<2> any_set(Draws& draws) {
     set.systems[1] = set.systems[0];
     set.systems[1].normal = normal;
   }
+  for (auto& system : set.systems)
+    if (draws.chance(0.3))
+      weaken(system, draws.one_of<double>({0, 0.5, 1}), draws.one_of<double>({1e-300, 1e-9, 1e-6, 1e-3, 1}));
   return set;
 }
 

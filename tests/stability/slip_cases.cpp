@@ -36,6 +36,8 @@ const std::vector<Planes>& kinds_of_planes() {
       {"BlocksThatOpen", {20, 110}, false, true},
       {"Crossing", {20, 75}, false, false},
       {"CrossingThatOpen", {-30, 30}, true, true},
+      {"OneThatWeakens", {35}, true, false, true},
+      {"CrossingThatWeakenAndOpen", {20, 75}, false, true, true},
   };
   return all;
 }
@@ -67,12 +69,19 @@ SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa, bo
   return {{std::sin(angle), -std::cos(angle)}, law.friction, law.viscosity_s, strength_pa, opens};
 }
 
+void weaken(SlipSystem<2>& system, double share, double distance_m) {
+  system.law = FrictionLaw::slip_weakening;
+  system.dynamic_friction = share * system.friction;
+  system.slip_distance_m = distance_m;
+}
+
 FractureSet<2> set_of(const Planes& planes, const Law& law, double strength_pa) {
   FractureSet<2> set{planes.name, {}};
   for (const double angle_deg : planes.angles_deg) {
     const bool other = !planes.equal && !set.systems.empty();
     const Law own = {other ? 4 * law.friction : law.friction, law.viscosity_s};
     set.systems.push_back(system_of(angle_deg, own, other ? strength_pa + 1e5 : strength_pa, planes.open));
+    if (planes.weaken) weaken(set.systems.back(), 0.1, 1e-4);
   }
   return set;
 }

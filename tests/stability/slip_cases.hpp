@@ -21,8 +21,9 @@ const Cluster& cluster_named(const std::string& name);
 struct Planes {
   const char* name;
   std::vector<double> angles_deg;
-  bool equal;  // strengths of all systems
-  bool open;   // planes part under tension
+  bool equal;           // strengths of all systems
+  bool open;            // planes open under tension
+  bool weaken = false;  // friction falls to a tenth by slip
 };
 const std::vector<Planes>& kinds_of_planes();
 
@@ -42,6 +43,8 @@ inline const std::vector<int> orders = {1, 3, 5, 7};
 SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa = 0, bool opens = false);
 /// Where the strengths differ, the second system has four times the friction and a cohesion.
 FractureSet<2> set_of(const Planes& planes, const Law& law, double strength_pa = 0);
+/// Lets friction fall by slip, to that share of it.
+void weaken(SlipSystem<2>& system, double share, double distance_m);
 
 struct PlaneStress {
   double xx, zz, xz;

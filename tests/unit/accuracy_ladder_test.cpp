@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "accuracy/choice.hpp"
-#include "accuracy/plan.hpp"
 #include "model_cases.hpp"
+#include "planning/measured.hpp"
+#include "planning/plan.hpp"
 
 namespace slipwave {
 namespace {

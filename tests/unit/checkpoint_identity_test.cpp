@@ -93,6 +93,19 @@ TEST(Identity, TellsEverythingThatMattersByName) {
   }
 }
 
+TEST(Identity, KnowsTheFrictionLaw) {
+  const auto with = [](FrictionLaw law, double dynamic_friction, double distance_m) {
+    auto one = scene();
+    one.model.fracture_sets = {{"set", {{{0, 1}, 0.6, 0, 0, false, law, dynamic_friction, distance_m}}}};
+    return identity_of(one);
+  };
+  const auto weak = with(FrictionLaw::slip_weakening, 0.2, 1e-3);
+  EXPECT_EQ(difference_of(weak, weak), std::nullopt);
+  for (const auto& other : {with(FrictionLaw::coulomb, 0, 0), with(FrictionLaw::slip_weakening, 0.3, 1e-3),
+                            with(FrictionLaw::slip_weakening, 0.2, 2e-3)})
+    EXPECT_EQ(difference_of(weak, other), "another model");
+}
+
 TEST(Identity, LooksIntoTheFileOfAWavelet) {
   auto one = scene(), other = scene();
   one.survey.sources[0].wavelet = Wavelet(samples(1), "file:w.txt");

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-#include "checkpoint/run_book.hpp"
+#include "checkpoint/run_state.hpp"
 
 namespace slipwave {
 namespace {
@@ -91,10 +91,10 @@ std::string refusal(const std::function<void()>& what) {
 
 /// Writes a checkpoint of one finished shot and one in progress.
 void leave_off(const RunState::Settings& settings, Gather gather = gather_of(1)) {
-  RunState book(settings);
-  book.finish(1, std::move(gather));
+  RunState run(settings);
+  run.finish(1, std::move(gather));
   Counting shot;
-  const auto pauses = book.pauses_of(2);
+  const auto pauses = run.pauses_of(2);
   shot.steps = {0, 1, 2, 3};
   pauses->pause(shot.keep, {4, 10});
 }
@@ -103,12 +103,12 @@ void leave_off(const RunState::Settings& settings, Gather gather = gather_of(1))
 
 TEST_F(CheckpointFile, HoldsWhatIsFinishedAndWhereTheOthersAre) {
   leave_off(settings());
-  RunState book(settings());
-  EXPECT_EQ(book.goes_on_at(), "1 of 3 shots done, shot 2 at step 4 of 10");
-  ASSERT_TRUE(book.gather(1));
-  EXPECT_FALSE(book.finished(2));
+  RunState run(settings());
+  EXPECT_EQ(run.continues_at(), "1 of 3 shots done, shot 2 at step 4 of 10");
+  ASSERT_TRUE(run.gather(1));
+  EXPECT_FALSE(run.finished(2));
   const auto expected = gather_of(1);
-  const auto& found = *book.gather(1);
+  const auto& found = *run.gather(1);
   EXPECT_EQ(found.axis, expected.axis);
   ASSERT_EQ(found.traces.size(), 2u);
   for (std::size_t n = 0; n < 2; ++n) {
@@ -117,7 +117,7 @@ TEST_F(CheckpointFile, HoldsWhatIsFinishedAndWhereTheOthersAre) {
     EXPECT_EQ(found.traces[n].header.receiver_m, expected.traces[n].header.receiver_m);
   }
   Counting shot;
-  const auto pauses = book.pauses_of(2);
+  const auto pauses = run.pauses_of(2);
   pauses->begin(shot.keep);
   EXPECT_EQ(shot.steps, (std::vector<std::int64_t>{0, 1, 2, 3}));
 }
@@ -128,7 +128,7 @@ TEST_F(CheckpointFile, IsRefusedWithTracesThatNoShotRecords) {
   other.traces[0].header.component = Component(99);
   for (const auto& gather : {shorter, other}) {
     leave_off(settings(), gather);
-    EXPECT_EQ(refusal([&] { RunState book(settings()); }), path() + ": holds traces that no shot records");
+    EXPECT_EQ(refusal([&] { RunState run(settings()); }), path() + ": holds traces that no shot records");
     fs::remove(path());
   }
 }
@@ -141,11 +141,11 @@ TEST_F(CheckpointFile, IsRefusedWhicheverOfItsBytesIsDamaged) {
     auto damaged = whole;
     damaged[byte] = char(damaged[byte] ^ (1 << byte % 8));
     write(path(), damaged);
-    const auto said = refusal([&] { RunState book(settings()); });
+    const auto said = refusal([&] { RunState run(settings()); });
     EXPECT_EQ(said.find(path() + ": "), 0u) << "byte " << byte << ": '" << said << "'";
   }
   write(path(), whole);
-  EXPECT_EQ(refusal([&] { RunState book(settings()); }), "");
+  EXPECT_EQ(refusal([&] { RunState run(settings()); }), "");
 }
 
 TEST_F(CheckpointFile, IsRefusedWhereverItIsCutOffOrGoesOn) {
@@ -153,11 +153,11 @@ TEST_F(CheckpointFile, IsRefusedWhereverItIsCutOffOrGoesOn) {
   const auto whole = content(path());
   for (std::size_t size = 0; size < whole.size(); ++size) {
     write(path(), whole.substr(0, size));
-    EXPECT_NE(refusal([&] { RunState book(settings()); }), "") << size;
+    EXPECT_NE(refusal([&] { RunState run(settings()); }), "") << size;
   }
   for (const std::size_t more : {1, 7, 8, 4096}) {
     write(path(), whole + std::string(more, '\0'));
-    EXPECT_NE(refusal([&] { RunState book(settings()); }), "") << more;
+    EXPECT_NE(refusal([&] { RunState run(settings()); }), "") << more;
   }
 }
 
@@ -167,39 +167,39 @@ TEST_F(CheckpointFile, OfAnotherFormatOrRunOrNoneIsRefusedByName) {
   auto later = whole;
   later[24] = 7;
   write(path(), later);
-  EXPECT_EQ(refusal([&] { RunState book(settings()); }),
+  EXPECT_EQ(refusal([&] { RunState run(settings()); }),
             path() + ": found a checkpoint of format 7, expected 1");
   write(path(), std::string(5000, 'x'));
-  EXPECT_EQ(refusal([&] { RunState book(settings()); }),
+  EXPECT_EQ(refusal([&] { RunState run(settings()); }),
             path() + ": is not a checkpoint of sw-shoot, or damaged");
   write(path(), whole);
   auto other = settings();
   other.identity[0].value = "7";
-  EXPECT_EQ(refusal([&] { RunState book(other); }),
+  EXPECT_EQ(refusal([&] { RunState run(other); }),
             path() + ": is of a run with order 5, expected 7; remove it to begin anew");
   other = settings();
   other.identity[1].value = "18";
-  EXPECT_EQ(refusal([&] { RunState book(other); }),
+  EXPECT_EQ(refusal([&] { RunState run(other); }),
             path() + ": is of a run with another model; remove it to begin anew");
   other = settings();
   other.identity.pop_back();
-  EXPECT_NE(refusal([&] { RunState book(other); }), "");
+  EXPECT_NE(refusal([&] { RunState run(other); }), "");
   EXPECT_EQ(content(path()), whole);
 }
 
 TEST_F(CheckpointFile, KeepsOneOlderAndLeavesNothingWhenClosed) {
   auto often = settings(1e-9);
-  RunState book(often);
+  RunState run(often);
   Counting shot;
   {
-    const auto pauses = book.pauses_of(1);
+    const auto pauses = run.pauses_of(1);
     shot.run_to(2, *pauses);
     EXPECT_EQ(names(), (std::vector<std::string>{"c", "c.1", "c.lock"}));
     const auto first = content(path());
     pauses->pause(shot.keep, {2, 9});
     EXPECT_EQ(content(path("c.1")), first);
   }
-  book.close();
+  run.close();
   EXPECT_EQ(names(), std::vector<std::string>{});
   EXPECT_EQ(said, "");
 }
@@ -210,14 +210,14 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
   const auto often = settings(1e-3);
   std::array<std::size_t, 3> before{};
   for (int round = 0; round < 4; ++round) {
-    RunState book(often);
+    RunState run(often);
     std::array<Counting, 3> shots;
     std::array<std::size_t, 3> begun{};
     std::vector<std::thread> threads;
     std::atomic<int> ended = 0;
     for (std::size_t n = 0; n < 3; ++n)
-      threads.emplace_back([&book, &shots, &begun, &ended, n] {
-        auto pauses = book.pauses_of(n + 1);
+      threads.emplace_back([&run, &shots, &begun, &ended, n] {
+        auto pauses = run.pauses_of(n + 1);
         auto& shot = shots[n];
         pauses->begin(shot.keep);
         begun[n] = shot.steps.size();
@@ -238,7 +238,7 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
       EXPECT_GE(begun[n], before[n]);
     }
     // The longest one runs on alone, the others have ended then.
-    EXPECT_EQ(book.finished(3), false);
+    EXPECT_EQ(run.finished(3), false);
     before = {0, 0, begun[2]};
   }
   EXPECT_GE(before[2], 240u);
@@ -246,13 +246,13 @@ TEST_F(CheckpointFile, OfShotsThatRunTogetherIsOneMomentOfAll) {
 }
 
 TEST_F(CheckpointFile, IsNotWrittenOnceAShotHasFailed) {
-  RunState book(settings(1e-9));
+  RunState run(settings(1e-9));
   {
     Counting shot;
-    const auto pauses = book.pauses_of(1);
+    const auto pauses = run.pauses_of(1);
     EXPECT_THROW(
         {
-          const auto other = book.pauses_of(2);
+          const auto other = run.pauses_of(2);
           throw Error("unstable");
         },
         Error);

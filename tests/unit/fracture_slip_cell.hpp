@@ -3,14 +3,16 @@
 
 #include <array>
 
+#include "fracture/coulomb.hpp"
 #include "fracture/joint_slip.hpp"
+#include "fracture/slip_weakening.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave {
 
 struct FirstOrder {
   static constexpr auto correction = SlipCorrection::first;
-  /// What is kept from step to step.
+  /// What is retained from step to step.
   template <int D, class Real>
   using Memory = std::array<Real, 8>;
 };
@@ -21,17 +23,21 @@ struct Exponential : FirstOrder {
   static constexpr auto correction = SlipCorrection::exponential;
 };
 
-/// S = friction max(-s_n, 0) + cohesion_pa.
+/// S = friction max(-s_n, 0) + cohesion_pa; with slip weakening friction falls by slip.
 template <class Real>
 struct SlipStrength {
   Real friction = 0, cohesion_pa = 0;
+  FrictionLaw law = FrictionLaw::coulomb;
+  double dynamic_friction = 0, slip_distance_m = 0, slip_per_pa = 0;
 };
+/// Where Memory has the slip so far, m.
+inline constexpr std::size_t slip_in_memory = 7;
 
 /// d = eta/(mu dt), 1/Pa: what the slip of a step is measured by, 1/c.
 inline double slip_d(double viscosity_s, double mu_pa, double dt_s) {
-  return 1 / slip::creep_pa(viscosity_s, mu_pa, dt_s);
+  return 1 / slip::relaxation_pa(viscosity_s, mu_pa, dt_s);
 }
-inline double creep_of_d(double d) { return d > 1 / most_creep_pa ? 1 / d : most_creep_pa; }
+inline double relaxation_of_d(double d) { return d > 1 / most_relaxation_pa ? 1 / d : most_relaxation_pa; }
 
 namespace slip_cell {
 
@@ -41,11 +47,22 @@ void run(const SlipStrength<Real>& law, const Traction<D, Real>& normal, double 
          std::array<Real, 8>& memory, bool begins) {
   Point<D> n{};
   for (std::size_t i = 0; i < D; ++i) n[i] = double(normal[i]);
-  const auto planes = solver::planes_of<D, Real>({{n, double(law.friction), 0, double(law.cohesion_pa)}});
-  const auto kernels = solver::slip_kernels<Real>({D, 1, Correction::correction, false});
-  const Real creep = Real(creep_of_d(d));
-  (begins ? kernels.begin : kernels.slip)(
-      1, planes, {s.values.data(), 1, {&creep, nullptr}, memory.data(), 1, nullptr, 0, {nullptr, nullptr}});
+  const auto planes = solver::planes_of<D, Real>({{n, double(law.friction), 0, double(law.cohesion_pa), false,
+                                                   law.law, law.dynamic_friction, law.slip_distance_m}});
+  const auto kernels = solver::slip_kernels<Real>({D, 1, Correction::correction, false, law.law});
+  const Real relaxation = Real(relaxation_of_d(d));
+  const Real slip_per_pa = Real(law.slip_per_pa);
+  (begins ? kernels.begin : kernels.slip)(1, planes,
+                                          {s.values.data(),
+                                           1,
+                                           {&relaxation, nullptr},
+                                           memory.data(),
+                                           1,
+                                           nullptr,
+                                           0,
+                                           {nullptr, nullptr},
+                                           {&memory[slip_in_memory], nullptr},
+                                           &slip_per_pa});
 }
 
 }  // namespace slip_cell

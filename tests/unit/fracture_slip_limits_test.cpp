@@ -71,7 +71,7 @@ TYPED_TEST(SlipLimits, KeepsAllNumbersFinite) {
         for (const double size : {0., 1e-42, 1e-25, 1., 1e5, 1e15})
           for (const double cohesion : {0., 1e-40, 1e-15, 1e5, 1e30}) {
             const double d = slip_d(eta, mu, dt);
-            ASSERT_TRUE(std::isfinite(slip::creep_pa(eta, mu, dt)));
+            ASSERT_TRUE(std::isfinite(slip::relaxation_pa(eta, mu, dt)));
             const auto n = this->any_normal();
             typename TestFixture::Memory memory{};
             auto s = this->any_stress(size);
@@ -83,11 +83,11 @@ TYPED_TEST(SlipLimits, KeepsAllNumbersFinite) {
           }
 }
 
-TEST(Creep, IsWhatAStepOfSlipTakesOffAtTwiceTheStrength) {
-  EXPECT_DOUBLE_EQ(slip::creep_pa(3.8e3, 1.2656e10, 1e-3), 1.2656e7 / 3.8e3);
-  EXPECT_EQ(slip::creep_pa(0, 0, 0), most_creep_pa);
-  EXPECT_EQ(slip::creep_pa(1, 0, 1e-3), 0);
-  EXPECT_EQ(slip::creep_pa(1e-300, 1e10, 1e-3), most_creep_pa);
+TEST(RelaxationStress, IsWhatAStepOfSlipTakesOffAtTwiceTheStrength) {
+  EXPECT_DOUBLE_EQ(slip::relaxation_pa(3.8e3, 1.2656e10, 1e-3), 1.2656e7 / 3.8e3);
+  EXPECT_EQ(slip::relaxation_pa(0, 0, 0), most_relaxation_pa);
+  EXPECT_EQ(slip::relaxation_pa(1, 0, 1e-3), 0);
+  EXPECT_EQ(slip::relaxation_pa(1e-300, 1e10, 1e-3), most_relaxation_pa);
 }
 
 TEST(SecondOrderSlip, DoesNotRingWhereTheStepIsMuchLongerThanTheRelaxation) {

@@ -118,6 +118,34 @@ TEST(Fractures, RefuseARegionWithoutRockAndChangeNothing) {
   EXPECT_TRUE(model.fracture_sets.empty());
 }
 
+TEST(FrictionLaws, AreParsedStrictly) {
+  SlipSystem<2> system{{0, 1}, 0.6, 0, 0};
+  set_friction_law(system, "slip-weakening:0.2:1e-3");
+  EXPECT_EQ(system.law, FrictionLaw::slip_weakening);
+  EXPECT_EQ(system.dynamic_friction, 0.2);
+  EXPECT_EQ(system.slip_distance_m, 1e-3);
+  set_friction_law(system, "coulomb");
+  EXPECT_EQ(system.law, FrictionLaw::coulomb);
+  for (const char* text : {"", "Coulomb", "coulomb:1", "slip-weakening", "slip-weakening:0.2",
+                           "slip-weakening:0.2:", "slip-weakening:0.2:1:1", "slip-weakening:0.7:1",
+                           "slip-weakening:-1:1", "slip-weakening:0.2:0", "slip-weakening:0.2:nan"})
+    EXPECT_THROW(set_friction_law(system, text), Error) << text;
+}
+
+TEST(FrictionLaws, HaveACriticalLengthWhereStaticStressPressesMost) {
+  auto model = water_over_rock(grid_of(4, 4, 10), 0);
+  FractureSet<2> set{"set", {{{0, 1}, 0.6, 0, 0}}};
+  set_friction_law(set.systems[0], "slip-weakening:0.2:1e-3");
+  add_fractures<2>(model, set, [](const Point<2>&) { return true; });
+  EXPECT_TRUE(std::isinf(critical_length(model, 1).length_m));
+  model.prestress_pa.assign(3, Field<2>(model.grid(), -1e6F));
+  model.prestress_pa[1][6] = -2e6F;
+  const double vs = double(model.medium.vs[6]), mu = double(model.medium.rho[6]) * vs * vs;
+  const auto [length_m, cell] = critical_length(model, 1);
+  EXPECT_EQ(cell, 6);
+  EXPECT_NEAR(length_m, mu * 1e-3 / (0.4 * 2e6), 1e-9 * length_m);
+}
+
 TEST(Fractures, FitTheCodeOfOneByte) {
   auto model = water_over_rock(grid_of(2, 2, 10), 0);
   const FractureSet<2> set{"set", {{{0, 1}, 0.1, 1, 0}}};

@@ -97,6 +97,20 @@ TEST(ModelCheck, RefusesUnphysicalSlipConstants) {
             "fracture set 1 'set': friction is -0.1, expected a finite number not below zero");
   EXPECT_EQ(with([](auto& system) { system.viscosity_s = std::nan(""); }),
             "fracture set 1 'set': viscosity is nan, expected a finite number not below zero");
+  const auto weak = [&](double friction, double dynamic, double distance_m) {
+    return with([&](auto& system) {
+      system.law = FrictionLaw::slip_weakening;
+      system.friction = friction, system.dynamic_friction = dynamic, system.slip_distance_m = distance_m;
+    });
+  };
+  EXPECT_EQ(weak(0.5, 0.6, 1),
+            "fracture set 1 'set': dynamic friction is 0.6, expected at most the static "
+            "friction of 0.5");
+  EXPECT_EQ(weak(0.5, -0.1, 1),
+            "fracture set 1 'set': dynamic friction is -0.1, expected a finite number not below zero");
+  EXPECT_EQ(weak(0.5, 0.1, 0), "fracture set 1 'set': slip distance is 0 m, expected it above zero");
+  EXPECT_EQ(weak(0.5, 0.1, std::nan("")),
+            "fracture set 1 'set': slip distance is nan m, expected it above zero");
   EXPECT_EQ(refusal([](Model<2>& model) {
               mark(model, rock, 1);
               model.fracture_sets[0].systems.clear();

@@ -49,6 +49,9 @@ void expect_equal(const Model<D>& found, const Model<D>& expected) {
       EXPECT_EQ(systems[i].viscosity_s, expected.fracture_sets[k].systems[i].viscosity_s);
       EXPECT_EQ(systems[i].strength_pa, expected.fracture_sets[k].systems[i].strength_pa);
       EXPECT_EQ(systems[i].opens, expected.fracture_sets[k].systems[i].opens);
+      EXPECT_EQ(systems[i].law, expected.fracture_sets[k].systems[i].law);
+      EXPECT_EQ(systems[i].dynamic_friction, expected.fracture_sets[k].systems[i].dynamic_friction);
+      EXPECT_EQ(systems[i].slip_distance_m, expected.fracture_sets[k].systems[i].slip_distance_m);
     }
   }
   ASSERT_EQ(found.prestress_pa.size(), expected.prestress_pa.size());
@@ -90,6 +93,16 @@ TEST_F(ModelFile, BringsBackStaticStressAndPlanesThatOpen) {
   expect_equal(read_model<2>(path_), model);
 }
 
+TEST_F(ModelFile, BringsBackFrictionLaws) {
+  auto model = water_over_rock(grid_of(4, 3, 10), 1);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = 1;
+  model.fracture_sets = {
+      {"one", {{{1, 0}, 0.6, 0, 0}, {{0, 1}, 0.6, 0, 0, false, FrictionLaw::slip_weakening, 0.2, 1e-4}}}};
+  write_model(model, path_);
+  expect_equal(read_model<2>(path_), model);
+}
+
 TEST_F(ModelFile, WritesNeitherWhereThereIsNone) {
   auto model = water_over_rock(grid_of(4, 3, 10), 1);
   model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
@@ -98,6 +111,7 @@ TEST_F(ModelFile, WritesNeitherWhereThereIsNone) {
   write_model(model, path_);
   const auto file = NetcdfFile::open(path_);
   EXPECT_FALSE(file.has_variable("slip_opening"));
+  EXPECT_FALSE(file.has_variable("slip_law"));
   EXPECT_FALSE(file.has_variable("prestress_sxx"));
 }
 
@@ -209,13 +223,13 @@ TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
     file.put("speed", std::vector<double>{4, 3, 2, 4.5, 3.5, 2.5}.data());
     file.close();
   }
-  const auto field = field_from_netcdf(NetcdfFile::open(path_), "vp", "", {});
+  const auto field = field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", {});
   EXPECT_EQ(field.grid(), grid_of(2, 3, 20));
   EXPECT_EQ(field({0, 0}), 2000);
   EXPECT_EQ(field({1, 0}), 2500);
   EXPECT_EQ(field({0, 2}), 4000);
   EXPECT_NE(sentence_of([&] {
-              field_from_netcdf(NetcdfFile::open(path_), "vp", "", 10);
+              field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", 10);
             }).find("found a step of 20 m"),
             std::string::npos);
 }

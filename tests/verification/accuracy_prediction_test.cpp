@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "accuracy/choice.hpp"
+#include "accuracy/dispersion.hpp"
 #include "accuracy/full_space.hpp"
 #include "accuracy/ladder.hpp"
-#include "accuracy/plan.hpp"
 #include "lab.hpp"
-#include "solver/sweep/dispersion.hpp"
+#include "planning/measured.hpp"
+#include "planning/plan.hpp"
 
 namespace slipwave {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "accuracy/reached.hpp"
 #include "cube.hpp"
+#include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
 
 using namespace slipwave;

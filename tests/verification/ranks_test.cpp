@@ -127,6 +127,22 @@ TEST(Ranks, InDoublePrecisionAndUnderStaticStressToo) {
   EXPECT_TRUE(all_samples(shared_out(scene, 3)) == all_samples(shoot(scene, 1)));
 }
 
+TEST(Ranks, WhereSlipWeakensFrictionToo) {
+  auto scene = reef();
+  for (auto& set : scene.model.fracture_sets) {
+    set.systems[0].law = FrictionLaw::slip_weakening;
+    set.systems[0].slip_distance_m = 1e-11;
+  }
+  for (const auto correction : {SlipCorrection::second, SlipCorrection::exponential}) {
+    scene.numerics.correction = correction;
+    const auto alone = all_samples(shoot(scene, 1));
+    EXPECT_TRUE(all_samples(shared_out(scene, 3, 2)) == alone);
+    auto coulomb = scene;
+    for (auto& set : coulomb.model.fracture_sets) set.systems[0].law = FrictionLaw::coulomb;
+    EXPECT_FALSE(all_samples(shoot(coulomb, 1)) == alone);
+  }
+}
+
 TEST(Ranks, RecordInThreeDimensionsWhatOneProcessDoes) {
   const Index<3> shape = {34, 22, 120};
   auto medium = uniform_cube(shape, 5, rock);

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "accuracy/reached.hpp"
 #include "lab.hpp"
 #include "parallel/threads.hpp"
+#include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
 #include "solver/simulation.hpp"
 

@@ -138,7 +138,8 @@ TEST_P(LinearSlip, SendsOffPAndSWavesAsSchoenbergsInterfaceAtAllFrequencies) {
 INSTANTIATE_TEST_SUITE_P(
     Waves, LinearSlip, ::testing::Values(std::tuple{false, 40.}, std::tuple{true, 0.}, std::tuple{true, 22.}),
     [](const auto& info) {
-      return std::string(std::get<0>(info.param) ? "S" : "P") + std::to_string(int(std::get<1>(info.param)));
+      std::string name = std::get<0>(info.param) ? "S" : "P";
+      return name += std::to_string(int(std::get<1>(info.param)));
     });
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <complex>
 #include <numbers>
 
+#include "accuracy/dispersion.hpp"
 #include "lab.hpp"
-#include "solver/sweep/dispersion.hpp"
 
 namespace slipwave::solver {
 namespace {

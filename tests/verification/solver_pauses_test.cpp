@@ -156,6 +156,26 @@ TEST(Pauses, ChangeNoBitWithAnyCorrectionAndTimeOrder) {
     }
 }
 
+TEST(Pauses, ChangeNoBitWhereSlipWeakensFriction) {
+  auto scene = reef();
+  // Blocks, one of which weakens, and crossing planes.
+  scene.model.fracture_sets = {{"blocks", {{{0.6, 0.8}, 0.5, 10, 0}, {{-0.8, 0.6}, 0.4, 0, 0}}},
+                               {"crossing", {{{0.6, 0.8}, 0.5, 10, 0}, {{1, 0}, 0.4, 0, 0}}},
+                               {"one", {{{0.6, 0.8}, 0.5, 10, 0}}}};
+  for (std::int64_t k = 50; k < 60; ++k)
+    for (std::int64_t i = 50; i < 80; ++i) scene.model.fracture({i, k}) = std::uint8_t(1 + i / 10 % 3);
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    scene.numerics.correction = correction;
+    auto weak = scene;
+    for (auto& set : weak.model.fracture_sets) {
+      set.systems[0].law = FrictionLaw::slip_weakening;
+      set.systems[0].slip_distance_m = 1e-9;
+    }
+    expect_same(weak, name_of(correction));
+    EXPECT_FALSE(same_bits(undisturbed(weak).samples, undisturbed(scene).samples));
+  }
+}
+
 TEST(Pauses, ChangeNoBitWhereCellsAreLeftOut) {
   // Without snapshots and cracks cells before the waves and beyond what can be seen are left out.
   auto scene = reef();

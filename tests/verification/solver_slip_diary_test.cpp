@@ -94,6 +94,40 @@ TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
   }
 }
 
+TEST(SlipDiary, BalancesPlanesThatWeakenUnderStaticStress) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(16, 16, 5, {4500, 2250, 2500});
+  scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid(), 1);
+  const SlipSystem<2> first = {{0.6, 0.8}, 0.5, 2e3, 1e3, true, FrictionLaw::slip_weakening, 0.1, 1e-4};
+  auto across = first, crossing = first;
+  across.normal = {0.8, -0.6};
+  crossing.normal = {std::sqrt(0.5), std::sqrt(0.5)};
+  const float pressure = 2e5f;
+  for (const float value : {-pressure, -pressure, 0.f})
+    scene.model.prestress_pa.emplace_back(scene.model.grid(), value);
+  scene.slip_diary = true;
+  const double dt_s = 0.9 * 5 / 4500;
+  for (const auto& systems : {std::vector{first}, std::vector{first, across}, std::vector{first, crossing}})
+    for (const auto correction :
+         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+      scene.model.fracture_sets = {{"weak", systems}};
+      scene.numerics.correction = correction;
+      Lab<double> lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
+      Slip<2, double> slip(lab.state(), lab.domain(), scene, dt_s);
+      const double lost = lost_by_slip(lab, slip, 8, 1e5, dt_s);
+      const auto totals = slip.totals();
+      EXPECT_NEAR(totals.out_of_waves, lost, 1e-9 * std::abs(lost)) << name_of(correction);
+      const auto heat = slip.field(SlipField::dissipated), slipped = slip.field(SlipField::slip);
+      double most = 0;
+      for (std::size_t cell = 0; cell < heat.size(); ++cell) {
+        EXPECT_GE(heat[cell], 0) << cell;
+        most = std::max(most, 5 * double(slipped[cell]));
+      }
+      // Friction has fallen, in part of the cells not yet to the end.
+      EXPECT_GT(most, 0.3e-4);
+    }
+}
+
 TEST(SlipDiary, IsInSiUnitsWhateverUnitTheFieldsHave) {
   // Fields of single precision have a unit of their own, those of double precision have not.
   Scene<2> scene;

@@ -70,12 +70,9 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
                       grid.spacing_m,
                       {grid.origin_m[1], grid.origin_m[0]},
                       {grid.first[1], grid.first[0]}};
-  Medium<2> column{Field<2>(lying), Field<2>(lying), Field<2>(lying)};
-  for (std::int64_t k = 0; k < grid.shape[1]; ++k) {
-    column.vp({k, 0}) = medium.vp({x, k});
-    column.vs({k, 0}) = medium.vs({x, k});
-    column.rho({k, 0}) = medium.rho({x, k});
-  }
+  Medium<2> column(lying, medium);
+  for (const auto property : medium.properties())
+    for (std::int64_t k = 0; k < grid.shape[1]; ++k) column[property]({k, 0}) = medium[property]({x, k});
   return column;
 }
 

@@ -29,11 +29,9 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   const double rho = medium_.rho(domain_.model_cell(centre_));
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
-  // An isotropic source adds to all normal stresses through the same cells: it must not radiate S waves.
-  const bool isotropic = std::holds_alternative<Explosion>(source.mechanism);
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
-    const int like = isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
+    const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
     add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);

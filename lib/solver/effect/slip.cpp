@@ -12,7 +12,7 @@ Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<
   for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
     SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s, unit);
     if (group.cells() == 0) continue;
-    if (scene.slip_diary) diary_.emplace_back(std::size_t(group.kept_cells()));
+    if (scene.slip_diary) diary_.emplace_back(std::size_t(group.stored_cells()));
     group.rest();
     opens_ |= group.opens();
     groups_.push_back(std::move(group));
@@ -63,24 +63,24 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
     const double mu = groups_[group].shear_modulus(at), lambda = groups_[group].lambda(at);
     if (!(mu > 0)) continue;
     auto& entry = diary_[group][at];
-    const auto still = groups_[group].prestress(at);
-    double square = 0, mean = 0, of_still = 0;
-    double off_trace = 0, mean_trace = 0, still_trace = 0;
+    const auto prestress = groups_[group].prestress(at);
+    double square = 0, mean = 0, of_prestress = 0;
+    double off_trace = 0, mean_trace = 0, prestress_trace = 0;
     for (int c = 0; c < components; ++c) {
       const double twice = c < D ? 1 : 2;  // off-diagonal components stand for two
       const double was = before[c * piece + i], is = after[c * pitch + i], off = was - is;
-      const double stays = still.values[std::size_t(c)];
+      const double stays = prestress.values[std::size_t(c)];
       square += twice * off * off;
       mean += twice * off * (was + is) / 2;
-      of_still += twice * off * stays;
+      of_prestress += twice * off * stays;
       if (c >= D) continue;
-      off_trace += off, mean_trace += (was + is) / 2, still_trace += stays;
+      off_trace += off, mean_trace += (was + is) / 2, prestress_trace += stays;
     }
-    // Slip changes no normal stress in sum; parting does.
+    // Slip changes no normal stress in sum; opening does.
     const double share = off_trace * lambda / (2 * mu + D * lambda);
     entry.out_of_waves += (mean - share * mean_trace) / (2 * mu);
-    entry.heat += (mean + of_still - share * (mean_trace + still_trace)) / (2 * mu);
-    if (act == SlipAct::part) continue;
+    entry.heat += (mean + of_prestress - share * (mean_trace + prestress_trace)) / (2 * mu);
+    if (act == SlipAct::open) continue;
     const double strain = std::sqrt(square / 2) / mu;
     if (act == SlipAct::slip) entry.in_step = entry.ahead + strain;
     entry.ahead = act == SlipAct::slip ? 0 : strain;
@@ -91,7 +91,7 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
 template <int D, class Real>
 void Slip<D, Real>::apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) {
   if (opens_)
-    each_stretch(fields, cells, {SlipAct::part, SlipAct::slip});
+    each_stretch(fields, cells, {SlipAct::open, SlipAct::slip});
   else
     each_stretch(fields, cells, {SlipAct::slip});
 }
@@ -136,6 +136,9 @@ std::vector<EffectShare> Slip<D, Real>::shares() const {
   add("  friction", [&](const auto& g) { return any(g, [](const auto& s) { return s.friction > 0; }); });
   add("  viscosity", [&](const auto& g) { return any(g, [](const auto& s) { return s.viscosity_s > 0; }); });
   add("  cohesion", [&](const auto& g) { return any(g, [](const auto& s) { return s.strength_pa > 0; }); });
+  add("  slip weakening", [&](const auto& g) {
+    return any(g, [](const auto& s) { return s.law == FrictionLaw::slip_weakening; });
+  });
   add("  blocks", [](const auto& g) { return g.set().systems.size() > 1; });
   add("  prestress", [](const auto& g) { return g.has_prestress(); });
   add("  opening", [](const auto& g) { return g.opens(); });

@@ -40,7 +40,7 @@ class Slip : public Effect<D, Real> {
   SlipTotals totals() const;
 
  private:
-  /// What is kept of a cell for the diary.
+  /// What is stored of a cell for the diary.
   struct Entry {
     double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3

@@ -56,7 +56,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   const auto& model = scene.model;
   const auto& systems = set_->systems;
   using Tensor = SymmetricTensor<D, double>;
-  creep_.assign(systems.size(), std::vector<Real>(count_));
+  relaxation_.assign(systems.size(), std::vector<Real>(count_));
   gaps_.resize(systems.size());
   for (std::size_t n = 0; n < systems.size(); ++n)
     if (systems[n].opens) gaps_[n].assign(count_, 0);
@@ -64,8 +64,13 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     lambda_.assign(count_, 0);
     modulus_.assign(count_, 0);
   }
+  slips_m_.resize(systems.size());
+  if (law() != FrictionLaw::coulomb) {
+    for (auto& slips : slips_m_) slips.assign(count_, 0);
+    slip_per_pa_.assign(count_, 0);
+  }
   if (scene.slip_diary) mu_.assign(count_, 0);
-  if (!model.prestress_pa.empty()) still_.assign(count_ * Tensor::components, 0);
+  if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
   for (std::int64_t line = 0; line < layout.lines(); ++line)
     for (const auto& stretch : stretches(line))
       for (std::int64_t x = stretch.first; x < std::min(stretch.last, layout.shape()[0]); ++x) {
@@ -78,22 +83,24 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
         const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
         const double mu = rho * vs * vs;
         for (std::size_t n = 0; n < systems.size(); ++n)
-          creep_[n][place] = Real(slip::creep_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
+          relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
         if (opens()) {
           lambda_[place] = Real(rho * vp * vp - 2 * mu);
           modulus_[place] = Real(rho * vp * vp);
         }
         if (!mu_.empty()) mu_[place] = Real(mu);
+        if (!slip_per_pa_.empty())
+          slip_per_pa_[place] = Real(std::min(domain.grid.spacing_m / (unit_ * mu), most_per_distance));
         for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
-          still_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
+          prestress_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
       }
 }
 
-/// One system, or two at right angles in 2-D, have kernels. They want what planes feel of the static stress.
+/// One system, or two at right angles in 2-D, have kernels. They want the static stress on the planes.
 template <int D, class Real>
 void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
   const auto& systems = set_->systems;
-  part_ = opens() ? gap_kernel<Real>(D) : nullptr;
+  open_ = opens() ? gap_kernel<Real>(D) : nullptr;
   const bool two = D == 2 && systems.size() == 2 && at_right_angles<D>(systems[0].normal, systems[1].normal);
   std::vector<Real> resolved;
   const auto add_row = [&](const Real* weights, Real of_diagonal) {
@@ -101,31 +108,45 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
       Real sum = 0;
       for (std::size_t c = 0; c < std::size_t(SymmetricTensor<D, Real>::components); ++c)
         sum += (c < D ? of_diagonal : Real(1)) * weights[c] *
-               (still_.empty() ? Real(0) : still_[c * count_ + place]);
+               (prestress_.empty() ? Real(0) : prestress_[c * count_ + place]);
       resolved.push_back(sum);
     }
   };
-  const bool extended = !still_.empty() || opens();
+  const bool extended = !prestress_.empty() || opens();
   if (extended) {
     for (std::size_t n = 0; n < systems.size(); ++n) add_row(planes_.normal[n], 1);
     if (std::any_of(gaps_.begin(), gaps_.end(), [](const auto& gaps) { return gaps.empty(); }))
       shut_.assign(count_, 0);
   }
   if (systems.size() == 1 || two) {
-    kernels_ = slip_kernels<Real>({D, int(systems.size()), correction, extended});
-    kept_.assign(count_ * std::size_t(kernels_.kept_rows), 0);
+    kernels_ = slip_kernels<Real>({D, int(systems.size()), correction, extended, law()});
+    retained_.assign(count_ * std::size_t(kernels_.retained_rows), 0);
     if (extended)
       for (std::size_t t = 0; t < D - 1; ++t) add_row(planes_.shear[t], Real(0.5));
   } else {
-    std::vector<typename JointSlip<D, Real>::System> all;
-    for (const auto& system : systems) {
-      const auto n = unit_normal<D>(system.normal);
-      all.push_back({{}, Real(system.friction), Real(unit_ * system.strength_pa)});
-      for (std::size_t i = 0; i < D; ++i) all.back().normal[i] = Real(n[i]);
-    }
-    joint_.emplace(correction, std::move(all));
+    law() == FrictionLaw::coulomb ? add_joint<Coulomb>(correction) : add_joint<SlipWeakening>(correction);
   }
   resolved_ = std::move(resolved);
+}
+
+template <int D, class Real>
+template <class Law>
+void SlipGroup<D, Real>::add_joint(SlipCorrection correction) {
+  std::vector<typename JointSlip<D, Real, Law>::System> all;
+  for (const auto& system : set_->systems) {
+    const auto n = unit_normal<D>(system.normal);
+    all.push_back({{}, constants_of<D, Real>(system, unit_)});
+    for (std::size_t i = 0; i < D; ++i) all.back().normal[i] = Real(n[i]);
+  }
+  joint_ = JointSlip<D, Real, Law>(correction, std::move(all));
+}
+
+template <int D, class Real>
+FrictionLaw SlipGroup<D, Real>::law() const {
+  const auto& systems = set_->systems;
+  const bool weakens = std::any_of(systems.begin(), systems.end(),
+                                   [](const auto& s) { return s.law == FrictionLaw::slip_weakening; });
+  return weakens ? FrictionLaw::slip_weakening : FrictionLaw::coulomb;
 }
 
 template <int D, class Real>
@@ -135,7 +156,7 @@ bool SlipGroup<D, Real>::opens() const {
 
 template <int D, class Real>
 bool SlipGroup<D, Real>::holds(std::size_t place) const {
-  return creep_[0][place] > 0;
+  return relaxation_[0][place] > 0;
 }
 
 template <int D, class Real>
@@ -149,15 +170,17 @@ Real SlipGroup<D, Real>::gap(std::size_t place) const {
 template <int D, class Real>
 SymmetricTensor<D, Real> SlipGroup<D, Real>::prestress(std::size_t place) const {
   SymmetricTensor<D, Real> s;
-  if (!still_.empty())
-    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] = still_[c * count_ + place];
+  if (!prestress_.empty())
+    for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] = prestress_[c * count_ + place];
   return s;
 }
 
 template <int D, class Real>
 std::vector<std::vector<Real>*> SlipGroup<D, Real>::memory() {
-  std::vector<std::vector<Real>*> all = {&kept_};
+  std::vector<std::vector<Real>*> all = {&retained_};
   for (auto& gaps : gaps_) all.push_back(&gaps);
+  for (auto& slips : slips_m_)
+    if (!slips.empty()) all.push_back(&slips);
   return all;
 }
 
@@ -177,59 +200,65 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
   const auto from = [place](auto& row) { return row.empty() ? nullptr : row.data() + place; };
   const auto systems = set_->systems.size();
   for (std::size_t n = 0; n < systems && n < 2; ++n) {
-    rows.creep[n] = from(creep_[n]);
+    rows.relaxation[n] = from(relaxation_[n]);
     rows.gap[n] = from(gaps_[n].empty() ? shut_ : gaps_[n]);
+    rows.slip_m[n] = from(slips_m_[n]);
   }
-  rows.kept = from(kept_);
-  rows.still = from(resolved_);
+  rows.retained = from(retained_);
+  rows.prestress = from(resolved_);
+  rows.slip_per_pa = from(slip_per_pa_);
   // Of rows that are not there, no pointer is moved.
-  rows.kept_pitch = kept_.empty() ? 0 : std::int64_t(count_);
-  rows.still_pitch = resolved_.empty() ? 0 : std::int64_t(count_);
+  rows.retained_pitch = retained_.empty() ? 0 : std::int64_t(count_);
+  rows.prestress_pitch = resolved_.empty() ? 0 : std::int64_t(count_);
   return rows;
 }
 
 template <int D, class Real>
 void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
                              std::int64_t n) {
-  if (act == SlipAct::part) {
-    if (part_) part(stress, pitch, place, n);
-  } else if (joint_) {
-    slip_jointly(stress, pitch, place, n, act == SlipAct::begin);
-  } else {
+  if (act == SlipAct::open) {
+    if (open_) open(stress, pitch, place, n);
+  } else if (kernels_.slip) {
     (act == SlipAct::begin ? kernels_.begin : kernels_.slip)(n, planes_, rows(stress, pitch, place));
+  } else if (const auto* const coulomb = std::get_if<JointSlip<D, Real, Coulomb>>(&joint_)) {
+    slip_jointly(*coulomb, stress, pitch, place, n, act == SlipAct::begin);
+  } else if (const auto* const weakening = std::get_if<JointSlip<D, Real, SlipWeakening>>(&joint_)) {
+    slip_jointly(*weakening, stress, pitch, place, n, act == SlipAct::begin);
   }
 }
 
 template <int D, class Real>
 void SlipGroup<D, Real>::rest() {
-  if (kept_.empty()) return;
+  if (retained_.empty()) return;
   constexpr int components = SymmetricTensor<D, Real>::components;
   std::array<Real, components * lanes> none;
   for (std::size_t place = 0; place < count_; place += lanes) {
     none.fill(0);
     act(SlipAct::begin, none.data(), lanes, place, lanes);
   }
+  for (auto& slips : slips_m_) std::fill(slips.begin(), slips.end(), Real(0));
 }
 
-/// To and fro, as parting of one system changes the normal stress of the others.
+/// To and fro, as opening of one system changes the normal stress of the others.
 template <int D, class Real>
-void SlipGroup<D, Real>::part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
+void SlipGroup<D, Real>::open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
   const int systems = int(gaps_.size());
   for (int visit = 0; visit < 2 * systems - 1; ++visit) {
     const int system = visit < systems ? visit : 2 * systems - 2 - visit;
     auto& gap = gaps_[std::size_t(system)];
     if (gap.empty()) continue;
-    part_(n, planes_, system,
+    open_(n, planes_, system,
           {stress, pitch, gap.data() + place, lambda_.data() + place, modulus_.data() + place,
            resolved_.data() + std::size_t(system) * count_ + place});
   }
 }
 
 template <int D, class Real>
-void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n,
-                                      bool begins) {
-  std::array<Real, JointSlip<D, Real>::most_systems> creep{};
-  std::array<bool, JointSlip<D, Real>::most_systems> open{};
+template <class Law>
+void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real* stress, std::int64_t pitch,
+                                      std::size_t place, std::int64_t n, bool begins) {
+  std::array<Real, JointSlip<D, Real, Law>::most_systems> relaxation{}, slip_m{};
+  std::array<bool, JointSlip<D, Real, Law>::most_systems> open{};
   for (std::int64_t i = 0; i < n; ++i) {
     const auto at = place + std::size_t(i);
     if (!holds(at)) continue;
@@ -238,14 +267,19 @@ void SlipGroup<D, Real>::slip_jointly(Real* stress, std::int64_t pitch, std::siz
       s.values[c] = stress[std::int64_t(c) * pitch + i];
       total.values[c] += s.values[c];
     }
-    for (std::size_t k = 0; k < creep_.size(); ++k) {
-      creep[k] = creep_[k][at];
+    for (std::size_t k = 0; k < relaxation_.size(); ++k) {
+      relaxation[k] = relaxation_[k][at];
       open[k] = !gaps_[k].empty() && gaps_[k][at] > 0;
+      if (Law::has_state) slip_m[k] = slips_m_[k][at];
     }
+    const Real slip_per_pa = Law::has_state ? slip_per_pa_[at] : Real(0);
+    const typename JointSlip<D, Real, Law>::Cell cell = {relaxation.data(), open.data(), slip_m.data(),
+                                                         slip_per_pa};
     if (begins)
-      joint_->begin(s, total, creep.data(), open.data());
+      joint.begin(s, total, cell);
     else
-      joint_->slip(s, total, creep.data(), open.data());
+      joint.slip(s, total, cell);
+    for (std::size_t k = 0; Law::has_state && k < slips_m_.size(); ++k) slips_m_[k][at] = slip_m[k];
     for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
   }
 }

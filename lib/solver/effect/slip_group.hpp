@@ -1,11 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "fracture/coulomb.hpp"
 #include "fracture/joint_slip.hpp"
+#include "fracture/slip_weakening.hpp"
 #include "scene/scene.hpp"
 #include "solver/kernels/slip_kernels.hpp"
 #include "solver/sweep/domain.hpp"
@@ -13,9 +15,9 @@
 
 namespace slipwave::solver {
 
-/// What a pass does to cells: planes part or come together, slip to the end of a step, take off what the next
+/// What slip does to cells: planes open or close, slip to the end of a step, take off what the next
 /// step begins with.
-enum class SlipAct { part, slip, begin };
+enum class SlipAct { open, slip, begin };
 
 /// The cells of one fracture set: where they are, what slip needs to know of them and keeps of them. Cells of
 /// a line form stretches of whole vectors; cells of other sets or none among them have c = 0 and do not slip.
@@ -37,17 +39,17 @@ class SlipGroup {
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
   /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
-  /// `pitch` apart. At the end of a step planes part before they slip.
+  /// `pitch` apart. At the end of a step planes open before they slip.
   void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
 
-  /// Makes all that is kept of the cells what a step at rest leaves of them.
+  /// Makes all that is stored of the cells what a step at rest leaves of them.
   void rest();
 
   const FractureSet<D>& set() const { return *set_; }
-  /// Cells that belong to the set, and all that are kept.
+  /// Cells that belong to the set, and all that are stored.
   std::int64_t cells() const { return cells_; }
-  std::int64_t kept_cells() const { return std::int64_t(count_); }
-  bool has_prestress() const { return !still_.empty(); }
+  std::int64_t stored_cells() const { return std::int64_t(count_); }
+  bool has_prestress() const { return !prestress_.empty(); }
   SymmetricTensor<D, Real> prestress(std::size_t place) const;
   bool opens() const;
   /// Strain by which the widest plane of a cell stands open.
@@ -67,8 +69,14 @@ class SlipGroup {
   void find_stretches(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
-  void part(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  void slip_jointly(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n, bool begins);
+  void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
+  /// The law of all systems: one that covers those of each.
+  FrictionLaw law() const;
+  template <class Law>
+  void add_joint(SlipCorrection correction);
+  template <class Law>
+  void slip_jointly(const JointSlip<D, Real, Law>& joint, Real* stress, std::int64_t pitch, std::size_t place,
+                    std::int64_t n, bool begins);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
 
   const FractureSet<D>* set_;
@@ -78,17 +86,20 @@ class SlipGroup {
   std::vector<std::size_t> starts_;  // of each line, and the end
   std::size_t count_ = 0;            // cells of all stretches
   std::int64_t cells_ = 0;
-  SlipPlanes<Real> planes_{};  // of all systems, for s_n and parting
+  SlipPlanes<Real> planes_{};  // of all systems, for s_n and opening
   SlipKernels<Real> kernels_{};
-  GapKernel<Real> part_ = nullptr;
-  std::optional<JointSlip<D, Real>> joint_;  // where no kernel knows the systems
-  std::vector<std::vector<Real>> creep_;     // [system][cell], as stress
-  std::vector<std::vector<Real>> gaps_;      // [system][cell], of systems that open; else empty
-  std::vector<Real> shut_;                   // the gap of the others, where kernels read gaps
-  std::vector<Real> lambda_, modulus_, mu_;  // Pa, where planes open or a diary is kept
-  std::vector<Real> still_;                  // static stress, row after row; empty: none
-  std::vector<Real> resolved_;               // what planes feel of it, as SlipRows says
-  std::vector<Real> kept_;                   // rows of what steps leave for the next
+  GapKernel<Real> open_ = nullptr;
+  // Where no kernel knows the systems.
+  std::variant<std::monostate, JointSlip<D, Real, Coulomb>, JointSlip<D, Real, SlipWeakening>> joint_;
+  std::vector<std::vector<Real>> relaxation_;  // [system][cell], as stress
+  std::vector<std::vector<Real>> gaps_;        // [system][cell], of systems that open; else empty
+  std::vector<Real> shut_;                     // the gap of the others, where kernels read gaps
+  std::vector<Real> lambda_, modulus_, mu_;    // Pa, where planes open or a diary is written
+  std::vector<Real> prestress_;                // static stress, row after row; empty: none
+  std::vector<Real> resolved_;                 // the part of it on planes, as SlipRows says
+  std::vector<Real> retained_;                 // rows of what steps leave for the next
+  std::vector<std::vector<Real>> slips_m_;     // [system][cell], where the law has a state; else empty
+  std::vector<Real> slip_per_pa_;              // h/mu, where the law has a state
 };
 
 }  // namespace slipwave::solver

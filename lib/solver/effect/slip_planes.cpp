@@ -1,5 +1,6 @@
 #include "solver/effect/slip_planes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,7 +16,7 @@ std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& n) {
   if constexpr (D == 2) {
     return {{{-n[1], n[0]}}};
   } else {
-    // The axis that lies flattest in the planes, less its part along n; then their product.
+    // The axis that lies flattest in the planes, less its component along n; then their product.
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i)
       if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
@@ -56,12 +57,23 @@ bool at_right_angles(const Point<D>& a, const Point<D>& b) {
 }
 
 template <int D, class Real>
+FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
+  FrictionConstants<Real> law;
+  law.friction = Real(system.friction);
+  law.cohesion_pa = Real(unit * system.strength_pa);
+  if (system.law == FrictionLaw::slip_weakening) {
+    law.friction_drop = Real(system.friction - system.dynamic_friction);
+    law.per_distance = Real(std::min(1 / system.slip_distance_m, most_per_distance));
+  }
+  return law;
+}
+
+template <int D, class Real>
 SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit) {
   SlipPlanes<Real> planes{};
   for (std::size_t n = 0; n < systems.size() && n < SlipPlanes<Real>::most_systems; ++n) {
     put_normal<D>(unit_normal<D>(systems[n].normal), planes.normal[n]);
-    planes.friction[n] = Real(systems[n].friction);
-    planes.cohesion_pa[n] = Real(unit * systems[n].strength_pa);
+    planes.law[n] = constants_of<D, Real>(systems[n], unit);
   }
   const auto normal = unit_normal<D>(systems[0].normal);
   const auto tangents = tangents_of<D>(normal);
@@ -71,6 +83,10 @@ SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double uni
 
 template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
 template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
+template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
+template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
+template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);
+template FrictionConstants<double> constants_of<3, double>(const SlipSystem<3>&, double);
 template SlipPlanes<float> planes_of<2, float>(const std::vector<SlipSystem<2>>&, double);
 template SlipPlanes<double> planes_of<2, double>(const std::vector<SlipSystem<2>>&, double);
 template SlipPlanes<float> planes_of<3, float>(const std::vector<SlipSystem<3>>&, double);

@@ -11,6 +11,10 @@ namespace slipwave::solver {
 template <int D>
 bool at_right_angles(const Point<D>& a, const Point<D>& b);
 
+/// Constants of a system's friction law; stress is `unit` times Pa.
+template <int D, class Real>
+FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
+
 /// What kernels need to know of up to three systems of a set; their shear traction is that of the first.
 /// Stress is `unit` times Pa.
 template <int D, class Real>

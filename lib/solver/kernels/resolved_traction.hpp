@@ -2,8 +2,9 @@
 
 #include "solver/kernels/slip_kernels.hpp"
 
-/// What planes feel of the stress of a cell. For slip_level.cpp only: compiled once for each instruction set,
-/// so everything here is inlined whatever a compiler thinks of it; the linker must not find one copy for all.
+/// The traction that the stress of a cell exerts on planes. For slip_level.cpp only: compiled once for each
+/// instruction set, so everything here is inlined whatever a compiler thinks of it; the linker must not find
+/// one copy for all.
 namespace slipwave::solver {
 
 using slip::greater;
@@ -38,9 +39,8 @@ template <int D, class Real>
 struct OneSystem {
   static constexpr int tangents = D - 1, last = D == 2 ? 2 : 5;
   Real normal[last + 1], m1[last + 1], m2[last + 1];
-  Real friction, cohesion;
-  [[gnu::always_inline]] explicit OneSystem(const SlipPlanes<Real>& planes)
-      : friction(planes.friction[0]), cohesion(planes.cohesion_pa[0]) {
+  FrictionConstants<Real> law;
+  [[gnu::always_inline]] explicit OneSystem(const SlipPlanes<Real>& planes) : law(planes.law[0]) {
     for (int c = 0; c <= last; ++c) {
       normal[c] = planes.normal[0][c];
       m1[c] = planes.shear[0][c];
@@ -49,28 +49,62 @@ struct OneSystem {
   }
 };
 
-/// Traction along the planes of a cell, its length and the strength of the planes.
+/// What acts on the planes of one system besides the stress of waves: static stress and opening.
 template <class Real>
-struct Felt {
-  Real t1, t2, size, strength;
+struct OnSystem {
+  const Real* __restrict const normal;
+  const Real* __restrict const shear1;
+  const Real* __restrict const shear2;
+  const Real* __restrict const gaps;
+  [[gnu::always_inline]] OnSystem(const SlipRows<Real>& rows, int tangents)
+      : normal(rows.prestress),
+        shear1(rows.prestress + rows.prestress_pitch),
+        shear2(rows.prestress + tangents * rows.prestress_pitch),
+        gaps(rows.gap[0]) {}
 };
 
-template <int D, bool Extended, class Real>
-[[gnu::always_inline]] inline Felt<Real> felt(const OneSystem<D, Real>& system, Real s0, Real s1, Real s2,
-                                              Real s3, Real s4, Real s5, const Real* still_n,
-                                              const Real* still1, const Real* still2, const Real* gaps,
-                                              std::int64_t i) {
+/// Strength of planes that may stand open.
+template <class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline Real strength_of(const FrictionConstants<Real>& law, Real s_n, Real slip_m,
+                                               Real gap) {
+  const Real shut = Law::strength(law, s_n, slip_m);
+  return Extended && gap > 0 ? Real(0) : shut;
+}
+
+/// The same at the end of a step in which slip takes `loss` off the traction at `strength`, theta c being
+/// `weighted`.
+template <class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline Real strength_at_end(const FrictionConstants<Real>& law, Real s_n, Real slip_m,
+                                                   Real slip_per_pa, Real gap, Real strength, Real weighted,
+                                                   Real loss) {
+  const Real share = weighted / greater(strength + weighted, slip::least<Real>);
+  const Real shut = Law::strength_at_end(law, s_n, slip_m, slip_per_pa, loss, share);
+  return Extended && gap > 0 ? Real(0) : shut;
+}
+
+/// Normal stress and traction along the planes of a cell, its length and the strength of the planes.
+template <class Real>
+struct ResolvedTraction {
+  Real s_n, t1, t2, size, strength;
+};
+
+/// `slip_m` is the slip so far, for laws that have a state.
+template <int D, class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline ResolvedTraction<Real> resolved_traction(const OneSystem<D, Real>& system,
+                                                                       Real s0, Real s1, Real s2, Real s3,
+                                                                       Real s4, Real s5,
+                                                                       const OnSystem<Real>& on, Real slip_m,
+                                                                       std::int64_t i) {
   Real s_n = projected<D>(system.normal, Real(1), s0, s1, s2, s3, s4, s5);
   Real t1 = projected<D>(system.m1, Real(0.5), s0, s1, s2, s3, s4, s5), t2 = 0;
   if constexpr (D == 3) t2 = projected<D>(system.m2, Real(0.5), s0, s1, s2, s3, s4, s5);
   if constexpr (Extended) {
-    s_n += still_n[i];
-    t1 += still1[i];
-    if constexpr (D == 3) t2 += still2[i];
+    s_n += on.normal[i];
+    t1 += on.shear1[i];
+    if constexpr (D == 3) t2 += on.shear2[i];
   }
-  Real strength = system.friction * greater(-s_n, Real(0)) + system.cohesion;
-  if constexpr (Extended) strength = gaps[i] > 0 ? Real(0) : strength;
-  return {t1, t2, D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2), strength};
+  const Real strength = strength_of<Law, Extended>(system.law, s_n, slip_m, Extended ? on.gaps[i] : Real(0));
+  return {s_n, t1, t2, D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2), strength};
 }
 
 }  // namespace slipwave::solver

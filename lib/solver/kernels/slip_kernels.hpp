@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "fracture/slip_law.hpp"
+#include "fracture/friction_policy.hpp"
 
 namespace slipwave::solver {
 
@@ -16,7 +16,7 @@ struct SlipPlanes {
   /// 3-D.
   Real normal[most_systems][most_components];
   Real shear[2][most_components];
-  Real friction[most_systems], cohesion_pa[most_systems];
+  FrictionConstants<Real> law[most_systems];
 };
 
 /// Cells of a line side by side, from the first one on.
@@ -24,13 +24,16 @@ template <class Real>
 struct SlipRows {
   Real* stress;  // first component, the others `pitch` apart
   std::int64_t pitch;
-  const Real* creep[2];  // mu dt/eta of each system, 0 in cells that do not slip
-  Real* kept;            // SlipKernels::kept_rows, `kept_pitch` apart
-  std::int64_t kept_pitch;
-  // Read where SlipCase::still_or_gap says so only.
-  const Real* still;  // static stress: s_n of each system, then tau
-  std::int64_t still_pitch;
+  const Real* relaxation[2];  // mu dt/eta of each system, 0 in cells that do not slip
+  Real* retained;             // SlipKernels::retained_rows, `retained_pitch` apart
+  std::int64_t retained_pitch;
+  // Read where SlipCase::prestress_or_gap says so only.
+  const Real* prestress;  // s_n of each system, then tau
+  std::int64_t prestress_pitch;
   const Real* gap[2];  // of each system (open), 0 where it cannot open
+  // Where the law has a state only.
+  Real* slip_m[2];          // slip of each system so far
+  const Real* slip_per_pa;  // h/mu: slip of which 1 Pa of traction is taken off
 };
 
 /// Cells of a plane that may open.
@@ -40,7 +43,7 @@ struct GapRows {
   std::int64_t pitch;
   Real* gap;                     // strain by which planes stand open, n.e.n
   const Real *lambda, *modulus;  // Lame's and lambda + 2 mu, Pa
-  const Real* still;             // static s_n
+  const Real* prestress;         // s_n
 };
 
 /// Inner loops of slip over n neighbouring cells of a line.
@@ -50,8 +53,8 @@ struct SlipKernels {
   void (*slip)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
   /// What the next step begins with.
   void (*begin)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
-  /// Rows kept from step to step; before the first as `begin` leaves them at rest.
-  int kept_rows;
+  /// Rows retained from step to step; before the first as `begin` leaves them at rest.
+  int retained_rows;
 };
 
 /// Opens and closes the planes of system number `system` (S13).
@@ -63,7 +66,8 @@ using GapKernel = void (*)(std::int64_t n, const SlipPlanes<Real>& planes, int s
 struct SlipCase {
   int dimensions = 2, systems = 1;  // two systems in 2-D only
   SlipCorrection correction = SlipCorrection::second;
-  bool still_or_gap = false;  // whether rows have them
+  bool prestress_or_gap = false;  // whether rows have them
+  FrictionLaw law = FrictionLaw::coulomb;
 };
 
 /// Those for the best instruction set of this processor.

@@ -1,5 +1,7 @@
 // The inner loops of slip, compiled once for each instruction set as kernels_level.cpp is, under the same
 // rules.
+#include "fracture/coulomb.hpp"
+#include "fracture/slip_weakening.hpp"
 #include "solver/kernels/resolved_traction.hpp"
 #include "solver/kernels/slip_tables.hpp"
 
@@ -9,66 +11,94 @@ namespace {
 /// Which half of the work: the end of a step or what the next one begins with.
 enum class Half { end, beginning };
 
+/// What the exponential rule retains of the beginning of a step: tau, S and what was taken off tau.
+template <int D, class Real>
+struct Beginning {
+  Real* __restrict const tau1;
+  Real* __restrict const tau2;
+  Real* __restrict const strengths;
+  Real* __restrict const losses;
+  [[gnu::always_inline]] explicit Beginning(const SlipRows<Real>& rows)
+      : tau1(rows.retained),
+        tau2(rows.retained + (D - 2) * rows.retained_pitch),
+        strengths(rows.retained + (D - 1) * rows.retained_pitch),
+        losses(rows.retained + D * rows.retained_pitch) {}
+};
+
+/// theta c.
+template <SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline Real weighted(Real relaxation, Real strength, int sharing) {
+  if constexpr (Correction == SlipCorrection::first) return relaxation;
+  if constexpr (Correction == SlipCorrection::exponential) return Real(0.5) * relaxation;
+  return slip::relaxation_of_end(relaxation, strength, sharing);
+}
+
+/// |tau| at the end of a step, which ends along (u1, u2) with |tau_e| = size, by the exponential rule.
+template <int D, class Real>
+[[gnu::always_inline]] inline Real exponential_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
+                                                   Real u2, Real size, Real strength, Real relaxation) {
+  // Along the traction of the end: where it began, and with what the beginning took off.
+  const Real old = began.strengths[i], b1 = began.tau1[i], b2 = D == 3 ? began.tau2[i] : Real(0);
+  const Real start = u1 * b1 + u2 * b2;
+  const Real from = D == 2 ? start - (start < 0 ? -began.losses[i] : began.losses[i])
+                           : start * (1 - began.losses[i] / greater(length(b1, b2), slip::least<Real>));
+  const Real before = (start > old ? start : from) - old;
+  const Real excess =
+      slip::excess_after(before, (size - from) - (strength - old), Real(0.5) * (strength + old), relaxation);
+  return relaxation > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
+}
+
 /// What one system makes of the stress.
-template <int D, SlipCorrection Correction, bool Extended, Half Now, class Real>
+template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 [[gnu::noinline]] void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  constexpr int tangents = D - 1;
   constexpr bool exponential = Correction == SlipCorrection::exponential;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
   Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
   Real* __restrict const r4 = D == 2 ? r2 : r3 + rows.pitch, * __restrict const r5 =
                                                                  D == 2 ? r2 : r4 + rows.pitch;
-  const Real* __restrict const creeps = rows.creep[0];
-  // What the step began with: tau, S and what was taken off tau.
-  Real* __restrict const tau1 = rows.kept, * __restrict const tau2 =
-                                               rows.kept + (tangents - 1) * rows.kept_pitch;
-  Real* __restrict const strengths = rows.kept + tangents * rows.kept_pitch;
-  Real* __restrict const offs = strengths + rows.kept_pitch;
-  const Real* __restrict const still_n = rows.still, * __restrict const still1 =
-                                                         rows.still + rows.still_pitch;
-  const Real* __restrict const still2 = rows.still + tangents * rows.still_pitch;
-  const Real* __restrict const gaps = rows.gap[0];
+  const Real* __restrict const relaxations = rows.relaxation[0];
+  const Beginning<D, Real> began(rows);
+  Real* __restrict const slips = rows.slip_m[0];
+  const Real* __restrict const slips_per_pa = rows.slip_per_pa;
   const OneSystem<D, Real> one(planes);
+  const OnSystem<Real> on(rows, D - 1);
   const Real *const m1 = one.m1, *const m2 = one.m2;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
-    const Real creep = creeps[i];
-    const auto [t1, t2, size, strength] =
-        felt<D, Extended>(one, s0, s1, s2, s3, s4, s5, still_n, still1, still2, gaps, i);
+    const Real relaxation = relaxations[i], slip_m = Law::has_state ? slips[i] : Real(0),
+               slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
+    const auto [s_n, t1, t2, size, strength] =
+        resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
     const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
                u2 = D == 2 ? Real(0) : t2 * reciprocal;
     Real now = size;
-    if constexpr (Now == Half::beginning) {
-      if constexpr (exponential) {
-        const Real off = slip::crept(size, strength, creep * Real(0.5));
-        now = size - off;
-        tau1[i] = t1;
-        if constexpr (D == 3) tau2[i] = t2;
-        offs[i] = off;
-        strengths[i] = strength;
-      } else {
-        now = size - slip::taken_first(size, strength, creep, 1);
-      }
-    } else if constexpr (exponential) {
-      // Along the traction of the end: where it began, and with what the beginning took off.
-      const Real old = strengths[i], b1 = tau1[i], b2 = D == 3 ? tau2[i] : Real(0);
-      const Real start = u1 * b1 + u2 * b2;
-      const Real from = D == 2 ? start - (start < 0 ? -offs[i] : offs[i])
-                               : start * (1 - offs[i] / greater(length(b1, b2), slip::least<Real>));
-      const Real before = (start > old ? start : from) - old;
-      const Real excess =
-          slip::excess_after(before, (size - from) - (strength - old), Real(0.5) * (strength + old), creep);
-      now = creep > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
+    if constexpr (Now == Half::beginning && exponential) {
+      const Real loss = slip::unloaded_loss(size, strength, relaxation * Real(0.5));
+      now = size - loss;
+      began.tau1[i] = t1;
+      if constexpr (D == 3) began.tau2[i] = t2;
+      began.losses[i] = loss;
+      began.strengths[i] = strength;
+    } else if constexpr (Now == Half::beginning) {
+      now = size - slip::explicit_half(size, strength, relaxation, 1);
     } else {
-      Real over;
-      now = slip::relaxed(
-          size, strength,
-          Correction == SlipCorrection::first ? creep : slip::creep_of_end(creep, strength, 1), over);
+      Real over, end = strength;
+      if constexpr (Law::has_state) {
+        const Real theta_c = weighted<Correction>(relaxation, strength, 1);
+        const Real loss = size - slip::relaxed(size, strength, theta_c, over);
+        end = strength_at_end<Law, Extended>(one.law, s_n, slip_m, slip_per_pa,
+                                             Extended ? on.gaps[i] : Real(0), strength, theta_c, loss);
+      }
+      if constexpr (exponential)
+        now = exponential_end<D>(began, i, u1, u2, size, end, relaxation);
+      else
+        now = slip::relaxed(size, end, weighted<Correction>(relaxation, end, 1), over);
     }
+    if constexpr (Law::has_state) slips[i] = Law::slip_after(slip_m, slip_per_pa, size - now);
     const Real d1 = u1 * (now - size), d2 = u2 * (now - size);
     r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
     r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
@@ -82,94 +112,181 @@ template <int D, SlipCorrection Correction, bool Extended, Half Now, class Real>
 }
 
 /// Whether any of these cells has more shear traction than strength.
-template <int D, bool Extended, class Real>
+template <int D, class Law, bool Extended, class Real>
 bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  constexpr int tangents = D - 1;
   const Real *const r0 = rows.stress, *const r1 = r0 + rows.pitch, *const r2 = r1 + rows.pitch;
   const Real *const r3 = D == 2 ? r2 : r2 + rows.pitch, *const r4 = D == 2 ? r2 : r3 + rows.pitch,
                     *const r5 = D == 2 ? r2 : r4 + rows.pitch;
-  const Real *const still_n = rows.still, *const still1 = still_n + rows.still_pitch,
-                    *const still2 = still_n + tangents * rows.still_pitch;
+  const Real* const slips_m = rows.slip_m[0];
   const OneSystem<D, Real> one(planes);
+  const OnSystem<Real> on(rows, D - 1);
   using Whole = typename smooth::Bits<Real>::Whole;
   Whole any = 0;
 #pragma omp simd reduction(| : any)
   for (std::int64_t i = 0; i < n; ++i) {
-    const auto [t1, t2, size, strength] =
-        felt<D, Extended>(one, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
-                          D == 2 ? Real(0) : r5[i], still_n, still1, still2, rows.gap[0], i);
+    const auto [s_n, t1, t2, size, strength] = resolved_traction<D, Law, Extended>(
+        one, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
+        D == 2 ? Real(0) : r5[i], on, Law::has_state ? slips_m[i] : Real(0), i);
     any |= size > strength ? Whole(1) : Whole(0);
   }
   return any != 0;
 }
 
 /// slip_one() where it has anything to do: it is left out for pieces of a line in which nothing slips.
-template <int D, SlipCorrection Correction, bool Extended, class Real>
+template <int D, SlipCorrection Correction, class Law, bool Extended, class Real>
 void slip_where_needed(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   constexpr std::int64_t piece = 64;
   for (std::int64_t first = 0; first < n; first += piece) {
     SlipRows<Real> here = rows;
     here.stress += first;
-    here.creep[0] += first;
-    if (rows.kept) here.kept += first;
-    if (rows.still) here.still += first;
+    here.relaxation[0] += first;
+    if (rows.retained) here.retained += first;
+    if (rows.prestress) here.prestress += first;
     if (rows.gap[0]) here.gap[0] += first;
+    if (Law::has_state) here.slip_m[0] += first, here.slip_per_pa += first;
     const std::int64_t count = n - first < piece ? n - first : piece;
-    if (slips<D, Extended>(count, planes, here))
-      slip_one<D, Correction, Extended, Half::end>(count, planes, here);
+    if (slips<D, Law, Extended>(count, planes, here))
+      slip_one<D, Correction, Law, Extended, Half::end>(count, planes, here);
   }
 }
 
+/// Two systems that share |tau| = size, and what each takes off it.
+template <class Real>
+struct Pair {
+  Real size, strength_a, strength_b, relaxation_a, relaxation_b;
+  // For strengths that change.
+  Real s_n_a, s_n_b, slip_a, slip_b, slip_per_pa, gap_a, gap_b;
+};
+template <class Real>
+struct PairLoss {
+  Real now, a, b;
+};
+
+/// What is left after one and the other; losses as differences, so that both laws round alike.
+template <class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_left(Real size, Real rest, Real now) {
+  return {now, size - rest, rest - now};
+}
+
+template <SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_begins(const Pair<Real>& of) {
+  if constexpr (Correction == SlipCorrection::exponential) {
+    const Real rest = of.size - slip::unloaded_loss(of.size, of.strength_a, of.relaxation_a * Real(0.5));
+    return pair_left(of.size, rest,
+                     rest - slip::unloaded_loss(rest, of.strength_b, of.relaxation_b * Real(0.5)));
+  } else {
+    const Real rest = of.size - slip::explicit_half(of.size, of.strength_a, of.relaxation_a, 2);
+    return pair_left(of.size, rest, rest - slip::explicit_half(of.size, of.strength_b, of.relaxation_b, 2));
+  }
+}
+
+/// Both at the rates of the end, at these strengths.
+template <SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_relaxed(const Pair<Real>& of, Real strength_a,
+                                                          Real strength_b) {
+  Real b;
+  const Real now = slip::relaxed_by_two(of.size, strength_a, strength_b,
+                                        weighted<Correction>(of.relaxation_a, strength_a, 2),
+                                        weighted<Correction>(of.relaxation_b, strength_b, 2), b);
+  return {now, (of.size - now) - b, b};
+}
+
+/// Strength of the end where slip at the strength of now takes `loss` off the traction.
+template <SlipCorrection Correction, class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline Real end_of_a(const FrictionConstants<Real>& law, const Pair<Real>& of,
+                                            Real loss) {
+  return strength_at_end<Law, Extended>(law, of.s_n_a, of.slip_a, of.slip_per_pa, of.gap_a, of.strength_a,
+                                        weighted<Correction>(of.relaxation_a, of.strength_a, 2), loss);
+}
+template <SlipCorrection Correction, class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline Real end_of_b(const FrictionConstants<Real>& law, const Pair<Real>& of,
+                                            Real loss) {
+  return strength_at_end<Law, Extended>(law, of.s_n_b, of.slip_b, of.slip_per_pa, of.gap_b, of.strength_b,
+                                        weighted<Correction>(of.relaxation_b, of.strength_b, 2), loss);
+}
+
+template <SlipCorrection Correction, class Law, bool Extended, class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_ends(const FrictionConstants<Real>& law_a,
+                                                       const FrictionConstants<Real>& law_b,
+                                                       const Pair<Real>& of) {
+  if constexpr (Correction == SlipCorrection::exponential) {
+    // One system after the other, in the opposite order of the beginning.
+    const Real half_a = of.relaxation_a * Real(0.5), half_b = of.relaxation_b * Real(0.5);
+    Real strength_a = of.strength_a, strength_b = of.strength_b;
+    if constexpr (Law::has_state)
+      strength_b =
+          end_of_b<Correction, Law, Extended>(law_b, of, slip::unloaded_loss(of.size, strength_b, half_b));
+    const Real rest = of.size - slip::unloaded_loss(of.size, strength_b, half_b);
+    if constexpr (Law::has_state)
+      strength_a =
+          end_of_a<Correction, Law, Extended>(law_a, of, slip::unloaded_loss(rest, strength_a, half_a));
+    const Real now = rest - slip::unloaded_loss(rest, strength_a, half_a);
+    return {now, rest - now, of.size - rest};
+  } else if constexpr (Law::has_state) {
+    const auto [now, a, b] = pair_relaxed<Correction>(of, of.strength_a, of.strength_b);
+    return pair_relaxed<Correction>(of, end_of_a<Correction, Law, Extended>(law_a, of, a),
+                                    end_of_b<Correction, Law, Extended>(law_b, of, b));
+  } else {
+    return pair_relaxed<Correction>(of, of.strength_a, of.strength_b);
+  }
+}
+
+template <SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
+[[gnu::always_inline]] inline PairLoss<Real> pair_loss(const FrictionConstants<Real>& law_a,
+                                                       const FrictionConstants<Real>& law_b,
+                                                       const Pair<Real>& of) {
+  if constexpr (Now == Half::beginning)
+    return pair_begins<Correction>(of);
+  else
+    return pair_ends<Correction, Law, Extended>(law_a, law_b, of);
+}
+
 /// Two systems at right angles in 2-D: one shear stress, two strengths.
-template <SlipCorrection Correction, bool Extended, Half Now, class Real>
+template <SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch, * __restrict const r2 = r1 + rows.pitch;
-  const Real* __restrict const creeps_a = rows.creep[0], * __restrict const creeps_b = rows.creep[1];
-  const Real* __restrict const still_a = rows.still, * __restrict const still_b =
-                                                         rows.still + rows.still_pitch;
-  const Real* __restrict const still_t = rows.still + 2 * rows.still_pitch;
+  const Real* __restrict const relaxations_a = rows.relaxation[0], * __restrict const relaxations_b =
+                                                                       rows.relaxation[1];
+  const Real* __restrict const prestress_a = rows.prestress, * __restrict const prestress_b =
+                                                                 rows.prestress + rows.prestress_pitch;
+  const Real* __restrict const prestress_t = rows.prestress + 2 * rows.prestress_pitch;
   const Real* __restrict const gaps_a = rows.gap[0], * __restrict const gaps_b = rows.gap[1];
+  Real* __restrict const slips_a = rows.slip_m[0], * __restrict const slips_b = rows.slip_m[1];
+  const Real* __restrict const slips_per_pa = rows.slip_per_pa;
   const Real na0 = planes.normal[0][0], na1 = planes.normal[0][1], na2 = planes.normal[0][2];
   const Real m0 = planes.shear[0][0], m1 = planes.shear[0][1], m2 = planes.shear[0][2];
-  const Real friction_a = planes.friction[0], cohesion_a = planes.cohesion_pa[0];
-  const Real friction_b = planes.friction[1], cohesion_b = planes.cohesion_pa[1];
+  const FrictionConstants<Real> law_a = planes.law[0], law_b = planes.law[1];
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], creep_a = creeps_a[i], creep_b = creeps_b[i];
+    const Real s0 = r0[i], s1 = r1[i], s2 = r2[i];
     Real n_a = na0 * s0 + na1 * s1 + na2 * s2, n_b = s0 + s1 - n_a;
     Real t = Real(0.5) * (m0 * s0 + m1 * s1) + m2 * s2;
     if constexpr (Extended) {
-      n_a += still_a[i];
-      n_b += still_b[i];
-      t += still_t[i];
+      n_a += prestress_a[i];
+      n_b += prestress_b[i];
+      t += prestress_t[i];
     }
-    Real strength_a = friction_a * greater(-n_a, Real(0)) + cohesion_a;
-    Real strength_b = friction_b * greater(-n_b, Real(0)) + cohesion_b;
-    if constexpr (Extended) {
-      strength_a = gaps_a[i] > 0 ? Real(0) : strength_a;
-      strength_b = gaps_b[i] > 0 ? Real(0) : strength_b;
+    const Real slip_a = Law::has_state ? slips_a[i] : Real(0), slip_b = Law::has_state ? slips_b[i] : Real(0),
+               slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
+    const Real gap_a = Extended ? gaps_a[i] : Real(0), gap_b = Extended ? gaps_b[i] : Real(0);
+    const Pair<Real> pair = {t < 0 ? -t : t,
+                             strength_of<Law, Extended>(law_a, n_a, slip_a, gap_a),
+                             strength_of<Law, Extended>(law_b, n_b, slip_b, gap_b),
+                             relaxations_a[i],
+                             relaxations_b[i],
+                             n_a,
+                             n_b,
+                             slip_a,
+                             slip_b,
+                             slip_per_pa,
+                             gap_a,
+                             gap_b};
+    const auto loss = pair_loss<Correction, Law, Extended, Now>(law_a, law_b, pair);
+    if constexpr (Law::has_state) {
+      slips_a[i] = Law::slip_after(slip_a, slip_per_pa, loss.a);
+      slips_b[i] = Law::slip_after(slip_b, slip_per_pa, loss.b);
     }
-    const Real size = t < 0 ? -t : t;
-    Real now;
-    if constexpr (Correction == SlipCorrection::exponential) {
-      // One system after the other, in opposite orders at both ends.
-      const Real half_a = creep_a * Real(0.5), half_b = creep_b * Real(0.5);
-      constexpr bool a_first = Now == Half::beginning;
-      const Real first = a_first ? half_a : half_b, second = a_first ? half_b : half_a;
-      const Real strength_1 = a_first ? strength_a : strength_b,
-                 strength_2 = a_first ? strength_b : strength_a;
-      const Real rest = size - slip::crept(size, strength_1, first);
-      now = rest - slip::crept(rest, strength_2, second);
-    } else if constexpr (Now == Half::beginning) {
-      now = size - slip::taken_first(size, strength_a, creep_a, 2) -
-            slip::taken_first(size, strength_b, creep_b, 2);
-    } else {
-      constexpr bool first = Correction == SlipCorrection::first;
-      now = slip::relaxed_by_two(size, strength_a, strength_b,
-                                 first ? creep_a : slip::creep_of_end(creep_a, strength_a, 2),
-                                 first ? creep_b : slip::creep_of_end(creep_b, strength_b, 2));
-    }
-    const Real d = t < 0 ? size - now : now - size;
+    const Real d = t < 0 ? pair.size - loss.now : loss.now - pair.size;
     r0[i] = s0 + m0 * d;
     r1[i] = s1 + m1 * d;
     r2[i] = s2 + m2 * d;
@@ -187,7 +304,7 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
   Real* __restrict const r4 = D == 2 ? r2 : r3 + rows.pitch, * __restrict const r5 =
                                                                  D == 2 ? r2 : r4 + rows.pitch;
   Real* __restrict const gap = rows.gap;
-  const Real* __restrict const lambdas = rows.lambda, * __restrict const moduli = rows.modulus, * __restrict const still = rows.still;
+  const Real* __restrict const lambdas = rows.lambda, * __restrict const moduli = rows.modulus, * __restrict const prestress = rows.prestress;
   Real normal[last + 1];
   for (int c = 0; c <= last; ++c) normal[c] = planes.normal[system][c];
 #pragma omp simd
@@ -195,7 +312,7 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i], s3 = D == 2 ? Real(0) : r3[i],
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real lambda = lambdas[i], modulus = moduli[i], was = gap[i];
-    const Real s_n = projected<D>(normal, Real(1), s0, s1, s2, s3, s4, s5) + still[i];
+    const Real s_n = projected<D>(normal, Real(1), s0, s1, s2, s3, s4, s5) + prestress[i];
     // What s_n would be were the planes shut.
     const Real shut = s_n + modulus * was;
     const Real now = modulus > 0 ? greater(shut, Real(0)) / greater(modulus, slip::least<Real>) : Real(0);
@@ -215,41 +332,48 @@ void open(std::int64_t n, const SlipPlanes<Real>& planes, int system, const GapR
   }
 }
 
-template <int D, SlipCorrection Correction, bool Extended, class Real>
+template <int D, SlipCorrection Correction, class Law, bool Extended, class Real>
 SlipKernels<Real> one() {
-  constexpr auto begin = slip_one<D, Correction, Extended, Half::beginning, Real>;
+  constexpr auto begin = slip_one<D, Correction, Law, Extended, Half::beginning, Real>;
   if constexpr (Correction == SlipCorrection::first)
-    return {slip_one<D, Correction, Extended, Half::end, Real>, nothing<Real>, 0};
+    return {slip_one<D, Correction, Law, Extended, Half::end, Real>, nothing<Real>, 0};
   else if constexpr (Correction == SlipCorrection::second)
-    return {slip_one<D, Correction, Extended, Half::end, Real>, begin, 0};
-  else  // divisions and roots: worth a look before
-    return {slip_where_needed<D, Correction, Extended, Real>, begin, D + 1};
+    return {slip_one<D, Correction, Law, Extended, Half::end, Real>, begin, 0};
+  else  // divisions and roots: not where nothing slips
+    return {slip_where_needed<D, Correction, Law, Extended, Real>, begin, D + 1};
 }
-template <SlipCorrection Correction, bool Extended, class Real>
+template <SlipCorrection Correction, class Law, bool Extended, class Real>
 SlipKernels<Real> two() {
   if constexpr (Correction == SlipCorrection::first)
-    return {slip_two<Correction, Extended, Half::end, Real>, nothing<Real>, 0};
+    return {slip_two<Correction, Law, Extended, Half::end, Real>, nothing<Real>, 0};
   else
-    return {slip_two<Correction, Extended, Half::end, Real>,
-            slip_two<Correction, Extended, Half::beginning, Real>, 0};
+    return {slip_two<Correction, Law, Extended, Half::end, Real>,
+            slip_two<Correction, Law, Extended, Half::beginning, Real>, 0};
 }
 
-template <SlipCorrection Correction, bool Extended, class Real>
+template <SlipCorrection Correction, class Law, bool Extended, class Real>
 SlipKernels<Real> of_case(const SlipCase& of) {
-  if (of.dimensions == 3) return one<3, Correction, Extended, Real>();
-  return of.systems == 2 ? two<Correction, Extended, Real>() : one<2, Correction, Extended, Real>();
+  if (of.dimensions == 3) return one<3, Correction, Law, Extended, Real>();
+  return of.systems == 2 ? two<Correction, Law, Extended, Real>() : one<2, Correction, Law, Extended, Real>();
 }
 
-template <bool Extended, class Real>
+template <class Law, bool Extended, class Real>
 SlipKernels<Real> of_correction(const SlipCase& of) {
-  if (of.correction == SlipCorrection::first) return of_case<SlipCorrection::first, Extended, Real>(of);
-  if (of.correction == SlipCorrection::second) return of_case<SlipCorrection::second, Extended, Real>(of);
-  return of_case<SlipCorrection::exponential, Extended, Real>(of);
+  if (of.correction == SlipCorrection::first) return of_case<SlipCorrection::first, Law, Extended, Real>(of);
+  if (of.correction == SlipCorrection::second)
+    return of_case<SlipCorrection::second, Law, Extended, Real>(of);
+  return of_case<SlipCorrection::exponential, Law, Extended, Real>(of);
 }
 
+template <class Law, class Real>
+SlipKernels<Real> of_law(const SlipCase& of) {
+  return of.prestress_or_gap ? of_correction<Law, true, Real>(of) : of_correction<Law, false, Real>(of);
+}
+
+/// A new law stands here, too.
 template <class Real>
 SlipKernels<Real> of(const SlipCase& of) {
-  return of.still_or_gap ? of_correction<true, Real>(of) : of_correction<false, Real>(of);
+  return of.law == FrictionLaw::coulomb ? of_law<Coulomb, Real>(of) : of_law<SlipWeakening, Real>(of);
 }
 
 template <class Real>

@@ -40,6 +40,8 @@ Field<D> SnapshotRecorder<D, Real>::field(Component component) const {
   Field<D> field(domain_.model_grid);
   const std::int64_t nx = domain_.model_grid.shape[0], lines = domain_.model_grid.size() / nx;
   const auto pitch = layout_.row_pitch();
+  const auto terms = slipwave::row_of(component).terms_in(D);
+  const int count = int(terms.size());
   parallel_for(lines, 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
       const Index<D> first = domain_.computed_cell(domain_.model_grid.index(line * nx));
@@ -47,13 +49,9 @@ Field<D> SnapshotRecorder<D, Real>::field(Component component) const {
       const Real* const cells = fields_.data() + layout_.cell(first);
       auto out = field.line(line);
       for (std::int64_t i = 0; i < nx; ++i) {
-        double value = 0;
-        if (component == Component::p) {
-          for (int axis = 0; axis < D; ++axis)
-            value -= cells[FieldRows<D>::normal_stress(axis) * pitch + i] / D;
-        } else {
-          value = cells[row_of<D>(component) * pitch + i];
-        }
+        double value = count == 1 ? -0. : 0.;  // a field alone keeps the sign of its zeros
+        for (const auto& term : terms)
+          value += cells[row_of<D>(term.field) * pitch + i] / Real(term.sign * count);
         out[std::size_t(i)] = float(value / unit_);
       }
     }

@@ -135,8 +135,8 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
   held.first[D - 1] = first;
   held.shape[D - 1] = last - first;
   auto& model = whole.model;
-  model.medium = {rows_of(model.medium.vp, held), rows_of(model.medium.vs, held),
-                  rows_of(model.medium.rho, held)};
+  for (const Property property : model.medium.properties())
+    model.medium[property] = rows_of(model.medium[property], held);
   model.fracture = rows_of(model.fracture, held);
   for (auto& component : model.prestress_pa) component = rows_of(component, held);
   return whole;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -14,6 +15,9 @@ namespace {
 int ghost_impedance(EdgeLaw law, Wave wave) {
   return extension_of(law, wave) == Extension::traction_free ? 0 : 1;
 }
+
+/// One set of coefficients serves the sweeps along all axes: in an isotropic medium they are alike.
+constexpr int every_axis = 0;
 
 /// Shorter uniform runs are not worth loops of their own.
 constexpr std::int64_t shortest_run = 64;
@@ -97,8 +101,8 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
       for (std::int64_t x = 0; x < nx; ++x) {
         const auto cell =
             std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
-        impedance[wave_p][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vp[cell];
-        impedance[wave_s][std::size_t(line * nx + x)] = medium.rho[cell] * medium.vs[cell];
+        for (const Wave wave : {wave_p, wave_s})
+          impedance[wave][std::size_t(line * nx + x)] = float(wave_impedance(medium, cell, every_axis, wave));
       }
     }
   });
@@ -108,10 +112,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
 
 template <int D>
 double fastest_wave(const Medium<D>& medium) {
-  double fastest = 0;
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-    if (!medium.is_void(cell)) fastest = std::max(fastest, double(medium.vp[cell]));
-  return fastest;
+  return fastest_speed(medium);
 }
 
 template <int D, class Real>
@@ -120,10 +121,10 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   const double courant = dt_s / domain.grid.spacing_m;
   const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
-    const bool empty = medium.is_void(cell), solid = medium.is_solid(cell);
-    const double rho = medium.rho[cell], vp = medium.vp[cell], vs = medium.vs[cell];
-    const double values[material_rows] = {empty || ghost ? 0 : courant / rho, empty ? 0 : p_factor * rho * vp,
-                                          solid ? s_factor * rho * vs : 0};
+    const bool carries = !ghost && !medium.is_void(cell);
+    const double values[material_rows] = {carries ? courant / double(medium.rho[cell]) : 0,
+                                          p_factor * wave_impedance(medium, cell, every_axis, wave_p),
+                                          s_factor * wave_impedance(medium, cell, every_axis, wave_s)};
     Index<D> line = at;
     line[0] = 0;
     for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);

@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "grid/field.hpp"
+#include "model/coefficients.hpp"
 #include "scene/edges.hpp"
 #include "solver/kernels/kernels.hpp"
 
 namespace slipwave::solver {
-
-enum Wave : int { wave_p, wave_s };
 
 /// The extension of a pair (v, s) beyond a strong interface or an edge of the grid.
 enum class Extension : std::uint8_t {

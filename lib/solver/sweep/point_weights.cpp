@@ -174,42 +174,22 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
 }
 
 template <int D>
-int row_of(Component component) {
+int row_of(const WaveField& field) {
   using Rows = FieldRows<D>;
-  switch (component) {
-    case Component::vx:
-      return Rows::velocity(0);
-    case Component::vy:
-      return Rows::velocity(1);
-    case Component::vz:
-      return Rows::velocity(D - 1);
-    case Component::sxx:
-      return Rows::normal_stress(0);
-    case Component::syy:
-      return Rows::normal_stress(1);
-    case Component::szz:
-      return Rows::normal_stress(D - 1);
-    case Component::sxy:
-      return Rows::shear_stress(0, 1);
-    case Component::sxz:
-      return Rows::shear_stress(0, D - 1);
-    case Component::syz:
-      return Rows::shear_stress(1, D - 1);
-    case Component::p:
-    case Component::other:
-      break;
-  }
-  return -1;
+  const auto axis = [](int of_3d) { return std::min(of_3d, D - 1); };  // 2-D: x and z
+  const int one = axis(field.axis), other = axis(field.other_axis);
+  if (field.quantity == WaveField::Quantity::velocity) return Rows::velocity(one);
+  return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
 template <int D>
 std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
                                            const Point<D>& point_m, Component component) {
-  if (component != Component::p) return row_weights(layout, domain, point_m, row_of<D>(component));
+  const auto terms = slipwave::row_of(component).terms_in(D);
   std::vector<ValueWeight> all;
-  for (int axis = 0; axis < D; ++axis)
-    for (auto weight : row_weights(layout, domain, point_m, FieldRows<D>::normal_stress(axis))) {
-      weight.weight /= -D;
+  for (const auto& term : terms)
+    for (auto weight : row_weights(layout, domain, point_m, row_of<D>(term.field))) {
+      weight.weight /= term.sign * int(terms.size());
       all.push_back(weight);
     }
   return all;
@@ -220,12 +200,12 @@ template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&
 template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                     Component);
-template int row_of<2>(Component);
+template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
                                                     Component);
-template int row_of<3>(Component);
+template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "gather/trace.hpp"
+#include "gather/component.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
@@ -30,14 +30,14 @@ template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row);
 
-/// The same for a component of a gather: p is minus the mean of the normal stresses.
+/// The same for a component of a gather: the mean of its terms (gather/component.hpp).
 template <int D>
 std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
                                            const Point<D>& point_m, Component component);
 
-/// Row of a component that is one field; -1 for p.
+/// Row of a field of the wave equation.
 template <int D>
-int row_of(Component component);
+int row_of(const WaveField& field);
 
 /// The cell of the computed grid a point is in; the high faces of the grid belong to the cells before them.
 template <int D>

@@ -1,0 +1,182 @@
+#include "acquisition/source_kind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+
+namespace slipwave {
+namespace {
+
+template <int D>
+std::string notation_of(const SourceKind<D>& kind) {
+  return kind.name + (*kind.parameters ? ":" + std::string(kind.parameters) : "");
+}
+
+template <int D>
+std::string expected_kinds() {
+  std::vector<std::string> notations;
+  for (const auto& kind : source_kinds<D>()) notations.push_back(notation_of(kind));
+  return "expected " + joined(notations, " or ");
+}
+
+/// `count` numbers that are not all zero.
+template <int D>
+std::vector<double> numbers_of(const std::string& text, const std::string& list, std::size_t count) {
+  auto numbers = in_place("source kind '" + text + "'", [&] { return parse_numbers(list, ','); });
+  if (numbers.size() != count)
+    throw Error("source kind '" + text + "': found " + std::to_string(numbers.size()) + " numbers, " +
+                    expected_kinds<D>(),
+                ErrorKind::usage);
+  if (std::all_of(numbers.begin(), numbers.end(), [](double v) { return v == 0; }))
+    throw Error("source kind '" + text + "': found only zeros, expected a source that does something",
+                ErrorKind::usage);
+  return numbers;
+}
+
+template <int D>
+Mechanism<D> parse_explosion(const std::string&, const std::string&) {
+  return Explosion{};
+}
+
+template <int D>
+void inject_explosion(const Mechanism<D>&, double amplitude, PointInjection<D>& injection) {
+  injection.isotropic = true;
+  for (int axis = 0; axis < D; ++axis) injection.moment_rate(axis, axis) = amplitude;
+}
+
+template <int D>
+Mechanism<D> parse_force(const std::string& text, const std::string& parameters) {
+  PointForce<D> force;
+  const auto numbers = numbers_of<D>(text, parameters, force.vector.size());
+  std::copy(numbers.begin(), numbers.end(), force.vector.begin());
+  return force;
+}
+
+template <int D>
+void inject_force(const Mechanism<D>& mechanism, double amplitude, PointInjection<D>& injection) {
+  const auto& vector = std::get<PointForce<D>>(mechanism).vector;
+  for (std::size_t axis = 0; axis < vector.size(); ++axis) injection.force[axis] = amplitude * vector[axis];
+}
+
+template <int D>
+Mechanism<D> parse_moment(const std::string& text, const std::string& parameters) {
+  MomentTensor<D> moment;
+  const auto numbers = numbers_of<D>(text, parameters, moment.tensor.values.size());
+  std::copy(numbers.begin(), numbers.end(), moment.tensor.values.begin());
+  return moment;
+}
+
+template <int D>
+void inject_moment(const Mechanism<D>& mechanism, double amplitude, PointInjection<D>& injection) {
+  const auto& values = std::get<MomentTensor<D>>(mechanism).tensor.values;
+  for (std::size_t i = 0; i < values.size(); ++i) injection.moment_rate.values[i] = amplitude * values[i];
+}
+
+template <int D>
+Mechanism<D> parse_plane_wave(const std::string& text, const std::string& parameters) {
+  const double angle = in_place("source kind '" + text + "'", [&] { return parse_number(parameters); });
+  if (!(std::abs(angle) <= 360))
+    throw Error(
+        "source kind '" + text + "': found an angle of " + shown(angle) + " degrees, expected -360 to 360",
+        ErrorKind::usage);
+  // Multiples of 90 degrees travel along the grid exactly.
+  const auto exact_sine = [](double degrees) {
+    const double turned = std::remainder(degrees, 360.);
+    if (std::fmod(turned, 180.) == 0) return 0.;
+    return turned == 90 ? 1. : turned == -90 ? -1. : std::sin(turned * std::numbers::pi / 180);
+  };
+  PlaneWave<D> wave;
+  wave.angle_deg = angle;
+  wave.direction[0] = exact_sine(angle);
+  wave.direction[D - 1] = exact_sine(angle + 90);
+  return wave;
+}
+
+template <int D>
+constexpr SourceKind<D> kinds[] = {
+    {"explosion", "", "", D == 2 ? "N m/s per m" : "N m/s", parse_explosion<D>, inject_explosion<D>},
+    {"force", D == 2 ? "AX,AZ" : "AX,AY,AZ", "", D == 2 ? "N/m" : "N", parse_force<D>, inject_force<D>},
+    {"moment", D == 2 ? "MXX,MZZ,MXZ" : "MXX,MYY,MZZ,MXY,MXZ,MYZ", "", D == 2 ? "N m/s per m" : "N m/s",
+     parse_moment<D>, inject_moment<D>},
+    {"plane", "ANGLE", "degrees, 0 is down", "m/s", parse_plane_wave<D>, nullptr},
+};
+
+static_assert(std::size(kinds<2>) >= std::variant_size_v<Mechanism<2>>);
+
+}  // namespace
+
+template <int D>
+std::span<const SourceKind<D>> source_kinds() {
+  return kinds<D>;
+}
+
+template <int D>
+Mechanism<D> parse_mechanism(const std::string& text) {
+  const auto colon = text.find(':');
+  const std::string name = text.substr(0, colon);
+  for (const auto& kind : source_kinds<D>()) {
+    const bool any_parameter = *kind.parameters != '\0';
+    if (name == kind.name && any_parameter == (colon != std::string::npos))
+      return kind.parse(text, any_parameter ? text.substr(colon + 1) : "");
+  }
+  throw Error("source kind: found '" + text + "', " + expected_kinds<D>(), ErrorKind::usage);
+}
+
+template <int D>
+const char* name_of(const Mechanism<D>& mechanism) {
+  return source_kinds<D>()[mechanism.index()].name;
+}
+
+template <int D>
+std::optional<PointInjection<D>> point_injection(const Source<D>& source) {
+  const auto inject = source_kinds<D>()[source.mechanism.index()].inject;
+  if (!inject) return {};
+  PointInjection<D> injection;
+  inject(source.mechanism, source.amplitude, injection);
+  return injection;
+}
+
+std::string source_kind_help() {
+  std::vector<std::string> notations, others;
+  for (std::size_t n = 0; n < std::size(kinds<2>); ++n) {
+    const auto& kind = kinds<2>[n];
+    const std::string own = notation_of(kind), other = notation_of(kinds<3>[n]);
+    notations.push_back(own + (*kind.remark ? " (" + std::string(kind.remark) + ")" : ""));
+    if (own != other) others.push_back(other);
+  }
+  return joined(notations, " or ") + "; in 3-D " + joined(others);
+}
+
+std::string amplitude_help() {
+  std::string help;
+  std::vector<std::string> units, others;
+  const auto add = [](std::vector<std::string>& to, const std::string& unit) {
+    if (std::find(to.begin(), to.end(), unit) != to.end()) return false;
+    to.push_back(unit);
+    return true;
+  };
+  for (std::size_t n = 0; n < std::size(kinds<2>); ++n) {
+    const std::string unit = kinds<2>[n].amplitude_unit, other = kinds<3>[n].amplitude_unit;
+    if (unit != other) add(others, other);
+    if (!add(units, unit)) continue;
+    std::vector<std::string> names;
+    for (const auto& kind : kinds<2>)
+      if (kind.amplitude_unit == unit) names.emplace_back(kind.name);
+    help += joined(names) + ": " + unit + "; ";
+  }
+  return help + "in 3-D " + joined(others, " and ");
+}
+
+template std::span<const SourceKind<2>> source_kinds<2>();
+template std::span<const SourceKind<3>> source_kinds<3>();
+template std::optional<PointInjection<2>> point_injection<2>(const Source<2>&);
+template std::optional<PointInjection<3>> point_injection<3>(const Source<3>&);
+template Mechanism<2> parse_mechanism<2>(const std::string&);
+template Mechanism<3> parse_mechanism<3>(const std::string&);
+template const char* name_of<2>(const Mechanism<2>&);
+template const char* name_of<3>(const Mechanism<3>&);
+
+}  // namespace slipwave

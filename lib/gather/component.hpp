@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace slipwave {
+
+/// What a trace recorded; `other`: something that is not known. In the order of the rows of the table.
+enum class Component { vx, vy, vz, p, sxx, syy, szz, sxy, sxz, syz, other };
+
+/// A field of the wave equation: particle velocity along an axis, or a component of the stress tensor. Axes
+/// x, y, z are 0, 1, 2; none in 2-D has a y.
+struct WaveField {
+  enum class Quantity { velocity, stress };
+  Quantity quantity = Quantity::velocity;
+  int axis = 0;
+  int other_axis = 0;  // of stress
+};
+
+/// A field and the sign with which a component is made of it.
+struct ComponentTerm {
+  WaveField field;
+  int sign = 1;
+};
+
+/// All that the house knows of a component: with a row of its own it is known to options, headers of SEG-Y,
+/// snapshots, pictures and checks, and the solver records it.
+struct ComponentRow {
+  Component component;
+  const char* name;  // as it is typed
+  const char* unit;  // "m/s"; cf_unit() for netCDF
+  const char* long_name;
+  int trace_code;     // SEG-Y: trace identification code
+  bool in_2d, in_3d;  // whether it is recorded there
+  /// The component is the mean of its terms, each with its sign; 2-D drops those with a y.
+  std::array<ComponentTerm, 3> terms = {};
+  int term_count = 0;
+
+  bool in(int dimension) const { return dimension == 2 ? in_2d : in_3d; }
+  std::vector<ComponentTerm> terms_in(int dimension) const;
+  /// "pressure, -(sxx + szz)/2": the long name, for a mean with its formula.
+  std::string description(int dimension) const;
+};
+
+/// All rows, in the order of Component; the last is `other`.
+std::span<const ComponentRow> component_rows();
+const ComponentRow& row_of(Component component);
+
+/// "vx" .. "syz", "other".
+const char* name_of(Component component);
+/// The component of that name; throws Error listing the names otherwise.
+Component component_named(const std::string& name);
+/// "m/s", "Pa" or "" (other).
+const char* unit_of(Component component);
+/// As CF conventions write it: "m s-1" for "m/s".
+std::string cf_unit(const std::string& unit);
+
+/// Names of all components that are recorded in that dimension, in order; `not_in`: less those of another.
+std::vector<std::string> component_names(int dimension, int not_in = 0);
+
+}  // namespace slipwave

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+
+#include "model/medium.hpp"
+
+namespace slipwave {
+
+// What sweeps know of a medium (theory.md (E4)-(E9)): asked for by axis and wave, though an isotropic medium
+// gives the same answer for every axis.
+
+/// Waves that travel along an axis: with motion along it, and across it.
+enum Wave : int { wave_p, wave_s };
+
+/// Their speed c, m/s; 0 in a cell that does not carry the wave.
+template <int D>
+double wave_speed(const Medium<D>& medium, std::size_t cell, [[maybe_unused]] int axis, Wave wave) {
+  if (medium.is_void(cell)) return 0;
+  return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
+}
+
+/// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.
+template <int D>
+double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave wave) {
+  return double(medium.rho[cell]) * wave_speed(medium, cell, axis, wave);
+}
+
+/// The largest speed of all cells, axes and waves, m/s; 0 where all is void.
+template <int D>
+double fastest_speed(const Medium<D>& medium) {
+  double fastest = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    for (int axis = 0; axis < D; ++axis) fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
+  return fastest;
+}
+
+}  // namespace slipwave

@@ -1,0 +1,48 @@
+#include "model/medium.hpp"
+
+#include <algorithm>
+
+namespace slipwave {
+
+template <int D>
+Field<D>& Medium<D>::optional(Property property) {
+  // Room for all of them, so that no reference goes stale.
+  if (optional_.empty()) optional_.resize(material_properties().size() - required_properties);
+  return optional_[std::size_t(property) - required_properties];
+}
+
+template <int D>
+const Field<D>& Medium<D>::optional(Property property) const {
+  static const Field<D> absent;
+  return optional_.empty() ? absent : optional_[std::size_t(property) - required_properties];
+}
+
+template <int D>
+bool Medium<D>::has(Property property) const {
+  return std::size_t(property) < required_properties || !(*this)[property].empty();
+}
+
+template <int D>
+std::vector<Property> Medium<D>::properties() const {
+  std::vector<Property> present;
+  for (const Property property : all_properties())
+    if (has(property)) present.push_back(property);
+  return present;
+}
+
+template <int D>
+double Medium<D>::value(Property property, std::size_t cell) const {
+  if (has(property)) return double((*this)[property][cell]);
+  return row_of(property).if_absent.value();
+}
+
+template <int D>
+bool Medium<D>::same(std::size_t a, std::size_t b) const {
+  const auto alike = [&](const Field<D>& field) { return field.empty() || field[a] == field[b]; };
+  return alike(vp) && alike(vs) && alike(rho) && std::all_of(optional_.begin(), optional_.end(), alike);
+}
+
+template class Medium<2>;
+template class Medium<3>;
+
+}  // namespace slipwave

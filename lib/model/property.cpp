@@ -1,0 +1,55 @@
+#include "model/property.hpp"
+
+namespace slipwave {
+
+std::vector<PropertyRow> property_rows() {
+  const std::vector<std::string> m_s = {"m s-1", "m/s", "m s^-1"}, km_s = {"km s-1", "km/s", "km s^-1"},
+                                 kg_m3 = {"kg m-3", "kg/m3", "kg/m^3", "kg m^-3"},
+                                 g_cm3 = {"g cm-3", "g/cm3", "g/cc", "g/cm^3", "g cm^-3"};
+  return {{.name = "vp",
+           .long_name = "P-wave speed",
+           .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)",
+           .units = "m s-1",
+           .shown_unit = "m/s",
+           .si = m_s,
+           .thousand = km_s,
+           .mean = Mean::elastic},
+          {.name = "vs",
+           .long_name = "S-wave speed, 0 = fluid",
+           .help = "S-wave speed; 0 is fluid",
+           .units = "m s-1",
+           .shown_unit = "m/s",
+           .si = m_s,
+           .thousand = km_s,
+           .mean = Mean::elastic},
+          {.name = "rho",
+           .long_name = "density, 0 = void",
+           .help = "density; 0 is void (air)",
+           .units = "kg m-3",
+           .shown_unit = "kg/m3",
+           .si = kg_m3,
+           .thousand = g_cm3,
+           .mean = Mean::elastic}};
+}
+
+const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }
+
+std::optional<Property> find_property(const std::string& name) {
+  for (const Property property : all_properties())
+    if (row_of(property).name == name) return property;
+  return {};
+}
+
+std::vector<Property> all_properties() {
+  std::vector<Property> all;
+  for (std::size_t n = 0; n < material_properties().size(); ++n) all.push_back(Property(n));
+  return all;
+}
+
+std::vector<std::string> property_names() {
+  std::vector<std::string> names;
+  for (const auto& row : material_properties()) names.push_back(row.name);
+  return names;
+}
+
+}  // namespace slipwave

@@ -1,0 +1,175 @@
+#include "planning/computed_share.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "grid/locate.hpp"
+#include "scene/splitting.hpp"
+#include "solver/kernels/kernels.hpp"
+#include "solver/record/recorder.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Cells of the coarse grid along its longest side, at most.
+template <int D>
+constexpr std::int64_t finest = D == 2 ? 128 : 48;
+/// When waves have gone over n cells, numbers that are not zero are ahead of them by head_start n/(n + half)
+/// cells (measured: ComputedShare.IsAsExpected, CubeComputedShare.IsAsExpected). In 3-D waves weaken faster.
+template <int D>
+constexpr double head_start = D == 2 ? 115 : 60;
+template <int D>
+constexpr double half = D == 2 ? 12 : 40;
+
+/// The share of the waves' time to a place that many cells away after which it is no longer zero.
+template <int D>
+double part_of_arrival(double cells) {
+  const double rest = cells - head_start<D> - half<D>;
+  return cells > 0 ? (rest + std::sqrt(rest * rest + 4 * cells * half<D>)) / 2 / cells : 0;
+}
+
+/// First arrivals by fast sweeping (Zhao 2005, first order) on blocks of cells, s from the source on.
+template <int D>
+class Arrivals {
+ public:
+  /// On the computed grid: the medium of its zones is that of the model's cells beside them.
+  Arrivals(const Medium<D>& medium, const Grid<D>& grid) {
+    blocks_.origin_m = grid.origin_m;
+    const auto longest = *std::max_element(grid.shape.begin(), grid.shape.end());
+    const std::int64_t block = (longest + finest<D> - 1) / finest<D>;
+    blocks_.spacing_m = double(block) * grid.spacing_m;
+    for (std::size_t axis = 0; axis < D; ++axis) blocks_.shape[axis] = (grid.shape[axis] + block - 1) / block;
+    slowness_.assign(std::size_t(blocks_.size()), infinity);
+    Index<D> zone{};
+    for (std::size_t axis = 0; axis < D; ++axis)
+      zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
+    for (std::int64_t n = 0; n < grid.size(); ++n) {
+      auto at = grid.index(n), in_model = at;
+      for (std::size_t axis = 0; axis < D; ++axis) {
+        in_model[axis] = std::clamp<std::int64_t>(at[axis] - zone[axis], 0, medium.grid().shape[axis] - 1);
+        at[axis] /= block;
+      }
+      const auto cell = std::size_t(medium.grid().flat(in_model));
+      if (medium.is_void(cell)) continue;
+      auto& slowest = slowness_[std::size_t(blocks_.flat(at))];
+      slowest = std::min(slowest, 1 / double(medium.vp[cell]));
+    }
+  }
+  void start_at(const Point<D>& source) {
+    time_s_.assign(slowness_.size(), infinity);
+    time_s_[std::size_t(blocks_.flat(cell_of(blocks_, source)))] = 0;
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (unsigned way = 0; way < 1U << D; ++way) changed |= sweep(way);
+    }
+  }
+  const Grid<D>& blocks() const { return blocks_; }
+  double at(std::int64_t block) const { return time_s_[std::size_t(block)]; }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// Goes over all blocks once, backwards along the axes whose bit is set.
+  bool sweep(unsigned way) {
+    bool changed = false;
+    for (std::int64_t n = 0; n < blocks_.size(); ++n) {
+      auto at = blocks_.index(n);
+      for (std::size_t axis = 0; axis < D; ++axis)
+        if (way >> axis & 1U) at[axis] = blocks_.shape[axis] - 1 - at[axis];
+      changed |= improve(at);
+    }
+    return changed;
+  }
+  bool improve(const Index<D>& at) {
+    const std::int64_t n = blocks_.flat(at);
+    std::array<double, D> before{};  // the earlier of both neighbours along each axis
+    std::int64_t pitch = 1;
+    for (std::size_t axis = 0; axis < D; pitch *= blocks_.shape[axis++]) {
+      const double low = at[axis] > 0 ? this->at(n - pitch) : infinity;
+      before[axis] = std::min(low, at[axis] + 1 < blocks_.shape[axis] ? this->at(n + pitch) : infinity);
+    }
+    std::sort(before.begin(), before.end());
+    double& time = time_s_[std::size_t(n)];
+    if (!(before[0] < time)) return false;
+    // A plane wave that comes to as many of the neighbours as are there before it is here.
+    const double step = slowness_[std::size_t(n)] * blocks_.spacing_m;
+    double arrival = infinity, sum = 0, squares = 0;
+    for (std::size_t count = 0; count < D && before[count] < arrival; ++count) {
+      const double late = before[count] - before[0], of = double(count + 1);
+      sum += late;
+      squares += late * late;
+      arrival = before[0] + (sum + std::sqrt(sum * sum - of * (squares - step * step))) / of;
+    }
+    if (!(arrival < time * (1 - 1e-9))) return false;
+    time = arrival;
+    return true;
+  }
+  Grid<D> blocks_;
+  std::vector<double> slowness_, time_s_;
+};
+
+/// Steps from the receivers to a place along an axis: as many cells each as the stencils of its sweeps reach.
+template <int D>
+double steps_to(const Scene<D>& scene, std::size_t axis, double place_m) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, sweeps = 0;
+  for (const auto& receiver : scene.survey.receivers_m) {
+    low = std::min(low, receiver[axis]);
+    high = std::max(high, receiver[axis]);
+  }
+  for (const auto& part : splitting(D, scene.numerics.time_order)) sweeps += std::size_t(part.axis) == axis;
+  const double distance_m = std::max({low - place_m, place_m - high, 0.});
+  const double reach = solver::reach_of(scene.numerics.order) + 1;
+  return distance_m / scene.model.grid().spacing_m / (sweeps * reach);
+}
+
+/// What is computed of a shot whose waves arrive so.
+template <int D>
+double share_of(const Scene<D>& scene, const Source<D>& source, const Arrivals<D>& arrivals) {
+  const double dt_s = time_step_s(scene);
+  const double end_s = dt_s * double(solver::Recorder<D, float>::steps_needed(scene.recording, dt_s));
+  const auto& blocks = arrivals.blocks();
+  // In 2-D a cell is computed or not, in 3-D a line along x as a whole.
+  const std::int64_t together = D == 2 ? 1 : blocks.shape[0];
+  double reached = 0;
+  for (std::int64_t first = 0; first < blocks.size(); first += together) {
+    double from_s = std::numeric_limits<double>::infinity(), unseen_s = 0;
+    for (std::int64_t n = first; n < first + together; ++n) {
+      const auto at = blocks.index(n);
+      double square = 0;
+      for (int axis = 0; axis < D; ++axis) {
+        const double place_m = blocks.centre(axis, at[std::size_t(axis)]);
+        square += std::pow(place_m - source.position_m[std::size_t(axis)], 2);
+        if ((D == 2 || axis > 0) && !scene.snapshot_every_s)
+          unseen_s = std::max(unseen_s, dt_s * steps_to(scene, std::size_t(axis), place_m));
+      }
+      const double cells = std::sqrt(square) / scene.model.grid().spacing_m;
+      from_s = std::min(from_s, part_of_arrival<D>(cells) * arrivals.at(n));
+    }
+    reached += double(together) * std::max(0., 1 - (from_s + unseen_s) / end_s);
+  }
+  return reached / double(blocks.size());
+}
+
+}  // namespace
+
+template <int D>
+double expected_share(const Scene<D>& scene, const Grid<D>& computed) {
+  Arrivals<D> arrivals(scene.model.medium, computed);
+  double share = 0;
+  for (const auto& source : scene.survey.sources) {
+    if (!point_injection(source) || scene.numerics.double_precision) {
+      share += 1;
+      continue;
+    }
+    arrivals.start_at(source.position_m);
+    share += share_of(scene, source, arrivals);
+  }
+  return share / double(scene.survey.sources.size());
+}
+
+template double expected_share(const Scene<2>&, const Grid<2>&);
+template double expected_share(const Scene<3>&, const Grid<3>&);
+
+}  // namespace slipwave

@@ -1,0 +1,165 @@
+#include "planning/plan.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "accuracy/dispersion.hpp"
+#include "base/error.hpp"
+#include "base/processor_time.hpp"
+#include "parallel/threads.hpp"
+#include "planning/computed_share.hpp"
+#include "solver/shot_simulation.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Fewer cells per wavelength than this are worth a warning.
+constexpr double fewest_cells = 4;
+
+template <int D>
+double cells_a_wavelength(const Scene<D>& scene, const SlowestWave& slowest, double hz) {
+  return slowest.speed / hz / scene.model.grid().spacing_m;
+}
+
+template <int D>
+double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) {
+  const double courant = slowest.speed * time_step_s(scene) / scene.model.grid().spacing_m;
+  // Waves shorter than two cells are not on the grid at all.
+  if (cells <= 2) return 1;
+  return loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
+}
+
+/// Slowest P wave anywhere, slowest S wave of solids (0: none).
+template <int D>
+std::array<double, 2> slowest_of_each(const Medium<D>& medium) {
+  std::array<double, 2> slowest = {std::numeric_limits<double>::infinity(), 0};
+  for (std::size_t n = 0; n < std::size_t(medium.grid().size()); ++n) {
+    if (medium.is_void(n)) continue;
+    slowest[0] = std::min(slowest[0], double(medium.vp[n]));
+    if (medium.vs[n] > 0 && !(slowest[1] > 0 && slowest[1] < medium.vs[n])) slowest[1] = medium.vs[n];
+  }
+  return slowest;
+}
+
+/// Processor time of a step: the median of several.
+template <int D, class Real>
+double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
+  constexpr std::int64_t warm_up = 2, most = 15;
+  constexpr double enough_s = 0.6;
+  std::vector<double> seconds;
+  double sum = 0;
+  const auto count = std::min(step.steps(), warm_up + most);
+  for (std::int64_t n = 0; n < count && (sum < enough_s || seconds.empty()); ++n) {
+    const double start = processor_time_s();
+    step.run_to(n + 1);
+    const double taken = processor_time_s() - start;
+    sum += taken;
+    if (n >= std::min(warm_up, count - 1)) seconds.push_back(taken);
+  }
+  const auto middle = seconds.begin() + std::ptrdiff_t(seconds.size() / 2);
+  std::nth_element(seconds.begin(), middle, seconds.end());
+  return *middle;
+}
+
+template <int D, class Real>
+Plan<D> plan_as(const Scene<D>& scene) {
+  // Steps are timed as they are when waves are everywhere.
+  Scene<D> everywhere = scene;
+  everywhere.numerics.tiling.everywhere = true;
+  const double start = processor_time_s();
+  solver::ShotSimulation<D, Real> step(everywhere, 1, [](double, const FieldReader<D>&) {});
+  const double build_s = processor_time_s() - start;
+  Plan<D> plan;
+  plan.computed = step.domain().grid;
+  plan.time_step_s = time_step_s(scene);
+  plan.courant = plan.time_step_s / stable_time_step_s(scene);
+  plan.steps = step.steps();
+  plan.passes = step.planned();
+  plan.interface_cells = step.sweeps().interface_stencil_cells();
+  plan.memory_bytes = step.memory_bytes();
+  plan.highest_hz = highest_frequency_hz(scene.survey);
+  plan.slowest = slowest_wave(scene.model.medium);
+  const auto [slowest_p, slowest_s] = slowest_of_each(scene.model.medium);
+  const double wave_to_cells = 1 / plan.highest_hz / scene.model.grid().spacing_m;
+  plan.cells_of_shortest_p = slowest_p * wave_to_cells;
+  if (slowest_s > 0) plan.cells_of_shortest_s = slowest_s * wave_to_cells;
+  plan.loss_per_wavelength =
+      loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
+  plan.duration_s = scene.recording.duration_s;
+  plan.threads = parallel_threads();
+  if constexpr (D == 2) plan.error = WavesOfScene(scene).expected();
+  plan.computed_share = expected_share(scene, plan.computed);
+  plan.seconds = double(scene.survey.sources.size()) *
+                 (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
+  plan.instruction_set = solver::instruction_set();
+  return plan;
+}
+
+}  // namespace
+
+template <int D>
+Plan<D> plan(const Scene<D>& scene) {
+  return scene.numerics.double_precision ? plan_as<D, double>(scene) : plan_as<D, float>(scene);
+}
+
+template <int D>
+Report report_of(const Plan<D>& plan) {
+  Report report;
+  report.text("grid", shown(plan.computed) + ", absorbing zones included");
+  report.count("steps", plan.steps);
+  report.number("time step", plan.time_step_s, "s");
+  report.number("Courant number", plan.courant, "");
+  report.number("slowest wave", plan.slowest.speed, "m/s");
+  report.number("highest frequency", plan.highest_hz, "Hz");
+  report.text("cells per shortest wavelength",
+              "P " + shown(plan.cells_of_shortest_p, 3) +
+                  (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
+  report.text("loss of the slowest wave",
+              shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
+  if (D == 2 && plan.error.direct)
+    report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in direct arrivals");
+  if (D == 2)
+    report.text("error after " + shown(plan.duration_s, 3) + " s",
+                "P " + shown(100 * plan.error.p, 2) + " %" +
+                    (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
+  report.count("cells at interfaces", plan.interface_cells);
+  report.text(
+      "active cells",
+      shown(100 * plan.computed_share, 2) +
+          " % (cells that no wave has reached, or that can no longer affect a receiver, are skipped)");
+  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
+  report.text("expected time", shown(plan.seconds, 2) + " s of processor time, " +
+                                   shown(plan.seconds / plan.threads, 2) + " s on " +
+                                   std::to_string(plan.threads) + " threads");
+  report.text("instruction set", plan.instruction_set);
+  for (const auto& pass : plan.passes)
+    report.text("part of step", pass.name + ": " + shown(100 * pass.share, 3) + " % of the cells");
+  return report;
+}
+
+template <int D>
+std::vector<std::string> warnings(const Scene<D>& scene) {
+  const auto slowest = slowest_wave(scene.model.medium);
+  const double highest = highest_frequency_hz(scene.survey);
+  const double cells = cells_a_wavelength(scene, slowest, highest);
+  if (cells >= fewest_cells) return {};
+  const double h = scene.model.grid().spacing_m;
+  const std::string wave = scene.model.medium.is_fluid(std::size_t(slowest.cell)) ? "P" : "S";
+  return {"only " + shown(cells, 2) + " cells per shortest " + wave + " wavelength (" +
+          shown(slowest.speed, 4) + " m/s at " + place_of(scene.model.grid(), slowest.cell) + ", " +
+          shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
+          shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
+          shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
+          " times the cost)" + (D == 2 ? " or --error" : "")};
+}
+
+template Plan<2> plan(const Scene<2>&);
+template Report report_of(const Plan<2>&);
+template std::vector<std::string> warnings(const Scene<2>&);
+template Plan<3> plan(const Scene<3>&);
+template Report report_of(const Plan<3>&);
+template std::vector<std::string> warnings(const Scene<3>&);
+
+}  // namespace slipwave

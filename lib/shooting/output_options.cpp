@@ -1,0 +1,126 @@
+#include "shooting/output_options.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "output/snapshot_netcdf.hpp"
+#include "parallel/threads.hpp"
+#include "segy/writer.hpp"
+#include "segy/writer_headers.hpp"
+#include "shooting/output_names.hpp"
+#include "shooting/shot_snapshots.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave {
+namespace {
+
+/// What shots that are simulated at once may take of memory together.
+constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
+
+/// What the trace files can not hold is refused before anything is computed.
+void check_sampling(const Recording& recording, const std::function<void(const std::string&)>& warn) {
+  segy::FileInfo info;
+  info.axis.count = recording.samples();
+  info.axis.interval_s = recording.interval_s;
+  segy::checked_format(info);
+  for (const auto& sentence : segy::warnings_of(info)) warn(sentence);
+}
+
+}  // namespace
+
+bool OutputOptions::wants_slip() const {
+  const auto names = split(snapshot_fields, ',');
+  return std::any_of(names.begin(), names.end(), [](const auto& name) {
+    const auto& known = slipwave::snapshot_fields<2>();
+    return std::any_of(known.begin(), known.end(), [&](const auto& field) {
+      return field.name == name && std::holds_alternative<SlipField>(field.content);
+    });
+  });
+}
+
+template <int D>
+void OutputOptions::check(std::size_t shots) const {
+  check_names<D>(shots);
+  check_checkpoint();
+  check_parallel();
+}
+
+template <int D>
+void OutputOptions::check_names(std::size_t shots) const {
+  check_marks(traces);
+  check_marks(snapshots);
+  if (!snapshots.empty()) in_place("--fields", [&] { return parse_snapshot_fields<D>(snapshot_fields); });
+  if (!slice.empty() && D == 2)
+    throw Error("found --slice with a model in 2-D, expected one in 3-D", ErrorKind::usage);
+  if (first_shot < 1)
+    throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
+                ErrorKind::usage);
+  if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
+    throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
+                    ", expected {shot} in the name",
+                ErrorKind::usage);
+  if (!snapshots.empty() && holds(snapshots, "{component}"))
+    throw Error(
+        "{component} is for traces, found it in --snapshots " + snapshots + "; choose fields with --fields",
+        ErrorKind::usage);
+}
+
+void OutputOptions::check_checkpoint() const {
+  if (checkpoint_every_s && checkpoint.empty())
+    throw Error("found --checkpoint-every without --checkpoint, expected where to write it",
+                ErrorKind::usage);
+  if (checkpoint_every_s && !(*checkpoint_every_s > 0))
+    throw Error("--checkpoint-every: found " + shown(*checkpoint_every_s) + ", expected it above 0",
+                ErrorKind::usage);
+  if (checkpoint == "-") throw Error("--checkpoint: found -, expected the name of a file", ErrorKind::usage);
+  for (const auto& output : {traces, snapshots})
+    if (!checkpoint.empty() && checkpoint == output)
+      throw Error("--checkpoint and an output both name " + checkpoint + "; give them different names",
+                  ErrorKind::usage);
+}
+
+void OutputOptions::check_parallel() const {
+  if (shots_in_parallel < 0)
+    throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
+                ErrorKind::usage);
+  if (!snapshots.empty() && shots_in_parallel > 1)
+    throw Error("--snapshots needs --shots-in-parallel 1, found " + std::to_string(shots_in_parallel) +
+                    ": snapshots are written one shot after the other",
+                ErrorKind::usage);
+}
+
+template <int D>
+void OutputOptions::check_scene(const Scene<D>& scene,
+                                const std::function<void(const std::string&)>& warn) const {
+  const bool any_trace = !scene.survey.receivers_m.empty();
+  if (any_trace) check_sampling(scene.recording, warn);
+  if (any_trace && !snapshots.empty() && snapshots == traces)
+    throw Error("--output and --snapshots both name " + traces + "; give them different names",
+                ErrorKind::usage);
+  if (keep_unstable && ((any_trace && traces == "-") || snapshots == "-"))
+    throw Error("found --keep-unstable and an output to standard output, expected the name of a file",
+                ErrorKind::usage);
+  in_place("--slice", [&] { cut_of(scene.subdomain.whole(scene.model.grid()), slice); });
+}
+
+template <int D>
+std::size_t shots_at_once(const OutputOptions& options, const Scene<D>& scene) {
+  const auto shots = scene.survey.sources.size();
+  if (!options.snapshots.empty()) return 1;
+  if (options.shots_in_parallel > 0) return std::min(std::size_t(options.shots_in_parallel), shots);
+  const std::int64_t fit = most_together_bytes / memory_of_a_shot_bytes(scene);
+  return std::size_t(
+      std::clamp<std::int64_t>(std::min<std::int64_t>(fit, parallel_threads()), 1, std::int64_t(shots)));
+}
+
+template void OutputOptions::check<2>(std::size_t) const;
+template void OutputOptions::check<3>(std::size_t) const;
+template void OutputOptions::check_scene(const Scene<2>&,
+                                         const std::function<void(const std::string&)>&) const;
+template void OutputOptions::check_scene(const Scene<3>&,
+                                         const std::function<void(const std::string&)>&) const;
+template std::size_t shots_at_once(const OutputOptions&, const Scene<2>&);
+template std::size_t shots_at_once(const OutputOptions&, const Scene<3>&);
+
+}  // namespace slipwave

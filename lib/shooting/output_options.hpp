@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// Where the outputs of a run go and how it is organised, as sw-shoot's options say it. Names may hold {shot}
+/// and {component}; what they do not tell apart goes into one file.
+struct OutputOptions {
+  std::string traces = "-";
+  std::string snapshots;  // empty: none
+  std::string snapshot_fields = "vx,vz";
+  std::string slice;       // of 3-D snapshots, empty: all of the volume
+  int first_shot = 1;      // number of the first source
+  std::string checkpoint;  // empty: none
+  std::optional<double> checkpoint_every_s;
+  bool keep_unstable = false;
+  int shots_in_parallel = 0;  // 0: as many as there are threads and memory allows (shots_at_once)
+  int ranks_per_shot = 0;     // 0: as few processes as leave none without work
+
+  /// Whether snapshots hold what slip has done.
+  bool wants_slip() const;
+  /// In headers, names and messages, of shot 1, 2, ... of the run.
+  std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
+  /// Throws a usage Error on options that contradict each other or can not hold all shots.
+  template <int D>
+  void check(std::size_t shots) const;
+  /// Throws an Error on what the outputs of a checked scene can not hold, and warns of what they lose.
+  template <int D>
+  void check_scene(const Scene<D>& scene, const std::function<void(const std::string&)>& warn) const;
+
+ private:
+  template <int D>
+  void check_names(std::size_t shots) const;
+  void check_checkpoint() const;
+  void check_parallel() const;
+};
+
+/// How many shots of a checked scene are simulated at once by one process: one where snapshots are written,
+/// as many as the options say, or one per thread as long as 1 GiB holds them.
+template <int D>
+std::size_t shots_at_once(const OutputOptions& options, const Scene<D>& scene);
+
+}  // namespace slipwave

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+
+#include "base/messages.hpp"
+#include "parallel/ranks.hpp"
+#include "shooting/output_options.hpp"
+#include "shooting/provenance.hpp"
+#include "shooting/scene_options.hpp"
+
+namespace slipwave {
+
+/// All that sw-shoot is asked for.
+struct ShootingOptions {
+  SceneOptions scene;
+  OutputOptions output;
+  std::optional<double> snapshot_every_s;
+  std::optional<double> wanted_error;  // choose the numerics for it
+  bool plan = false;                   // print what would be computed, to output.traces
+  bool balance = false;                // say where the energy went
+};
+
+/// Reads the model, simulates all shots of the survey and writes what they recorded; or prints the plan.
+/// Throws an Error naming the option, the file or the shot.
+void shoot_survey(const ShootingOptions& options, const Provenance& provenance, const Messages& messages);
+
+/// Collective: the same by several processes, each of which reads its part of the model. A CollectiveError is
+/// thrown on all; where a shot becomes unstable the first throws the Error and the others EndedElsewhere; any
+/// other Error is thrown by one of them alone.
+void shoot_survey_on_ranks(const ShootingOptions& options, const Provenance& provenance,
+                           const Messages& messages, Ranks& ranks);
+
+}  // namespace slipwave

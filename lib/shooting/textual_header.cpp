@@ -1,0 +1,35 @@
+#include "shooting/textual_header.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+
+template <int D>
+std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
+                                           const std::string& version) {
+  const auto& source = scene.survey.sources.front();
+  const auto& n = scene.numerics;
+  std::vector<std::string> entries = {
+      version + ": synthetic seismograms",
+      "source: " + std::string(name_of<D>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
+          ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
+          shown(source.wavelet.delay_s()) + " s",
+      "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
+          shown(time_step_s(scene)) + " s, grid " + shown(scene.subdomain.whole(scene.model.grid())) +
+          (scene.slips() || scene.subdomain.slips ? std::string(", slip: ") + name_of(n.correction)
+                                                  : std::string(", no slip")),
+  };
+  for (std::size_t begin = 0; begin < history.size();) {
+    const auto end = std::min(history.find('\n', begin), history.size());
+    if (end > begin) entries.push_back(history.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return entries;
+}
+
+template std::vector<std::string> textual_header_of(const Scene<2>&, const std::string&, const std::string&);
+template std::vector<std::string> textual_header_of(const Scene<3>&, const std::string&, const std::string&);
+
+}  // namespace slipwave

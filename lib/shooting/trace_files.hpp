@@ -1,0 +1,48 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "checkpoint/run_state.hpp"
+#include "gather/trace.hpp"
+#include "io/output_file.hpp"
+#include "shooting/output_options.hpp"
+
+namespace slipwave {
+
+/// The SEG-Y files of a run. They are opened before the shots that go into them are simulated, so that a name
+/// that can not be written costs no computing.
+class TraceFiles {
+ public:
+  /// `components`: what is recorded; empty where there are no traces. `textual_header`: of every file.
+  TraceFiles(const OutputOptions& options, std::vector<Component> components,
+             std::vector<std::string> textual_header);
+
+  /// Whether every shot has files of its own.
+  bool one_per_shot() const { return one_per_shot_; }
+  /// Opens the files of a shot that are not open.
+  void open(std::size_t shot);
+  /// Whether all files of a shot exist under their names.
+  bool exist(std::size_t shot) const;
+  /// Writes the traces of all finished shots and puts the files in place; the state releases the traces.
+  void write(RunState& state, std::size_t shots);
+  /// After an unstable shot: puts files of their own of shots that finished in place.
+  void write_finished(RunState& state, std::size_t shots);
+  /// After an unstable shot: writes what all shots recorded under other names (unstable_name) with one more
+  /// line of textual header. Adds each name to `written` once the file is in place.
+  void write_unstable(RunState& state, std::size_t shots, const std::string& line,
+                      std::vector<std::string>& written) const;
+
+ private:
+  std::string name(std::size_t shot, Component component) const;
+  std::map<std::string, Gather> gathers_by_file(RunState& state, std::size_t shots) const;
+
+  const OutputOptions& options_;
+  std::vector<Component> components_;
+  std::vector<std::string> textual_header_;
+  bool one_per_shot_;
+  std::map<std::string, OutputFile> files_;  // open ones
+};
+
+}  // namespace slipwave

@@ -1,0 +1,22 @@
+#include "model/property.hpp"
+
+namespace slipwave {
+
+// In place of lib/model/property_table.cpp: one row more.
+std::span<const PropertyRow> material_properties() {
+  static const auto rows = [] {
+    auto more = property_rows();
+    more.push_back({.name = "temperature",
+                    .long_name = "temperature",
+                    .help = "temperature, K",
+                    .units = "K",
+                    .shown_unit = "K",
+                    .si = {"K", "kelvin"},
+                    .largest = 5000,
+                    .if_absent = 288});
+    return more;
+  }();
+  return rows;
+}
+
+}  // namespace slipwave

@@ -1,0 +1,43 @@
+#include "gather/component.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "base/parse.hpp"
+
+namespace slipwave {
+namespace {
+
+TEST(Components, AreFoundByTheirNamesAndHaveTraceCodesOfTheirOwn) {
+  std::set<int> codes;
+  for (const auto& row : component_rows()) {
+    EXPECT_EQ(component_named(row.name), row.component);
+    EXPECT_EQ(&row_of(row.component), &row);
+    EXPECT_TRUE(codes.insert(row.trace_code).second) << row.name;
+    EXPECT_EQ(row.term_count > 0, row.component != Component::other) << row.name;
+  }
+}
+
+TEST(Components, OfTwoDimensionsHaveNoY) {
+  EXPECT_EQ(joined(component_names(2), " or "), "vx, vz, p, sxx, szz or sxz");
+  EXPECT_EQ(joined(component_names(3, 2)), "vy, syy, sxy, syz");
+  for (const auto& row : component_rows())
+    for (const int dimension : {2, 3})
+      EXPECT_EQ(row.in(dimension), !row.terms_in(dimension).empty()) << row.name;
+}
+
+TEST(Components, ThatAreMeansSayTheirFormula) {
+  EXPECT_EQ(row_of(Component::p).description(2), "pressure, -(sxx + szz)/2");
+  EXPECT_EQ(row_of(Component::p).description(3), "pressure, -(sxx + syy + szz)/3");
+  EXPECT_EQ(row_of(Component::sxz).description(2), "shear stress");
+}
+
+TEST(Components, HaveUnitsAsNetcdfWantsThem) {
+  EXPECT_EQ(cf_unit("m/s"), "m s-1");
+  EXPECT_EQ(cf_unit("1/s"), "s-1");
+  EXPECT_EQ(cf_unit("Pa"), "Pa");
+}
+
+}  // namespace
+}  // namespace slipwave

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "acquisition/source_kind.hpp"
+#include "base/parse.hpp"
+#include "cli/tool.hpp"
+#include "gather/component.hpp"
+#include "shooting/scene_options.hpp"
+
+namespace slipwave {
+
+/// What is simulated and recorded, and the boundaries.
+inline void declare_scene(cli::Options& options, SceneOptions& s) {
+  const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
+  options.positional(s.model, "MODEL");
+  options.add("source", s.sources, "X,Z",
+              "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
+  options.add("kind", s.kind, "KIND", source_kind_help());
+  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+  options.add("amplitude", s.amplitude, "A", amplitude_help());
+  options.add("receivers", s.receivers, "X0:X1:DX,Z",
+              "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "
+              "X0:X1:DX,Y0:Y1:DY,Z");
+  options.add("time", s.duration_s, "T", "length of the traces, s");
+  options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
+  options.add("record", s.record, "LIST",
+              "components: " + joined(component_names(2)) + "; in 3-D also " + joined(component_names(3, 2)));
+  options.add_choice("top", s.top, edges, "boundary at the surface, z = 0");
+  options.add_choice("sides", s.sides, edges, "left and right boundaries, in 3-D all four");
+  options.add_choice("bottom", s.bottom, edges, "boundary at the bottom");
+  options.add("edge-width", s.edge_width, "CELLS",
+              "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
+  options.add("without", s.without, "LIST",
+              "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress");
+  options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");
+  options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
+}
+
+/// Order, time step, slip correction.
+inline void declare_numerics(cli::Options& options, SceneOptions& s) {
+  options.add_choice("order", s.order, {"1", "3", "5", "7"}, "order of the scheme in space");
+  options.add_choice("time-order", s.time_order, {"2", "4"},
+                     "order in time; 4: six times the work per step, --cfl up to 2");
+  options.add_choice("correction", s.correction, {"first", "second", "exponential"},
+                     "time integration of slip: first order, second order, or exact per step");
+  options.add("cfl", s.cfl, "C", "Courant number: time step over h/vp_max");
+  options.add("time-step", s.time_step_s, "S", "time step, s, instead of --cfl");
+}
+
+}  // namespace slipwave
