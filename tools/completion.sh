@@ -11,7 +11,7 @@ shift 2
 tool=$(basename "$program")
 help=$("$@" "$program" --help)
 printf '%s\n' "$help" | awk -v tool="$tool" '
-  # "a, b, c" behind a word of the text, up to the end of the clause; nothing where the list goes on as "...".
+  # "a, b, c" behind a word of the text, up to the end of the clause; nothing where the list ends with "...".
   function names_in(text) {
     sub(/[;\[(].*/, "", text)
     if (text !~ /^ *[a-z0-9_-]+(, [a-z0-9_-]+)+ *$/) return ""

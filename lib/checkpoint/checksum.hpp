@@ -9,7 +9,7 @@ namespace slipwave {
 class Checksum {
  public:
   Checksum() = default;
-  /// Goes on from another one's sum.
+  /// Continues another one's sum.
   explicit Checksum(std::uint64_t sum) : sum_(sum) {}
   /// Bytes are taken eight at a time, the last of a call filled up with zeros: what is added in several calls
   /// must be cut at multiples of eight to give the same sum.

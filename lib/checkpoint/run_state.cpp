@@ -67,7 +67,7 @@ std::string place_words(std::size_t shot, const ShotPlace& place) {
 
 }  // namespace
 
-/// What a running shot asks of and tells the state of the run.
+/// The link between a running shot and the state of the run.
 class RunState::ShotPauses : public Pauses {
  public:
   ShotPauses(RunState& run, std::size_t shot)

@@ -62,7 +62,7 @@ void SnapshotLog<D>::replay(const Take& take, std::size_t fields) {
   const std::uint64_t a_time = sizeof(double) + fields * std::uint64_t(grid_.size()) * sizeof(float);
   const auto damaged = [&] { return Error(path_ + ": does not hold what the checkpoint says of it"); };
   if (mark_.bytes != mark_.times * a_time) throw damaged();
-  // Looked at once before anything of it is used.
+  // Checked once before anything of it is used.
   for (const bool use : {false, true}) {
     if (lseek(descriptor_, 0, SEEK_SET) != 0) fail(path_, errno);
     Checksum checksum;

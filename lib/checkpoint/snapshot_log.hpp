@@ -25,7 +25,7 @@ class SnapshotLog {
  public:
   using Take = std::function<void(double time_s, const std::vector<Field<D>>& fields)>;
 
-  /// Goes on behind the mark, or begins. `fields` a time, on this grid. Hands what lies before the mark to
+  /// Continues behind the mark, or begins. `fields` a time, on this grid. Hands what lies before the mark to
   /// `take`, time after time. Throws an Error naming the file when that is not whole.
   SnapshotLog(const std::string& path, const Grid<D>& grid, std::size_t fields, const SnapshotMark& mark,
               const Take& take);

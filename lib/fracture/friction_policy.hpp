@@ -2,7 +2,7 @@
 
 #include "fracture/slip_law.hpp"
 
-/// What a friction law is made of. Each law has a header of its own (coulomb.hpp, slip_weakening.hpp) and
+/// The interface of a friction law. Each law has a header of its own (coulomb.hpp, slip_weakening.hpp) and
 /// overrides hooks of FrictionPolicy; kernels, the solver of crossing planes and tests take the law as a
 /// template parameter. Made for the inner loop, under the rules of slip_law.hpp.
 namespace slipwave {

@@ -42,7 +42,7 @@ class JointSlip {
   /// What the systems of a cell have besides its stress, by system.
   struct Cell {
     const Real* relaxation;  // c
-    const bool* open;        // whether the planes stand apart
+    const bool* open;        // whether the planes are open
     // Of laws with a state: slip so far, and h/mu.
     Real* slip_m = nullptr;
     Real slip_per_pa = 0;
@@ -50,7 +50,7 @@ class JointSlip {
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
       : correction_(correction), systems_(std::move(systems)) {}
-  /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the static stress.
+  /// Of one cell at the end of an elastic step: `s` is its stress, `total` that with the prestress.
   void slip(Stress<D, Real>& s, Stress<D, Real> total, const Cell& cell) const {
     const Stress<D, Real> before = total;
     if (correction_ == SlipCorrection::exponential)
@@ -59,7 +59,7 @@ class JointSlip {
       relax(total, cell);
     add(s, before, total);
   }
-  /// What the next step begins with.
+  /// The explicit half, with which the next step begins.
   void begin(Stress<D, Real>& s, Stress<D, Real> total, const Cell& cell) const {
     if (correction_ == SlipCorrection::first) return;
     const Stress<D, Real> before = total;

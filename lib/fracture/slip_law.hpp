@@ -21,7 +21,7 @@ namespace slipwave {
 /// Largest c: the reciprocal is still a normal float. Dry friction (eta = 0) has it.
 inline constexpr double most_relaxation_pa = 1e30;
 
-/// Rule by which slip within a step is made up for (theory.md 2.1).
+/// Rule of the slip correction of a step (theory.md 2.1).
 enum class SlipCorrection { first, second, exponential };
 
 namespace slip {
@@ -100,7 +100,7 @@ template <class Real>
 template <class Real>
 [[gnu::always_inline]] inline Real unloaded_loss(Real size, Real strength, Real relaxation) {
   const Real excess = greater(size - strength, Real(0));
-  // Written without a choice between results, for which compilers leave the vectors.
+  // Written without a choice between results, which compilers do not vectorise.
   return excess * smooth::decay(relaxation / greater(strength, least<Real>)).lost;
 }
 

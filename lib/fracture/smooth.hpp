@@ -1,8 +1,8 @@
 #pragma once
 
 /// Exponential and logarithm that both compilers turn into vectors. No standard header here: this is compiled
-/// once for each instruction set (lib/solver/slip_level.cpp), and the linker may keep one copy of a function
-/// for everybody.
+/// once for each instruction set (lib/solver/kernels/slip_level.cpp), and the linker may keep one copy of a
+/// function for everybody.
 namespace slipwave::smooth {
 
 /// Bits of a float or double.

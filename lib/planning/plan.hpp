@@ -6,7 +6,7 @@
 
 namespace slipwave {
 
-/// What shoot() would do, how well, and at what price.
+/// What shoot() would do, how well, and at what cost.
 template <int D>
 struct Plan {
   Grid<D> computed;  // zones included

@@ -95,7 +95,7 @@ Endian su_byte_order_of(std::span<const std::uint8_t, TraceLayout::size> header,
 FileKind kind_of(std::span<const std::uint8_t> first, std::optional<std::uint64_t> size) {
   const bool whole = first.size() >= header_bytes;
   if (whole && looks_like_text(first.first(text_bytes))) {
-    // text that goes on where numbers should stand is somebody's notes
+    // text that continues where numbers should stand is somebody's notes
     constexpr std::size_t assigned = 60;  // of the binary header, in every revision
     const bool has_format = order_of_format(first.subspan<text_bytes, BinaryLayout::size>()).has_value();
     const bool goes_on = !has_format && looks_like_text(first.subspan(text_bytes, assigned));

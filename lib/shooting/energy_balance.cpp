@@ -23,7 +23,7 @@ std::string sentence_of(const ShotReport& report, int dimension) {
     return shown(energy, 3) + (dimension == 2 ? " J/m" : " J");
   };
   const SlipTotals slip = report.slip.value_or(SlipTotals());
-  // Only the prestress makes heat that the waves did not bring.
+  // Only the prestress makes heat that does not come from the waves.
   const double of_static = slip.dissipated - slip.out_of_waves;
   std::string heat;
   if (std::abs(of_static) > 1e-6 * std::abs(slip.dissipated))

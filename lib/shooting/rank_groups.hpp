@@ -32,7 +32,7 @@ class RankGroups {
     std::string what;
   };
   /// Collective: each group shoots one of these shots, at most as many as there are groups, each process with
-  /// its part of the scene. Their outcomes in that order, on the process that leads. Where a shot became
+  /// its subdomain of the scene. Their outcomes in that order, on the process that leads. Where a shot became
   /// unstable, it throws the Unstable of the first such on that process and EndedElsewhere on the others.
   template <int D>
   std::vector<Outcome> shoot(const Scene<D>& scene, std::span<const std::size_t> shots,

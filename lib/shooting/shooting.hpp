@@ -10,7 +10,7 @@
 
 namespace slipwave {
 
-/// All that sw-shoot is asked for.
+/// The settings of sw-shoot.
 struct ShootingOptions {
   SceneOptions scene;
   OutputOptions output;

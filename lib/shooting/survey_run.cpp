@@ -77,7 +77,7 @@ void SurveyRun<D>::run() {
 template <int D>
 void SurveyRun<D>::simulate_all() {
   if (!state_.continues_at().empty())
-    messages_.say("goes on from " + options_.checkpoint + ": " + state_.continues_at());
+    messages_.say("continues from " + options_.checkpoint + ": " + state_.continues_at());
   const auto rest = unfinished_shots();
   if (traces_.one_per_shot() && writes()) traces_.write(state_, shots());
   for (std::size_t first = 0; first < rest.size(); first += at_once_) {

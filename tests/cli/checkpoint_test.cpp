@@ -43,11 +43,11 @@ class Checkpoint : public Shell {
     said = ran.err;
     return ran.code;
   }
-  /// The step a run says it goes on at, 0 where it says nothing.
+  /// The step at which a run says it continues, 0 where it says nothing.
   static long step_of(const std::string& said) {
     const std::string before = "at step ";
     const auto at = said.find(before);
-    return said.find("goes on from") == std::string::npos || at == std::string::npos
+    return said.find("continues from") == std::string::npos || at == std::string::npos
                ? 0
                : std::atol(said.c_str() + at + before.size());
   }

@@ -118,6 +118,6 @@ TEST_F(UnstableRun, IsUnstableAgainWhenItGoesOnFromItsCheckpoint) {
   EXPECT_TRUE(exists("c"));
   const Ran again = run(line);
   EXPECT_EQ(again.code, 3);
-  EXPECT_EQ(again.err.find("sw-shoot: goes on from c: shot 1 at step "), 0u) << again.err;
+  EXPECT_EQ(again.err.find("sw-shoot: continues from c: shot 1 at step "), 0u) << again.err;
   EXPECT_EQ(again.err.substr(again.err.find('\n') + 1), first.err);
 }

@@ -13,7 +13,7 @@ said=$("$1/tests/bench/report" --bin "$2/bin" --quick --filter \
   exit 1
 }
 for heading in Memory Kernels 'Whole steps' 'Three dimensions' Effects Growth; do
-  # Under the heading a table with a row that begins with words and goes on with a number above zero.
+  # Under the heading a table with a row that begins with words, then a number above zero.
   if ! printf '%s\n' "$said" | awk -v heading="## $heading" '
     /^## / { here = $0 == heading }
     here && /^\| [^|]+ \|( \|)* *[0-9.]*[1-9]/ { found = 1 }

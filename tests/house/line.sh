@@ -1,5 +1,5 @@
 #!/bin/sh
-# line.sh ROOT BUILD: the survey line in short: a target a shot, sorted traces, what was interrupted goes on, and the array job
+# line.sh ROOT BUILD: the survey line in short: a target a shot, sorted traces, an interrupted run continues, and the array job
 # makes the same bytes.
 set -eu
 root=$1
@@ -32,7 +32,7 @@ done
 # The nearest traces are one a shot, each of its own.
 "$bin/sw-info" "$work/out/near.sgy" | grep -q '^ *traces  *3$' || broken 'near.sgy does not hold a trace a shot'
 
-# Killed on its way, however it ends, make goes on to the same bytes.
+# Killed on its way, however it ends, make continues to the same bytes.
 survey OUT="$work/killed" >/dev/null 2>&1 &
 made=$!
 n=0
@@ -42,7 +42,7 @@ while [ ! -e "$work/killed/fractured/1.sgy" ] && [ "$n" -lt 600 ]; do
 done
 kill "$made" 2>/dev/null || :
 wait "$made" || :
-survey OUT="$work/killed" >/dev/null 2>&1 || broken 'what was killed does not go on'
+survey OUT="$work/killed" >/dev/null 2>&1 || broken 'a killed run does not continue'
 [ "$(sums "$work/killed")" = "$(sums "$work/out")" ] || broken 'after a kill the traces are others'
 
 # The array job, by an sbatch that runs all tasks at once and prints a number.

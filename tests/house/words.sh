@@ -47,6 +47,7 @@ cat > "$found/words" <<'WORDS'
 \<[a]head_pitch\>	pitch
 \<[c]ells a ((shortest|dominant|slowest) )?wavelength	cells per wavelength
 \<[p]hones\>	geophones, hydrophones
+\<([g]o|[g]oes) on\>	continue
 \<[t]ell_apart\>	split_by_runs
 WORDS
 for place in lib tools tests docs surveys README.md; do

@@ -19,20 +19,20 @@ Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<
   }
 }
 
-/// Does these things, one after the other, to all stretches of fracture cells that these columns hold.
-/// Columns end between two vectors or with the line.
+/// Applies these acts, one after the other, to all segments of fracture cells in these columns. Columns end
+/// between two vectors or with the row.
 template <int D, class Real>
-void Slip<D, Real>::each_stretch(const RowFields<Real>& fields, const IndexRange& columns,
+void Slip<D, Real>::each_segment(const RowFields<Real>& fields, const IndexRange& columns,
                                  std::initializer_list<SlipAct> acts) {
   const std::int64_t end =
       columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
   const std::int64_t line = fields.row, pitch = fields.pitch;
   Real* const stress = fields.field(FieldRows<D>::normal_stress(0));
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    for (const auto& stretch : groups_[g].stretches(line)) {
-      const std::int64_t first = std::max(stretch.first, columns.first), last = std::min(stretch.last, end);
+    for (const auto& segment : groups_[g].segments(line)) {
+      const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
       if (first >= last) continue;
-      const auto place = stretch.place + std::size_t(first - stretch.first);
+      const auto place = segment.place + std::size_t(first - segment.first);
       if (diary_.empty()) {
         for (const auto act : acts) groups_[g].act(act, stress + first, pitch, place, last - first);
         continue;
@@ -46,16 +46,16 @@ void Slip<D, Real>::each_stretch(const RowFields<Real>& fields, const IndexRange
           for (int c = 0; c < SymmetricTensor<D, Real>::components; ++c)
             std::copy(now + c * pitch, now + c * pitch + n, before + c * piece);
           groups_[g].act(act, now, pitch, place + std::size_t(done), n);
-          note(g, place + std::size_t(done), n, before, now, pitch, act);
+          record(g, place + std::size_t(done), n, before, now, pitch, act);
         }
       }
     }
 }
 
-/// What planes took off the stress of n cells is a strain, and stress times that an energy (S14).
+/// The decrease of stress by the planes of n cells is a strain, and stress times that an energy (S14).
 template <int D, class Real>
-void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, const Real* before,
-                         const Real* after, std::int64_t pitch, SlipAct act) {
+void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n, const Real* before,
+                           const Real* after, std::int64_t pitch, SlipAct act) {
   constexpr int components = SymmetricTensor<D, Real>::components;
   const std::int64_t piece = 64;
   for (std::int64_t i = 0; i < n; ++i) {
@@ -76,7 +76,7 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
       if (c >= D) continue;
       off_trace += off, mean_trace += (was + is) / 2, prestress_trace += stays;
     }
-    // Slip changes no normal stress in sum; opening does.
+    // Slip does not change the trace of the stress; opening does.
     const double share = off_trace * lambda / (2 * mu + D * lambda);
     entry.out_of_waves += (mean - share * mean_trace) / (2 * mu);
     entry.heat += (mean + of_prestress - share * (mean_trace + prestress_trace)) / (2 * mu);
@@ -91,23 +91,23 @@ void Slip<D, Real>::note(std::size_t group, std::size_t place, std::int64_t n, c
 template <int D, class Real>
 void Slip<D, Real>::apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) {
   if (opens_)
-    each_stretch(fields, cells, {SlipAct::open, SlipAct::slip});
+    each_segment(fields, cells, {SlipAct::open, SlipAct::slip});
   else
-    each_stretch(fields, cells, {SlipAct::slip});
+    each_segment(fields, cells, {SlipAct::slip});
 }
 
 template <int D, class Real>
 void Slip<D, Real>::apply_after_record(const StepTime&, const RowFields<Real>& fields,
                                        const IndexRange& cells) {
   if (correction_ == SlipCorrection::first && diary_.empty()) return;
-  each_stretch(fields, cells, {SlipAct::begin});
+  each_segment(fields, cells, {SlipAct::begin});
 }
 
 template <int D, class Real>
 void Slip<D, Real>::exchange(const IndexRange& rows, const std::function<void(Real*, std::int64_t)>& to) {
   const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
   for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
-    for (auto& group : groups_) group.show(line, to);
+    for (auto& group : groups_) group.exchange(line, to);
 }
 
 template <int D, class Real>
@@ -158,9 +158,9 @@ Field<D> Slip<D, Real>::field(SlipField which) const {
   Field<D> field(domain_.model_grid);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line)
-      for (const auto& stretch : groups_[g].stretches(line))
-        for (std::int64_t x = stretch.first; x < std::min(stretch.last, state_.layout.shape()[0]); ++x) {
-          const auto place = stretch.place + std::size_t(x - stretch.first);
+      for (const auto& segment : groups_[g].segments(line))
+        for (std::int64_t x = segment.first; x < std::min(segment.last, state_.layout.shape()[0]); ++x) {
+          const auto place = segment.place + std::size_t(x - segment.first);
           if (!groups_[g].holds(place)) continue;
           auto at = state_.layout.line_index(line);
           at[0] = x;
@@ -182,8 +182,8 @@ SlipTotals Slip<D, Real>::totals() const {
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       if (!domain_.owns(state_.layout.line_index(line)[D - 1])) continue;
-      for (const auto& stretch : groups_[g].stretches(line))
-        for (auto place = stretch.place; place < stretch.place + std::size_t(stretch.last - stretch.first);
+      for (const auto& segment : groups_[g].segments(line))
+        for (auto place = segment.place; place < segment.place + std::size_t(segment.last - segment.first);
              ++place) {
           totals.cells += groups_[g].holds(place);
           if (diary_.empty()) continue;

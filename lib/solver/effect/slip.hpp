@@ -9,8 +9,8 @@
 
 namespace slipwave::solver {
 
-/// The slip correction of all fracture cells at the end of a step (theory.md (S4)), in the order the scene
-/// asks for. Cells of the absorbing zones do not slip. Keeps references.
+/// The slip correction of all fracture cells at the end of a step (theory.md (S4)), in the order of
+/// accuracy that the scene sets. Cells outside the model do not slip. Keeps references.
 template <int D, class Real>
 class Slip : public Effect<D, Real> {
  public:
@@ -26,7 +26,7 @@ class Slip : public Effect<D, Real> {
   void apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
   void apply_after_record(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
   void serialize(Archive& archive) override;
-  /// What the cells of these rows remember from one step to the next, the diary apart.
+  /// What it retains of the cells of these rows from one step to the next, without the diary.
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override;
   void report(ShotReport& report) const override { report.slip = totals(); }
@@ -35,20 +35,21 @@ class Slip : public Effect<D, Real> {
     return true;
   }
 
-  /// A field of the diary on the model's grid: see SlipField. The scene must keep a diary, but for `opening`.
+  /// A field of the diary on the model's grid: see SlipField. Except for `opening` the scene must keep a
+  /// diary.
   Field<D> field(SlipField which) const;
   SlipTotals totals() const;
 
  private:
-  /// What is stored of a cell for the diary.
+  /// The diary of a cell.
   struct Entry {
-    double slip = 0, ahead = 0, in_step = 0;  // strain; of it what the next step began with, and of one step
+    double slip = 0, ahead = 0, in_step = 0;  // strain: in all, of it in the explicit half, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3
   };                                          // as the fields are
-  void each_stretch(const RowFields<Real>& fields, const IndexRange& cells,
+  void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
                     std::initializer_list<SlipAct> acts);
-  void note(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
-            std::int64_t pitch, SlipAct act);
+  void record(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
+              std::int64_t pitch, SlipAct act);
 
   State<D, Real>& state_;
   const Domain<D>& domain_;

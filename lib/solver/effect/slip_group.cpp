@@ -17,15 +17,15 @@ template <int D, class Real>
 SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                               std::size_t set, double dt_s, double unit)
     : set_(&scene.model.fracture_sets[set]), unit_(unit), number_(set) {
-  find_stretches(layout, domain, scene.model);
+  find_segments(layout, domain, scene.model);
   planes_ = planes_of<D, Real>(set_->systems, unit);
   fill(domain, scene, layout, dt_s);
   choose_kernels(scene.numerics.correction);
 }
 
 template <int D, class Real>
-void SlipGroup<D, Real>::find_stretches(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Model<D>& model) {
+void SlipGroup<D, Real>::find_segments(const Layout<D>& layout, const Domain<D>& domain,
+                                       const Model<D>& model) {
   std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
   constexpr auto block = Layout<D>::block;
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
@@ -40,11 +40,11 @@ void SlipGroup<D, Real>::find_stretches(const Layout<D>& layout, const Domain<D>
   std::int64_t line = -1, last = -1;
   for (const auto& [of_line, number] : blocks) {
     if (of_line != line || number * block != last) {
-      stretches_.push_back({number * block, 0, count_});
+      segments_.push_back({number * block, 0, count_});
       ++starts_[std::size_t(of_line) + 1];
     }
     line = of_line;
-    stretches_.back().last = last = (number + 1) * block;
+    segments_.back().last = last = (number + 1) * block;
     count_ += lanes;
   }
   for (std::size_t n = 1; n < starts_.size(); ++n) starts_[n] += starts_[n - 1];
@@ -72,14 +72,14 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   if (scene.slip_diary) mu_.assign(count_, 0);
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
   for (std::int64_t line = 0; line < layout.lines(); ++line)
-    for (const auto& stretch : stretches(line))
-      for (std::int64_t x = stretch.first; x < std::min(stretch.last, layout.shape()[0]); ++x) {
+    for (const auto& segment : segments(line))
+      for (std::int64_t x = segment.first; x < std::min(segment.last, layout.shape()[0]); ++x) {
         auto at = layout.line_index(line);
         at[0] = x;
         const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
         const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
         if (!inside || model.fracture[cell] != number_ + 1) continue;
-        const auto place = stretch.place + std::size_t(x - stretch.first);
+        const auto place = segment.place + std::size_t(x - segment.first);
         const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
         const double mu = rho * vs * vs;
         for (std::size_t n = 0; n < systems.size(); ++n)
@@ -96,7 +96,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
       }
 }
 
-/// One system, or two at right angles in 2-D, have kernels. They want the static stress on the planes.
+/// One system, or two at right angles in 2-D, have kernels. They need the prestress resolved on the planes.
 template <int D, class Real>
 void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
   const auto& systems = set_->systems;
@@ -185,11 +185,11 @@ std::vector<std::vector<Real>*> SlipGroup<D, Real>::memory() {
 }
 
 template <int D, class Real>
-void SlipGroup<D, Real>::show(std::int64_t line, const std::function<void(Real*, std::int64_t)>& to) {
-  for (const auto& stretch : stretches(line))
+void SlipGroup<D, Real>::exchange(std::int64_t line, const std::function<void(Real*, std::int64_t)>& to) {
+  for (const auto& segment : segments(line))
     for (auto* const memory : this->memory())
-      for (auto place = stretch.place; place < memory->size(); place += count_)
-        to(memory->data() + place, stretch.last - stretch.first);
+      for (auto place = segment.place; place < memory->size(); place += count_)
+        to(memory->data() + place, segment.last - segment.first);
 }
 
 template <int D, class Real>
@@ -207,7 +207,7 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
   rows.retained = from(retained_);
   rows.prestress = from(resolved_);
   rows.slip_per_pa = from(slip_per_pa_);
-  // Of rows that are not there, no pointer is moved.
+  // Null pointers of absent rows are not moved.
   rows.retained_pitch = retained_.empty() ? 0 : std::int64_t(count_);
   rows.prestress_pitch = resolved_.empty() ? 0 : std::int64_t(count_);
   return rows;
@@ -239,7 +239,7 @@ void SlipGroup<D, Real>::rest() {
   for (auto& slips : slips_m_) std::fill(slips.begin(), slips.end(), Real(0));
 }
 
-/// To and fro, as opening of one system changes the normal stress of the others.
+/// Forth and back, as opening of one system changes the normal stress of the others.
 template <int D, class Real>
 void SlipGroup<D, Real>::open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n) {
   const int systems = int(gaps_.size());

@@ -15,12 +15,12 @@
 
 namespace slipwave::solver {
 
-/// What slip does to cells: planes open or close, slip to the end of a step, take off what the next
-/// step begins with.
+/// The acts of slip on cells: planes open or close, slip to the end of a step, take the explicit half of the
+/// next step.
 enum class SlipAct { open, slip, begin };
 
-/// The cells of one fracture set: where they are, what slip needs to know of them and keeps of them. Cells of
-/// a line form stretches of whole vectors; cells of other sets or none among them have c = 0 and do not slip.
+/// The cells of one fracture set: their places, constants and state. Cells of a row form segments of whole
+/// vectors; cells of other sets or none among them have c = 0 and do not slip.
 template <int D, class Real>
 class SlipGroup {
  public:
@@ -28,21 +28,21 @@ class SlipGroup {
   SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t set,
             double dt_s, double unit);
 
-  /// Side by side on a line, from column `first` on; the first of them is number `place` of the group.
-  struct Stretch {
+  /// Neighbouring cells of a row, from column `first` on; the first of them is number `place` of the group.
+  struct Segment {
     std::int64_t first, last;
     std::size_t place;
   };
-  /// Of that line, ascending.
-  std::span<const Stretch> stretches(std::int64_t line) const {
-    return {stretches_.data() + starts_[std::size_t(line)],
+  /// Of that row, ascending.
+  std::span<const Segment> segments(std::int64_t line) const {
+    return {segments_.data() + starts_[std::size_t(line)],
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
   /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
   /// `pitch` apart. At the end of a step planes open before they slip.
   void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
 
-  /// Makes all that is stored of the cells what a step at rest leaves of them.
+  /// Sets the state of the cells to that after a step at rest.
   void rest();
 
   const FractureSet<D>& set() const { return *set_; }
@@ -52,9 +52,9 @@ class SlipGroup {
   bool has_prestress() const { return !prestress_.empty(); }
   SymmetricTensor<D, Real> prestress(std::size_t place) const;
   bool opens() const;
-  /// Strain by which the widest plane of a cell stands open.
+  /// Strain by which the widest plane of a cell is open.
   Real gap(std::size_t place) const;
-  /// Whether a cell is of the set.
+  /// Whether a cell belongs to the set.
   bool holds(std::size_t place) const;
   /// mu of a cell, Pa, 0 outside the set.
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
@@ -62,15 +62,15 @@ class SlipGroup {
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
   /// All that changes from step to step.
   std::vector<std::vector<Real>*> memory();
-  /// The same of the cells of a line.
-  void show(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
+  /// Gives access to that of the cells of a row.
+  void exchange(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
 
  private:
-  void find_stretches(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);
+  void find_segments(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
-  /// The law of all systems: one that covers those of each.
+  /// The law for all systems: one that covers those of each.
   FrictionLaw law() const;
   template <class Law>
   void add_joint(SlipCorrection correction);
@@ -82,22 +82,22 @@ class SlipGroup {
   const FractureSet<D>* set_;
   double unit_;
   std::size_t number_;
-  std::vector<Stretch> stretches_;
+  std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
-  std::size_t count_ = 0;            // cells of all stretches
+  std::size_t count_ = 0;            // cells of all segments
   std::int64_t cells_ = 0;
   SlipPlanes<Real> planes_{};  // of all systems, for s_n and opening
   SlipKernels<Real> kernels_{};
   GapKernel<Real> open_ = nullptr;
-  // Where no kernel knows the systems.
+  // For systems without a kernel.
   std::variant<std::monostate, JointSlip<D, Real, Coulomb>, JointSlip<D, Real, SlipWeakening>> joint_;
   std::vector<std::vector<Real>> relaxation_;  // [system][cell], as stress
   std::vector<std::vector<Real>> gaps_;        // [system][cell], of systems that open; else empty
   std::vector<Real> shut_;                     // the gap of the others, where kernels read gaps
   std::vector<Real> lambda_, modulus_, mu_;    // Pa, where planes open or a diary is written
-  std::vector<Real> prestress_;                // static stress, row after row; empty: none
-  std::vector<Real> resolved_;                 // the part of it on planes, as SlipRows says
-  std::vector<Real> retained_;                 // rows of what steps leave for the next
+  std::vector<Real> prestress_;                // row after row; empty: none
+  std::vector<Real> resolved_;                 // prestress resolved on planes, as in SlipRows
+  std::vector<Real> retained_;                 // rows that kernels retain from step to step
   std::vector<std::vector<Real>> slips_m_;     // [system][cell], where the law has a state; else empty
   std::vector<Real> slip_per_pa_;              // h/mu, where the law has a state
 };

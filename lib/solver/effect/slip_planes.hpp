@@ -15,7 +15,7 @@ bool at_right_angles(const Point<D>& a, const Point<D>& b);
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
 
-/// What kernels need to know of up to three systems of a set; their shear traction is that of the first.
+/// The constants of kernels for up to three systems of a set; their shear traction is that of the first.
 /// Stress is `unit` times Pa.
 template <int D, class Real>
 SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit = 1);

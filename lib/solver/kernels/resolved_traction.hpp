@@ -49,7 +49,7 @@ struct OneSystem {
   }
 };
 
-/// What acts on the planes of one system besides the stress of waves: static stress and opening.
+/// Prestress and opening of the planes of one system.
 template <class Real>
 struct OnSystem {
   const Real* __restrict const normal;
@@ -63,7 +63,7 @@ struct OnSystem {
         gaps(rows.gap[0]) {}
 };
 
-/// Strength of planes that may stand open.
+/// Strength of planes that may be open.
 template <class Law, bool Extended, class Real>
 [[gnu::always_inline]] inline Real strength_of(const FrictionConstants<Real>& law, Real s_n, Real slip_m,
                                                Real gap) {

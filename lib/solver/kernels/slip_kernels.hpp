@@ -19,7 +19,7 @@ struct SlipPlanes {
   FrictionConstants<Real> law[most_systems];
 };
 
-/// Cells of a line side by side, from the first one on.
+/// Neighbouring cells of a row, from the first one on.
 template <class Real>
 struct SlipRows {
   Real* stress;  // first component, the others `pitch` apart
@@ -27,13 +27,13 @@ struct SlipRows {
   const Real* relaxation[2];  // mu dt/eta of each system, 0 in cells that do not slip
   Real* retained;             // SlipKernels::retained_rows, `retained_pitch` apart
   std::int64_t retained_pitch;
-  // Read where SlipCase::prestress_or_gap says so only.
+  // Read only with SlipCase::prestress_or_gap.
   const Real* prestress;  // s_n of each system, then tau
   std::int64_t prestress_pitch;
   const Real* gap[2];  // of each system (open), 0 where it cannot open
-  // Where the law has a state only.
+  // Only where the law has a state.
   Real* slip_m[2];          // slip of each system so far
-  const Real* slip_per_pa;  // h/mu: slip of which 1 Pa of traction is taken off
+  const Real* slip_per_pa;  // h/mu: slip that lowers the traction by 1 Pa
 };
 
 /// Cells of a plane that may open.
@@ -41,17 +41,17 @@ template <class Real>
 struct GapRows {
   Real* stress;
   std::int64_t pitch;
-  Real* gap;                     // strain by which planes stand open, n.e.n
+  Real* gap;                     // strain by which planes are open, n.e.n
   const Real *lambda, *modulus;  // Lame's and lambda + 2 mu, Pa
   const Real* prestress;         // s_n
 };
 
-/// Inner loops of slip over n neighbouring cells of a line.
+/// Inner loops of slip over n neighbouring cells of a row.
 template <class Real>
 struct SlipKernels {
-  /// What slip makes of the stress at the end of an elastic step (S5), (S6), (S10).
+  /// The slip correction of the stress at the end of an elastic step (S5), (S6), (S10).
   void (*slip)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
-  /// What the next step begins with.
+  /// The explicit half, with which the next step begins.
   void (*begin)(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows);
   /// Rows retained from step to step; before the first as `begin` leaves them at rest.
   int retained_rows;
@@ -62,7 +62,7 @@ template <class Real>
 using GapKernel = void (*)(std::int64_t n, const SlipPlanes<Real>& planes, int system,
                            const GapRows<Real>& rows);
 
-/// What a kernel is asked for.
+/// The case that a kernel is compiled for.
 struct SlipCase {
   int dimensions = 2, systems = 1;  // two systems in 2-D only
   SlipCorrection correction = SlipCorrection::second;
@@ -70,7 +70,7 @@ struct SlipCase {
   FrictionLaw law = FrictionLaw::coulomb;
 };
 
-/// Those for the best instruction set of this processor.
+/// The kernels for the best instruction set of this processor.
 template <class Real>
 SlipKernels<Real> slip_kernels(const SlipCase& of);
 template <class Real>

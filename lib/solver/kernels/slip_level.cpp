@@ -8,10 +8,10 @@
 namespace slipwave::solver {
 namespace {
 
-/// Which half of the work: the end of a step or what the next one begins with.
+/// Which half: that of the end of a step or the explicit half of the next one.
 enum class Half { end, beginning };
 
-/// What the exponential rule retains of the beginning of a step: tau, S and what was taken off tau.
+/// What the exponential rule retains from the beginning of a step: tau, S and the decrease of tau.
 template <int D, class Real>
 struct Beginning {
   Real* __restrict const tau1;
@@ -37,7 +37,7 @@ template <SlipCorrection Correction, class Real>
 template <int D, class Real>
 [[gnu::always_inline]] inline Real exponential_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
                                                    Real u2, Real size, Real strength, Real relaxation) {
-  // Along the traction of the end: where it began, and with what the beginning took off.
+  // Along the traction of the end: its start, and that less the decrease at the beginning.
   const Real old = began.strengths[i], b1 = began.tau1[i], b2 = D == 3 ? began.tau2[i] : Real(0);
   const Real start = u1 * b1 + u2 * b2;
   const Real from = D == 2 ? start - (start < 0 ? -began.losses[i] : began.losses[i])
@@ -48,7 +48,7 @@ template <int D, class Real>
   return relaxation > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
 }
 
-/// What one system makes of the stress.
+/// The correction of stress by one system.
 template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 [[gnu::noinline]] void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   constexpr bool exponential = Correction == SlipCorrection::exponential;
@@ -370,7 +370,7 @@ SlipKernels<Real> of_law(const SlipCase& of) {
   return of.prestress_or_gap ? of_correction<Law, true, Real>(of) : of_correction<Law, false, Real>(of);
 }
 
-/// A new law stands here, too.
+/// A new law is added here, too.
 template <class Real>
 SlipKernels<Real> of(const SlipCase& of) {
   return of.law == FrictionLaw::coulomb ? of_law<Coulomb, Real>(of) : of_law<SlipWeakening, Real>(of);
