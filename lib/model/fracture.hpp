@@ -54,7 +54,7 @@ enum class SlipEffect { slip, friction, viscosity, cohesion, opening, prestress 
 SlipEffect slip_effect_named(const std::string& name);
 
 /// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
-/// planes that carry tension, no static stress. `slip` leaves the model alone: Scene::with_slip.
+/// planes that carry tension, no prestress. `slip` leaves the model alone: Scene::with_slip.
 template <int D>
 void remove_effect(Model<D>& model, SlipEffect effect);
 

@@ -16,7 +16,7 @@ struct Lithostatic {
   std::optional<double> k0;
 };
 
-/// What the static stress of cells is made from: none, the weight above, or one tensor, Pa, tension positive.
+/// What the prestress of cells is made from: none, the weight above, or one tensor, Pa, tension positive.
 template <int D>
 using Prestress = std::variant<std::monostate, Lithostatic, SymmetricTensor<D, double>>;
 
@@ -30,11 +30,11 @@ Prestress<D> parse_prestress(const std::string& text);
 template <int D>
 const std::vector<std::string>& stress_names();
 
-/// Gives the cells of fracture set `code` (1-based) their static stress.
+/// Gives the cells of fracture set `code` (1-based) their prestress.
 template <int D>
 void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestress);
 
-/// Throws an Error on the first fractured cell whose static stress is not finite, or slips (shear traction
+/// Throws an Error on the first fractured cell whose prestress is not finite, or slips (shear traction
 /// above the strength (S2)) or parts (s_n > 0 where planes open) by itself.
 template <int D>
 void check_prestress(const Model<D>& model);

@@ -100,7 +100,7 @@ struct Regridding {
   }
 
   /// Calls fill(new cell, its index, the old cell its centre lies in) and takes over the fractures and their
-  /// static stress.
+  /// prestress.
   template <class Fill>
   Model<D> filled(const Model<D>& from, Fill&& fill) {
     for (std::int64_t n = 0; n < model.grid().size(); ++n) {

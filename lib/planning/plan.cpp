@@ -76,7 +76,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.time_step_s = time_step_s(scene);
   plan.courant = plan.time_step_s / stable_time_step_s(scene);
   plan.steps = step.steps();
-  plan.passes = step.planned();
+  plan.entries = step.planned();
   plan.interface_cells = step.sweeps().interface_stencil_cells();
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
@@ -134,8 +134,8 @@ Report report_of(const Plan<D>& plan) {
                                    shown(plan.seconds / plan.threads, 2) + " s on " +
                                    std::to_string(plan.threads) + " threads");
   report.text("instruction set", plan.instruction_set);
-  for (const auto& pass : plan.passes)
-    report.text("part of step", pass.name + ": " + shown(100 * pass.share, 3) + " % of the cells");
+  for (const auto& entry : plan.entries)
+    report.text("part of step", entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");
   return report;
 }
 

@@ -13,7 +13,7 @@ struct Plan {
   double time_step_s = 0;
   double courant = 0;  // vp_max dt/h
   std::int64_t steps = 0;
-  std::vector<PlannedEntry> passes;
+  std::vector<PlannedEntry> entries;
   std::int64_t interface_cells =
       0;  // with stencils of their own beside strong interfaces and voids, all axes and waves
   std::int64_t memory_bytes = 0;

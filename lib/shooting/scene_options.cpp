@@ -66,7 +66,7 @@ template <int D>
 void SceneOptions::check_model(Model<D>& read) const {
   in_place(model == "-" ? "standard input" : model, [&] { check(read, limits); });
   for (const auto effect : effects_without()) remove_effect(read, effect);
-  // What is left must still hold together: planes without friction may slip under the static stress.
+  // What is left must still hold together: planes without friction may slip under the prestress.
   if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
 }
 

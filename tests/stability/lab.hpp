@@ -60,9 +60,9 @@ class Lab {
   void step();
   /// Of the whole computed grid, zones included, J per metre; NaN where a field is.
   double energy() const;
-  /// The same with the static stress on top of that of the waves.
+  /// The same with the prestress on top of that of the waves.
   double energy_with_prestress() const;
-  /// energy() less the work that the static stress has done by slip and opening: the potential energy of all
+  /// energy() less the work that the prestress has done by slip and opening: the potential energy of all
   /// stress under loads that stay, up to a constant.
   double potential() const { return energy() - work_of_prestress_; }
   double time_step_s() const { return dt_s_; }

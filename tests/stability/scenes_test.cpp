@@ -231,7 +231,7 @@ double energy_of(const Medium<2>& medium, const FieldReader<2>& field) {
   return total;
 }
 
-/// At least the work that the static stress can have done: no more than its size times the strain of slip.
+/// At least the work that the prestress can have done: no more than its size times the strain of slip.
 double most_work_of_prestress(const Model<2>& model, const FieldReader<2>& field) {
   if (model.prestress_pa.empty()) return 0;
   const auto slip = field(SlipField::slip);
@@ -279,7 +279,7 @@ std::string shown(const Drawn& drawn, unsigned seed) {
        << scene.survey.sources[0].wavelet.text() << ", order " << scene.numerics.order << ", cfl "
        << scene.numerics.cfl << (scene.numerics.double_precision ? ", double" : ", float")
        << (scene.slips() ? std::string(", slip ") + name_of(scene.numerics.correction) : "")
-       << (scene.model.prestress_pa.empty() ? "" : " under static stress") << ", order in time "
+       << (scene.model.prestress_pa.empty() ? "" : " under prestress") << ", order in time "
        << scene.numerics.time_order << ", " << slipwave::shown(scene.model.grid());
   return text.str();
 }

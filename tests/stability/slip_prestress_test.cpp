@@ -1,5 +1,5 @@
-// Slip in rock under static stress. Slip by a strain e takes the energy s:e out of the stress s of the waves
-// (the mean of before and after), and what becomes heat is (s0 + s):e >= 0, s0 being the static stress: it
+// Slip in rock under prestress. Slip by a strain e takes the energy s:e out of the stress s of the waves
+// (the mean of before and after), and what becomes heat is (s0 + s):e >= 0, s0 being the prestress: it
 // has done the work s0:e. So the energy of the waves may rise. What never rises is
 //
 //   the energy of the waves less the sum over cells of s0:e,
@@ -54,7 +54,7 @@ const std::vector<Law>& some_laws() {
   return all;
 }
 
-/// Cluster, law and amplitude of the waves against a static stress of 10 MPa, for every case.
+/// Cluster, law and amplitude of the waves against a prestress of 10 MPa, for every case.
 template <class Real, class Run>
 void each(Rotation& rotation, const Planes& planes, const Run& run) {
   for (const auto& law : some_laws())
