@@ -141,44 +141,44 @@ int reach_within(const Side& low, const Side& high, int reach) {
 
 /// Value of the pair at a stencil offset, extended beyond the strong interfaces or edges (E10), (E11).
 template <class Real>
-void extend(const InterfaceStencil& end, int offset, std::int64_t stride, const Real* v, const Real* s,
+void extend(const InterfaceStencil& stencil, int offset, std::int64_t stride, const Real* v, const Real* s,
             Real& v_at, Real& s_at) {
-  const bool below = offset < -end.low;
-  if (!below && offset <= end.high) {
+  const bool below = offset < -stencil.low;
+  if (!below && offset <= stencil.high) {
     v_at = v[offset * stride];
     s_at = s[offset * stride];
     return;
   }
-  const Extension law = below ? end.low_law : end.high_law;
+  const Extension law = below ? stencil.low_law : stencil.high_law;
   if (law == Extension::constant) {
-    const std::int64_t last = below ? -end.low : end.high;
+    const std::int64_t last = below ? -stencil.low : stencil.high;
     v_at = v[last * stride];
     s_at = s[last * stride];
     return;
   }
   // The mirror image lies nearer to the cell with each fold, so this ends.
-  const int mirrored = below ? -2 * end.low - 1 - offset : 2 * end.high + 1 - offset;
-  extend(end, mirrored, stride, v, s, v_at, s_at);
+  const int mirrored = below ? -2 * stencil.low - 1 - offset : 2 * stencil.high + 1 - offset;
+  extend(stencil, mirrored, stride, v, s, v_at, s_at);
   if (law == Extension::traction_free) {
     s_at = -s_at;
   } else if (law == Extension::motionless) {
     v_at = -v_at;
   } else {
-    const std::int64_t across =
-        below ? std::max(offset, -end.low - end.beyond_low) : std::min(offset, end.high + end.beyond_high);
-    const Real twice = 2 * Real(below ? end.share_low : end.share_high);
+    const std::int64_t across = below ? std::max(offset, -stencil.low - stencil.beyond_low)
+                                      : std::min(offset, stencil.high + stencil.beyond_high);
+    const Real twice = 2 * Real(below ? stencil.share_low : stencil.share_high);
     v_at += twice * (v[across * stride] - v_at);
     s_at += (2 - twice) * (s[across * stride] - s_at);
   }
 }
 
 template <int Order, class Real>
-void correct_cell(const InterfaceStencil& end, std::int64_t stride, const Real* v, const Real* s,
+void correct_cell(const InterfaceStencil& stencil, std::int64_t stride, const Real* v, const Real* s,
                   Real impedance, Real b, Real scale, Real& up, Real& down) {
   constexpr int reach = reach_of(Order);
   Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
   for (int k = -reach; k <= reach; ++k)
-    extend(end, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
+    extend(stencil, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
   const Real sign = scale < 0 ? -1 : 1;
   reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance,
                           sign * scale * (impedance * b), up, down);
@@ -226,8 +226,9 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
 
 bool InterfaceStencils::any_of_line(std::int64_t line, const IndexRange& columns) const {
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
-  const auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
-                                     [](const InterfaceStencil& end, std::int64_t x) { return end.x < x; });
+  const auto cell =
+      std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
+                       [](const InterfaceStencil& stencil, std::int64_t x) { return stencil.x < x; });
   return cell != stop && cell->x < columns.last;
 }
 
@@ -245,7 +246,7 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
   const Real* const impedance = wave_ == wave_p ? material.zp : material.zs;
   if (columns.first > 0)
     cell = std::lower_bound(cell, stop, columns.first,
-                            [](const InterfaceStencil& end, std::int64_t x) { return end.x < x; });
+                            [](const InterfaceStencil& stencil, std::int64_t x) { return stencil.x < x; });
   for (; cell != stop && cell->x < columns.last; ++cell) {
     const auto i = cell->x - columns.first;
     if (cell->reach == not_carried)

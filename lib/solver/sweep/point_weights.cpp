@@ -75,8 +75,8 @@ constexpr double centred_from = half_a_stencil - 1;
 
 /// The cells round a point and the extension of the field beyond those at an edge of the grid.
 template <int D>
-std::array<AxisCells, std::size_t(D)> continued_cells(const Domain<D>& domain, const Index<D>& centre,
-                                                      int field_row, bool fluid) {
+std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                     int field_row, bool fluid) {
   auto usable = usable_cells(domain, centre);
   for (std::size_t axis = 0; axis < D; ++axis) {
     if (usable[axis].low == 0)
@@ -143,7 +143,7 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
                                      const Point<D>& point_m, int field_row) {
   const Index<D> centre = cell_at(domain, point_m);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
-  const auto usable = continued_cells(domain, centre, field_row, fluid);
+  const auto usable = extended_cells(domain, centre, field_row, fluid);
   std::vector<ValueWeight> weights = weights_within(layout, domain, point_m, usable, field_row);
   if (!fluid && field_row < D)
     for (int axis = 0; axis < D; ++axis)
@@ -159,7 +159,7 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
   const Index<D> centre = cell_at(domain, point_m);
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
     return row_weights(layout, domain, point_m, field_row);
-  auto usable = continued_cells(domain, centre, field_row, false);
+  auto usable = extended_cells(domain, centre, field_row, false);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = usable[std::size_t(axis)];
     const double position = domain.grid.position(axis, point_m[axis]);

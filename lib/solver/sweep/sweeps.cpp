@@ -469,8 +469,8 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   for (const auto& line : {here, below, advanced})
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
       if (run.first < columns.last && run.last > columns.first) return false;
-  for (const auto& ends : stencils_[axis])
-    if (ends.any(number, columns)) return false;
+  for (const auto& stencils : stencils_[axis])
+    if (stencils.any(number, columns)) return false;
   for (const auto* filter : filters_)
     for (const auto& part : filter->filtered(axis, advanced, columns))
       if (!part.empty()) return false;
