@@ -38,15 +38,25 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
 }
 
+/// Numbers of a list as texts.
+template <std::size_t Count>
+std::vector<std::string> texts_of(const int (&numbers)[Count]) {
+  std::vector<std::string> texts;
+  for (const int number : numbers) texts.push_back(std::to_string(number));
+  return texts;
+}
+
 /// Order, time step, slip correction.
 inline void declare_numerics(cli::Options& options, SceneOptions& s) {
-  options.add_choice("order", s.order, {"1", "3", "5", "7"}, "order of the scheme in space");
-  options.add_choice("time-order", s.time_order, {"2", "4"},
+  options.add_choice("order", s.order, texts_of(orders), "order of the scheme in space");
+  options.add_choice("time-order", s.time_order, texts_of(time_orders),
                      "order in time; 4: six times the work per step, --cfl up to 2");
   options.add_choice("correction", s.correction, {"first", "second", "exponential"},
                      "time integration of slip: first order, second order, or exact per step");
   options.add("cfl", s.cfl, "C", "Courant number: time step over h/vp_max");
   options.add("time-step", s.time_step_s, "S", "time step, s, instead of --cfl");
+  // For who checks the program: the reference executor, slow and on one process.
+  options.add_choice("executor", s.executor, {"tiled", "plain"}, cli::hidden);
 }
 
 }  // namespace slipwave

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <span>
 
 #include "accuracy/cases.hpp"
 #include "accuracy/ladder.hpp"
@@ -27,9 +28,9 @@ void declare(cli::Options& options, Settings& s) {
   options.add_choice("case", s.built_in, {"full-space"},
                      "a built-in scene with a closed form, instead of a model");
   options.add("steps", s.steps, "LIST", "cell sizes, m [the model's and twice that]");
-  options.add("orders", s.orders, "LIST", "orders of the scheme in space: 1, 3, 5, 7");
+  options.add("orders", s.orders, "LIST", "orders of the scheme in space: " + joined(texts_of(orders), ", "));
   options.add("cfls", s.cfls, "LIST", "Courant numbers, up to 1; with order 4 in time up to 2");
-  options.add("time-orders", s.time_orders, "LIST", "orders in time: 2, 4");
+  options.add("time-orders", s.time_orders, "LIST", "orders in time: " + joined(texts_of(time_orders), ", "));
   options.add("corrections", s.corrections, "LIST", "time integration of slip: first, second, exponential");
   options.add("reference", s.reference, "ORDER,CFL,STEP",
               "reference solution [7,0.4 and the finest of --steps]");
@@ -55,7 +56,7 @@ std::vector<double> numbers_of(const char* option, const std::string& list) {
   return numbers;
 }
 
-int one_of(const char* option, double number, const std::vector<int>& choices) {
+int one_of(const char* option, double number, std::span<const int> choices) {
   std::string list;
   for (const int choice : choices) {
     if (number == choice) return choice;
@@ -85,8 +86,8 @@ std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene)
       for (const double cfl : numbers_of("--cfls", s.cfls))
         for (const double time_order : numbers_of("--time-orders", s.time_orders))
           for (const auto& correction : corrections)
-            ladder.push_back({one_of("--orders", order, {1, 3, 5, 7}), cfl, step, correction_of(correction),
-                              one_of("--time-orders", time_order, {2, 4})});
+            ladder.push_back({one_of("--orders", order, orders), cfl, step, correction_of(correction),
+                              one_of("--time-orders", time_order, time_orders)});
   return ladder;
 }
 
@@ -95,7 +96,7 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
   const auto numbers = numbers_of("--reference", s.reference);
   if (numbers.size() != 3)
     throw Error("--reference: found " + s.reference + ", expected ORDER,CFL,STEP", ErrorKind::usage);
-  return {one_of("--reference", numbers[0], {1, 3, 5, 7}), numbers[1], numbers[2], SlipCorrection::second};
+  return {one_of("--reference", numbers[0], orders), numbers[1], numbers[2], SlipCorrection::second};
 }
 
 /// The user's scene; nothing of it is asked for where a built-in case is.

@@ -17,8 +17,8 @@ namespace po = boost::program_options;
 
 // Not part of the provenance: the bytes of the output do not depend on them.
 const std::set<std::string> without_effect = {
-    "output",           "threads",           "quiet",          "verbose",      "checkpoint",
-    "checkpoint-every", "shots-in-parallel", "ranks-per-shot", "keep-unstable"};
+    "output",           "threads",           "quiet",          "verbose",       "checkpoint",
+    "checkpoint-every", "shots-in-parallel", "ranks-per-shot", "keep-unstable", "executor"};
 // Only sensible on the command line.
 const std::set<std::string> not_in_config = {"help", "version", "config"};
 
@@ -219,6 +219,7 @@ std::string Parser::help() const {
   constexpr std::size_t width = 100, column = 30;
   std::string text = "Usage: " + info_.name + " " + info_.synopsis + "\n" + info_.summary + "\n\n";
   for (const auto& option : options_.options_) {
+    if (option.help == hidden) continue;
     std::string line = option.short_name.empty() ? "  --" : "  -" + option.short_name + ", --";
     line += option.name + (option.placeholder.empty() ? "" : " " + option.placeholder);
     line.resize(std::max(column, line.size() + 2), ' ');

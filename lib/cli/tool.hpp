@@ -18,6 +18,9 @@ struct ToolInfo {
   std::string example;   // one command line that works
 };
 
+/// In place of the help of an option that --help does not show: one for who checks the program.
+inline constexpr const char* hidden = "";
+
 /// Declares options bound to the tool's Settings. Names are the long option names without dashes; "output,o"
 /// gives a short form. Every option can also stand in the file given by --config, the command line wins.
 class Options {

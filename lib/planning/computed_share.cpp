@@ -120,7 +120,7 @@ double steps_to(const Scene<D>& scene, std::size_t axis, double place_m) {
   }
   for (const auto& part : splitting(D, scene.numerics.time_order)) sweeps += std::size_t(part.axis) == axis;
   const double distance_m = std::max({low - place_m, place_m - high, 0.});
-  const double reach = solver::reach_of(scene.numerics.order) + 1;
+  const double reach = reach_of(scene.numerics.order) + 1;
   return distance_m / scene.model.grid().spacing_m / (sweeps * reach);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <type_traits>
 
 #include "base/error.hpp"
@@ -13,6 +14,14 @@
 
 namespace slipwave {
 namespace {
+
+/// "2 or 4".
+std::string alternatives(std::span<const int> numbers) {
+  std::string text;
+  for (std::size_t n = 0; n < numbers.size(); ++n)
+    text += (n == 0 ? "" : n + 1 < numbers.size() ? ", " : " or ") + std::to_string(numbers[n]);
+  return text;
+}
 
 template <int D>
 void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
@@ -213,15 +222,16 @@ void check(const Scene<D>& scene) {
     check_count(scene.recording.duration_s, "--every", *scene.snapshot_every_s, "snapshots");
   }
   const auto& numerics = scene.numerics;
-  if (numerics.order != 1 && numerics.order != 3 && numerics.order != 5 && numerics.order != 7)
-    throw Error("found order " + std::to_string(numerics.order) + ", expected 1, 3, 5 or 7",
+  if (!holds(orders, numerics.order))
+    throw Error("found order " + std::to_string(numerics.order) + ", expected " + alternatives(orders),
                 ErrorKind::usage);
   if (numerics.zone_cells < 0 || numerics.zone_cells > 10000)
     throw Error("found --edge-width " + std::to_string(numerics.zone_cells) + ", expected 0 to 10000 cells",
                 ErrorKind::usage);
-  if (numerics.time_order != 2 && numerics.time_order != 4)
-    throw Error("found time order " + std::to_string(numerics.time_order) + ", expected 2 or 4",
-                ErrorKind::usage);
+  if (!holds(time_orders, numerics.time_order))
+    throw Error(
+        "found time order " + std::to_string(numerics.time_order) + ", expected " + alternatives(time_orders),
+        ErrorKind::usage);
   const double limit = stable_time_step_s(scene), largest = largest_cfl(numerics);
   if (numerics.time_step_s) {
     check_positive(*numerics.time_step_s, "--time-step", "s");

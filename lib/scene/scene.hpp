@@ -9,6 +9,7 @@
 #include "gather/trace.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
+#include "scene/orders.hpp"
 #include "scene/subdomain.hpp"
 
 namespace slipwave {
@@ -30,13 +31,13 @@ struct Tiling {
 
 /// How the scene is computed. Defaults are those of sw-shoot.
 struct Numerics {
-  int order = 5;                      // of the reconstruction: 1, 3, 5, 7
+  int order = 5;                      // of the reconstruction: one of `orders`
   double cfl = 0.9;                   // time step over h/vp_max
   std::optional<double> time_step_s;  // instead of cfl
   int zone_cells = 0;  // width of the absorbing layers; 0: as their kind needs, see zone_cells()
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
-  int time_order = 2;  // of the splitting in time: 2, 4
+  int time_order = 2;  // of the splitting in time: one of `time_orders`
   Tiling tiling;
 };
 

@@ -49,6 +49,7 @@ Scene<D> SceneOptions::without_model() const {
                               : correction == "second" ? SlipCorrection::second
                                                        : SlipCorrection::exponential;
   scene.numerics.double_precision = precision == "double";
+  scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);
   for (const auto effect : effects_without()) scene.with_slip &= effect != SlipEffect::slip;
   return scene;

@@ -90,7 +90,7 @@ void add(const char* name, Subdomain part, int order, bool uniform) {
 template <class Real>
 void add_all() {
   for (const bool uniform : {true, false}) {
-    for (const int order : solver::orders) {
+    for (const int order : orders) {
       add<Real>("leave", Subdomain::leave, order, uniform);
       add<Real>("sweep", Subdomain::sweep, order, uniform);
     }

@@ -42,7 +42,7 @@ std::int64_t Shot::memory_bytes() const {
 }
 
 int flops_of_leaving(int order, bool uniform) {
-  const int m = solver::reach_of(order);
+  const int m = reach_of(order);
   // As written in reconstruction.hpp.
   // Courant number 2, then by neighbours on each side as they are computed there.
   constexpr int weights_by_reach[] = {0, 2 + 7, 2 + 18, 2 + 32};

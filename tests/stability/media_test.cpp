@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, EnergyIn,
 TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
   const ThreadLimit one_thread(1);
   for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror})
-    for (const int order : {1, 3, 5, 7})
+    for (const int order : orders)
       for (const std::string medium : {"WaterOverCurvedRock", "RandomAirAndSteel", "RandomMixture"}) {
         SCOPED_TRACE(medium + " order " + std::to_string(order) +
                      (edges == EdgeLaw::rigid ? " rigid" : " mirror"));
@@ -124,7 +124,7 @@ TEST(Energy, NeverRisesOnGridsOfAFewCells) {
   const ThreadLimit one_thread(1);
   for (const auto& [nx, nz] : {std::pair{1, 1}, {1, 9}, {9, 1}, {2, 3}, {4, 4}, {17, 2}})
     for (const auto edges : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror})
-      for (const int order : {1, 3, 5, 7}) {
+      for (const int order : orders) {
         SCOPED_TRACE(std::to_string(nx) + " x " + std::to_string(nz) + " order " + std::to_string(order));
         Lab<double>::Setup setup;
         setup.medium = rock(nx, nz);

@@ -167,7 +167,7 @@ TEST(StepError, IsWhatTheSchemeDoesToAWaveAcrossTheAxes) {
 
 TEST(StepError, AlongAnAxisIsTheOneOfTheSweep) {
   // Nothing is split there: (E12) over the whole step.
-  for (const int order : {1, 3, 5, 7})
+  for (const int order : orders)
     for (const double cells : {4., 9., 30.}) {
       const auto p = step_error({order, 0.8, 0.4}, WaveKind::p, cells, 0);
       EXPECT_LT(

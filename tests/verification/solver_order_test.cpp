@@ -62,7 +62,7 @@ double error_of_a_pulse(const Kind& kind, int order, double h, bool backwards) {
 TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
   // 0.2: what the next term of the error takes off while the pulse is 10 to 20 cells wide. Order 1 smears
   // the pulse so much that only finer grids show its order.
-  for (const int order : {1, 3, 5, 7}) {
+  for (const int order : orders) {
     const double h = order == 1 ? 1 : order == 7 ? 5 : 2.5;
     for (const auto& kind : kinds)
       for (const bool backwards : {false, true}) {
@@ -77,7 +77,7 @@ TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
 
 TEST(Reconstruction, MovesAWaveAWholeCellAtCourantNumberOne) {
   // a = 1: F_up[u] = u_i whatever the order, so the wave moves by a cell per sweep, to rounding.
-  for (const int order : {1, 3, 5, 7})
+  for (const int order : orders)
     for (const auto& kind : kinds) {
       const std::int64_t n = 40;
       L lab = line(kind, n, 5, order, 1);
@@ -99,7 +99,7 @@ TEST(Dispersion, OfASineIsTheOnePredicted) {
   // Rounding: 50 steps of 1e-16 on fields of 1.
   constexpr std::int64_t n = 40;
   constexpr int steps = 50;
-  for (const int order : {1, 3, 5, 7})
+  for (const int order : orders)
     for (const double courant : {0.2, 0.5, 0.9, 1.})
       for (const int half_waves : {4, 10, 16, 20})
         for (const auto& kind : kinds) {
@@ -130,7 +130,7 @@ TEST(Dispersion, NeverAmplifiesAndLosesLessTheHigherTheOrder) {
   for (const double courant : {0.05, 0.3, 0.6, 0.95})
     for (double cells = 2; cells < 100; cells *= 1.1) {
       double before = 1;
-      for (const int order : {1, 3, 5, 7}) {
+      for (const int order : orders) {
         EXPECT_LE(std::abs(amplification(order, courant, cells)), 1 + 1e-14);
         const double loss = loss_per_wavelength({order, courant}, cells);
         EXPECT_LE(loss, before * (1 + 1e-9) + 1e-12) << order << ' ' << courant << ' ' << cells;

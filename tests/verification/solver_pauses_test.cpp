@@ -136,7 +136,7 @@ TEST(Pauses, ChangeNoBitUnderAnyEdgeLaw) {
 }
 
 TEST(Pauses, ChangeNoBitAtAnyOrderAndPrecision) {
-  for (const int order : {1, 3, 5, 7})
+  for (const int order : orders)
     for (const bool twice : {false, true}) {
       auto scene = reef();
       scene.numerics.order = order;

@@ -2,13 +2,9 @@
 
 #include <cstdint>
 
-namespace slipwave::solver {
+#include "scene/orders.hpp"
 
-/// Cells the widest reconstruction (order 7) reaches to each side.
-constexpr int max_reach = 3;
-/// Orders of the reconstruction; order 2m + 1 reads m cells to each side.
-constexpr int orders[] = {1, 3, 5, 7};
-constexpr int reach_of(int order) { return (order - 1) / 2; }
+namespace slipwave::solver {
 
 /// Cells first <= x < last of a row.
 struct IndexRange {

@@ -172,19 +172,13 @@ constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                   {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
                                  Uniform ? nullptr : fused_row<Order, Real>};
 
-template <bool Uniform, class Real>
+/// Those of the n-th order in the list, or of a later one.
+template <bool Uniform, class Real, int N = 0>
 const Kernels<Real>* of_order(int order) {
-  switch (order) {
-    case 1:
-      return &table<1, Uniform, Real>;
-    case 3:
-      return &table<3, Uniform, Real>;
-    case 5:
-      return &table<5, Uniform, Real>;
-    case 7:
-      return &table<7, Uniform, Real>;
-  }
-  return nullptr;
+  if constexpr (N < order_count)
+    return order == orders[N] ? &table<orders[N], Uniform, Real> : of_order<Uniform, Real, N + 1>(order);
+  else
+    return nullptr;
 }
 
 template <class Real>

@@ -1,7 +1,9 @@
 #include "solver/sweep/interface_stencils.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <utility>
 
 #include "solver/kernels/reconstruction.hpp"
 
@@ -184,6 +186,15 @@ void correct_cell(const InterfaceStencil& stencil, std::int64_t stride, const Re
                           sign * scale * (impedance * b), up, down);
 }
 
+template <class Real>
+using CorrectCell = void(const InterfaceStencil&, std::int64_t, const Real*, const Real*, Real, Real, Real,
+                         Real&, Real&);
+/// correct_cell() by the reach of the reconstruction, which grows by one from order to order.
+template <class Real, int... N>
+constexpr std::array<CorrectCell<Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
+  return {correct_cell<orders[N], Real>...};
+}
+
 }  // namespace
 
 template <int D>
@@ -239,10 +250,7 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
                                      Real* down) const {
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = cells_.begin() + starts_[std::size_t(line)];
-  using CorrectCell =
-      void(const InterfaceStencil&, std::int64_t, const Real*, const Real*, Real, Real, Real, Real&, Real&);
-  static constexpr CorrectCell* correct_as[] = {correct_cell<1, Real>, correct_cell<3, Real>,
-                                                correct_cell<5, Real>, correct_cell<7, Real>};
+  static constexpr auto correct_as = correctors<Real>(std::make_integer_sequence<int, order_count>());
   const Real* const impedance = wave_ == wave_p ? material.zp : material.zs;
   if (columns.first > 0)
     cell = std::lower_bound(cell, stop, columns.first,
@@ -252,8 +260,8 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
     if (cell->reach == not_carried)
       up[i] = down[i] = 0;
     else
-      correct_as[std::min<int>(cell->reach, reach_of(order))](*cell, stride, v + i, s + i, impedance[i],
-                                                              material.b[i], scale, up[i], down[i]);
+      correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
+          *cell, stride, v + i, s + i, impedance[i], material.b[i], scale, up[i], down[i]);
   }
 }
 
