@@ -49,8 +49,8 @@ void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
                         Real(1), rows.outgoing().up(pair) - 1, rows.outgoing().down(pair) - 1);
   };
   const auto meet = [&] {
-    face.solve_riemann(cells + 1, rows.outgoing().at(-1), rows.outgoing(), rows.material(-1), rows.material(0),
-                       rows.faces());
+    face.solve_riemann(cells + 1, rows.outgoing().at(-1), rows.outgoing(), rows.material(-1),
+                       rows.material(0), rows.faces());
   };
   const auto update = [&] {
     face.update(cells, Real(1), rows.faces(), rows.faces().at(1), rows.material(0),
