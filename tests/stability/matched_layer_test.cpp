@@ -31,7 +31,7 @@ class InLayer {
     std::uniform_real_distribution<double> uniform(-0.5, 0.5);
     for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
       const auto at = domain_.grid.index(n);
-      const double zp = domain_.impedance(solver::wave_p)(at), zs = domain_.impedance(solver::wave_s)(at);
+      const double zp = domain_.impedance(wave_p)(at), zs = domain_.impedance(wave_s)(at);
       const auto set = [&](int row, double value) { state_.field_row({0, at[1]}, row)[at[0]] = value; };
       const double pressure = zp * uniform(engine);
       for (const int row : {0, 1}) set(row, zp > 0 ? uniform(engine) : 0);
