@@ -182,7 +182,7 @@ Drawn draw(unsigned seed) {
   const auto* wave = std::get_if<PlaneWave<2>>(&mechanism);
   draw_model(draws, scene.model, wave != nullptr);
   const auto& grid = scene.model.grid();
-  scene.numerics.order = draws.one_of<int>(orders);
+  scene.numerics.order = draws.one_of<int>({std::begin(orders), std::end(orders)});
   scene.numerics.time_order = draws.chance(0.25) ? 4 : 2;
   const double most = scene.numerics.time_order == 4 ? 2 : 1;
   scene.numerics.cfl = draws.chance(0.3) ? most : draws.between(0.2, most);

@@ -37,7 +37,6 @@ const std::vector<Law>& laws();
 const std::vector<SlipCorrection>& corrections();
 /// "OneThatOpensFirst"
 std::string name_of_case(const Planes& planes, SlipCorrection correction);
-inline const std::vector<int> orders = {1, 3, 5, 7};
 
 /// n = (sin angle, -cos angle).
 SlipSystem<2> system_of(double angle_deg, const Law& law, double strength_pa = 0, bool opens = false);
@@ -65,7 +64,7 @@ typename Lab<Real>::Setup fractured(const Medium<2>& medium, const Cluster& clus
 class Rotation {
  public:
   void next() { ++number_; }
-  int order() const { return orders[number_ % 4]; }
+  int order() const { return orders[number_ % order_count]; }
   /// Numbers that share no factor meet in all pairs.
   int time_order() const { return number_ % 5 == 1 ? 4 : 2; }
   double cfl() const { return time_order() == 4 ? 1.9 : number_ % 3 == 0 ? 0.9 : 1; }
