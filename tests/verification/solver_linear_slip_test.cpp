@@ -135,12 +135,13 @@ TEST_P(LinearSlip, SendsOffPAndSWavesAsSchoenbergsInterfaceAtAllFrequencies) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Waves, LinearSlip, ::testing::Values(std::tuple{false, 40.}, std::tuple{true, 0.}, std::tuple{true, 22.}),
-    [](const auto& info) {
-      std::string name = std::get<0>(info.param) ? "S" : "P";
-      return name += std::to_string(int(std::get<1>(info.param)));
-    });
+INSTANTIATE_TEST_SUITE_P(Waves, LinearSlip,
+                         ::testing::Values(std::tuple{false, 40.}, std::tuple{true, 0.},
+                                           std::tuple{true, 22.}),
+                         [](const auto& info) {
+                           std::string name = std::get<0>(info.param) ? "S" : "P";
+                           return name += std::to_string(int(std::get<1>(info.param)));
+                         });
 
 }  // namespace
 }  // namespace slipwave::solver
