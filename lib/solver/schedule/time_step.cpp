@@ -24,9 +24,11 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry); apply && !apply->after_record)
       effects_.push_back(apply->effect);
   }
-  for (const auto* effect : effects_)
-    for (const auto cells : {Cells::split, Cells::merged, Cells::patch})
-      acts_on_[std::size_t(cells)] |= acts_on(effect->declaration().acts_on, cells);
+  for (const auto& entry : entries_)
+    if (const auto* apply = std::get_if<Apply<D, Real>>(&entry))
+      for (const auto cells : {Cells::split, Cells::merged, Cells::patch})
+        if (acts_on(apply->effect->declaration().acts_on, cells))
+          acting_[apply->after_record][std::size_t(cells)].push_back(apply->effect);
 }
 
 template <int D, class Real>
@@ -60,20 +62,6 @@ void TimeStep<D, Real>::begin(const StepTime& time) {
     effect->begin(time);
     if (!effect->active(time)) continue;
     for (const auto row : effect->rows()) split[std::size_t(row)] = 1;
-  }
-}
-
-template <int D, class Real>
-void TimeStep<D, Real>::apply_those(bool after_record, const StepTime& time, Cells of,
-                                    const RowFields<Real>& fields, const IndexRange& cells) const {
-  for (const auto& entry : entries_) {
-    const auto* apply = std::get_if<Apply<D, Real>>(&entry);
-    if (!apply || apply->after_record != after_record) continue;
-    if (!acts_on(apply->effect->declaration().acts_on, of)) continue;
-    if (after_record)
-      apply->effect->apply_after_record(time, fields, cells);
-    else
-      apply->effect->apply(time, fields, cells);
   }
 }
 

@@ -67,16 +67,16 @@ class TimeStep {
   /// sweeps are merged, of a patch of such a row.
   enum class Cells { split, merged, patch };
   /// Whether any effect acts on such cells.
-  bool acts_on(Cells cells) const { return acts_on_[std::size_t(cells)]; }
+  bool acts_on(Cells cells) const { return !acting_[0][std::size_t(cells)].empty(); }
   /// The effects before the records, in order.
   void apply(const StepTime& time, Cells of, const RowFields<Real>& fields, const IndexRange& cells) const {
-    apply_those(false, time, of, fields, cells);
+    for (auto* effect : acting_[0][std::size_t(of)]) effect->apply(time, fields, cells);
   }
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) const;
   /// The effects after the records.
   void apply_after_record(const StepTime& time, Cells of, const RowFields<Real>& fields,
                           const IndexRange& cells) const {
-    apply_those(true, time, of, fields, cells);
+    for (auto* effect : acting_[1][std::size_t(of)]) effect->apply_after_record(time, fields, cells);
   }
   /// When all rows have reached the end of the step, step after step.
   void finish(const StepTime& time);
@@ -94,8 +94,6 @@ class TimeStep {
  private:
   static constexpr std::int64_t most_in_progress = Effect<D, Real>::most_steps_in_progress;
   static bool acts_on(ActsOn where, Cells cells);
-  void apply_those(bool after_record, const StepTime& time, Cells of, const RowFields<Real>& fields,
-                   const IndexRange& cells) const;
 
   std::int64_t rows_;
   Index<D> shape_;
@@ -108,7 +106,7 @@ class TimeStep {
   bool all_needed_;
   std::int64_t steps_;
   const Progress* progress_ = nullptr;
-  std::array<bool, 3> acts_on_{};
+  std::array<std::array<std::vector<Effect<D, Real>*>, 3>, 2> acting_;  // [after recording][Cells], in order
   std::array<std::vector<char>, std::size_t(most_in_progress)> split_rows_;  // [step in progress][row]
 };
 

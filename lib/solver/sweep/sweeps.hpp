@@ -27,7 +27,7 @@ class Sweeps {
   /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
   void use(Effect<D, Real>* filter);
-  static constexpr std::size_t most_filters = 4;
+  static constexpr std::size_t most_filters = 2;
 
   /// A whole sweep along any axis, distributed to threads.
   void along(int axis, Real scale);
