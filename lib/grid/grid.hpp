@@ -3,7 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
+
+#include "grid/row_depths.hpp"
 
 namespace slipwave {
 
@@ -29,6 +32,9 @@ struct Grid {
   /// Cells of a larger grid that come before this part of it. Places are counted from the origin of the
   /// larger one, so that they are the same numbers in it and in all its parts, to the last bit.
   Index<D> first{};
+  /// Depths of the larger grid where rows follow horizons (a fitted grid); null: a regular grid. centre(),
+  /// end() and position() along the last axis are then row coordinates (RowDepths), not depths.
+  std::shared_ptr<const RowDepths<D>> rows;
 
   std::int64_t size() const {
     std::int64_t cells = 1;
@@ -56,7 +62,30 @@ struct Grid {
     }
     return at;
   }
-  bool operator==(const Grid&) const = default;
+  /// Row coordinates of a point: itself in a regular grid.
+  Point<D> row_coordinates(Point<D> point_m) const {
+    if (!rows) return point_m;
+    Point<D> at = point_m;
+    for (int axis = 0; axis < D - 1; ++axis) at[axis] = (point_m[axis] - origin_m[axis]) / spacing_m;
+    point_m[D - 1] = origin_m[D - 1] + rows->row_position(at) * spacing_m;
+    return point_m;
+  }
+  /// Depth of the centre of a cell, m.
+  double depth(Index<D> at) const {
+    if (!rows) return centre(D - 1, at[D - 1]);
+    for (int axis = 0; axis < D; ++axis) at[axis] += first[axis];
+    return rows->centre(at);
+  }
+  /// Height of a cell at its centre, m.
+  double height(Index<D> at) const {
+    if (!rows) return spacing_m;
+    for (int axis = 0; axis < D; ++axis) at[axis] += first[axis];
+    return rows->height(at);
+  }
+  bool operator==(const Grid& other) const {
+    return shape == other.shape && spacing_m == other.spacing_m && origin_m == other.origin_m &&
+           first == other.first && (rows == other.rows || (rows && other.rows && *rows == *other.rows));
+  }
 };
 
 /// "x=1200 z=45": the centre of a cell as messages show it.
