@@ -180,11 +180,13 @@ std::string Rows<D>::count_rows(std::size_t k) {
     below.row = above.row + count;
     return {};
   }
-  return above.name + " and " + below.name + " are " + short_number(cells.least * h()) + " m apart at " +
-         place(cells.least_at) + " and " + short_number(cells.largest * h()) + " m at " +
-         place(cells.largest_at) + ": rows between them would be thinner than " +
-         (least == least_height ? "a fifth" : "half") + " of the cell or thicker than 1.6 cells of " +
-         shown(h()) + " m";
+  const auto apart = above.name + " and " + below.name + " are " + short_number(cells.least * h()) +
+                     " m apart at " + place(cells.least_at);
+  const std::string thin = std::string("thinner than ") + (least == least_height ? "a fifth" : "half") +
+                           " of a cell of " + shown(h()) + " m";
+  if (cells.largest <= largest_height * double(most)) return apart + ", rows between them would be " + thin;
+  return apart + " and " + short_number(cells.largest * h()) + " m at " + place(cells.largest_at) +
+         ", rows between them would be " + thin + " or thicker than 1.6 cells";
 }
 
 template <int D>
@@ -334,11 +336,9 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
     if (why.empty()) {
       chosen = std::move(with);
     } else if (choice.asked && horizons[n].strong) {
-      throw Error("no grid can follow the " + horizons[n].shown + ": " + why +
-                      "; move it, choose other cells or leave it out of --fit",
-                  ErrorKind::usage);
+      throw Error(why + "; move it, use other cells or --fit none", ErrorKind::usage);
     } else if (!on_faces(n)) {
-      fit.left_out.push_back(horizons[n].shown + " is not fitted: " + why);
+      fit.left_out.push_back("not fitted: " + why);
     }
   }
   if (std::all_of(chosen.begin(), chosen.end(), on_faces)) return fit;
