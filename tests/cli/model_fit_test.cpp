@@ -12,10 +12,10 @@ const std::string sea = "sw-layers --size 400x300 --step 5 --layer 0:1500:0:1000
 
 TEST_F(ModelFit, SaysWhatItFollowsAndHowThinRowsAre) {
   const std::string line = sea + "--layer 102:3000:1500:2000:5 -o m.nc";
-  EXPECT_EQ(run(line).err, "sw-layers: fitted: floor at 102 m dip 5, rows 0.83 to 1.17 of 5 m\n");
+  EXPECT_EQ(run(line).err, "sw-layers: fitted: floor at 102 m dip 5, rows 0.76 to 1.23 of 5 m\n");
   done(line + " -q");
   const auto text = done("sw-info m.nc");
-  EXPECT_TRUE(has(text, "z             0 to 300 m")) << text;
+  EXPECT_TRUE(has(text, "z                0 to 300 m")) << text;
   EXPECT_TRUE(has(text, "row heights")) << text;
   EXPECT_TRUE(has(text, "name floor, role floor, row 24, depth 102 to 136.99")) << text;
 }
