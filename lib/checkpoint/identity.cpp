@@ -37,11 +37,12 @@ class Digest {
   }
   template <int D>
   void add(const Grid<D>& grid) {
-    const auto& [shape, spacing_m, origin_m, first] = grid;
+    const auto& [shape, spacing_m, origin_m, first, rows] = grid;
     for (const auto cells : shape) add(cells);
     add(spacing_m);
     add(origin_m);
     for (const auto cells : first) add(cells);
+    if (rows) add(rows->corners_m());
   }
   template <int D>
   void add(const SlipSystem<D>& system) {

@@ -34,7 +34,7 @@ struct Grid {
   Index<D> first{};
   /// Depths of the larger grid where rows follow horizons (a fitted grid); null: a regular grid. centre(),
   /// end() and position() along the last axis are then row coordinates (RowDepths), not depths.
-  std::shared_ptr<const RowDepths<D>> rows;
+  std::shared_ptr<const RowDepths<D>> rows{};
 
   std::int64_t size() const {
     std::int64_t cells = 1;

@@ -65,7 +65,16 @@ std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& par
       fluid += found[of_part];
       rock = found[of_part + 1] != 0;
     }
-    depths.push_back(double(fluid) * grid.spacing_m);
+    if (!grid.rows) {
+      depths.push_back(double(fluid) * grid.spacing_m);
+      continue;
+    }
+    Point<D> at{};
+    for (int axis = 0; axis < D - 1; ++axis)
+      at[axis] = (points_m[n][axis] - grid.origin_m[axis]) / grid.spacing_m;
+    const double surface = grid.rows->depth(at);
+    at[D - 1] = double(fluid);
+    depths.push_back(fluid == 0 ? 0 : grid.rows->depth(at) - surface);
   }
   return depths;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "model/model.hpp"
 #include "scene/edges.hpp"
@@ -25,6 +26,12 @@ class Domain {
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;  // rows of the computed grid that this process owns
+  /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
+  /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
+  std::vector<char> bent_rows;
+  std::vector<double> row_heights;
+  bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
+  double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
   /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
   /// records are built: throws std::logic_error after release_impedances().
@@ -49,6 +56,12 @@ class Domain {
  private:
   std::array<Field<D>, 2> impedances_;
 };
+
+/// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
+/// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep
+/// their shape.
+template <int D>
+double corner_depth(const Domain<D>& domain, Index<D> corner);
 
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
 /// model.

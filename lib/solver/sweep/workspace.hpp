@@ -40,6 +40,7 @@ class Ring {
     const int first = 2 * pairs_ * (outgoing_rows_ + int(row % face_rows_));
     return {at(first, x), pitch_};
   }
+  int pairs() const { return pairs_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
  private:
