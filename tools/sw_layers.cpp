@@ -13,6 +13,7 @@ struct Settings {
   std::string size;
   double step_m = 0;
   std::vector<std::string> layers;
+  std::string fit;
   bool no_average = false;
   MediumLimits limits;
   std::string title = "layered model";
@@ -28,6 +29,9 @@ void declare(cli::Options& options, Settings& settings) {
       "x = 0. VS 0 is fluid; above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
       "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF; smooth@FILE has no "
       "kinks. VP, VS, RHO may be A+K or A-K: A at the top, K more or less per metre");
+  options.add(
+      "fit", settings.fit, "surface,floor|all|none",
+      "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");
   options.add("no-average", settings.no_average,
               "cells cut by a top take the material at their centre, not the average of their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");
@@ -44,16 +48,22 @@ void build(const Settings& settings, const cli::Context& context) {
   for (const auto& text : settings.layers) {
     layers.push_back(in_place("--layer", [&] { return parse_layer(text); }));
   }
+  const auto choice =
+      settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });
+  const auto fit = in_place("--layer", [&] { return fit_layers(grid, layers, choice); });
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<D> model;
-  model.medium = in_place("--layer", [&] { return layered_medium(grid, layers, !settings.no_average); });
+  model.medium =
+      in_place("--layer", [&] { return layered_medium(fit.grid, layers, !settings.no_average, fit.rows); });
   check(model, settings.limits);
+  if (!fit.summary.empty()) context.say(fit.summary);
+  for (const auto& sentence : fit.left_out) context.say(sentence);
   for (const auto& sentence : cut_off_layers(grid, layers)) context.warn(sentence);
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;
   write_model(model, out);
-  context.note(shown(grid));
+  context.note(shown(fit.grid));
 }
 
 void run(const Settings& settings, const cli::Context& context) {

@@ -11,7 +11,7 @@ std::string place_of(const Grid<D>& grid, std::int64_t flat_index) {
   for (int axis = 0; axis < D; ++axis) {
     if (axis) text += ' ';
     text += axis_names<D>()[axis];
-    text += '=' + shown(grid.centre(axis, at[axis]));
+    text += '=' + shown(axis == D - 1 ? grid.depth(at) : grid.centre(axis, at[axis]));
   }
   return text;
 }

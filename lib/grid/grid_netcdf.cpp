@@ -1,9 +1,12 @@
 #include "grid/grid_netcdf.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <utility>
 
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
@@ -46,6 +49,144 @@ double spacing_of(const std::string& name, const std::vector<double>& values) {
   return raw;
 }
 
+const std::string bounds_name = "depth_bounds", horizon_prefix = "horizon_";
+
+template <int D>
+std::vector<std::string> corner_dimensions() {
+  auto names = field_dimensions<D>();
+  for (auto& name : names) name += "_face";
+  return names;
+}
+
+/// "x", in 3-D "y", "x".
+template <int D>
+std::vector<std::string> column_dimensions() {
+  auto names = field_dimensions<D>();
+  names.erase(names.begin());
+  return names;
+}
+
+/// Whether the depths of rows are those of this grid, not of a larger one that it is a part of.
+template <int D>
+bool is_fitted(const Grid<D>& grid) {
+  return grid.rows && grid.rows->cells() == grid.shape && grid.first == Index<D>{};
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// The horizons that rows of a file follow, from the top down.
+std::vector<FittedHorizon> read_horizons(const NetcdfFile& file, std::int64_t rows) {
+  std::vector<FittedHorizon> horizons;
+  for (const auto& variable : file.variables()) {
+    if (!variable.name.starts_with(horizon_prefix)) continue;
+    const auto role = file.text_attribute(variable.name, "role");
+    const auto row = file.number_attribute(variable.name, "row");
+    if (!role || (*role != "surface" && *role != "floor" && *role != "layer")) {
+      throw Error(variable.name + ": found role '" + role.value_or("") +
+                  "', expected surface, floor or layer");
+    }
+    if (!row || row->size() != 1 || !(row->front() >= 0 && row->front() <= double(rows))) {
+      throw Error(variable.name + ": found no row from 0 to " + std::to_string(rows) +
+                  " that follows it, expected the attribute row");
+    }
+    horizons.push_back({variable.name.substr(horizon_prefix.size()), *role, std::int64_t(row->front())});
+  }
+  std::stable_sort(horizons.begin(), horizons.end(),
+                   [](const auto& a, const auto& b) { return a.row < b.row; });
+  return horizons;
+}
+
+/// Depths of cells and of corners must belong together: who changes one must change the other.
+template <int D>
+void check_depths(const NetcdfFile& file, const Grid<D>& grid) {
+  if (!file.has_variable("depth")) return;
+  if (file.variable("depth").dimensions != field_dimensions<D>())
+    throw Error("depth: expected it over (" + listed(field_dimensions<D>()) + ")");
+  std::vector<std::size_t> start(D, 0), count;
+  for (int axis = D - 1; axis >= 0; --axis) count.push_back(std::size_t(grid.shape[std::size_t(axis)]));
+  count[0] = 1;
+  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
+    start[0] = std::size_t(row);
+    const auto depths = file.get<double>("depth", start, count);
+    for (std::int64_t n = 0; n < a_row; ++n) {
+      const std::int64_t cell = row * a_row + n;
+      const double expected = grid.depth(grid.index(cell));
+      if (std::abs(depths[std::size_t(n)] - expected) <= 0.01 * grid.spacing_m) continue;
+      throw Error("depth is " + shown(depths[std::size_t(n)]) + " m in the cell at " + place_of(grid, cell) +
+                  ", but " + bounds_name + " has its corners about " + shown(expected) + " m");
+    }
+  }
+}
+
+template <int D>
+std::shared_ptr<const RowDepths<D>> read_rows(const NetcdfFile& file, const Grid<D>& grid) {
+  const auto variable = file.variable(bounds_name);
+  std::vector<std::size_t> shape;
+  for (int axis = D - 1; axis >= 0; --axis) shape.push_back(std::size_t(grid.shape[std::size_t(axis)]) + 1);
+  if (variable.shape != shape) {
+    std::string found, expected;
+    for (const auto length : variable.shape) found += (found.empty() ? "" : " x ") + std::to_string(length);
+    for (const auto length : shape) expected += (expected.empty() ? "" : " x ") + std::to_string(length);
+    throw Error(bounds_name + ": found " + found + " corners, expected " + expected +
+                ", one more than cells along each axis");
+  }
+  auto corners = file.get<double>(bounds_name);
+  auto horizons = read_horizons(file, grid.shape[D - 1]);
+  return in_place(bounds_name, [&] {
+    return std::make_shared<const RowDepths<D>>(grid.shape, std::move(corners), std::move(horizons));
+  });
+}
+
+/// Variables of a fitted grid beside its coordinates.
+template <int D>
+void define_depths(NetcdfFile& file, const Grid<D>& grid) {
+  const auto corners = corner_dimensions<D>();
+  for (std::size_t n = 0; n < D; ++n)
+    file.define_dimension(corners[n], std::size_t(grid.shape[D - 1 - n]) + 1);
+  const auto define = [&](const std::string& name, NetcdfFile::Type type,
+                          const std::vector<std::string>& dimensions, const std::string& long_name) {
+    file.define_variable(name, type, dimensions);
+    file.put_attribute(name, "standard_name", "depth");
+    file.put_attribute(name, "long_name", long_name);
+    file.put_attribute(name, "units", "m");
+    file.put_attribute(name, "positive", "down");
+  };
+  define("depth", NetcdfFile::Type::f32, field_dimensions<D>(), "depth of cell centres");
+  define(bounds_name, NetcdfFile::Type::f64, corners, "depth of cell corners");
+  for (const auto& horizon : grid.rows->horizons()) {
+    const auto name = horizon_prefix + horizon.name;
+    define(name, NetcdfFile::Type::f64, column_dimensions<D>(), "depth of a horizon that rows follow");
+    file.put_attribute(name, "role", horizon.role);
+    file.put_attribute(name, "row", std::vector<int>{int(horizon.row)});
+  }
+}
+
+template <int D>
+void put_depths(NetcdfFile& file, const Grid<D>& grid) {
+  std::vector<float> depths(std::size_t(grid.size()), 0);
+  for (std::int64_t cell = 0; cell < grid.size(); ++cell)
+    depths[std::size_t(cell)] = float(grid.depth(grid.index(cell)));
+  file.put("depth", depths.data());
+  file.put(bounds_name, grid.rows->corners_m().data());
+  const std::int64_t columns = grid.size() / grid.shape[D - 1];
+  for (const auto& horizon : grid.rows->horizons()) {
+    std::vector<double> of_columns;
+    for (std::int64_t n = 0; n < columns; ++n) {
+      const auto at = grid.index(n);
+      std::array<double, std::size_t(D)> position{};
+      for (std::size_t axis = 0; axis + 1 < D; ++axis) position[axis] = double(at[axis]) + 0.5;
+      position[D - 1] = double(horizon.row);
+      of_columns.push_back(grid.rows->depth(position));
+    }
+    file.put(horizon_prefix + horizon.name, of_columns.data());
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -53,6 +194,11 @@ std::vector<std::string> field_dimensions() {
   std::vector<std::string> names;
   for (int axis = D - 1; axis >= 0; --axis) names.push_back(axis_name(axis_names<D>()[std::size_t(axis)]));
   return names;
+}
+
+template <int D>
+void put_coordinates(NetcdfFile& file, const Grid<D>& grid, const std::string& variable) {
+  if (is_fitted(grid)) file.put_attribute(variable, "coordinates", "depth");
 }
 
 template <int D>
@@ -96,7 +242,12 @@ Grid<D> read_grid(const NetcdfFile& file, bool whole) {
   }
   double& top = grid.origin_m[D - 1];
   const bool begins_below = std::abs(top) > 1e-4 * grid.spacing_m;
-  if (begins_below && whole) {
+  if (file.has_variable(bounds_name)) {
+    in_place(file.shown_name(), [&] {
+      grid.rows = read_rows(file, grid);
+      check_depths(file, grid);
+    });
+  } else if (begins_below && whole) {
     throw Error(file.shown_name() + ": z begins at " + shown(values[D - 1].front()) + ", expected " +
                 shown(grid.spacing_m / 2) + ", half a step below the surface");
   }
@@ -113,15 +264,19 @@ void define_grid(NetcdfFile& file, const Grid<D>& grid) {
   for (std::size_t axis = 0; axis < D; ++axis) {
     const std::string name = axis_name(axis_names<D>()[axis]);
     file.define_variable(name, NetcdfFile::Type::f64, {name});
-    const bool down = axis == D - 1;
-    if (down) file.put_attribute(name, "standard_name", "depth");
-    file.put_attribute(name, "long_name", down ? "depth of cell centres" : name + " of cell centres");
+    const bool down = axis == D - 1, is_depth = down && !is_fitted(grid);
+    if (is_depth) file.put_attribute(name, "standard_name", "depth");
+    file.put_attribute(name, "long_name",
+                       is_depth ? "depth of cell centres"
+                       : down   ? "row coordinate of cell centres"
+                                : name + " of cell centres");
     file.put_attribute(name, "units", "m");
     file.put_attribute(name, "axis", down ? "Z" : axis == 0 ? "X" : "Y");
     if (down) file.put_attribute(name, "positive", "down");
     const auto values = centres(grid.shape[axis], grid.origin_m[axis], grid.spacing_m);
     file.put_attribute(name, "actual_range", std::vector<double>{values.front(), values.back()});
   }
+  if (is_fitted(grid)) define_depths(file, grid);
 }
 
 template <int D>
@@ -130,6 +285,7 @@ void put_grid(NetcdfFile& file, const Grid<D>& grid) {
     file.put(axis_name(axis_names<D>()[axis]),
              centres(grid.shape[axis], grid.origin_m[axis], grid.spacing_m).data());
   }
+  if (is_fitted(grid)) put_depths(file, grid);
 }
 
 template std::vector<std::string> field_dimensions<2>();
@@ -140,5 +296,7 @@ template void define_grid(NetcdfFile&, const Grid<2>&);
 template void define_grid(NetcdfFile&, const Grid<3>&);
 template void put_grid(NetcdfFile&, const Grid<2>&);
 template void put_grid(NetcdfFile&, const Grid<3>&);
+template void put_coordinates(NetcdfFile&, const Grid<2>&, const std::string&);
+template void put_coordinates(NetcdfFile&, const Grid<3>&, const std::string&);
 
 }  // namespace slipwave

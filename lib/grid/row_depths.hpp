@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,11 @@ class RowDepths {
   /// Inverse of depth(): the row coordinate, in cells from the first corner, of a depth at a place whose
   /// other coordinates are given (the last entry of `at` is the depth in m).
   double row_position(std::array<double, std::size_t(D)> at) const;
+  /// Depths of a row of corners, m, x fastest.
+  std::span<const double> row(std::int64_t row_of_corners) const {
+    const std::size_t a_row = corners_m_.size() / std::size_t(cells_[D - 1] + 1);
+    return {corners_m_.data() + std::size_t(row_of_corners) * a_row, a_row};
+  }
   /// Whether a row of corners is level.
   bool row_is_level(std::int64_t row_of_corners) const;
   /// Least and largest height of a cell at its centre, m.

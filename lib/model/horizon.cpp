@@ -52,7 +52,10 @@ std::vector<double> smooth_slopes(const std::vector<Point<2>>& points) {
 }  // namespace
 
 Horizon::Horizon(double depth_m, double dip_deg)
-    : depth_m_(depth_m), slope_(std::tan(dip_deg * std::numbers::pi / 180)), name_(shown(depth_m) + " m") {
+    : depth_m_(depth_m),
+      dip_deg_(dip_deg),
+      slope_(std::tan(dip_deg * std::numbers::pi / 180)),
+      name_(shown(depth_m) + " m") {
   if (!(std::abs(dip_deg) < 90)) {
     throw Error("found a dip of " + shown(dip_deg) + " degrees, expected it between -90 and 90",
                 ErrorKind::usage);
@@ -104,6 +107,10 @@ void Horizon::read(const std::string& path) {
     points_ = curve_of(points_of_text<2>(text));
     if (smooth_) slopes_ = smooth_slopes(points_);
   });
+}
+
+std::string Horizon::name_with_dip() const {
+  return dip_deg_ == 0 ? name_ : name_ + " dip " + shown(dip_deg_);
 }
 
 double Horizon::at(double x_m, double y_m) const {

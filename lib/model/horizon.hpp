@@ -37,11 +37,13 @@ class Horizon {
   double to_m(int axis = 0) const;
   /// As a message names it: "400 m", "sine,400,20,500", "@top.txt".
   const std::string& name() const { return name_; }
+  /// The same with its dip: "400 m dip 15".
+  std::string name_with_dip() const;
 
  private:
   void read(const std::string& path);
 
-  double depth_m_ = 0, slope_ = 0;
+  double depth_m_ = 0, dip_deg_ = 0, slope_ = 0;
   double amplitude_m_ = 0, wavelength_m_ = 1, phase_deg_ = 0;
   std::vector<Point<2>> points_;
   std::vector<double> slopes_;  // at the points, of a smooth curve; else empty

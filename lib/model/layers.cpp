@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -134,6 +135,88 @@ Trend parse_trend(std::string_view text) {
   return {parse_number(text), 0};
 }
 
+template <int D>
+Index<D> index_of(std::int64_t column, std::int64_t line, std::int64_t row) {
+  if constexpr (D == 2) return {column, row};
+  if constexpr (D == 3) return {column, line, row};
+}
+
+/// Where cells of a grid lie in a pile of layers.
+template <int D>
+class Pile {
+ public:
+  /// `rows` as Fit::rows, or none.
+  Pile(const Grid<D>& grid, const std::vector<Layer>& layers, std::vector<std::int64_t> rows)
+      : grid_(grid), rows_(std::move(rows)), layers_(layers.size()) {
+    rows_.resize(layers_, -1);
+  }
+
+  /// How many tops there are down to that of the layer of a cell: 0 is void.
+  std::size_t layers_at(const std::vector<double>& tops, double centre_m, std::int64_t row) const {
+    std::size_t count = layers_;
+    while (count > 0 && !(rows_[count - 1] >= 0 ? row >= rows_[count - 1] : tops[count - 1] <= centre_m))
+      --count;
+    return count;
+  }
+  /// How tops cut a cell; false: none does.
+  bool cut(const LineOfTops& over, const Index<D>& at, double centre_m, std::vector<CutInSpace>& cuts) const {
+    bool any = false;
+    const auto n = std::size_t(at[0]);
+    for (std::size_t i = 0; i < layers_; ++i) {
+      if (rows_[i] >= 0) {
+        const double apart = at[D - 1] >= rows_[i] ? -1 : 2;
+        cuts[i] = {{apart, apart}, {apart, apart}};
+        continue;
+      }
+      const auto in_cells = [&](const Tops& edges, int y) {
+        return Cut{in_cell(edges[n][i], at, 0, y, centre_m), in_cell(edges[n + 1][i], at, 1, y, centre_m)};
+      };
+      cuts[i] = {in_cells(over.low_edges, 0), in_cells(over.high_edges, 1)};
+      any = any || (cuts[i].least() < 1 && cuts[i].largest() > 0);
+    }
+    return any;
+  }
+
+ private:
+  /// A depth at an upright edge of a cell, counted from the upper end of that in its lengths.
+  double in_cell(double depth_m, const Index<D>& at, int x, int y, double centre_m) const {
+    if (!grid_.rows) return (depth_m - centre_m) / grid_.spacing_m + 0.5;
+    auto corner = at;
+    corner[0] += x;
+    if constexpr (D == 3) corner[1] += y;
+    const double upper = grid_.rows->corner(corner);
+    ++corner[D - 1];
+    return (depth_m - upper) / (grid_.rows->corner(corner) - upper);
+  }
+
+  const Grid<D>& grid_;
+  std::vector<std::int64_t> rows_;
+  std::size_t layers_ = 0;
+};
+
+enum class Kind { nothing, fluid, solid };
+
+Kind kind_of(const Layer& layer) {
+  if (layer.material.rho == 0 && layer.gradient.rho == 0) return Kind::nothing;
+  return layer.material.vs == 0 && layer.gradient.vs == 0 ? Kind::fluid : Kind::solid;
+}
+
+/// The top of a layer as a horizon, without depths. The floor is that of the sea: all above it is fluid.
+FitHorizon horizon_of(const std::vector<Layer>& layers, std::size_t i) {
+  const Kind above = i ? kind_of(layers[i - 1]) : Kind::nothing, below = kind_of(layers[i]);
+  const bool all_fluid = std::all_of(layers.begin(), layers.begin() + std::ptrdiff_t(i),
+                                     [](const Layer& layer) { return kind_of(layer) == Kind::fluid; });
+  FitHorizon horizon;
+  horizon.is_top = i == 0;
+  horizon.strong = above != below;
+  horizon.role = i == 0                                                      ? "surface"
+                 : below == Kind::solid && above == Kind::fluid && all_fluid ? "floor"
+                                                                             : "layer";
+  horizon.name = horizon.role == "layer" ? "layer_" + std::to_string(i + 1) : horizon.role;
+  horizon.shown = horizon.role + " at " + layers[i].top.name_with_dip();
+  return horizon;
+}
+
 }  // namespace
 
 Material Layer::at_depth(double below_top_m) const {
@@ -183,10 +266,32 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
 }
 
 template <int D>
-Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average) {
+Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, const FitChoice& choice) {
+  check_pile(regular, layers);
+  const auto columns = corner_columns(regular);
+  std::vector<FitHorizon> horizons;
+  std::vector<std::size_t> layer_of;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    auto horizon = horizon_of(layers, i);
+    for (const auto& at : columns) horizon.depths_m.push_back(layers[i].top.at(at[0], D == 3 ? at[1] : 0));
+    const auto [least, largest] = std::minmax_element(horizon.depths_m.begin(), horizon.depths_m.end());
+    if (*largest <= 0 || *least >= regular.end(D - 1)) continue;
+    horizons.push_back(std::move(horizon));
+    layer_of.push_back(i);
+  }
+  auto fit = fit_grid(regular, horizons, choice);
+  std::vector<std::int64_t> rows(layers.size(), -1);
+  for (std::size_t n = 0; n < layer_of.size(); ++n) rows[layer_of[n]] = fit.rows[n];
+  fit.rows = std::move(rows);
+  return fit;
+}
+
+template <int D>
+Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average,
+                         const std::vector<std::int64_t>& rows) {
   check_pile(grid, layers);
   Medium<D> medium(grid);
-  const double h = grid.spacing_m;
+  const Pile<D> pile(grid, layers, rows);
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);
   LineOfTops over;
@@ -194,23 +299,14 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
   for (std::int64_t line = 0; line < lines; ++line) {
     if (line < different) over = tops_of_line(grid, layers, line);
     for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-      const double z = grid.centre(D - 1, row);
       for (std::int64_t n = 0; n < columns; ++n) {
+        const auto at = index_of<D>(n, line, row);
+        const double z = grid.depth(at);
         const auto& tops = over.centres[std::size_t(n)];
-        std::size_t centre = layers.size();
-        while (centre > 0 && tops[centre - 1] > z) --centre;
+        const std::size_t centre = pile.layers_at(tops, z, row);
         if (centre == 0) continue;  // void
         MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]));
-        bool cut = false;
-        for (std::size_t i = 0; i < layers.size(); ++i) {
-          const auto in_cells = [&](const Tops& edges) {
-            return Cut{(edges[std::size_t(n)][i] - z) / h + 0.5,
-                       (edges[std::size_t(n) + 1][i] - z) / h + 0.5};
-          };
-          cuts[i] = {in_cells(over.low_edges), in_cells(over.high_edges)};
-          cut = cut || (cuts[i].least() < 1 && cuts[i].largest() > 0);
-        }
-        if (average && cut) {
+        if (average && pile.cut(over, at, z, cuts)) {
           const auto shares = shares_of_cell(cuts);
           for (std::size_t i = 0; i < layers.size(); ++i)
             mean.add(layers[i].at_depth(z - tops[i]), shares[i]);
@@ -255,8 +351,12 @@ std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<L
 
 template Grid<2> grid_of_size<2>(const Point<2>&, double);
 template Grid<3> grid_of_size<3>(const Point<3>&, double);
-template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, bool);
-template Medium<3> layered_medium(const Grid<3>&, const std::vector<Layer>&, bool);
+template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);
+template Fit<3> fit_layers(const Grid<3>&, const std::vector<Layer>&, const FitChoice&);
+template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, bool,
+                                  const std::vector<std::int64_t>&);
+template Medium<3> layered_medium(const Grid<3>&, const std::vector<Layer>&, bool,
+                                  const std::vector<std::int64_t>&);
 
 template std::vector<std::string> cut_off_layers(const Grid<2>&, const std::vector<Layer>&);
 template std::vector<std::string> cut_off_layers(const Grid<3>&, const std::vector<Layer>&);

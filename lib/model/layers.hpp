@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/averaging.hpp"
+#include "model/fit.hpp"
 #include "model/horizon.hpp"
 #include "model/model.hpp"
 
@@ -37,6 +38,11 @@ Layer parse_layer(std::string_view text);
 template <int D>
 Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 
+/// Lets rows of a regular grid follow tops of layers (fit_grid()); `rows` then has one entry a layer. A top
+/// above or below all of the model is no horizon. Throws as layered_medium().
+template <int D>
+Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, const FitChoice& choice);
+
 /// A layered medium. Everything below a top is its layer's, so a later layer lies under the earlier ones and
 /// cuts them off where its top rises above theirs; what is above the first layer is void. A cell is solid,
 /// fluid or void as the layer at its centre, that is the last one whose top is there or above; its material
@@ -47,9 +53,11 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 /// below the centre. At least one layer, from the top down: planes by their depth at x = 0, and no top may
 /// lie above the one before it all along the model (usage Error). A curve must reach from the first to the
 /// last centre of a cell along x, a grid along y, too, and wants a model in 3-D (usage Error). Values:
-/// check().
+/// check(). On a fitted grid `rows` says which tops its rows follow (Fit::rows): those part cells by rows,
+/// the others cut them at their true depths.
 template <int D>
-Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true);
+Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true,
+                         const std::vector<std::int64_t>& rows = {});
 
 /// Where a sine or a curve cuts off a layer in a part of the model: a sentence for each layer that ends so.
 template <int D>

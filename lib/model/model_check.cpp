@@ -60,6 +60,26 @@ void check_grids(const Medium<D>& medium) {
   throw Error(names + " have different grids: " + grids);
 }
 
+// Time steps become as short as the thinnest row wants; the slack is for the rounding of depths.
+constexpr double thinnest_row = 0.2 * (1 - 1e-6);
+
+/// Rows of a fitted grid.
+template <int D>
+void check_rows(const Grid<D>& grid) {
+  if (!grid.rows) return;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    if (grid.first[axis] + grid.shape[axis] <= grid.rows->cells()[axis]) continue;
+    throw Error("the grid of " + shown(grid) + " reaches beyond its own depths");
+  }
+  for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
+    const double height = grid.height(grid.index(cell));
+    if (height >= thinnest_row * grid.spacing_m) continue;
+    throw Error("the row at " + place_of(grid, cell) + " is " + shown(height) +
+                " m high, expected at least a fifth of a cell of " + shown(grid.spacing_m) +
+                " m: fit fewer horizons or choose smaller cells");
+  }
+}
+
 template <int D>
 void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& limits) {
   const double vp = double(medium.vp[cell]), vs = double(medium.vs[cell]);
@@ -123,6 +143,7 @@ void check(const Model<D>& model, const MediumLimits& limits) {
   const auto& medium = model.medium;
   if (medium.vp.empty()) throw Error("the model has no cells");
   check_grids(medium);
+  check_rows(medium.grid());
   for (const Property property : medium.properties()) check_values(medium, property);
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) check_cell(medium, cell, limits);
   for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) check_set(model.fracture_sets[k], k + 1);

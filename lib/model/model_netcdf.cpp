@@ -74,6 +74,7 @@ void define_property(NetcdfFile& file, const Field<D>& field, const std::string&
   file.put_attribute(name, "units", units);
   const auto [low, high] = std::minmax_element(field.begin(), field.end());
   file.put_attribute(name, "actual_range", std::vector<float>{*low, *high});
+  put_coordinates(file, field.grid(), name);
 }
 
 template <int D>
@@ -94,7 +95,7 @@ bool any_law(const std::vector<FractureSet<D>>& sets) {
 }
 
 template <int D>
-void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
+void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<FractureSet<D>>& sets) {
   std::size_t systems = 0;
   for (const auto& set : sets) systems += set.systems.size();
   file.define_dimension("fracture_set", sets.size());
@@ -103,6 +104,7 @@ void define_sets(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   file.define_variable("fracture", Type::u8, field_dimensions<D>());
   file.put_attribute("fracture", "long_name",
                      "fracture set of the cell, 0 = intact, k = row k-1 of fracture_set");
+  put_coordinates(file, grid, "fracture");
   file.define_variable("fracture_name", Type::text, {"fracture_set"});
   file.put_attribute("fracture_name", "long_name", "name of the fracture set");
   const auto define = [&](const std::string& name, Type type, const std::string& long_name,
@@ -233,16 +235,11 @@ Grid<D> read_model_grid(const NetcdfFile& file) {
   return read_grid<D>(file);
 }
 
-template <int D>
-Model<D> read_model(const NetcdfFile& file) {
-  return read_model_rows<D>(file, 0, read_model_grid<D>(file).shape[D - 1]);
-}
+namespace {
 
+/// What a file holds of a grid or a part of it.
 template <int D>
-Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_t last) {
-  auto grid = read_model_grid<D>(file);
-  grid.first[D - 1] = first;
-  grid.shape[D - 1] = last - first;
+Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
   Model<D> model;
   for (const Property property : all_properties()) {
     const auto& row = row_of(property);
@@ -264,6 +261,21 @@ Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_
   return model;
 }
 
+}  // namespace
+
+template <int D>
+Model<D> read_model(const NetcdfFile& file) {
+  return read_on(file, read_model_grid<D>(file));
+}
+
+template <int D>
+Model<D> read_model_rows(const NetcdfFile& file, std::int64_t first, std::int64_t last) {
+  auto grid = read_model_grid<D>(file);
+  grid.first[D - 1] = first;
+  grid.shape[D - 1] = last - first;
+  return read_on(file, grid);
+}
+
 template <int D>
 Model<D> read_model(const std::string& path) {
   return read_model<D>(NetcdfFile::open(path));
@@ -283,7 +295,7 @@ void write_model(const Model<D>& model, OutputFile& out) {
     const auto& row = row_of(property);
     define_property(file, model.medium[property], row.name, row.long_name, row.units);
   }
-  if (fractured) define_sets(file, model.fracture_sets);
+  if (fractured) define_sets(file, model.grid(), model.fracture_sets);
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c) {
     const auto& name = stress_names<D>()[c];
     define_property(file, model.prestress_pa[c], prestress_variable(name),

@@ -35,10 +35,28 @@ template <int D>
 void report_grid(Report& report, const Grid<D>& grid) {
   report.text("grid", shown(grid));
   report.number("step", grid.spacing_m, "m");
-  for (int axis = 0; axis < D; ++axis) {
+  for (int axis = 0; axis < D - (grid.rows ? 1 : 0); ++axis) {
     report.range(std::string(1, axis_names<D>()[std::size_t(axis)]), grid.origin_m[std::size_t(axis)],
                  grid.end(axis), "m");
   }
+  if (!grid.rows) return;
+  Range depths;
+  for (const double depth : grid.rows->corners_m()) depths.see(depth);
+  report.range("z", depths.low, depths.high, "m");
+  const auto [thinnest, thickest] = grid.rows->heights();
+  report.range("row heights", thinnest, thickest, "m");
+  std::vector<Report> fitted;
+  for (const auto& horizon : grid.rows->horizons()) {
+    Range depth;
+    const auto corners = grid.rows->row(horizon.row);
+    for (const double here : corners) depth.see(here);
+    fitted.emplace_back();
+    fitted.back().text("name", horizon.name);
+    fitted.back().text("role", horizon.role);
+    fitted.back().count("row", horizon.row);
+    fitted.back().range("depth", depth.low, depth.high, "m");
+  }
+  report.list("fitted horizons", fitted);
 }
 
 template <int D>
