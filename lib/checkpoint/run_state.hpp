@@ -17,7 +17,7 @@
 #include "checkpoint/identity.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "gather/trace.hpp"
-#include "solver/pauses.hpp"
+#include "base/pauses.hpp"
 
 namespace slipwave {
 

@@ -28,7 +28,7 @@ template <int D, class Real>
 Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D, Real>& state,
                                const Domain<D>& domain, double dt_s, double unit, Ranks* ranks) {
   const auto& source = scene.survey.sources[shot - 1];
-  const double vp_max = std::max(fastest_wave(scene.model.medium), scene.subdomain.fastest);
+  const double vp_max = std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest);
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
   Effects<D, Real> effects;
   if (absorbs(scene, source) && !plane_wave)

@@ -7,7 +7,8 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
-#include "solver/divergence.hpp"
+#include "scene/largest_velocity.hpp"
+#include "scene/surroundings.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -150,7 +151,7 @@ void ShotSimulation<D, Real>::check_together() {
     if (!diverged_) check_stability();
   } catch (const DivergedFields<D>& seen) {
     diverged_.emplace(
-        seen.what() + std::string("; ") + surroundings(*scene_, domain_, shot_, seen.first().at),
+        seen.what() + std::string("; ") + surroundings(*scene_, shot_, domain_.from_model(seen.first().at)),
         seen.first());
   }
   if (done_ % collective_every != 0 && done_ != steps_) return;

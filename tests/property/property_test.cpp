@@ -15,7 +15,7 @@
 #include "model/resample.hpp"
 #include "plot/section.hpp"
 #include "shell.hpp"
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {

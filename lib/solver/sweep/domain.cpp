@@ -110,11 +110,6 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   return domain;
 }
 
-template <int D>
-double fastest_wave(const Medium<D>& medium) {
-  return fastest_speed(medium);
-}
-
 template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
   const auto& layout = state.layout;
@@ -202,7 +197,6 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
 
 template class Domain<2>;
 template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
-template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
 template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
@@ -211,7 +205,6 @@ template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 template class Domain<3>;
 template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
-template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
 template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);
