@@ -14,8 +14,8 @@
 #include "model/model_netcdf.hpp"
 #include "model/resample.hpp"
 #include "plot/section.hpp"
-#include "shell.hpp"
 #include "scene/subdomains.hpp"
+#include "shell.hpp"
 
 namespace slipwave {
 namespace {

@@ -5,9 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "grid/locate.hpp"
 #include "parallel/threads.hpp"
-#include "solver/sweep/point_weights.hpp"
 
 namespace slipwave::solver {
 namespace {

@@ -4,9 +4,6 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "gather/trace.hpp"
-#include "parallel/ranks.hpp"
-#include "scene/scene.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 
