@@ -170,11 +170,6 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   return domain;
 }
 
-template <int D>
-double fastest_wave(const Medium<D>& medium) {
-  return fastest_speed(medium);
-}
-
 template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
   const auto& layout = state.layout;
@@ -267,7 +262,6 @@ template class Domain<2>;
 template double corner_depth(const Domain<2>&, Index<2>);
 template double corner_depth(const Domain<3>&, Index<3>);
 template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
-template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
 template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
@@ -276,7 +270,6 @@ template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 template class Domain<3>;
 template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
-template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
 template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);

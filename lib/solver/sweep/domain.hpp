@@ -47,6 +47,11 @@ class Domain {
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
   /// Cell of the model whose medium a cell of the computed grid has.
   Index<D> model_cell(Index<D> at) const;
+  /// A cell of the computed grid counted from the first of the model: outside the model in zones.
+  Index<D> from_model(Index<D> at) const {
+    for (int axis = 0; axis < D; ++axis) at[axis] -= low_zone[axis];
+    return at;
+  }
   /// Cell of the computed grid of a cell of the model.
   Index<D> computed_cell(Index<D> at) const {
     for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
@@ -68,10 +73,6 @@ double corner_depth(const Domain<D>& domain, Index<D> corner);
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part = {});
-
-/// Largest vp in m/s of the cells that are not void.
-template <int D>
-double fastest_wave(const Medium<D>& medium);
 
 /// Writes b and the impedances of every cell and of the ghost cells beyond the edges into the state.
 template <int D, class Real>

@@ -35,10 +35,6 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
   return Extension::constant;
 }
 
-/// Ratio of impedances from which an interface between neighbouring cells is strong: stencils on both sides
-/// end there. Below it stencils run across: random contrasts up to 1.5 stay stable at every order.
-constexpr double strong_interface_ratio = 1.5;
-
 /// The stencil of a cell that would reach across a strong interface or into cells that do not carry the wave:
 /// beyond that the fields are extended by the law (theory.md (E10), (E11)). Or a cell that does not carry the
 /// wave beside one that does: it has no outgoing waves.

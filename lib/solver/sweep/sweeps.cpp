@@ -213,11 +213,11 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto each_filtered = [&](auto&& what) {
     for (std::size_t f = 0; f < filters_.size(); ++f)
       for (const auto& part : filtered[f])
-        for (int n = 0; n < row_count && !part.empty(); ++n)
-          what(*filters_[f], part, n, work.before(n) + part.first - columns.first);
+        if (!part.empty()) what(*filters_[f], part, work.before() + part.first - columns.first);
   };
-  each_filtered([&](const auto&, const IndexRange& part, int n, Real* before) {
-    std::copy(field(n) + part.first, field(n) + part.last, before);
+  each_filtered([&](const auto&, const IndexRange& part, Real* before) {
+    for (int n = 0; n < row_count; ++n)
+      std::copy(field(n) + part.first, field(n) + part.last, before + n * work.pitch());
   });
   const auto swept = [&](std::int64_t x) { return swept_rows(axis, fields + x, pitch); };
   const auto number = state_.layout.line_number(line);
@@ -244,8 +244,17 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                   between_faces);
   work.prefetch().prefetch_one();
-  each_filtered([&](auto& filter, const IndexRange& part, int n, const Real* before) {
-    filter.filter(axis, line, rows[n], part, scale, before, field(n) + part.first, remember);
+  each_filtered([&](auto& filter, const IndexRange& part, const Real* before) {
+    filter.filter({axis,
+                   scale,
+                   line,
+                   part,
+                   {rows.data(), std::size_t(row_count)},
+                   before,
+                   work.pitch(),
+                   fields + part.first,
+                   pitch},
+                  remember);
   });
 }
 

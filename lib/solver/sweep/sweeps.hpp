@@ -69,7 +69,7 @@ class Sweeps {
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
   /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
-  /// FreeSurface::reach cells on all sides as they were before the sweep.
+  /// free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
   }
@@ -83,7 +83,7 @@ class Sweeps {
   /// In 3-D at the edges of y, before a plane of rows is swept along y.
   void correct_flank_surfaces(std::int64_t plane);
   /// At the edges of z, before across() of that step: of all columns (in 3-D rows of a plane) that it and the
-  /// pieces before it were given, and FreeSurface::reach more.
+  /// pieces before it were given, and free_surface_reach more.
   void correct_end_surfaces(std::int64_t step, const IndexRange& columns);
 
   /// Queues these columns of a row for prefetching.
