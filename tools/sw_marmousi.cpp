@@ -16,6 +16,7 @@ struct Settings {
   double step_m = 0;
   int seed = 1;
   MarmousiSettings geology;
+  std::string fit;
   bool no_average = false;
   std::string title = "Marmousi-like model";
   std::string output = "-";
@@ -29,6 +30,10 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("scale", settings.geology.scale, "F", "factor on all lengths except the water depth");
   options.add("vp-over-vs", settings.geology.vp_over_vs, "R",
               "one vp/vs for all rock, instead of by lithology");
+  options.add(
+      "fit", settings.fit, "floor|none",
+      "let rows of cells follow the sea floor where it lies on no face of them: done if possible, unless "
+      "given");
   options.add("no-average", settings.no_average,
               "cells with several beds take the material at their centre, not the average");
   options.add("title", settings.title, "TEXT", "title of the model file");
@@ -43,15 +48,20 @@ void run(const Settings& settings, const cli::Context& context) {
   const auto grid = in_place("--size, --step", [&] { return grid_of_size<2>(size, settings.step_m); });
   auto geology = settings.geology;
   geology.seed = std::uint64_t(settings.seed);
+  const auto choice =
+      settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });
+  const auto fit = fit_marmousi(grid, geology, choice);
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<2> model;
-  model.medium = marmousi_medium(grid, geology, !settings.no_average);
+  model.medium = marmousi_medium(fit.grid, geology, !settings.no_average);
   check(model);
+  if (!fit.summary.empty()) context.say(fit.summary);
+  for (const auto& sentence : fit.left_out) context.warn(sentence);
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;
   write_model(model, out);
-  context.note(shown(grid));
+  context.note(shown(fit.grid));
 }
 
 }  // namespace

@@ -180,11 +180,14 @@ std::string Rows<D>::count_rows(std::size_t k) {
     below.row = above.row + count;
     return {};
   }
-  return above.name + " and " + below.name + " are " + short_number(cells.least * h()) + " m apart at " +
-         place(cells.least_at) + " and " + short_number(cells.largest * h()) + " m at " +
-         place(cells.largest_at) + ": rows between them would be thinner than " +
-         (least == least_height ? "a fifth" : "half") + " of the cell or thicker than 1.6 cells of " +
-         shown(h()) + " m";
+  const auto apart = above.name + " and " + below.name + " are " + short_number(cells.least * h()) +
+                     " m apart at " + place(cells.least_at);
+  const std::string thin = std::string("thinner than ") + (least == least_height ? "a fifth" : "half") +
+                           " of a cell of " + shown(h()) + " m";
+  if (cells.largest <= largest_height * double(std::max<std::int64_t>(most, 1)))
+    return apart + ", rows between them would be " + thin;
+  return apart + " and " + short_number(cells.largest * h()) + " m at " + place(cells.largest_at) +
+         ", rows between them would be " + thin + " or thicker than 1.6 cells";
 }
 
 template <int D>
@@ -292,9 +295,9 @@ std::string summary_of(const Grid<D>& grid, const std::vector<FitHorizon>& horiz
 }  // namespace
 
 FitChoice parse_fit(std::string_view text) {
-  if (text == "none") return {false, false, false, true};
-  if (text == "all") return {true, true, true, true};
-  FitChoice choice{false, false, false, true};
+  if (text == "none") return {false, false, false, true, false};
+  if (text == "all") return {true, true, true, true, false};
+  FitChoice choice{false, false, false, true, false};
   for (const auto& word : split(text, ',')) {
     if (word != "surface" && word != "floor") {
       throw Error("found '" + std::string(text) + "', expected surface, floor, surface,floor, all or none",
@@ -324,7 +327,10 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
   Fit<D> fit{regular, std::vector<std::int64_t>(horizons.size(), -1), {}, {}};
   const auto order = in_order_of_need(horizons, choice);
   const auto on_faces = [&](std::size_t n) { return lies_on_face(horizons[n], regular.spacing_m); };
-  if (std::all_of(order.begin(), order.end(), on_faces)) return fit;
+  const auto stays_regular = [&](const std::vector<std::size_t>& followed) {
+    return followed.empty() || (!choice.always && std::all_of(followed.begin(), followed.end(), on_faces));
+  };
+  if (stays_regular(order)) return fit;
   Rows<D> rows(regular, horizons);
   std::vector<std::size_t> chosen;
   for (const std::size_t n : order) {
@@ -334,14 +340,12 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
     if (why.empty()) {
       chosen = std::move(with);
     } else if (choice.asked && horizons[n].strong) {
-      throw Error("no grid can follow the " + horizons[n].shown + ": " + why +
-                      "; move it, choose other cells or leave it out of --fit",
-                  ErrorKind::usage);
+      throw Error(why + "; move it, use other cells or --fit none", ErrorKind::usage);
     } else if (!on_faces(n)) {
-      fit.left_out.push_back(horizons[n].shown + " is not fitted: " + why);
+      fit.left_out.push_back("not fitted: " + why);
     }
   }
-  if (std::all_of(chosen.begin(), chosen.end(), on_faces)) return fit;
+  if (stays_regular(chosen)) return fit;
   rows.take(chosen);
   for (std::size_t n = 0; n < chosen.size(); ++n) fit.rows[chosen[n]] = rows.row(n);
   fit.grid = rows.grid(chosen);

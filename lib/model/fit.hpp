@@ -16,6 +16,8 @@ struct FitChoice {
   bool layers = true;    // of solid against solid, fluid against fluid
   /// Given by the user: a surface or floor that cannot be followed is an error then, not a remark.
   bool asked = false;
+  /// A fitted grid even where all horizons lie on faces.
+  bool always = false;
 };
 
 /// "surface,floor", "all" or "none". Throws a usage Error.
@@ -54,7 +56,8 @@ std::vector<Point<D>> corner_columns(const Grid<D>& grid);
 /// thickness in cells says, two at least where it is 2/5 of a cell or more, and more where it would be
 /// thicker than 1.6 cells a row. What crosses others, leaves the model, or would have rows thinner than a
 /// fifth of a cell (half, where it is not strong) is left out and said, or is an Error where `choice.asked`
-/// and it is strong. Where all horizons lie on faces of the regular grid, that is kept.
+/// and it is strong. Where all horizons lie on faces of the regular grid, that is kept,
+/// but for `choice.always`.
 template <int D>
 Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons, const FitChoice& choice);
 

@@ -158,6 +158,7 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
     const auto at = model.grid().index(n);
     Point<D> centre{};
     for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
+    centre[D - 1] = model.grid().depth(at);
     if (!inside(centre)) continue;
     const auto cell = std::size_t(n);
     if (!model.medium.is_solid(cell)) {

@@ -62,6 +62,11 @@ Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const
     throw Error(file.shown_name() + ": " + variable.name + ": found " +
                 std::to_string(variable.shape.size()) + " dimensions, expected two that are not empty");
   }
+  if (file.text_attribute(variable.name, "coordinates") == "depth" && file.has_variable("depth_bounds")) {
+    throw Error(file.shown_name() + ": " + variable.name +
+                ": found rows that follow horizons (depth_bounds), expected a regular grid; build the model "
+                "with --fit none");
+  }
   const std::size_t depth =
       is_depth(file, variable.dimensions[1]) && !is_depth(file, variable.dimensions[0]) ? 1 : 0;
   const std::size_t nz = variable.shape[depth], nx = variable.shape[1 - depth];

@@ -141,21 +141,32 @@ Index<D> index_of(std::int64_t column, std::int64_t line, std::int64_t row) {
   if constexpr (D == 3) return {column, line, row};
 }
 
+enum class Kind { nothing, fluid, solid };
+
+Kind kind_of(const Layer& layer) {
+  if (layer.material.rho == 0 && layer.gradient.rho == 0) return Kind::nothing;
+  return layer.material.vs == 0 && layer.gradient.vs == 0 ? Kind::fluid : Kind::solid;
+}
+
 /// Where cells of a grid lie in a pile of layers.
 template <int D>
 class Pile {
  public:
   /// `rows` as Fit::rows, or none.
   Pile(const Grid<D>& grid, const std::vector<Layer>& layers, std::vector<std::int64_t> rows)
-      : grid_(grid), rows_(std::move(rows)), layers_(layers.size()) {
+      : grid_(grid), rows_(std::move(rows)), from_(layers.size(), 0), layers_(layers.size()) {
     rows_.resize(layers_, -1);
+    for (std::size_t i = 1; i < layers_; ++i) {
+      if (kind_of(layers[i]) != kind_of(layers[i - 1])) continue;
+      const bool begins = i == 1 || kind_of(layers[i - 1]) != kind_of(layers[i - 2]);
+      from_[i] = begins ? std::max<std::int64_t>(rows_[i - 1], 0) : from_[i - 1];
+    }
   }
 
   /// How many tops there are down to that of the layer of a cell: 0 is void.
   std::size_t layers_at(const std::vector<double>& tops, double centre_m, std::int64_t row) const {
     std::size_t count = layers_;
-    while (count > 0 && !(rows_[count - 1] >= 0 ? row >= rows_[count - 1] : tops[count - 1] <= centre_m))
-      --count;
+    while (count > 0 && !is_below(count - 1, tops, centre_m, row)) --count;
     return count;
   }
   /// How tops cut a cell; false: none does.
@@ -178,6 +189,9 @@ class Pile {
   }
 
  private:
+  bool is_below(std::size_t i, const std::vector<double>& tops, double centre_m, std::int64_t row) const {
+    return rows_[i] >= 0 ? row >= rows_[i] : row >= from_[i] && tops[i] <= centre_m;
+  }
   /// A depth at an upright edge of a cell, counted from the upper end of that in its lengths.
   double in_cell(double depth_m, const Index<D>& at, int x, int y, double centre_m) const {
     if (!grid_.rows) return (depth_m - centre_m) / grid_.spacing_m + 0.5;
@@ -191,14 +205,21 @@ class Pile {
 
   const Grid<D>& grid_;
   std::vector<std::int64_t> rows_;
+  std::vector<std::int64_t> from_;  // no cell above this row is a layer's: there its kind begins
   std::size_t layers_ = 0;
 };
 
-enum class Kind { nothing, fluid, solid };
-
-Kind kind_of(const Layer& layer) {
-  if (layer.material.rho == 0 && layer.gradient.rho == 0) return Kind::nothing;
-  return layer.material.vs == 0 && layer.gradient.vs == 0 ? Kind::fluid : Kind::solid;
+/// Depth of the top of layer i; where its kind begins there, that of the highest of the layers of this kind
+/// that come one after the other: what crops out at the sea floor is part of that, and all of the surface.
+double depth_of_kind(const std::vector<Layer>& layers, std::size_t i, double x_m, double y_m) {
+  double depth = layers[i].top.at(x_m, y_m);
+  if (i > 0 && kind_of(layers[i - 1]) == kind_of(layers[i])) return depth;
+  const auto belongs = [&](const Layer& layer) {
+    return i == 0 ? kind_of(layer) != Kind::nothing : kind_of(layer) == kind_of(layers[i]);
+  };
+  for (std::size_t k = i + 1; k < layers.size() && belongs(layers[k]); ++k)
+    depth = std::min(depth, layers[k].top.at(x_m, y_m));
+  return depth;
 }
 
 /// The top of a layer as a horizon, without depths. The floor is that of the sea: all above it is fluid.
@@ -273,7 +294,8 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
   std::vector<std::size_t> layer_of;
   for (std::size_t i = 0; i < layers.size(); ++i) {
     auto horizon = horizon_of(layers, i);
-    for (const auto& at : columns) horizon.depths_m.push_back(layers[i].top.at(at[0], D == 3 ? at[1] : 0));
+    for (const auto& at : columns)
+      horizon.depths_m.push_back(depth_of_kind(layers, i, at[0], D == 3 ? at[1] : 0));
     const auto [least, largest] = std::minmax_element(horizon.depths_m.begin(), horizon.depths_m.end());
     if (*largest <= 0 || *least >= regular.end(D - 1)) continue;
     horizons.push_back(std::move(horizon));

@@ -44,10 +44,10 @@ class Column {
   marmousi::Section section_;
 };
 
-/// The beds at the centres of the cells at one place along x.
+/// The beds at the centres of the cells at one place along x. The sea floor is level, and so are rows.
 std::vector<Bed> beds_of(const Grid<2>& grid, const Column& column) {
   std::vector<Bed> beds(std::size_t(grid.shape[1]));
-  for (std::size_t k = 0; k < beds.size(); ++k) beds[k] = column.bed_at(grid.centre(1, std::int64_t(k)));
+  for (std::size_t k = 0; k < beds.size(); ++k) beds[k] = column.bed_at(grid.depth({0, std::int64_t(k)}));
   return beds;
 }
 
@@ -72,7 +72,10 @@ class CellMean {
     parts_.clear();
     for (const auto& column : columns) {
       const auto z_of = [&](int n) {
-        return grid_.origin_m[1] + (double(k) + (n + 0.5) / points_z) * grid_.spacing_m;
+        const double share = (n + 0.5) / points_z;
+        if (!grid_.rows) return grid_.origin_m[1] + (double(k) + share) * grid_.spacing_m;
+        const double upper = grid_.rows->corner({0, k}), lower = grid_.rows->corner({0, k + 1});
+        return upper + share * (lower - upper);
       };
       std::array<Bed, points_z> beds;
       beds.front() = column.bed_at(z_of(0));
@@ -133,6 +136,16 @@ void check_settings(const Grid<2>& grid, const MarmousiSettings& settings) {
 
 }  // namespace
 
+Fit<2> fit_marmousi(const Grid<2>& regular, const MarmousiSettings& settings, const FitChoice& choice) {
+  check_settings(regular, settings);
+  std::vector<FitHorizon> horizons;
+  if (settings.water_m > 0 && settings.water_m < regular.end(1)) {
+    const std::vector<double> depths(corner_columns(regular).size(), settings.water_m);
+    horizons.push_back({"floor", "floor at " + shown(settings.water_m) + " m", "floor", true, false, depths});
+  }
+  return fit_grid(regular, horizons, choice);
+}
+
 Medium<2> marmousi_medium(const Grid<2>& grid, const MarmousiSettings& settings, bool average) {
   check_settings(grid, settings);
   Medium<2> medium(grid);
@@ -151,7 +164,7 @@ Medium<2> marmousi_medium(const Grid<2>& grid, const MarmousiSettings& settings,
       const std::array<Column, points_x> columns{column_at(double(i) + 0.125), column_at(double(i) + 0.375),
                                                  column_at(double(i) + 0.625), column_at(double(i) + 0.875)};
       for (std::int64_t k = 0; k < grid.shape[1]; ++k) {
-        const auto centre = column.material_of(beds[1][std::size_t(k)], grid.centre(1, k));
+        const auto centre = column.material_of(beds[1][std::size_t(k)], grid.depth({i, k}));
         put(medium, std::size_t(grid.flat({i, k})),
             average && is_cut(beds, std::size_t(k)) ? mean_of(k, centre, columns) : centre);
       }

@@ -74,7 +74,7 @@ void check_rows(const Grid<D>& grid) {
   for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
     const double height = grid.height(grid.index(cell));
     if (height >= thinnest_row * grid.spacing_m) continue;
-    throw Error("the row at " + place_of(grid, cell) + " is " + shown(height) +
+    throw Error("the row at " + place_of(grid, cell) + " is " + shown(height, 4) +
                 " m high, expected at least a fifth of a cell of " + shown(grid.spacing_m) +
                 " m: fit fewer horizons or choose smaller cells");
   }

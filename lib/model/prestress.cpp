@@ -18,15 +18,14 @@ constexpr double slack = 1e-6;
 template <int D>
 std::vector<double> mass_above(const Medium<D>& medium) {
   const auto& grid = medium.grid();
-  const double h = grid.spacing_m;
   std::vector<double> mass(medium.rho.size());
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     auto at = grid.index(n);
-    const double half = 0.5 * h * double(medium.rho[std::size_t(n)]);
+    const double half = 0.5 * grid.height(at) * double(medium.rho[std::size_t(n)]);
     mass[std::size_t(n)] = half;
     if (--at[D - 1] < 0) continue;
     const auto above = std::size_t(grid.flat(at));
-    mass[std::size_t(n)] += mass[above] + 0.5 * h * double(medium.rho[above]);
+    mass[std::size_t(n)] += mass[above] + 0.5 * grid.height(at) * double(medium.rho[above]);
   }
   return mass;
 }

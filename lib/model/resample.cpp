@@ -139,10 +139,16 @@ std::vector<Overlap> overlaps_of(std::int64_t old_count, double old_step, std::i
   return overlaps;
 }
 
+template <int D>
+void check_regular(const Grid<D>& grid) {
+  if (grid.rows) throw Error("found rows that follow horizons, expected a regular grid");
+}
+
 }  // namespace
 
 template <int D>
 Model<D> regridded(const Model<D>& model, double spacing_m) {
+  if (model.grid().rows) return refitted(model, spacing_m);
   Regridding<D> to(model, spacing_m);
   const auto& from = model.grid();
   auto by_themselves = model.medium.properties();  // those whose means depend on nothing else
@@ -180,6 +186,7 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
 
 template <int D>
 Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
+  check_regular(model.grid());
   if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
   Regridding<D> to(model, spacing_m);
   const auto properties = model.medium.properties();
@@ -194,6 +201,7 @@ Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
 
 template <int D>
 Model<D> cropped(const Model<D>& model, const Box<D>& box) {
+  check_regular(model.grid());
   const auto& from = model.grid();
   Grid<D> grid = from;
   Index<D> first{};

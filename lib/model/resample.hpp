@@ -9,7 +9,9 @@ namespace slipwave {
 /// Error). A new cell is fluid, solid or void, and fractured, as the old cell its centre lies in (the one
 /// behind, where it lies on a face), and its material is the mean over the parts of old cells of that kind in
 /// it (theory.md M1, M2; of other properties as their rows say), each part weighted by its exact volume. So a
-/// cell split into whole ones gives copies of itself, and joining those gives it back, bit for bit.
+/// cell split into whole ones gives copies of itself, and joining those gives it back, bit for bit. A fitted
+/// grid follows the same horizons with other cells (fit_grid()), and parts of old cells count by their
+/// heights between the same two horizons; Error where it cannot, or where its bottom is not level.
 template <int D>
 Model<D> regridded(const Model<D>& model, double spacing_m);
 
@@ -18,13 +20,18 @@ Model<D> regridded(const Model<D>& model, double spacing_m);
 /// fractured, as the old cell its centre lies in; so no interface is smeared. Its properties are
 /// interpolated (bi-, trilinearly) between the centres of the old cells round it that are of its kind, their
 /// weights scaled up to 1: exact for linear fields where all of them are, never outside the range of the old
-/// values. `average` = false interpolates for larger cells, too.
+/// values. `average` = false interpolates for larger cells, too. No fitted grids.
 template <int D>
 Model<D> resampled(const Model<D>& model, double spacing_m, bool average = true);
 
 /// The cells whose centres lie in `box`. x (and y) keep their coordinates; depth is counted from the new top,
-/// which becomes the surface. The box must hold a cell and not reach out of the model (usage Error).
+/// which becomes the surface. The box must hold a cell and not reach out of the model (usage Error). No
+/// fitted grids.
 template <int D>
 Model<D> cropped(const Model<D>& model, const Box<D>& box);
+
+/// regridded() of a model on a fitted grid.
+template <int D>
+Model<D> refitted(const Model<D>& model, double spacing_m);
 
 }  // namespace slipwave

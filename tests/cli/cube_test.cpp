@@ -7,7 +7,8 @@ namespace {
 /// From a model to pictures in three dimensions.
 class Cube : public Shell {
  protected:
-  const std::string layers = "--step 10 --layer 0:1500:0:1000 --layer sine,50,8,200:2500:1300:2100 ";
+  const std::string layers =
+      "--step 10 --layer 0:1500:0:1000 --layer sine,50,8,200:2500:1300:2100 --fit none ";
   const std::string planes = "--friction 0.1 --viscosity 500 ";
   const std::string shot =
       "--source 95,65,85 --kind force:1,0,2 --wavelet ricker:15 --amplitude 1e9 --time 0.15 --dt 0.005 -q ";

@@ -6,7 +6,7 @@ using ModelAveraging = Shell;
 
 // The top at 13 m leaves 30 % of the second row of cells to the upper rock.
 const std::string layers =
-    "sw-layers --size 40x20 --step 10 --layer 0:2500:1200:2000 --layer 13:4500:2250:2500 ";
+    "sw-layers --size 40x20 --step 10 --layer 0:2500:1200:2000 --layer 13:4500:2250:2500 --fit none ";
 
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

@@ -35,7 +35,8 @@ TEST_F(ModelGeology, OfLayersFollowsHorizonsFromFiles) {
   // A topography with a hill in the middle, and a lake floor below it.
   write("hill.txt", "# x z\n0 40\n100 10\n200 40\n");
   const auto text = done(
-      "sw-layers --size 200x100 --step 10 --layer @hill.txt:3000:1500:2200 --layer 70:4000:2000:2500 | "
+      "sw-layers --size 200x100 --step 10 --layer @hill.txt:3000:1500:2200 --layer 70:4000:2000:2500 --fit "
+      "none | "
       "sw-info -");
   // Centres above the hill: 40 - 0.3 x at x = 5 15 ... are 38.5 35.5 ... 11.5, with 4 4 3 3 3 2 2 2 1 1
   // centres 5 15 25 35 above, on either side.
@@ -45,7 +46,7 @@ TEST_F(ModelGeology, OfLayersFollowsHorizonsFromFiles) {
 TEST_F(ModelGeology, OfLayersFollowsGridsInThreeDimensions) {
   // A roof over y: 40 - 0.3 y down to 10 m in the middle; in each of ten columns along x the same as above.
   write("roof.xyz", "# x y depth\n0 100 10\n100 0 40\n0 0 40\n100 200 40\n0 200 40\n100 100 10\n");
-  const std::string rest = " --size 100x200x100 --step 10 --layer 70:4000:2000:2500 | sw-info -";
+  const std::string rest = " --size 100x200x100 --step 10 --layer 70:4000:2000:2500 --fit none | sw-info -";
   const auto text = done("sw-layers --layer @roof.xyz:3000:1500:2200" + rest);
   EXPECT_TRUE(has(text, "void cells    500\n")) << text;
   // Through a pipe, too.
@@ -61,6 +62,9 @@ TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(
       ran.err,
+      "sw-layers: fitted: floor at 200 m, rows 0.79 to 1.25 of 10 m\n"
+      "sw-layers: warning: not fitted: layer at sine,250,100,1000 meets or crosses floor at 200 m at x=590, "
+      "z=196.417\n"
       "sw-layers: warning: the layer at 200 m is cut off by the one at sine,250,100,1000 between x=585 and "
       "x=915\n");
   done(line + " -q");
@@ -70,7 +74,7 @@ TEST_F(ModelGeology, OfLayersIsTakenFromAFileOfOptions) {
   write(
       "m.ini",
       "size = 200x100\nstep = 10\nlayer = 0:1500:0:1000\nlayer = sine,40,5,100:1800+0.5:700+0.2:2000+0.1\n");
-  const auto text = done("sw-layers --config m.ini | sw-info -");
+  const auto text = done("sw-layers --config m.ini --fit none | sw-info -");
   EXPECT_TRUE(has(text, "vp            1500 to 18")) << text;
 }
 

@@ -84,8 +84,8 @@ TEST_F(ModelPipeline, AnIndependentReaderFindsTheValuesWhereTheyBelong) {
   if (run("/usr/bin/python3 -c 'import netCDF4'").code != 0) {
     GTEST_SKIP() << "no /usr/bin/python3 with netCDF4 (Debian: python3-netcdf4)";
   }
-  done("sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 40:3000:1500:2200:10 | " + fracture +
-       "-q -o m.nc");
+  done("sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 40:3000:1500:2200:10 --fit none | " +
+       fracture + "-q -o m.nc");
   write("check.py", R"(
 import netCDF4, numpy as np
 m = netCDF4.Dataset('m.nc'); m.set_auto_mask(False)
@@ -130,7 +130,9 @@ TEST_F(ModelPipeline, ImportsRawFilesOfEitherOrderAlike) {
 }
 
 TEST_F(ModelPipeline, ImportsItsOwnModelsBackUnchanged) {
-  done("sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 40:3000:1500:2200:10 -o m.nc");
+  done(
+      "sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 40:3000:1500:2200:10 --fit none -o "
+      "m.nc");
   done("sw-import --vp m.nc --vs m.nc:vs --rho m.nc -o n.nc");
   const std::string values = " | sed -n '/^data:/,$p' | grep -v history";
   EXPECT_EQ(done("ncdump -v x,z,vp,vs,rho m.nc" + values), done("ncdump -v x,z,vp,vs,rho n.nc" + values));
