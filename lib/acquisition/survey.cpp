@@ -10,15 +10,18 @@ namespace {
 
 template <int D>
 void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid) {
+  const Point<D> at = grid.row_coordinates(point);
   bool inside = true;
   for (int axis = 0; axis < D; ++axis)
-    inside = inside && point[axis] >= grid.origin_m[axis] && point[axis] <= grid.end(axis);
+    inside = inside && at[axis] >= grid.origin_m[axis] && at[axis] <= grid.end(axis);
   if (inside) return;
   std::string place, extent;
   for (int axis = 0; axis < D; ++axis) {
     const std::string name(1, axis_names<D>()[axis]), separator = axis == 0 ? "" : " ";
     place += separator + name + "=" + shown(point[axis]);
-    extent += separator + name + "=" + shown(grid.origin_m[axis]) + ".." + shown(grid.end(axis));
+    const bool bent = axis == D - 1 && grid.rows;
+    const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
+    extent += separator + name + "=" + shown(depths[0]) + ".." + shown(depths[1]) + (bent ? " there" : "");
   }
   throw Error(what + " at " + place + " lies outside the model, expected " + extent);
 }

@@ -12,12 +12,12 @@
 #include <string>
 
 #include "base/interruption.hpp"
+#include "base/pauses.hpp"
 #include "checkpoint/checkpoint_file.hpp"
 #include "checkpoint/file_lock.hpp"
 #include "checkpoint/identity.hpp"
 #include "checkpoint/snapshot_log.hpp"
 #include "gather/trace.hpp"
-#include "solver/pauses.hpp"
 
 namespace slipwave {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -62,13 +63,22 @@ struct Grid {
     }
     return at;
   }
-  /// Row coordinates of a point: itself in a regular grid.
+  /// Row coordinates of a point: itself in a regular grid. Within a millionth of a cell of the first or the
+  /// last face it is on that face, so that a place on a surface can be given by its depth.
   Point<D> row_coordinates(Point<D> point_m) const {
     if (!rows) return point_m;
-    Point<D> at = point_m;
-    for (int axis = 0; axis < D - 1; ++axis) at[axis] = (point_m[axis] - origin_m[axis]) / spacing_m;
-    point_m[D - 1] = origin_m[D - 1] + rows->row_position(at) * spacing_m;
+    const double cells = double(rows->cells()[D - 1]), row = rows->row_position(in_cells(point_m));
+    const double snapped = std::abs(row) < 1e-6 ? 0 : std::abs(row - cells) < 1e-6 ? cells : row;
+    point_m[D - 1] = origin_m[D - 1] + snapped * spacing_m;
     return point_m;
+  }
+  /// Depths of the first and the last face above or below a point of a fitted grid, m.
+  std::array<double, 2> depths_at(const Point<D>& point_m) const {
+    Point<D> at = in_cells(point_m);
+    at[D - 1] = 0;
+    const double top = rows->depth(at);
+    at[D - 1] = double(rows->cells()[D - 1]);
+    return {top, rows->depth(at)};
   }
   /// Depth of the centre of a cell, m.
   double depth(Index<D> at) const {
@@ -81,6 +91,11 @@ struct Grid {
     if (!rows) return spacing_m;
     for (int axis = 0; axis < D; ++axis) at[axis] += first[axis];
     return rows->height(at);
+  }
+  /// A point with its horizontal coordinates counted in cells from the first corner.
+  Point<D> in_cells(Point<D> point_m) const {
+    for (int axis = 0; axis < D - 1; ++axis) point_m[axis] = (point_m[axis] - origin_m[axis]) / spacing_m;
+    return point_m;
   }
   bool operator==(const Grid& other) const {
     return shape == other.shape && spacing_m == other.spacing_m && origin_m == other.origin_m &&

@@ -12,8 +12,9 @@ namespace slipwave {
 template <int D>
 Index<D> cell_of(const Grid<D>& grid, const Point<D>& point_m) {
   Index<D> at;
+  const Point<D> place = grid.row_coordinates(point_m);
   for (std::size_t axis = 0; axis < D; ++axis) {
-    const auto cell = std::int64_t(std::floor((point_m[axis] - grid.origin_m[axis]) / grid.spacing_m));
+    const auto cell = std::int64_t(std::floor((place[axis] - grid.origin_m[axis]) / grid.spacing_m));
     at[axis] = std::clamp<std::int64_t>(cell - grid.first[axis], 0, grid.shape[axis] - 1);
   }
   return at;

@@ -84,6 +84,24 @@ double RowDepths<D>::height(const Index& at) const {
 }
 
 template <int D>
+double RowDepths<D>::slope(const Index& at, int axis, double spacing_m) const {
+  double sum = 0;
+  for (int corner = 0; corner < 1 << D; ++corner) {
+    Index of = at;
+    for (int n = 0; n < D; ++n) of[std::size_t(n)] += (corner >> n) & 1;
+    sum += ((corner >> axis) & 1 ? 1 : -1) * this->corner(of);
+  }
+  return sum / ((1 << (D - 1)) * spacing_m);
+}
+
+template <int D>
+double RowDepths<D>::stretch(const Index& at, double spacing_m) const {
+  double square = 1;
+  for (int axis = 0; axis < D - 1; ++axis) square += std::pow(slope(at, axis, spacing_m), 2);
+  return std::sqrt(square) * spacing_m / height(at);
+}
+
+template <int D>
 double RowDepths<D>::of_row(std::int64_t row, const std::array<double, std::size_t(D)>& position) const {
   const auto x = corner_weights(position[0], cells_[0]);
   const auto y = D == 3 ? corner_weights(position[1], cells_[1]) : CornerWeights{0, 1, {1}};

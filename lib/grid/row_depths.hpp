@@ -41,6 +41,12 @@ class RowDepths {
   double centre(const Index& at) const;
   /// Height of a cell at its centre, m.
   double height(const Index& at) const;
+  /// Slope of a row along a horizontal axis at the centre of a cell: dz/dx or dz/dy, for cells `spacing_m`
+  /// wide.
+  double slope(const Index& at, int axis, double spacing_m) const;
+  /// By how much the row coordinate changes faster than the place along the normal of the row: |grad zeta|, 1
+  /// in a regular grid. A wave of speed c crosses c stretch dt/h cells in dt.
+  double stretch(const Index& at, double spacing_m) const;
   /// Depth at row coordinates counted in cells from the first corner, not rounded to corners: cubics through
   /// the four nearest along each axis across, straight within a row. Outside as at the edge; above the first
   /// and below the last row with the heights of those.
@@ -53,7 +59,7 @@ class RowDepths {
     const std::size_t a_row = corners_m_.size() / std::size_t(cells_[D - 1] + 1);
     return {corners_m_.data() + std::size_t(row_of_corners) * a_row, a_row};
   }
-  /// Whether the first face, that is the top of the grid, is level.
+  /// Whether a row of corners is level.
   bool row_is_level(std::int64_t row_of_corners) const;
   /// Least and largest height of a cell at its centre, m.
   std::array<double, 2> heights() const;

@@ -105,6 +105,16 @@ Plan<D> plan(const Scene<D>& scene) {
 }
 
 template <int D>
+std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
+  std::int64_t widest = 0, cells = 1;
+  for (const auto& source : scene.survey.sources)
+    widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
+  for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
+  const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
+  return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
+}
+
+template <int D>
 Report report_of(const Plan<D>& plan) {
   Report report;
   report.text("grid", shown(plan.computed) + ", absorbing zones included");
@@ -156,9 +166,11 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
 }
 
 template Plan<2> plan(const Scene<2>&);
+template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
 template Plan<3> plan(const Scene<3>&);
+template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
 template Report report_of(const Plan<3>&);
 template std::vector<std::string> warnings(const Scene<3>&);
 

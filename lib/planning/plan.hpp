@@ -35,6 +35,10 @@ struct Plan {
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
 
+/// Memory for the fields and the material of a shot, upper limit in bytes.
+template <int D>
+std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
+
 template <int D>
 Report report_of(const Plan<D>& plan);
 

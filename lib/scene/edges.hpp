@@ -22,4 +22,7 @@ struct EdgeLaws {
   const auto& operator[](int axis) const { return law[std::size_t(axis)]; }
 };
 
+/// Cells along a free surface that its corrections read beside each.
+inline constexpr std::int64_t free_surface_reach = 2;
+
 }  // namespace slipwave

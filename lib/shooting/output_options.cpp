@@ -6,6 +6,7 @@
 #include "base/parse.hpp"
 #include "output/snapshot_netcdf.hpp"
 #include "parallel/threads.hpp"
+#include "planning/plan.hpp"
 #include "segy/writer.hpp"
 #include "segy/writer_headers.hpp"
 #include "shooting/output_names.hpp"

@@ -3,7 +3,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave {
 namespace {

@@ -14,26 +14,25 @@ namespace slipwave::solver {
 template <int D, class Real>
 using Effects = std::vector<std::unique_ptr<Effect<D, Real>>>;
 
-/// The effects of a shot of a scene, in the order in which they act before recording. Fields are
-/// `unit` times SI. Keep references to state, domain and scene. Collective where there are `ranks` (may be
-/// null).
+/// Builds the time step of a scene. What it builds keeps references to its members.
 template <int D, class Real>
-Effects<D, Real> build_effects(const Scene<D>& scene, std::size_t shot, State<D, Real>& state,
-                               const Domain<D>& domain, double dt_s, double unit, Ranks* ranks);
+struct StepBuilder {
+  const Scene<D>& scene;
+  const Domain<D>& domain;
+  State<D, Real>& state;
+  double dt_s;
 
-/// The time step of the scene: its sweeps and, at the end of the step, effects and records. Makes sweeps use
-/// the effects that filter them.
-template <int D, class Real>
-TimeStep<D, Real> build_time_step(const Scene<D>& scene, const Domain<D>& domain, Sweeps<D, Real>& sweeps,
-                                  const Layout<D>& layout, const Effects<D, Real>& effects,
-                                  const std::vector<Record<D, Real>*>& records, double dt_s,
-                                  std::int64_t steps);
-
-/// The executor: tiled, or plain where the scene says so. `halo` (may be null): exchange with neighbouring
-/// subdomains.
-template <int D, class Real>
-std::unique_ptr<Executor> make_executor(const Scene<D>& scene, const Domain<D>& domain, State<D, Real>& state,
-                                        Sweeps<D, Real>& sweeps, TimeStep<D, Real>& step,
-                                        Halo<D, Real>* halo);
+  /// The effects of a shot, in the order in which they act before recording. Fields are `unit` times SI.
+  /// Collective where there are `ranks` (may be null).
+  Effects<D, Real> effects(std::size_t shot, double unit, Ranks* ranks) const;
+  /// The time step: its sweeps and, at the end of the step, effects and records. Makes sweeps use the effects
+  /// that filter them.
+  TimeStep<D, Real> time_step(Sweeps<D, Real>& sweeps, const Effects<D, Real>& effects,
+                              const std::vector<Record<D, Real>*>& records, std::int64_t steps) const;
+  /// The executor: tiled, or plain where the scene says so. `halo` (may be null): exchange with neighbouring
+  /// subdomains.
+  std::unique_ptr<Executor> executor(Sweeps<D, Real>& sweeps, TimeStep<D, Real>& step,
+                                     Halo<D, Real>* halo) const;
+};
 
 }  // namespace slipwave::solver

@@ -7,7 +7,8 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
-#include "solver/divergence.hpp"
+#include "scene/largest_velocity.hpp"
+#include "scene/surroundings.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -70,14 +71,14 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
                           scene.subdomain)),
       state_(make_filled_state<D, Real>(domain_, scene.model.medium, dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
-      effects_(build_effects(scene, shot, state_, domain_, dt_s_, unit_, ranks)),
+      effects_(builder().effects(shot, unit_, ranks)),
       recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
       sink_(sink),
       snapshots_(state_.layout, domain_, sink ? scene.snapshot_every_s : std::nullopt,
                  scene.recording.duration_s, unit_),
-      step_(build_time_step(scene, domain_, sweeps_, state_.layout, effects_, records(), dt_s_, steps_)),
+      step_(builder().time_step(sweeps_, effects_, records(), steps_)),
       halo_(make_halo()),
-      executor_(make_executor(scene, domain_, state_, sweeps_, step_, halo_.get())),
+      executor_(builder().executor(sweeps_, step_, halo_.get())),
       stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
   // Everything that depends on them is built.
   domain_.release_impedances();
@@ -150,7 +151,7 @@ void ShotSimulation<D, Real>::check_together() {
     if (!diverged_) check_stability();
   } catch (const DivergedFields<D>& seen) {
     diverged_.emplace(
-        seen.what() + std::string("; ") + surroundings(*scene_, domain_, shot_, seen.first().at),
+        seen.what() + std::string("; ") + surroundings(*scene_, shot_, domain_.from_model(seen.first().at)),
         seen.first());
   }
   if (done_ % collective_every != 0 && done_ != steps_) return;

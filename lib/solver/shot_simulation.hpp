@@ -49,6 +49,7 @@ class ShotSimulation {
   double computed_share() const;
 
  private:
+  StepBuilder<D, Real> builder() { return {*scene_, domain_, state_, dt_s_}; }
   std::vector<Record<D, Real>*> records();
   std::unique_ptr<Halo<D, Real>> make_halo();
   void check_together();

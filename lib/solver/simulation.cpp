@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "solver/divergence.hpp"
+#include "scene/surroundings.hpp"
 #include "solver/shot_simulation.hpp"
 
 namespace slipwave {
@@ -22,6 +22,33 @@ Gather sound_part(Gather gather, const Recording& recording, std::int64_t steps,
   return gather;
 }
 
+/// First divergence is searched for in at most so many cell steps: about ten seconds of a core.
+constexpr double most_again = 2e9;
+
+/// The first step at whose end the fields have diverged, and where. For that the shot is simulated again from
+/// its beginning and checked after every step from the last check on that passed. Nothing where that would
+/// take more than `most_again` cell steps.
+template <int D, class Real>
+std::optional<solver::DivergedFields<D>> first_divergence(const Scene<D>& scene, std::size_t shot,
+                                                          const solver::Divergence<D>& seen, bool snapshots) {
+  // As many cells are computed as the first time: all of them where there were snapshots.
+  const auto nowhere = [](double, const FieldReader<D>&) {};
+  solver::ShotSimulation<D, Real> again(scene, shot,
+                                        snapshots ? SnapshotSink<D>(nowhere) : SnapshotSink<D>());
+  const std::int64_t bad = seen.time.step + 1;
+  if (double(bad) * double(again.domain().grid.size()) > most_again) return std::nullopt;
+  try {
+    again.run_to(solver::StabilityCheck<D, Real>::last_before(bad));
+    while (again.done() < bad) {
+      again.run_to(again.done() + 1);
+      again.check_stability();
+    }
+  } catch (const solver::DivergedFields<D>& first) {
+    return first;
+  }
+  return std::nullopt;
+}
+
 /// The error of a shot that became unstable, with the most exact place and time that can be found.
 template <int D, class Real>
 Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulation<D, Real>& simulation,
@@ -33,12 +60,12 @@ Unstable unstable(const Scene<D>& scene, std::size_t shot, solver::ShotSimulatio
   };
   if (ranks)
     return sound_until(seen.what(), solver::StabilityCheck<D, Real>::last_before(seen.first().time.step + 1));
-  const auto again = solver::first_divergence<D, Real>(scene, shot, seen.first(), snapshots);
+  const auto again = first_divergence<D, Real>(scene, shot, seen.first(), snapshots);
   const auto& found = again ? *again : seen;
   const auto& first = found.first();
   const auto checked = solver::StabilityCheck<D, Real>::last_before(first.time.step + 1);
   std::string what =
-      std::string(found.what()) + "; " + solver::surroundings(scene, simulation.domain(), shot, first.at);
+      std::string(found.what()) + "; " + surroundings(scene, shot, simulation.domain().from_model(first.at));
   // Between two checks it may have begun elsewhere.
   if (!again && first.box[0] != first.box[1])
     what += "; seen first in a box from " +
@@ -82,20 +109,8 @@ Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress,
              : shoot_as<D, float>(scene, shot, progress, snapshots, pauses, report, ranks);
 }
 
-template <int D>
-std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
-  std::int64_t widest = 0, cells = 1;
-  for (const auto& source : scene.survey.sources)
-    widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
-  for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
-  const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
-  return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
-}
-
-template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template Gather shoot(const Scene<2>&, std::size_t, const Progress&, const SnapshotSink<2>&, Pauses*,
                       ShotReport*, Ranks*);
-template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
 template Gather shoot(const Scene<3>&, std::size_t, const Progress&, const SnapshotSink<3>&, Pauses*,
                       ShotReport*, Ranks*);
 

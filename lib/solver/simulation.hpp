@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/pauses.hpp"
 #include "base/progress.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
-#include "solver/pauses.hpp"
 #include "solver/record/shot_report.hpp"
 
 namespace slipwave {
@@ -55,10 +55,6 @@ template <int D>
 Gather shoot(const Scene<D>& scene, std::size_t shot, const Progress& progress = {},
              const SnapshotSink<D>& snapshots = {}, Pauses* pauses = nullptr, ShotReport* report = nullptr,
              Ranks* ranks = nullptr);
-
-/// Memory for the fields and the material of a shot, upper limit in bytes.
-template <int D>
-std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
 
 /// One entry of a time step and the share of the computed cells it works on.
 struct PlannedEntry {

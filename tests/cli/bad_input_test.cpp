@@ -38,6 +38,15 @@ bool exists_as_file(const fs::directory_entry& entry) {
   return entry.is_regular_file(failed);
 }
 
+/// A large file, full of nothing, stands there for its size alone.
+bool is_large(const fs::directory_entry& entry) { return entry.file_size() > (1 << 20); }
+
+/// What any write to it changes.
+std::string size_and_time(const fs::directory_entry& entry) {
+  const auto written = entry.last_write_time().time_since_epoch().count();
+  return std::to_string(entry.file_size()) + " bytes of " + std::to_string(written);
+}
+
 /// Two lines a row: the command, then indented "CODE: SENTENCE". Lines with # in front are remarks.
 std::vector<Row> rows_of(const std::string& table) {
   std::ifstream file(SLIPWAVE_BAD_INPUT "/" + table + ".txt");
@@ -72,12 +81,17 @@ class BadInput : public Shell, public ::testing::WithParamInterface<std::string>
     write("out", "older");
   }
 
-  /// Everything in the directory, by name.
+  /// Everything in the directory, by name; of large files, size and time, since all is read again for every
+  /// row.
   std::map<std::string, std::string> contents() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : fs::directory_iterator(path(""))) {
       const auto name = entry.path().filename().string();
-      all[name] = exists_as_file(entry) ? content(name) : "";
+      if (!exists_as_file(entry)) {
+        all[name] = "";
+      } else {
+        all[name] = is_large(entry) ? size_and_time(entry) : content(name);
+      }
     }
     return all;
   }

@@ -14,8 +14,8 @@
 #include "model/model_netcdf.hpp"
 #include "model/resample.hpp"
 #include "plot/section.hpp"
+#include "scene/subdomains.hpp"
 #include "shell.hpp"
-#include "solver/schedule/subdomains.hpp"
 
 namespace slipwave {
 namespace {

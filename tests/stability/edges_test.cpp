@@ -46,7 +46,7 @@ TEST_P(AbsorbingEdges, WithPmlDrainTheField) {
       setup.edges[1][0] = top;
       setup.order = order;
       setup.zone_cells = 20;
-      setup.layer_hz = 0.05 * solver::fastest_wave(setup.medium) / setup.medium.grid().spacing_m;
+      setup.layer_hz = 0.05 * fastest_speed(setup.medium) / setup.medium.grid().spacing_m;
       Lab<float> lab(setup);
       // The layer holds energy in its memory too, so that of the fields falls over many steps, not in each.
       double lowest = lab.energy();

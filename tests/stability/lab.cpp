@@ -41,12 +41,12 @@ Lab<Real>::Lab(const Setup& setup)
   model.prestress_pa = setup.prestress_pa;
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells);
-  dt_s_ = setup.cfl * model.grid().spacing_m / solver::fastest_wave(model.medium);
+  dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
   state_ = solver::make_state<2, Real>(domain_.grid.shape);
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
-  const double vp_max = solver::fastest_wave(model.medium);
+  const double vp_max = fastest_speed(model.medium);
   if (zones && setup.layer_hz > 0) {
     layer_ = std::make_unique<solver::Pml<2, Real>>(state_.layout, domain_, dt_s_, vp_max, setup.layer_hz,
                                                     setup.time_order);

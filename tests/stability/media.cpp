@@ -68,7 +68,7 @@ Cell scaled(double ratio) { return {4500 / ratio, 2250 / ratio, 2500}; }
 Cell denser(double ratio) { return {4500, 2250, 2500 * ratio}; }
 
 const std::map<std::string, Filling>& fillings() {
-  constexpr double r = solver::strong_interface_ratio;
+  constexpr double r = strong_interface_ratio;
   static const std::map<std::string, Filling> all = {
       {"WaterOverRock", over(water, basement)},
       {"WaterOverCurvedRock",

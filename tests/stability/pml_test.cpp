@@ -20,10 +20,10 @@ class InLayer {
   InLayer(const Scene<2>& scene, int order, int layer_cells)
       : scene_(scene),
         domain_(solver::make_domain(scene_.model.medium, scene_.edges, layer_cells)),
-        dt_s_(scene_.model.grid().spacing_m / solver::fastest_wave(scene_.model.medium)),
+        dt_s_(scene_.model.grid().spacing_m / fastest_speed(scene_.model.medium)),
         state_(solver::make_state<2, double>(domain_.grid.shape)),
         sweeps_(state_, domain_, order),
-        layer_(state_.layout, domain_, dt_s_, solver::fastest_wave(scene_.model.medium), 30) {
+        layer_(state_.layout, domain_, dt_s_, fastest_speed(scene_.model.medium), 30) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);
     sweeps_.use(&layer_);
     if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, double>>(state_, domain_, scene_, dt_s_);

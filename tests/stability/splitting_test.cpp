@@ -56,7 +56,7 @@ TEST_P(FourthOrderInTime, StaysBoundedInThePmlAndWherePlatesReachIntoIt) {
     auto given = setup(12, 7, 2);
     given.edges = all_edges(EdgeLaw::absorbing);
     given.edges[1] = {edge, edge};
-    given.layer_hz = 0.03 * solver::fastest_wave(given.medium) / given.medium.grid().spacing_m;
+    given.layer_hz = 0.03 * fastest_speed(given.medium) / given.medium.grid().spacing_m;
     expect_to_last(Lab<double>(given));
   }
 }

@@ -8,7 +8,7 @@
 #include "model/marmousi.hpp"
 #include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/simulation.hpp"
 
 // Small, but cut into many pieces: a band of the pipeline has some 50 rows.

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "checkpoint/run_state.hpp"
+#include "refusal.hpp"
 
 namespace slipwave {
 namespace {
@@ -79,15 +80,6 @@ struct Counting {
     return steps == expected;
   }
 };
-
-std::string refusal(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// Writes a checkpoint of one finished shot and one in progress.
 void leave_off(const RunState::Settings& settings, Gather gather = gather_of(1)) {

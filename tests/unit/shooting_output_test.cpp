@@ -1,20 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "base/error.hpp"
+#include "refusal.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/output_options.hpp"
 
 namespace slipwave {
 namespace {
-
-std::string refusal(const std::function<void()>& what) {
-  try {
-    what();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(OutputNames, TellShotsAndComponentsApart) {
   EXPECT_EQ(name_for("a/{shot}-{component}-{shot}.sgy", 12, "vz"), "a/12-vz-12.sgy");

@@ -7,7 +7,7 @@
 #include "lab.hpp"
 #include "parallel/threads.hpp"
 #include "ranks_in_threads.hpp"
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {

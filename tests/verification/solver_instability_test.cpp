@@ -5,6 +5,7 @@
 #include "lab.hpp"
 #include "memory_archive.hpp"
 #include "parallel/threads.hpp"
+#include "scene/largest_velocity.hpp"
 #include "solver/record/recorder.hpp"
 #include "solver/record/stability_check.hpp"
 #include "solver/simulation.hpp"

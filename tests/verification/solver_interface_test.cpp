@@ -45,7 +45,7 @@ Errors errors_of(const Interface& interface, int axis, int order, double h, doub
   auto edges = edges_all(EdgeLaw::mirror);
   if (edge) edges[axis][1] = interface.end;
   const double time = 600 / c1;
-  const auto steps = std::int64_t(std::ceil(time * fastest_wave(medium) / (courant * h)));
+  const auto steps = std::int64_t(std::ceil(time * fastest_speed(medium) / (courant * h)));
   L lab(medium, edges, order, time / double(steps));
   const bool along_x = axis == 0, p = interface.wave == wave_p;
   const auto v = along_x == p ? L::vx : L::vz;

@@ -29,7 +29,7 @@ std::vector<double> run(const Case& scene, int order, double h) {
   auto edges = edges_all(EdgeLaw::mirror);
   edges[1][0] = scene.top;
   const double time = 0.2;
-  const auto steps = std::int64_t(std::ceil(time * fastest_wave(medium) / (0.9 * h)));
+  const auto steps = std::int64_t(std::ceil(time * fastest_speed(medium) / (0.9 * h)));
   L lab(medium, edges, order, time / double(steps));
   for (std::int64_t k = 0; k < nz; ++k)
     for (std::int64_t i = 0; i < nx; ++i) {

@@ -218,7 +218,7 @@ TEST(Effects, WriteNothingButWhatTheyDeclare) {
     const double dt_s = time_step_s(scene);
     auto domain = make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[0]));
     auto state = make_filled_state<2, float>(domain, scene.model.medium, dt_s);
-    const auto effects = build_effects<2, float>(scene, 1, state, domain, dt_s, 1, nullptr);
+    const auto effects = StepBuilder<2, float>{scene, domain, state, dt_s}.effects(1, 1, nullptr);
     ASSERT_EQ(effects.size(), std::string(mechanism) == "plane:0" ? 2u : 3u);
     std::mt19937 engine(1);
     std::uniform_real_distribution<float> random(-1e6F, 1e6F);

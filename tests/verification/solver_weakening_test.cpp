@@ -75,9 +75,9 @@ TEST(SlipWeakeningShot, HasItsLimitsForOneSystemBlocksAndCrossingPlanes) {
 }
 
 TEST(SlipWeakeningShot, HasThemIn3DToo) {
-  const Index<3> shape = {24, 21, 27};
-  auto scene = scene_of(uniform_cube(shape, 5, rock), edges_all_3d(EdgeLaw::mirror), {61, 52, 38},
-                        "force:3,1,2", "ricker:40", {{34, 41, 112}, {97, 85, 93}},
+  const Index<3> shape = {18, 16, 20};
+  auto scene = scene_of(uniform_cube(shape, 5, rock), edges_all_3d(EdgeLaw::mirror), {46, 39, 28},
+                        "force:3,1,2", "ricker:40", {{26, 31, 84}, {73, 64, 70}},
                         {Component::vx, Component::vy, Component::vz}, 0.07, 0.001);
   scene.survey.sources[0].amplitude = 1e9;
   scene.model.fracture = Field<3, std::uint8_t>(scene.model.grid(), 1);

@@ -50,6 +50,21 @@ constexpr unsigned all_fields = (1U << FieldRows<D>::count) - 1;
 template <int D>
 constexpr unsigned all_stresses = all_fields<D> & ~all_velocities<D>;
 
+/// Cells of a row that a sweep has advanced, of an effect that filters what it added.
+template <int D, class Real>
+struct SweptCells {
+  int axis;
+  Real fraction;  // of the step
+  const Index<D>& row;
+  IndexRange cells;
+  std::span<const int> field_rows;  // that the sweep changes
+  /// Of the first cell: those field rows before the sweep, one after another; field row 0 now.
+  const Real* before;
+  std::int64_t before_pitch;
+  Real* now;
+  std::int64_t pitch;
+};
+
 /// A change of the wave field besides the sweeps. It exists only in scenes that need it.
 /// Rows of cells along x are numbered as the lines of Layout; an effect is given one row, or part of it, at a
 /// time, in any order and by any thread, but never the same row by two.
@@ -89,10 +104,8 @@ class Effect {
   virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
     return {};
   }
-  /// Changes the increments of a sweep over `fraction` of a step of one field row in such a range: `before`
-  /// and `now` point at its first cell. Only with `remember` its memory advances.
-  virtual void filter(int /*axis*/, const Index<D>& /*row*/, int /*field_row*/, const IndexRange&,
-                      Real /*fraction*/, const Real* /*before*/, Real* /*now*/, bool /*remember*/) {}
+  /// Changes the increments in such a range. Only with `remember` its memory advances.
+  virtual void filter(const SweptCells<D, Real>&, bool /*remember*/) {}
 
   // What it retains.
   /// Writes or reads all that it retains from one step to the next.

@@ -279,7 +279,7 @@ std::unique_ptr<IncidentWave<2, Real>> make_plane_wave(const Scene<2>& scene, co
   }
   const PlaneForm form(source, medium.vp(entry), medium.vs(entry), medium.rho(entry));
   if (vertical)
-    return std::make_unique<VerticalWave<Real>>(scene, form, domain, from_top, dt_s, fastest_wave(medium));
+    return std::make_unique<VerticalWave<Real>>(scene, form, domain, from_top, dt_s, fastest_speed(medium));
   return std::make_unique<ObliqueWave<Real>>(form, domain);
 }
 

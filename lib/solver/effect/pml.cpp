@@ -176,7 +176,7 @@ std::array<IndexRange, 2> Pml<D, Real>::filtered(int axis, const Index<D>& line,
 }
 
 template <int D, class Real>
-Real* Pml<D, Real>::memory_of(int axis, const Index<D>& line, int field_row) {
+std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>& line) {
   auto& layer = axes_[std::size_t(axis)];
   std::int64_t number = 0;
   for (int other = D - 1; other > 0; --other) {
@@ -184,31 +184,36 @@ Real* Pml<D, Real>::memory_of(int axis, const Index<D>& line, int field_row) {
     number = number * (own ? layer.low + layer.high : layout_.shape()[std::size_t(other)]) +
              (own ? layer.slot(line[std::size_t(other)]) : line[std::size_t(other)]);
   }
-  const auto row = number * FieldRows<D>::count + field_row;
-  return layer.memory.data() + row * (axis == 0 ? layer.low + layer.high : layout_.padded_nx());
+  const auto pitch = axis == 0 ? layer.low + layer.high : layout_.padded_nx();
+  return {layer.memory.data() + number * FieldRows<D>::count * pitch, pitch};
 }
 
 template <int D, class Real>
-void Pml<D, Real>::filter(int axis, const Index<D>& line, int field_row, const IndexRange& cells,
-                          Real fraction, const Real* before, Real* now, bool remember) {
-  const auto& layer = axes_[std::size_t(axis)];
-  const auto known = std::find(layer.fractions.begin(), layer.fractions.end(), fraction);
+void Pml<D, Real>::filter(const SweptCells<D, Real>& swept, bool remember) {
+  const auto& layer = axes_[std::size_t(swept.axis)];
+  const auto known = std::find(layer.fractions.begin(), layer.fractions.end(), swept.fraction);
   if (known == layer.fractions.end())
-    throw Error("the PML knows no sweep along " + std::string(1, axis_names<D>()[std::size_t(axis)]) +
-                " over " + std::to_string(double(fraction)) + " of a step");
-  const auto& factors = layer.factors[std::size_t(known - layer.fractions.begin())];
-  Real* const memory = memory_of(axis, line, field_row);
-  if (axis > 0) {
-    const auto cell = line[std::size_t(axis)];
-    const Real* const plates =
-        layer.plates[cell < layer.low ? 0 : 1].data() + along_edge(axis, line) - line[0] + cells.first;
-    kernels_.across(cells.count(), factors.from(layer.slot(cell)), plates, before, now, memory + cells.first,
-                    remember);
-    return;
+    throw Error("the PML knows no sweep along " + std::string(1, axis_names<D>()[std::size_t(swept.axis)]) +
+                " over " + std::to_string(double(swept.fraction)) + " of a step");
+  const auto first = swept.cells.first, cell = swept.axis > 0 ? swept.row[std::size_t(swept.axis)] : first;
+  const auto slot = layer.slot(cell);
+  const auto factors = layer.factors[std::size_t(known - layer.fractions.begin())].from(slot);
+  // Plates of this row, or for an axis across of its cells.
+  const Real* const plates = layer.plates[cell < layer.low ? 0 : 1].data() +
+                             along_edge(swept.axis, swept.row) + (swept.axis > 0 ? first - swept.row[0] : 0);
+  const auto [memory, memory_pitch] = memory_of(swept.axis, swept.row);
+  Real* const phi = memory + (swept.axis > 0 ? first : slot);
+  const Real* before = swept.before;
+  for (const int field_row : swept.field_rows) {
+    Real* const now = swept.now + field_row * swept.pitch;
+    if (swept.axis > 0)
+      kernels_.across(swept.cells.count(), factors, plates, before, now, phi + field_row * memory_pitch,
+                      remember);
+    else
+      kernels_.along(swept.cells.count(), factors, *plates, before, now, phi + field_row * memory_pitch,
+                     remember);
+    before += swept.before_pitch;
   }
-  const auto slot = layer.slot(cells.first);
-  const Real plate = layer.plates[cells.first < layer.low ? 0 : 1][std::size_t(along_edge(axis, line))];
-  kernels_.along(cells.count(), factors.from(slot), plate, before, now, memory + slot, remember);
 }
 
 template <int D, class Real>

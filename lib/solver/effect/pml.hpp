@@ -35,10 +35,9 @@ class Pml : public Effect<D, Real> {
   std::int64_t cells() const override { return cells_; }
   /// The cells of the layer of this axis.
   std::array<IndexRange, 2> filtered(int axis, const Index<D>& row, const IndexRange& cells) const override;
-  /// Subtracts the memory term from the increment of a field row. Throws an Error where no sweep of the
-  /// splitting is over that fraction of the step.
-  void filter(int axis, const Index<D>& row, int field_row, const IndexRange& cells, Real fraction,
-              const Real* before, Real* now, bool remember) override;
+  /// Subtracts the memory term from increments. Throws an Error where no sweep of the splitting is over that
+  /// fraction of the step.
+  void filter(const SweptCells<D, Real>& swept, bool remember) override;
   void serialize(Archive& archive) override {
     for (auto& axis : axes_) archive.fixed(axis.memory.data(), std::size_t(axis.memory.size()));
   }
@@ -70,7 +69,8 @@ class Pml : public Effect<D, Real> {
   std::int64_t along_edge(int axis, const Index<D>& at) const;
   void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
   void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
-  Real* memory_of(int axis, const Index<D>& line, int field_row);
+  /// Of the field rows of a row of cells: the first value of the first of them, and from one to the next.
+  std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line);
 
   Layout<D> layout_;
   std::int64_t cells_;

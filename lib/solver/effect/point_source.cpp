@@ -104,6 +104,11 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
   for (auto value : source_weights(state_.layout, domain_, source.position_m, like)) {
     value.place += (row - like) * state_.layout.row_pitch();
     value.weight *= strength;
+    if (domain_.model_grid.rows) {
+      auto cell = state_.layout.line_index(value.line);
+      cell[0] = state_.layout.column(value.place);
+      value.weight *= domain_.grid.spacing_m / domain_.model_grid.height(domain_.model_cell(cell));
+    }
     values_.push_back(value);
   }
 }

@@ -100,6 +100,52 @@ struct FusedRow {
   const Real *lo, *hi;
 };
 
+/// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): J of its
+/// cells, neighbours a stride apart, and of the faces before and behind each cell.
+template <class Real>
+struct BentAlong {
+  const Real *j, *j_lo, *j_hi;
+  std::int64_t stride;
+};
+/// For the sweep along z (F3): J of the cells; the horizontal components of N, a pitch apart, of the cells
+/// and of the faces before them; a stride leads to the next row.
+template <class Real>
+struct BentAcross {
+  const Real *j, *n_cell, *n_face;
+  std::int64_t pitch, stride;
+};
+/// All fields of a range of cells: field rows a pitch apart, rows of cells a stride.
+template <class Real>
+struct BentFields {
+  Real* first;
+  std::int64_t pitch, stride;
+};
+
+/// Loops of sweeps through bent rows (bent_rows.hpp), with shear everywhere. Across the rows outgoing waves
+/// and interface states are vectors, components z, x, [y], that is those of the pairs where a face is level.
+template <class Real>
+struct BentKernels {
+  void (*reconstruct_along)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
+                            const Real* impedance, const Real* b, Real scale, const BentAlong<Real>& metric,
+                            Real* up, Real* down);
+  void (*solve_along)(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
+                      const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Real* j_face,
+                      InterfaceStates<Real> faces);
+  void (*update_along)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+                       const MaterialRows<Real>& material, const Real* j, const SweptRows<Real>& rows);
+  void (*reconstruct_across)(std::int64_t n, Real scale, const BentFields<const Real>& fields,
+                             const MaterialRows<Real>& material, const BentAcross<Real>& metric,
+                             OutgoingWaves<Real> outgoing);
+  void (*solve_across)(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
+                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+                       const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
+                       const BentAcross<Real>& metric, InterfaceStates<Real> faces, Real* seen_above,
+                       std::int64_t seen_pitch);
+  void (*update_across)(std::int64_t n, Real scale, InterfaceStates<Real> lo, const Real* v_lo,
+                        std::int64_t v_lo_pitch, InterfaceStates<Real> hi, const MaterialRows<Real>& material,
+                        const BentAcross<Real>& metric, const BentFields<Real>& fields);
+};
+
 /// Inner loops of a sweep over n neighbouring cells of one row, for one order and one instruction set.
 /// The direction lives in the arguments: `stride` leads from a cell to the next one along the sweep (1 along
 /// x). Cells beyond the medium carry b = Z = 0 and stay as they are. A sweep back in time, scale < 0, is one
@@ -114,6 +160,8 @@ struct Kernels {
   InterfaceKernels<Real> face[2][2];
   /// Reconstruction, Riemann solution and update of a row across in 2-D, with shear (null for uniform runs).
   void (*fused_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  /// By dimension.
+  BentKernels<Real> bent[2];
 };
 
 /// Loops of the PML: now -= of_memory phi + of_change (now - before), then the damping in plates;

@@ -1,5 +1,6 @@
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
+#include "solver/kernels/bent_rows.hpp"
 #include "solver/kernels/cell_formulas.hpp"
 #include "solver/kernels/fused_row.hpp"
 #include "solver/kernels/kernel_tables.hpp"
@@ -170,7 +171,8 @@ template <int Order, bool Uniform, class Real>
 constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
                                   {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
-                                 Uniform ? nullptr : fused_row<Order, Real>};
+                                 Uniform ? nullptr : fused_row<Order, Real>,
+                                 {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 
 /// Those of the n-th order in the list, or of a later one.
 template <bool Uniform, class Real, int N = 0>

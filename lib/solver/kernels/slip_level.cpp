@@ -269,18 +269,12 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
     const Real slip_a = Law::has_state ? slips_a[i] : Real(0), slip_b = Law::has_state ? slips_b[i] : Real(0),
                slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
     const Real gap_a = Extended ? gaps_a[i] : Real(0), gap_b = Extended ? gaps_b[i] : Real(0);
-    const Pair<Real> pair = {t < 0 ? -t : t,
-                             strength_of<Law, Extended>(law_a, n_a, slip_a, gap_a),
-                             strength_of<Law, Extended>(law_b, n_b, slip_b, gap_b),
-                             relaxations_a[i],
-                             relaxations_b[i],
-                             n_a,
-                             n_b,
-                             slip_a,
-                             slip_b,
-                             slip_per_pa,
-                             gap_a,
-                             gap_b};
+    // Before |tau|: GCC otherwise makes the choice for open planes in differences of both, at 15 % more time.
+    const Real strength_a = strength_of<Law, Extended>(law_a, n_a, slip_a, gap_a),
+               strength_b = strength_of<Law, Extended>(law_b, n_b, slip_b, gap_b);
+    const Pair<Real> pair = {t < 0 ? -t : t,   strength_a,  strength_b, relaxations_a[i],
+                             relaxations_b[i], n_a,         n_b,        slip_a,
+                             slip_b,           slip_per_pa, gap_a,      gap_b};
     const auto loss = pair_loss<Correction, Law, Extended, Now>(law_a, law_b, pair);
     if constexpr (Law::has_state) {
       slips_a[i] = Law::slip_after(slip_a, slip_per_pa, loss.a);

@@ -9,16 +9,10 @@
 
 #include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
-#include "grid/locate.hpp"
+#include "scene/empty_gather.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-template <int D>
-std::array<double, 3> in_space(const Point<D>& point) {
-  if constexpr (D == 2) return {point[0], 0, point[1]};
-  if constexpr (D == 3) return point;
-}
 
 /// A sum of products as four sums that do not wait for each other.
 class SideBySide {
@@ -39,65 +33,17 @@ class SideBySide {
 
 }  // namespace
 
-template <int D>
-std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& part,
-                                   const std::vector<Point<D>>& points_m, Ranks* ranks) {
-  const auto& grid = medium.grid();
-  // Of each point: cells of fluid down to the first rock, and whether there is one.
-  std::vector<std::int64_t> found;
-  for (const auto& point : points_m) {
-    Index<D> at = cell_of(grid, point);
-    std::int64_t fluid = 0, rock = 0;
-    for (at[D - 1] = 0; at[D - 1] < grid.shape[D - 1] && rock == 0; ++at[D - 1]) {
-      const auto cell = std::size_t(grid.flat(at));
-      if (!part.owns(grid, at[D - 1])) continue;
-      if (medium.is_solid(cell)) rock = 1;
-      fluid += medium.is_fluid(cell);
-    }
-    found.insert(found.end(), {fluid, rock});
-  }
-  found = allgather(ranks, found);
-  std::vector<double> depths;
-  for (std::size_t n = 0; n < points_m.size(); ++n) {
-    std::int64_t fluid = 0;
-    bool rock = false;
-    for (auto of_part = 2 * n; of_part < found.size() && !rock; of_part += 2 * points_m.size()) {
-      fluid += found[of_part];
-      rock = found[of_part + 1] != 0;
-    }
-    depths.push_back(double(fluid) * grid.spacing_m);
-  }
-  return depths;
-}
-
 template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                             std::size_t shot, double unit, Ranks* ranks)
-    : ranks_(ranks), unit_(unit) {
-  const auto& source = scene.survey.sources[shot - 1];
+    : ranks_(ranks), gather_(empty_gather(scene, shot, ranks)), unit_(unit) {
   std::vector<std::vector<ValueWeight>> of_traces;
-  gather_.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
-  TraceHeader header;
-  header.shot = std::int64_t(shot);
-  header.source_m = in_space<D>(source.position_m);
-  std::vector<Point<D>> points = {source.position_m};
-  points.insert(points.end(), scene.survey.receivers_m.begin(), scene.survey.receivers_m.end());
-  const auto depths = water_depths_m(scene.model.medium, scene.subdomain, points, ranks);
-  header.water_depth_source_m = depths.front();
-  for (const Component component : scene.recording.components) {
-    header.component = component;
-    header.channel = 0;
+  for (const Component component : scene.recording.components)
     for (const auto& receiver : scene.survey.receivers_m) {
-      ++header.channel;
-      header.receiver_m = in_space<D>(receiver);
-      header.water_depth_receiver_m = depths[std::size_t(header.channel)];
-      gather_.traces.push_back({header, {}});
-      gather_.traces.back().samples.reserve(std::size_t(gather_.axis.count));
       of_traces.emplace_back();
       if (domain.subdomain.owns(domain.model_grid, receiver))
         of_traces.back() = component_weights<D>(layout, domain, receiver, component);
     }
-  }
   history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
   sums_.resize(gather_.traces.size());
   read_all(layout, of_traces);
@@ -290,10 +236,6 @@ void Recorder<D, Real>::find_box(const Layout<D>& layout, std::int64_t rows_befo
   if (!read.rows.empty()) box_ = read;
 }
 
-template std::vector<double> water_depths_m(const Medium<2>&, const Subdomain&, const std::vector<Point<2>>&,
-                                            Ranks*);
-template std::vector<double> water_depths_m(const Medium<3>&, const Subdomain&, const std::vector<Point<3>>&,
-                                            Ranks*);
 template class Recorder<2, float>;
 template class Recorder<2, double>;
 template class Recorder<3, float>;

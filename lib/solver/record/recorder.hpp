@@ -88,10 +88,4 @@ class Recorder : public Record<D, Real> {
   std::int64_t next_sample_ = 0;
 };
 
-/// Depths of the fluid above the first rock below these points of the model, m; 0 where the column begins
-/// with rock. Collective where there are ranks (may be null) that hold parts of it.
-template <int D>
-std::vector<double> water_depths_m(const Medium<D>& medium, const Subdomain& part,
-                                   const std::vector<Point<D>>& points_m, Ranks* ranks = nullptr);
-
 }  // namespace slipwave::solver

@@ -5,15 +5,10 @@
 #include <limits>
 #include <utility>
 
-#include "grid/locate.hpp"
 #include "parallel/threads.hpp"
-#include "solver/sweep/point_weights.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-/// Factor on the largest velocity that the energy allows, up to which fields count as a wave.
-constexpr double to_spare = 100;
 
 template <class Real>
 bool sound(Real velocity, Real beyond) {
@@ -27,85 +22,7 @@ std::int64_t apart(const Index<D>& a, const Index<D>& b) {
   return sum;
 }
 
-template <int D>
-double length(const Point<D>& vector) {
-  double sum = 0;
-  for (const double part : vector) sum += part * part;
-  return std::sqrt(sum);
-}
-
-template <int D>
-double length(const SymmetricTensor<D, double>& tensor) {
-  double sum = 0;
-  for (int i = 0; i < D; ++i)
-    for (int j = 0; j < D; ++j) sum += tensor(i, j) * tensor(i, j);
-  return std::sqrt(sum);
-}
-
-/// Of the wavelet in a run: its integral, taken positive, and its largest value.
-struct Strength {
-  double integral_s = 0, largest = 0;
-};
-
-Strength strength_of(const Wavelet& wavelet, double duration_s, double dt_s) {
-  Strength strength;
-  const double last_s = std::min(wavelet.duration_s(), duration_s);
-  for (double t_s = 0; t_s <= last_s + dt_s; t_s += dt_s) {
-    const double value = std::abs(wavelet(t_s));
-    strength.integral_s += value * dt_s;
-    strength.largest = std::max(strength.largest, value);
-  }
-  return strength;
-}
-
 }  // namespace
-
-template <int D>
-double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
-  const auto& source = scene.survey.sources[shot - 1];
-  const auto& medium = scene.model.medium;
-  const auto& grid = medium.grid();
-  const double dt_s = time_step_s(scene), volume = std::pow(grid.spacing_m, D);
-  double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
-  for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
-    if (medium.is_void(cell)) continue;
-    lightest = std::min(lightest, double(medium.rho[cell]));
-    heaviest = std::max(heaviest, double(medium.rho[cell]));
-  }
-  lightest = smallest_of(ranks, lightest);
-  heaviest = largest_of(ranks, heaviest);
-  // Velocities that all energy of a kind would give to a cell of the lightest material; they add up at most.
-  double sum = 0;
-  const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
-  if (const auto injection = point_injection(source)) {
-    if (scene.subdomain.owns(grid, source.position_m)) {
-      const auto cell = std::size_t(grid.flat(cell_of(grid, source.position_m)));
-      const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
-      const double in_cell =
-          strength.integral_s / volume *
-          (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
-      sum += in_cell * std::sqrt(rho / lightest);
-    }
-  } else {
-    double cells = double(grid.size()), through_edges = 0;
-    for (const auto n : grid.shape) through_edges += 2 * cells / double(n);
-    const double steps = scene.recording.duration_s / dt_s;
-    sum += std::abs(source.amplitude) * strength.largest *
-           std::sqrt(2 * heaviest / lightest * (cells + steps * through_edges));
-  }
-  double energy_over_volume = 0;
-  if (scene.slips() && !scene.model.prestress_pa.empty())
-    for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
-      if (scene.model.fracture[cell] == 0) continue;
-      if (!scene.subdomain.owns(grid, grid.index(std::int64_t(cell))[D - 1])) continue;
-      double squares = 0;
-      for (const auto& component : scene.model.prestress_pa)
-        squares += double(component[cell]) * component[cell];
-      energy_over_volume += squares / (double(medium.rho[cell]) * medium.vs[cell] * medium.vs[cell]);
-    }
-  sum = sum_of(ranks, sum) + std::sqrt(2 * sum_of(ranks, energy_over_volume) / lightest);
-  return to_spare * sum;
-}
 
 template <int D, class Real>
 void StabilityCheck<D, Real>::check(const StepTime& time) const {
@@ -184,8 +101,6 @@ Divergence<D> StabilityCheck<D, Real>::first_of(const std::vector<char>& bad_lin
   return first;
 }
 
-template double largest_velocity(const Scene<2>&, std::size_t, Ranks*);
-template double largest_velocity(const Scene<3>&, std::size_t, Ranks*);
 template class StabilityCheck<2, float>;
 template class StabilityCheck<2, double>;
 template class StabilityCheck<3, float>;

@@ -4,9 +4,6 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "gather/trace.hpp"
-#include "parallel/ranks.hpp"
-#include "scene/scene.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 
@@ -40,7 +37,7 @@ template <int D, class Real>
 class StabilityCheck {
  public:
   static constexpr std::int64_t every = 50;
-  /// `limit` in m/s: largest_velocity().
+  /// `limit` in m/s: largest_velocity() (scene/largest_velocity.hpp).
   StabilityCheck(const State<D, Real>& state, const Domain<D>& domain, double unit, double limit)
       : state_(state), domain_(domain), unit_(unit), limit_(limit) {}
   /// To be called when no step is in progress. Names the fastest cell, or where any is not finite the one in
@@ -58,15 +55,5 @@ class StabilityCheck {
   const Domain<D>& domain_;
   double unit_, limit_;
 };
-
-/// No cell of a shot can move faster, m/s, with a factor of 100 to spare: all energy there is, in one cell of
-/// the lightest material. With V = h^D, w the wavelet and I the integral of |w| over the run,
-///   force F:           |F|^2 I^2/(2 rho V),   as dE/dt = F.v w <= |F w| (2 E/(rho V))^1/2
-///   moment rate M':    |M'|^2 I^2/(2 rho c^2 V),   c the slowest wave of the source's cell
-///   plane wave:        rho A^2 w^2 V in each cell, and as much again through the edges in each step
-///   prestress:         |s|^2 V/(2 rho vs^2) in each cell of a fracture
-/// v^2 = 2 E/(rho_min V). Collective where there are ranks (may be null).
-template <int D>
-double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks = nullptr);
 
 }  // namespace slipwave::solver

@@ -4,7 +4,7 @@
 #include <atomic>
 
 #include "parallel/threads.hpp"
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -370,7 +370,7 @@ template <int D, class Real>
 void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
                                      TileInProgress& tile, Worker& worker) {
   constexpr auto lag = Sweeps<D, Real>::lag;
-  const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : FreeSurface<D, Real>::reach;
+  const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : free_surface_reach;
   if (!stage.needed.meets({done, step + 1}, columns)) return;
   // All that row `done` depends on, also rows that have been advanced since.
   const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};

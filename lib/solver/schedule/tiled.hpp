@@ -121,7 +121,7 @@ class TiledExecutor : public Executor {
   IndexRange whole_lines() const { return {0, layout_.shape()[0]}; }
   /// How far sweeps along an axis must stay behind what its free surfaces read.
   std::int64_t surface_rows(int axis) const {
-    return sweeps_.corrects_surface(axis) ? FreeSurface<D, Real>::reach : 0;
+    return sweeps_.corrects_surface(axis) ? free_surface_reach : 0;
   }
   /// The same rows (in 3-D of a plane) and those beside them that free surfaces of an axis read.
   IndexRange with_surface_rows(int axis, const IndexRange& rows) const {

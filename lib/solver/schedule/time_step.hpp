@@ -35,7 +35,7 @@ template <int D, class Real>
 using Entry = std::variant<Sweep<D, Real>, Apply<D, Real>, Read<D, Real>>;
 
 /// One time step as a list of sweeps, effects and records in order, and the rules by which executors may
-/// execute it. Built once from the scene (build_time_step), independent of how it is executed.
+/// execute it. Built once from the scene (StepBuilder), independent of how it is executed.
 ///
 /// The first and the last sweep run along x over half a step. Where no effect acts at the end of the step,
 /// its last sweep and the first of the next are merged into one over the whole step, and records read a copy

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/error.hpp"
 #include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
 
@@ -22,16 +23,66 @@ constexpr int every_axis = 0;
 /// Shorter uniform runs are not worth loops of their own.
 constexpr std::int64_t shortest_run = 64;
 
+/// Depth in m of a corner counted in those of the whole model, from `axis` on; columns beyond a side of it
+/// continue with a slope that falls to zero within ten cells.
+template <int D>
+double corner_of_rows(const RowDepths<D>& rows, double spacing_m, Index<D> corner, int axis) {
+  constexpr double bend = 10;
+  const std::int64_t last = rows.cells()[std::size_t(axis)], at = corner[std::size_t(axis)];
+  const std::int64_t nearest = std::clamp<std::int64_t>(at, 0, last);
+  corner[std::size_t(axis)] = nearest;
+  if (axis == D - 1) return rows.corner(corner) + double(at - nearest) * spacing_m;
+  const double depth = corner_of_rows(rows, spacing_m, corner, axis + 1);
+  if (at == nearest) return depth;
+  corner[std::size_t(axis)] += at < 0 ? 1 : -1;
+  const double slope = depth - corner_of_rows(rows, spacing_m, corner, axis + 1);
+  // The integral of (1 - t/bend)^2.
+  const double left = std::max(1 - double(std::abs(at - nearest)) / bend, 0.);
+  return depth + slope * bend / 3 * (1 - left * left * left);
+}
+
+/// Finds bent rows, and the heights of others.
+template <int D>
+void find_bent_rows(Domain<D>& domain) {
+  if (!domain.model_grid.rows) return;
+  const auto& rows = *domain.model_grid.rows;
+  const std::int64_t count = domain.grid.shape[D - 1];
+  std::vector<char> level(std::size_t(count) + 1, 0);
+  for (std::int64_t k = 0; k <= count; ++k) {
+    const auto of_model = k - domain.low_zone[D - 1] + domain.model_grid.first[D - 1];
+    level[std::size_t(k)] = rows.row_is_level(std::clamp<std::int64_t>(of_model, 0, rows.cells()[D - 1]));
+  }
+  domain.bent_rows.assign(std::size_t(count), 0);
+  domain.row_heights.assign(std::size_t(count), 1);
+  for (std::int64_t k = 0; k < count; ++k) {
+    auto& bent = domain.bent_rows[std::size_t(k)];
+    for (std::int64_t n = k - max_reach; n <= k + max_reach + 1; ++n)
+      bent = char(bent || !level[std::size_t(std::clamp<std::int64_t>(n, 0, count))]);
+    if (bent) continue;
+    Index<D> upper{}, lower{};
+    upper[D - 1] = k, lower[D - 1] = k + 1;
+    domain.row_heights[std::size_t(k)] = corner_depth(domain, lower) - corner_depth(domain, upper);
+  }
+  for (const int side : {0, 1})
+    if (domain.edges[D - 1][side] == EdgeLaw::mirror && !level[std::size_t(side ? count : 0)])
+      throw Error("found a mirror along rows that are not level, expected another edge", ErrorKind::usage);
+  if (std::none_of(domain.bent_rows.begin(), domain.bent_rows.end(), [](char bent) { return bent; }))
+    domain.bent_rows.clear();
+}
+
 template <int D, class Real>
-void find_uniform_runs(State<D, Real>& state) {
+void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
-    const auto material = state.material_from(state.layout.line_index(line), 0);
+    const auto at = state.layout.line_index(line);
+    const auto material = state.material_from(at, 0);
     const auto same = [&](std::int64_t i, std::int64_t j) {
       return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
              material.zs[i] == material.zs[j];
     };
-    for (std::int64_t first = 0, x = 1; x <= nx; ++x) {
+    // In bent rows no two cells are alike.
+    const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
+    for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx))
         state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
@@ -63,6 +114,12 @@ bool Domain<D>::shear() const {
 }
 
 template <int D>
+double corner_depth(const Domain<D>& domain, Index<D> corner) {
+  for (int axis = 0; axis < D; ++axis) corner[axis] += domain.model_grid.first[axis] - domain.low_zone[axis];
+  return corner_of_rows(*domain.model_grid.rows, domain.grid.spacing_m, corner, 0) / domain.grid.spacing_m;
+}
+
+template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part) {
   constexpr int z = D - 1;
@@ -86,6 +143,9 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
     domain.grid.shape[z] -= std::exchange(domain.high_zone[z], 0);
     domain.edges[z][1] = EdgeLaw::absorbing;
   }
+  // Its rows are those of the model, not of a grid of that size.
+  domain.grid.rows = nullptr;
+  find_bent_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];
   if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
@@ -108,11 +168,6 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   });
   domain.set_impedances(std::move(impedance));
   return domain;
-}
-
-template <int D>
-double fastest_wave(const Medium<D>& medium) {
-  return fastest_speed(medium);
 }
 
 template <int D, class Real>
@@ -157,7 +212,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
       }
     }
   });
-  find_uniform_runs(state);
+  find_uniform_runs(state, domain);
   state.uniform_interior = find_uniform_interior(state);
 }
 
@@ -167,6 +222,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   using Rows = FieldRows<D>;
   const auto cell = std::size_t(medium.grid().flat(domain.model_cell(at)));
   if (medium.is_void(cell)) return 0;
+  const auto whole = at;
   const auto x = at[0];
   at[0] = 0;
   const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
@@ -187,7 +243,9 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   const double elastic =
       mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
              : trace * trace / (D * D * lambda);
-  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D);
+  const double volume =
+      domain.model_grid.rows ? domain.model_grid.height(domain.model_cell(whole)) : domain.grid.spacing_m;
+  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * volume;
 }
 
 template <int D, class Real>
@@ -201,8 +259,9 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
 }
 
 template class Domain<2>;
+template double corner_depth(const Domain<2>&, Index<2>);
+template double corner_depth(const Domain<3>&, Index<3>);
 template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
-template double fastest_wave(const Medium<2>&);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
 template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
@@ -211,7 +270,6 @@ template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 template class Domain<3>;
 template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
-template double fastest_wave(const Medium<3>&);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
 template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);

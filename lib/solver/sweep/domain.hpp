@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "model/model.hpp"
 #include "scene/edges.hpp"
@@ -25,6 +26,12 @@ class Domain {
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;  // rows of the computed grid that this process owns
+  /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
+  /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
+  std::vector<char> bent_rows;
+  std::vector<double> row_heights;
+  bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
+  double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
   /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
   /// records are built: throws std::logic_error after release_impedances().
@@ -40,6 +47,11 @@ class Domain {
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
   /// Cell of the model whose medium a cell of the computed grid has.
   Index<D> model_cell(Index<D> at) const;
+  /// A cell of the computed grid counted from the first of the model: outside the model in zones.
+  Index<D> from_model(Index<D> at) const {
+    for (int axis = 0; axis < D; ++axis) at[axis] -= low_zone[axis];
+    return at;
+  }
   /// Cell of the computed grid of a cell of the model.
   Index<D> computed_cell(Index<D> at) const {
     for (int axis = 0; axis < D; ++axis) at[axis] += low_zone[axis];
@@ -50,15 +62,17 @@ class Domain {
   std::array<Field<D>, 2> impedances_;
 };
 
+/// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
+/// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep
+/// their shape.
+template <int D>
+double corner_depth(const Domain<D>& domain, Index<D> corner);
+
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
 /// model.
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
                       const Subdomain& part = {});
-
-/// Largest vp in m/s of the cells that are not void.
-template <int D>
-double fastest_wave(const Medium<D>& medium);
 
 /// Writes b and the impedances of every cell and of the ghost cells beyond the edges into the state.
 template <int D, class Real>

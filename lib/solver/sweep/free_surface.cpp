@@ -55,7 +55,8 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
                                           int row) {
   using Rows = FieldRows<D>;
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0) return {};
+  // Along rows that bend the plain mirror image is of second order, too.
+  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0 || domain.bent(at[D - 1])) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
     Index<D> next = before;
@@ -64,10 +65,12 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
-  const double outward = side ? -1 : 1;
+  const double height = domain.height(at[D - 1]);
   std::vector<SurfaceTerm<D>> terms;
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
+    // The first ghost lies a cell of this axis away, neighbours along the edge one of the other.
+    const double outward = (side ? -1 : 1) * (axis == D - 1 ? height : along == D - 1 ? 1 / height : 1);
     // A slice too thin for a difference has no slope, unless its own edges are free.
     if (domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size())) {
       if (domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free) return {};

@@ -41,10 +41,9 @@ class FreeSurface {
   /// the last: update_corrections() reads the copy, since sweeps change row after row.
   void retain(const State<D, Real>& state, std::int64_t line);
   /// Computes velocity_correction() and traction_correction() at cells first <= number < last of the edge for
-  /// the following sweep across it, from the fields or the copy, up to `reach` cells beyond.
+  /// the following sweep across it, from the fields or the copy, up to
+  /// free_surface_reach cells beyond.
   void update_corrections(const State<D, Real>& state, std::int64_t first, std::int64_t last);
-  /// Cells along the edge that update_corrections() reads beside each.
-  static constexpr std::int64_t reach = 2;
   /// Of a pair of the sweep across (0 P, then S by axes), at the cells of the edge (number()): the correction
   /// of v over 2 j + 1, and that of s in a sweep over a whole step.
   const Real* velocity_correction(int pair) const { return velocity_corrections_[std::size_t(pair)].data(); }

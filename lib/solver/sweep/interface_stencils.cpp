@@ -141,26 +141,37 @@ int reach_within(const Side& low, const Side& high, int reach) {
   return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
+/// The pair (v, s) of cells in a line, with `j` of a bent row (v, J s).
+template <class Real>
+struct PairOfLine {
+  const Real *v_, *s_, *j_;
+  std::int64_t stride, j_stride;
+  Real v(std::int64_t offset) const { return v_[offset * stride]; }
+  Real s(std::int64_t offset) const {
+    return j_ ? j_[offset * j_stride] * s_[offset * stride] : s_[offset * stride];
+  }
+};
+
 /// Value of the pair at a stencil offset, extended beyond the strong interfaces or edges (E10), (E11).
 template <class Real>
-void extend(const InterfaceStencil& stencil, int offset, std::int64_t stride, const Real* v, const Real* s,
-            Real& v_at, Real& s_at) {
+void extend(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>& pair, Real& v_at,
+            Real& s_at) {
   const bool below = offset < -stencil.low;
   if (!below && offset <= stencil.high) {
-    v_at = v[offset * stride];
-    s_at = s[offset * stride];
+    v_at = pair.v(offset);
+    s_at = pair.s(offset);
     return;
   }
   const Extension law = below ? stencil.low_law : stencil.high_law;
   if (law == Extension::constant) {
     const std::int64_t last = below ? -stencil.low : stencil.high;
-    v_at = v[last * stride];
-    s_at = s[last * stride];
+    v_at = pair.v(last);
+    s_at = pair.s(last);
     return;
   }
   // The mirror image lies nearer to the cell with each fold, so this ends.
   const int mirrored = below ? -2 * stencil.low - 1 - offset : 2 * stencil.high + 1 - offset;
-  extend(stencil, mirrored, stride, v, s, v_at, s_at);
+  extend(stencil, mirrored, pair, v_at, s_at);
   if (law == Extension::traction_free) {
     s_at = -s_at;
   } else if (law == Extension::motionless) {
@@ -169,25 +180,32 @@ void extend(const InterfaceStencil& stencil, int offset, std::int64_t stride, co
     const std::int64_t across = below ? std::max(offset, -stencil.low - stencil.beyond_low)
                                       : std::min(offset, stencil.high + stencil.beyond_high);
     const Real twice = 2 * Real(below ? stencil.share_low : stencil.share_high);
-    v_at += twice * (v[across * stride] - v_at);
-    s_at += (2 - twice) * (s[across * stride] - s_at);
+    v_at += twice * (pair.v(across) - v_at);
+    s_at += (2 - twice) * (pair.s(across) - s_at);
   }
 }
 
 template <int Order, class Real>
-void correct_cell(const InterfaceStencil& stencil, std::int64_t stride, const Real* v, const Real* s,
-                  Real impedance, Real b, Real scale, Real& up, Real& down) {
+void correct_cell(const InterfaceStencil& stencil, const PairOfLine<Real>& pair, Real impedance, Real b,
+                  Real scale, Real j_lo, Real j_hi, Real& up, Real& down) {
   constexpr int reach = reach_of(Order);
   Real v_stencil[2 * reach + 1], s_stencil[2 * reach + 1];
-  for (int k = -reach; k <= reach; ++k)
-    extend(stencil, k, stride, v, s, v_stencil[k + reach], s_stencil[k + reach]);
+  for (int k = -reach; k <= reach; ++k) extend(stencil, k, pair, v_stencil[k + reach], s_stencil[k + reach]);
   const Real sign = scale < 0 ? -1 : 1;
-  reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance,
-                          sign * scale * (impedance * b), up, down);
+  const Real courant = sign * scale * (impedance * b);
+  if (!pair.j_)
+    return reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance, courant, up,
+                                   down);
+  // Each face has an impedance of its own (F2).
+  Real other;
+  reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance * j_hi, courant, up,
+                          other);
+  reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance * j_lo, courant, other,
+                          down);
 }
 
 template <class Real>
-using CorrectCell = void(const InterfaceStencil&, std::int64_t, const Real*, const Real*, Real, Real, Real,
+using CorrectCell = void(const InterfaceStencil&, const PairOfLine<Real>&, Real, Real, Real, Real, Real,
                          Real&, Real&);
 /// correct_cell() by the reach of the reconstruction, which grows by one from order to order.
 template <class Real, int... N>
@@ -246,8 +264,8 @@ bool InterfaceStencils::any_of_line(std::int64_t line, const IndexRange& columns
 template <class Real>
 void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
                                      std::int64_t stride, const Real* v, const Real* s,
-                                     const MaterialRows<Real>& material, Real scale, Real* up,
-                                     Real* down) const {
+                                     const MaterialRows<Real>& material, Real scale, Real* up, Real* down,
+                                     const BentAlong<Real>* metric) const {
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = cells_.begin() + starts_[std::size_t(line)];
   static constexpr auto correct_as = correctors<Real>(std::make_integer_sequence<int, order_count>());
@@ -261,7 +279,9 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
       up[i] = down[i] = 0;
     else
       correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
-          *cell, stride, v + i, s + i, impedance[i], material.b[i], scale, up[i], down[i]);
+          *cell, {v + i, s + i, metric ? metric->j + i : nullptr, stride, metric ? metric->stride : 0},
+          impedance[i], material.b[i], scale, metric ? metric->j_lo[i] : 1, metric ? metric->j_hi[i] : 1,
+          up[i], down[i]);
   }
 }
 
@@ -271,9 +291,9 @@ template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>
                                               const CorrectedAt<3>&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
-                                              float*, float*) const;
+                                              float*, float*, const BentAlong<float>*) const;
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const double*, const double*, const MaterialRows<double>&,
-                                              double, double*, double*) const;
+                                              double, double*, double*, const BentAlong<double>*) const;
 
 }  // namespace slipwave::solver

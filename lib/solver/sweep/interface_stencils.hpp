@@ -35,10 +35,6 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
   return Extension::constant;
 }
 
-/// Ratio of impedances from which an interface between neighbouring cells is strong: stencils on both sides
-/// end there. Below it stencils run across: random contrasts up to 1.5 stay stable at every order.
-constexpr double strong_interface_ratio = 1.5;
-
 /// The stencil of a cell that would reach across a strong interface or into cells that do not carry the wave:
 /// beyond that the fields are extended by the law (theory.md (E10), (E11)). Or a cell that does not carry the
 /// wave beside one that does: it has no outgoing waves.
@@ -73,12 +69,13 @@ class InterfaceStencils {
     return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && any_of_line(line, columns);
   }
   /// Overwrites up and down for the listed cells of these columns of a row. All pointers begin with the
-  /// first.
+  /// first. `metric`: of a bent row, the pair is then (v, J s).
   template <class Real>
   void correct(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride, const Real* v,
-               const Real* s, const MaterialRows<Real>& material, Real scale, Real* up, Real* down) const {
+               const Real* s, const MaterialRows<Real>& material, Real scale, Real* up, Real* down,
+               const BentAlong<Real>* metric = nullptr) const {
     if (starts_[std::size_t(line)] < starts_[std::size_t(line) + 1])
-      correct_line(order, line, columns, stride, v, s, material, scale, up, down);
+      correct_line(order, line, columns, stride, v, s, material, scale, up, down, metric);
   }
 
  private:
@@ -86,7 +83,7 @@ class InterfaceStencils {
   template <class Real>
   void correct_line(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride,
                     const Real* v, const Real* s, const MaterialRows<Real>& material, Real scale, Real* up,
-                    Real* down) const;
+                    Real* down, const BentAlong<Real>* metric) const;
   Wave wave_ = wave_p;
   std::vector<InterfaceStencil> cells_;  // by line, then x
   std::vector<std::int64_t> starts_;     // of each line in cells_, and the end

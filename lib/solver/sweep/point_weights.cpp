@@ -144,12 +144,13 @@ std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& d
   const Index<D> centre = cell_at(domain, point_m);
   const bool fluid = domain.impedance(wave_s)(centre) == 0;
   const auto usable = extended_cells(domain, centre, field_row, fluid);
-  std::vector<ValueWeight> weights = weights_within(layout, domain, point_m, usable, field_row);
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  std::vector<ValueWeight> weights = weights_within(layout, domain, place, usable, field_row);
   if (!fluid && field_row < D)
     for (int axis = 0; axis < D; ++axis)
       for (const int side : {0, 1})
         if (domain.edges[axis][side] == EdgeLaw::free)
-          add_surface_correction(layout, domain, point_m, usable, axis, side, field_row, weights);
+          add_surface_correction(layout, domain, place, usable, axis, side, field_row, weights);
   return weights;
 }
 
@@ -160,9 +161,10 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
   if (field_row < D || domain.impedance(wave_s)(centre) == 0)
     return row_weights(layout, domain, point_m, field_row);
   auto usable = extended_cells(domain, centre, field_row, false);
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
   for (int axis = 0; axis < D; ++axis) {
     auto& cells = usable[std::size_t(axis)];
-    const double position = domain.grid.position(axis, point_m[axis]);
+    const double position = domain.grid.position(axis, place[axis]);
     const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
     const bool low = domain.edges[axis][0] == EdgeLaw::free && position < centred_from,
                high = domain.edges[axis][1] == EdgeLaw::free && double(last) - position < centred_from;
@@ -170,7 +172,7 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
     const auto first = std::clamp(std::int64_t(std::floor(position)), cells.low, cells.high - 1);
     cells = {first, first + 1};
   }
-  return weights_within(layout, domain, point_m, usable, field_row);
+  return weights_within(layout, domain, place, usable, field_row);
 }
 
 template <int D>

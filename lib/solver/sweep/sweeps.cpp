@@ -22,7 +22,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       edges_(domain.edges),
       order_(order),
       reach_(reach_of(order)),
-      shear_(domain.shear()) {
+      // Bent rows couple all fields.
+      shear_(domain.shear() || !domain.bent_rows.empty()),
+      metric_(domain),
+      bent_stencils_(domain, reach_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -60,7 +63,9 @@ Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t
   const int waiting = int(rows_behind() - reach_);
   // Faces need the outgoing waves of two rows. Uniform runs need them until their row is updated.
   const int outgoing = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
-  return Ring<Real>(first, width, outgoing, waiting + 1, D);
+  // Bent faces have two velocities: what the cells on either side see.
+  const int pairs = axis == z_axis && metric_.any_bent() ? D + D / 2 + D % 2 : D;
+  return Ring<Real>(first, width, outgoing, waiting + 1, pairs);
 }
 
 template <int D, class Real>
@@ -68,7 +73,7 @@ std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
   std::size_t cells = 0;
   for (const auto& axis : stencils_)
     for (const auto& wave : axis) cells += wave.size();
-  return std::int64_t(cells);
+  return std::int64_t(cells + bent_stencils_.size());
 }
 
 template <int D, class Real>
@@ -105,6 +110,9 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                                       const Real* fields, std::int64_t pitch, std::int64_t stride, Real scale,
                                       OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
+  if (metric_.bent(number))
+    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing);
+  scale = scale_of(axis, line, scale);
   const std::int64_t nx = state_.layout.shape()[0];
   // The padding of the last block of a row has no material: with it a piece would never be uniform.
   const IndexRange whole{columns.first,
@@ -131,6 +139,66 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   }
 }
 
+template <int D, class Real>
+void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns,
+                                           const Real* fields, std::int64_t pitch, std::int64_t stride,
+                                           Real scale, OutgoingWaves<Real> outgoing) const {
+  const auto number = state_.layout.line_number(line);
+  const auto material = state_.material_from(line, columns.first);
+  if (axis == z_axis) {
+    const BentFields<const Real> all{fields + columns.first, pitch, stride};
+    const auto metric = metric_.across(line, columns.first);
+    bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
+    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, outgoing);
+    return;
+  }
+  const auto metric = metric_.along(axis, line, columns.first);
+  for (int p = 0; p < D; ++p) {
+    const Pair& pair = pairs_[axis][p];
+    const Real* const v = fields + pair.v * pitch + columns.first;
+    const Real* const s = fields + pair.s * pitch + columns.first;
+    bent_kernels().reconstruct_along(columns.count(), stride, v, s,
+                                     pair.wave == wave_p ? material.zp : material.zs, material.b, scale,
+                                     metric, outgoing.up(p), outgoing.down(p));
+    stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, outgoing.up(p),
+                                       outgoing.down(p), &metric);
+  }
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::solve_bent(const Index<D>& above_face, const Index<D>& below_face,
+                                 const IndexRange& columns, Real scale, OutgoingWaves<Real> up,
+                                 OutgoingWaves<Real> down, InterfaceStates<Real> faces) const {
+  const auto fields = [&](const Index<D>& line) {
+    return BentFields<const Real>{state_.field_row(line, 0) + columns.first, state_.layout.row_pitch(), 0};
+  };
+  bent_kernels().solve_across(
+      columns.count(), scale < 0 ? -1 : 1, up, down, state_.material_from(above_face, columns.first),
+      state_.material_from(below_face, columns.first), fields(above_face), fields(below_face),
+      metric_.across(below_face, columns.first), faces, faces.v(D), faces.pitch);
+}
+
+template <int D, class Real>
+SweptRows<Real> Sweeps<D, Real>::swept_rows(int axis, Real* fields, std::int64_t pitch) const {
+  const auto at = [&](int n) { return fields + changed_[axis][n] * pitch; };
+  if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
+  if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                                  std::int64_t pitch, Real scale, const Flux& flux,
+                                  const SweptRows<Real>& rows) const {
+  const auto material = state_.material_from(line, columns.first);
+  if (axis == z_axis)
+    bent_kernels().update_across(columns.count(), scale, flux.lo, flux.lo.v(D), flux.lo.pitch, flux.hi,
+                                 material, metric_.across(line, columns.first),
+                                 {fields + columns.first, pitch, 0});
+  else
+    bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi, material,
+                                metric_.along(axis, line, columns.first).j, rows);
+}
+
 /// Advances these columns.
 template <int D, class Real>
 void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
@@ -145,39 +213,48 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto each_filtered = [&](auto&& what) {
     for (std::size_t f = 0; f < filters_.size(); ++f)
       for (const auto& part : filtered[f])
-        for (int n = 0; n < row_count && !part.empty(); ++n)
-          what(*filters_[f], part, n, work.before(n) + part.first - columns.first);
+        if (!part.empty()) what(*filters_[f], part, work.before() + part.first - columns.first);
   };
-  each_filtered([&](const auto&, const IndexRange& part, int n, Real* before) {
-    std::copy(field(n) + part.first, field(n) + part.last, before);
+  each_filtered([&](const auto&, const IndexRange& part, Real* before) {
+    for (int n = 0; n < row_count; ++n)
+      std::copy(field(n) + part.first, field(n) + part.last, before + n * work.pitch());
   });
-  const auto swept = [&](std::int64_t x) -> SweptRows<Real> {
-    const auto at = [&](int n) { return field(n) + x; };
-    if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
-    if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
-  };
+  const auto swept = [&](std::int64_t x) { return swept_rows(axis, fields + x, pitch); };
   const auto number = state_.layout.line_number(line);
+  const Real own_scale = scale_of(axis, line, scale);
   const auto run_of = [&](const IndexRange& part) {
     return state_.uniform_run(number, part.first, part.last);
   };
   const auto without_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     // Its material is known without reading it from memory.
-    face_kernels(true).update_uniform(part.count(), scale, flux.below.at(from), flux.here.at(from),
+    face_kernels(true).update_uniform(part.count(), own_scale, flux.below.at(from), flux.here.at(from),
                                       flux.above.at(from), run_of(part)->rows(), swept(part.first));
   };
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     const auto* run = run_of(part);
     face_kernels(run != nullptr)
-        .update(part.count(), scale, flux.lo.at(from), flux.hi.at(from),
+        .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
                 run ? run->rows() : state_.material_from(line, part.first), swept(part.first));
   };
-  split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
-                between_faces);
+  if (metric_.bent(number))
+    update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
+  else
+    split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
+                  between_faces);
   work.prefetch().prefetch_one();
-  each_filtered([&](auto& filter, const IndexRange& part, int n, const Real* before) {
-    filter.filter(axis, line, rows[n], part, scale, before, field(n) + part.first, remember);
+  each_filtered([&](auto& filter, const IndexRange& part, const Real* before) {
+    filter.filter({axis,
+                   scale,
+                   line,
+                   part,
+                   {rows.data(), std::size_t(row_count)},
+                   before,
+                   work.pitch(),
+                   fields + part.first,
+                   pitch},
+                  remember);
   });
 }
 
@@ -363,6 +440,12 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   const auto faces = work.faces();
   const auto solve = [&](const IndexRange& part) {
     const auto here = first.at(part.first - piece.reconstructed.first);
+    if (metric_.bent(piece.line)) {
+      bent_kernels().solve_along(part.count(), here.at(-1), here, state_.material_from(at, part.first - 1),
+                                 state_.material_from(at, part.first), metric_.along(0, at, part.first).j_lo,
+                                 faces.at(part.first - base));
+      return;
+    }
     const auto* run = state_.uniform_run(piece.line, part.first - 1, part.last);
     const auto lo = run ? run->rows() : state_.material_from(at, part.first - 1);
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
@@ -405,11 +488,22 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
+    const auto bent = [&](std::int64_t k) { return k >= 0 && k < rows && metric_.bent_row(line(k)[z_axis]); };
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
     };
     const auto solve = [&](const IndexRange& part) {
+      if (bent(row - 1) || bent(row)) {
+        const auto up = above.at(part.first - x), down = here.at(part.first - x);
+        if (axis == z_axis)
+          return solve_bent(line(row - 1), line(row), part, scale, up, down, ring.faces(row, part.first));
+        bent_kernels().solve_along(part.count(), up, down, state_.material_from(line(row - 1), part.first),
+                                   state_.material_from(line(row), part.first),
+                                   metric_.along(axis, line(row), part.first).j_lo,
+                                   ring.faces(row, part.first));
+        return;
+      }
       const auto run = [&](std::int64_t k) {
         return k >= 0 && k < rows ? state_.uniform_run(layout.line_number(line(k)), part.first, part.last)
                                   : nullptr;
@@ -451,6 +545,7 @@ void Sweeps<D, Real>::skip(std::int64_t step, const IndexRange& columns, Ring<Re
   const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
   for (int p = 0; p < D; ++p)
     for (Real* const zero : {outgoing.up(p), outgoing.down(p), faces.v(p), faces.s(p)}) clear(zero);
+  for (int c = 0; c < D && ring.pairs() > D; ++c) clear(faces.v(D) + c * faces.pitch);
 }
 
 /// A row across in one loop. Returns false, and does nothing, where other work is needed between its parts.
@@ -463,6 +558,10 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto number = layout.line_number(here);
+  for (const auto& line : {here, below, advanced})
+    if (metric_.bent(layout.line_number(line))) return false;
+  const Real own_scale = scale_of(axis, here, scale);
+  if (own_scale != scale_of(axis, advanced, scale)) return false;
   // Uniform runs are faster with their own loops.
   if (state_.uniform_run(number, x, columns.last)) return false;
   // The outgoing waves downwards are not stored, which uniform runs would need.
@@ -479,7 +578,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
   work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
-  kernels_[false]->fused_row(columns.count(), scale,
+  kernels_[false]->fused_row(columns.count(), own_scale,
                              {{field(0), field(1), field(2), field(3), field(4)},
                               layout.stride(axis),
                               state_.material_layout.row_pitch(),
@@ -596,6 +695,11 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
       };
       fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
       fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
+      // Tractions on bent rows take all stresses.
+      if (p > 0 || axis != z_axis || !metric_.bent_row(side ? n - 1 : 0)) continue;
+      for (int row = D; row < FieldRows<D>::count; ++row)
+        if (std::none_of(all.begin(), all.end(), [row](const Pair& pair) { return pair.s == row; }))
+          fill(row, mirror.s, nullptr, 0);
     }
   }
 }

@@ -5,9 +5,11 @@
 
 #include "scene/edges.hpp"
 #include "solver/effect/effect.hpp"
+#include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/workspace.hpp"
 
@@ -67,7 +69,7 @@ class Sweeps {
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
   /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
-  /// FreeSurface::reach cells on all sides as they were before the sweep.
+  /// free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
   }
@@ -81,7 +83,7 @@ class Sweeps {
   /// In 3-D at the edges of y, before a plane of rows is swept along y.
   void correct_flank_surfaces(std::int64_t plane);
   /// At the edges of z, before across() of that step: of all columns (in 3-D rows of a plane) that it and the
-  /// pieces before it were given, and FreeSurface::reach more.
+  /// pieces before it were given, and free_surface_reach more.
   void correct_end_surfaces(std::int64_t step, const IndexRange& columns);
 
   /// Queues these columns of a row for prefetching.
@@ -113,6 +115,15 @@ class Sweeps {
   void reconstruct_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
                        std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
                        PrefetchQueue<Real>& prefetch) const;
+  /// The same of a bent row of a fitted grid.
+  void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
+                            std::int64_t pitch, std::int64_t stride, Real scale,
+                            OutgoingWaves<Real> outgoing) const;
+  /// The interface states of a face across the rows that is bent, or before or behind a bent row.
+  void solve_bent(const Index<D>& above_face, const Index<D>& below_face, const IndexRange& columns,
+                  Real scale, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
+                  InterfaceStates<Real> faces) const;
+  const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     return kernels_[uniform]->face[D - 2][shear_];
   }
@@ -124,6 +135,14 @@ class Sweeps {
   };
   void update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, std::int64_t pitch,
               Real scale, const Flux& flux, Workspace<Real>& work, bool remember);
+  void update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                   std::int64_t pitch, Real scale, const Flux& flux, const SweptRows<Real>& rows) const;
+  /// The rows of fields that a sweep changes, from a cell on.
+  SweptRows<Real> swept_rows(int axis, Real* fields, std::int64_t pitch) const;
+  /// `scale` of a sweep along an axis over a row: along z in proportion to how much lower than a cell it is.
+  Real scale_of(int axis, const Index<D>& line, Real scale) const {
+    return axis == z_axis ? scale * metric_.inverse_height(line[z_axis]) : scale;
+  }
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
@@ -142,7 +161,9 @@ class Sweeps {
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_;
-  std::array<std::array<InterfaceStencils, 2>, D> stencils_;          // [axis][wave]
+  std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
+  Metric<D, Real> metric_;
+  BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed>, D> changed_;                   // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]

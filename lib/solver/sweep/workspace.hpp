@@ -40,6 +40,7 @@ class Ring {
     const int first = 2 * pairs_ * (outgoing_rows_ + int(row % face_rows_));
     return {at(first, x), pitch_};
   }
+  int pairs() const { return pairs_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
  private:
@@ -85,12 +86,12 @@ class Workspace {
   }
   OutgoingWaves<Real> outgoing() { return {row(0), pitch_}; }
   InterfaceStates<Real> faces() { return {row(2 * pairs_), pitch_}; }
-  /// Fields before the update, while filters need them.
-  Real* before(int n) { return row(4 * pairs_ + n); }
+  /// Fields before the update, while filters need them: the first of those that a sweep changes.
+  Real* before() { return row(4 * pairs_); }
   /// A copy of all fields of a piece.
   Real* copy() { return row(4 * pairs_ + most_changed); }
   PrefetchQueue<Real>& prefetch() { return prefetch_; }
-  /// From a row of the copy to the next; room for 32 cells before and behind the piece.
+  /// From a field to the next; room for 32 cells before and behind the piece.
   std::int64_t pitch() const { return pitch_; }
 
  private:

@@ -1,13 +1,14 @@
-#include "solver/divergence.hpp"
+#include "scene/surroundings.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "base/error.hpp"
 #include "grid/locate.hpp"
-#include "solver/shot_simulation.hpp"
+#include "model/coefficients.hpp"
 
-namespace slipwave::solver {
+namespace slipwave {
 namespace {
 
 /// Cells round the diverged one in which effects are searched for.
@@ -115,18 +116,18 @@ void add_cells(Nearby& nearby, const Scene<D>& scene, const Index<D>& at) {
 }  // namespace
 
 template <int D>
-std::string surroundings(const Scene<D>& scene, const Domain<D>& domain, std::size_t shot,
-                         const Index<D>& at) {
+std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>& at) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  const auto inside = std::size_t(grid.flat(domain.model_cell(at)));
-  Index<D> of_model = at;
-  for (std::size_t axis = 0; axis < D; ++axis) of_model[axis] -= domain.low_zone[axis];
+  Index<D> nearest;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    nearest[axis] = std::clamp<std::int64_t>(at[axis], 0, grid.shape[axis] - 1);
+  const auto inside = std::size_t(grid.flat(nearest));
   Nearby nearby;
-  Index<D> of_whole = of_model;
+  Index<D> of_whole = at;
   of_whole[D - 1] += grid.first[D - 1];
   add_edges(nearby, scene, shot, of_whole);
-  add_cells(nearby, scene, of_model);
+  add_cells(nearby, scene, at);
   const auto& source = scene.survey.sources[shot - 1];
   if (point_injection(source))
     nearby.add("the source",
@@ -135,35 +136,7 @@ std::string surroundings(const Scene<D>& scene, const Domain<D>& domain, std::si
          " rho=" + shown(medium.rho[inside]) + nearby.text(grid.spacing_m);
 }
 
-template <int D, class Real>
-std::optional<DivergedFields<D>> first_divergence(const Scene<D>& scene, std::size_t shot,
-                                                  const Divergence<D>& seen, bool snapshots) {
-  // As many cells are computed as the first time: all of them where there were snapshots.
-  const auto nowhere = [](double, const FieldReader<D>&) {};
-  ShotSimulation<D, Real> again(scene, shot, snapshots ? SnapshotSink<D>(nowhere) : SnapshotSink<D>());
-  const std::int64_t bad = seen.time.step + 1;
-  if (double(bad) * double(again.domain().grid.size()) > most_again) return std::nullopt;
-  try {
-    again.run_to(StabilityCheck<D, Real>::last_before(bad));
-    while (again.done() < bad) {
-      again.run_to(again.done() + 1);
-      again.check_stability();
-    }
-  } catch (const DivergedFields<D>& first) {
-    return first;
-  }
-  return std::nullopt;
-}
+template std::string surroundings(const Scene<2>&, std::size_t, const Index<2>&);
+template std::string surroundings(const Scene<3>&, std::size_t, const Index<3>&);
 
-template std::string surroundings(const Scene<2>&, const Domain<2>&, std::size_t, const Index<2>&);
-template std::optional<DivergedFields<2>> first_divergence<2, float>(const Scene<2>&, std::size_t,
-                                                                     const Divergence<2>&, bool);
-template std::optional<DivergedFields<2>> first_divergence<2, double>(const Scene<2>&, std::size_t,
-                                                                      const Divergence<2>&, bool);
-template std::string surroundings(const Scene<3>&, const Domain<3>&, std::size_t, const Index<3>&);
-template std::optional<DivergedFields<3>> first_divergence<3, float>(const Scene<3>&, std::size_t,
-                                                                     const Divergence<3>&, bool);
-template std::optional<DivergedFields<3>> first_divergence<3, double>(const Scene<3>&, std::size_t,
-                                                                      const Divergence<3>&, bool);
-
-}  // namespace slipwave::solver
+}  // namespace slipwave

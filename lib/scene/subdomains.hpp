@@ -8,7 +8,7 @@
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 
-namespace slipwave::solver {
+namespace slipwave {
 
 /// Steps of a time tile.
 int steps_of_a_tile(const Tiling& tiling);
@@ -22,10 +22,6 @@ std::int64_t spread_of_a_step(const std::vector<SweepFraction>& splitting, int a
 /// Rows (in 3-D planes) by which a stale cell spreads in a time tile at most.
 template <int D>
 std::int64_t spread_of_a_tile(const Scene<D>& scene);
-
-}  // namespace slipwave::solver
-
-namespace slipwave {
 
 /// The rows of a model on this grid that process `number` of `count` owns: each has about as many cells to
 /// compute as the others, zones included. `scene` needs no model yet. Throws an Error where there are too few

@@ -1,19 +1,30 @@
-#include "solver/schedule/subdomains.hpp"
+#include "scene/subdomains.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
-#include "solver/kernels/kernels.hpp"
-#include "solver/sweep/domain.hpp"
-#include "solver/sweep/free_surface.hpp"
+#include "model/coefficients.hpp"
 
-namespace slipwave::solver {
+namespace slipwave {
 namespace {
 
 /// Two are up to a tenth faster than one, more gain nothing (tests/bench, docs/performance.md).
 constexpr int usual_steps = 2;
+
+/// Rows that points read beyond the one they are in, at most.
+constexpr std::int64_t beside_points = widest_stencil;
+
+template <class Value, int D>
+Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
+  if (field.empty()) return field;
+  Field<D, Value> part(held);
+  const std::int64_t a_row = held.size() / held.shape[D - 1];
+  const auto first = field.begin() + held.first[D - 1] * a_row;
+  std::copy(first, first + held.size(), part.begin());
+  return part;
+}
 
 }  // namespace
 
@@ -33,40 +44,12 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
   std::array<std::int64_t, std::size_t(D)> surface_reach{};
   for (int axis = 0; axis < D; ++axis)
     for (const EdgeLaw law : scene.edges[axis])
-      if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = FreeSurface<D, float>::reach;
+      if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = free_surface_reach;
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
                                              reach_of(scene.numerics.order), surface_reach);
   // The first tile of all has one more sweep along x.
   return steps_of_a_tile(scene.numerics.tiling) * of_a_step + surface_reach[0];
 }
-
-template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
-                                          const std::array<std::int64_t, 2>&);
-template std::int64_t spread_of_a_step<3>(const std::vector<SweepFraction>&, int, std::int64_t,
-                                          const std::array<std::int64_t, 3>&);
-
-template std::int64_t spread_of_a_tile(const Scene<2>&);
-template std::int64_t spread_of_a_tile(const Scene<3>&);
-
-}  // namespace slipwave::solver
-
-namespace slipwave {
-namespace {
-
-/// Rows that points read beyond the one they are in, at most.
-constexpr std::int64_t beside_points = widest_stencil;
-
-template <class Value, int D>
-Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
-  if (field.empty()) return field;
-  Field<D, Value> part(held);
-  const std::int64_t a_row = held.size() / held.shape[D - 1];
-  const auto first = field.begin() + held.first[D - 1] * a_row;
-  std::copy(first, first + held.size(), part.begin());
-  return part;
-}
-
-}  // namespace
 
 template <int D>
 Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number, int count) {
@@ -89,7 +72,7 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
     const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
     return near == points.end() || *near >= row + beside_points;
   };
-  const std::int64_t spread = solver::spread_of_a_tile(scene), least = spread + beside_points;
+  const std::int64_t spread = spread_of_a_tile(scene), least = spread + beside_points;
   if (rows < count * least)
     throw Error("found " + std::to_string(count) + " processes a shot for a model of " +
                     std::to_string(rows) + " rows, expected at most " +
@@ -144,10 +127,17 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
 
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
-  scene.subdomain.fastest = largest_of(&ranks, solver::fastest_wave(scene.model.medium));
+  scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
+template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 2>&);
+template std::int64_t spread_of_a_step<3>(const std::vector<SweepFraction>&, int, std::int64_t,
+                                          const std::array<std::int64_t, 3>&);
+
+template std::int64_t spread_of_a_tile(const Scene<2>&);
+template std::int64_t spread_of_a_tile(const Scene<3>&);
 template Subdomain subdomain_for(const Scene<2>&, const Grid<2>&, int, int);
 template Subdomain subdomain_for(const Scene<3>&, const Grid<3>&, int, int);
 template Scene<2> cut_to(Scene<2>, const Subdomain&);

@@ -1,0 +1,246 @@
+#include "solver/sweep/bent_stencils.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "solver/kernels/bent_formulas.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Impedances from a cell outwards along z.
+template <int D>
+class Column {
+ public:
+  Column(const Domain<D>& domain, const Index<D>& from, int step) : domain_(domain), at_(from), step_(step) {}
+  bool leaves_grid(int n) const {
+    const auto row = at_[D - 1] + n * step_;
+    return row < 0 || row >= domain_.grid.shape[D - 1];
+  }
+  double operator()(Wave wave, int n) const {
+    Index<D> at = at_;
+    at[D - 1] += n * step_;
+    return domain_.impedance(wave)(at);
+  }
+  /// Whether the impedances of cells n and n + 1 differ by more than a factor.
+  bool differ(int n, double ratio) const {
+    for (const Wave wave : {wave_p, wave_s}) {
+      const double a = (*this)(wave, n), b = (*this)(wave, n + 1);
+      if (a > ratio * b || b > ratio * a) return true;
+    }
+    return false;
+  }
+
+ private:
+  const Domain<D>& domain_;
+  Index<D> at_;
+  int step_;
+};
+
+float share(double own, double other) { return own + other > 0 ? float(other / (own + other)) : 0.f; }
+
+/// One side of a cell; `inside`: its interface is inside the grid.
+template <int D>
+BentStencil::Side side_of(const Column<D>& z, EdgeLaw edge, int reach, bool& inside) {
+  BentStencil::Side side;
+  for (; side.cells < reach; ++side.cells) {
+    const int own = side.cells, next = own + 1;
+    if (z.leaves_grid(next)) {
+      side.p = extension_of(edge, wave_p), side.s = extension_of(edge, wave_s);
+      return side;
+    }
+    if (z(wave_p, next) == 0) {
+      side.p = side.s = Extension::traction_free;
+      inside = true;
+      return side;
+    }
+    if (!z.differ(own, strong_interface_ratio)) continue;
+    side.p = side.s = Extension::interface;
+    side.share_p = share(z(wave_p, own), z(wave_p, next));
+    side.share_s = share(z(wave_s, own), z(wave_s, next));
+    inside = true;
+    for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
+      const int further = next + side.beyond;
+      if (z.leaves_grid(further) || z(wave_p, further) == 0 || z.differ(further - 1, strong_interface_ratio))
+        break;
+    }
+    return side;
+  }
+  return side;
+}
+
+/// As for level rows (interface_stencils.cpp).
+constexpr int most_reach_at_contrasts = 2;
+constexpr double contrast_ratio = 1.2;
+
+int reach_within(const BentStencil::Side& low, const BentStencil::Side& high, int reach) {
+  const int interfaces = (low.p == Extension::interface) + (high.p == Extension::interface);
+  const int others = low.cells + high.cells;
+  const bool ends = low.p != Extension::none && high.p != Extension::none;
+  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
+  return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+}
+
+template <int D>
+bool contrast(const Column<D>& z, int reach) {
+  for (int n = 1; n <= reach && !z.leaves_grid(n); ++n)
+    if (z.differ(n - 1, contrast_ratio)) return true;
+  return false;
+}
+
+/// Velocity and traction at cells of a column, extended beyond the ends of a stencil.
+template <int D, class Real>
+class Extended {
+ public:
+  Extended(const BentStencil& stencil, const BentFields<const Real>& fields, const BentAcross<Real>& metric)
+      : stencil_(stencil), fields_(fields), metric_(metric) {}
+
+  void at(int offset, Real v[D], Real t[D]) const {
+    const bool below = offset < -stencil_.low.cells;
+    if (!below && offset <= stencil_.high.cells) return load(offset, v, t);
+    const auto& side = below ? stencil_.low : stencil_.high;
+    if (side.p == Extension::constant) return load(below ? -side.cells : side.cells, v, t);
+    // The mirror image lies nearer to the cell with each fold, so this ends.
+    at(below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset, v, t);
+    const int face = below ? -side.cells : side.cells + 1;
+    Real normal[D];
+    normal[0] = 1;
+    for (int c = 1; c < D; ++c) normal[c] = metric_.n_face[(c - 1) * metric_.pitch + face * metric_.stride];
+    if (side.p != Extension::interface) {
+      scale(normal, side.p == Extension::motionless ? -1 : 1, side.s == Extension::motionless ? -1 : 1, v);
+      scale(normal, side.p == Extension::traction_free ? -1 : 1, side.s == Extension::traction_free ? -1 : 1,
+            t);
+      return;
+    }
+    Real v_beyond[D], t_beyond[D];
+    load(below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1), v_beyond,
+         t_beyond);
+    for (int c = 0; c < D; ++c) v_beyond[c] -= v[c];
+    scale(normal, 2 * Real(side.share_p), 2 * Real(side.share_s), v_beyond);
+    // A fluid has no traction along the face.
+    if (side.share_s == 0 || !stencil_.solid) scale(normal, 1, 0, t_beyond);
+    if (!stencil_.solid) scale(normal, 1, 0, t);
+    for (int c = 0; c < D; ++c) t_beyond[c] -= t[c];
+    scale(normal, 2 - 2 * Real(side.share_p), stencil_.solid ? 2 - 2 * Real(side.share_s) : Real(0),
+          t_beyond);
+    for (int c = 0; c < D; ++c) v[c] += v_beyond[c], t[c] += t_beyond[c];
+  }
+
+ private:
+  void load(int offset, Real v[D], Real t[D]) const {
+    row_traction<D>(fields_, offset * fields_.stride, metric_.n_cell + offset * metric_.stride, metric_.pitch,
+                    t);
+    for (int c = 0; c < D; ++c)
+      v[c] = fields_.first[offset * fields_.stride + AcrossOrder<D>::axis(c) * fields_.pitch];
+  }
+  /// Multiplies the part of a vector along the normal and the rest.
+  static void scale(const Real normal[D], Real along, Real across, Real vector[D]) {
+    Real square = 0, dot = 0;
+    for (int c = 0; c < D; ++c) square += normal[c] * normal[c], dot += normal[c] * vector[c];
+    for (int c = 0; c < D; ++c)
+      vector[c] = across * vector[c] + (along - across) * (dot / square) * normal[c];
+  }
+
+  const BentStencil& stencil_;
+  const BentFields<const Real>& fields_;
+  const BentAcross<Real>& metric_;
+};
+
+template <int Order, int D, class Real>
+void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
+                  Real zp, Real zs, const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
+  constexpr int reach = reach_of(Order);
+  const Extended<D, Real> extended(stencil, fields, metric);
+  Real v[D][2 * reach + 1], t[D][2 * reach + 1];
+  for (int k = -reach; k <= reach; ++k) {
+    Real v_at[D], t_at[D];
+    extended.at(k, v_at, t_at);
+    for (int c = 0; c < D; ++c) v[c][k + reach] = v_at[c], t[c][k + reach] = t_at[c];
+  }
+  Real normal_lo[D], normal_hi[D], square = 1;
+  normal_lo[0] = normal_hi[0] = 1;
+  for (int c = 1; c < D; ++c) {
+    normal_lo[c] = metric.n_face[(c - 1) * metric.pitch];
+    normal_hi[c] = metric.n_face[(c - 1) * metric.pitch + metric.stride];
+    const Real own = metric.n_cell[(c - 1) * metric.pitch];
+    square += own * own;
+  }
+  const Real sign = scale < 0 ? -1 : 1;
+  Real up[D], down[D];
+  reconstruct_bent_cell<Order, D>(v, t, normal_lo, normal_hi, sign,
+                                  sign * scale * b * Real(__builtin_sqrt(square)) / metric.j[0], zp, zs, up,
+                                  down);
+  for (int c = 0; c < D; ++c) outgoing.up(c)[0] = up[c], outgoing.down(c)[0] = down[c];
+}
+
+template <int D, class Real>
+using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
+                         const BentAcross<Real>&, OutgoingWaves<Real>);
+template <int D, class Real, int... N>
+constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
+  return {correct_cell<orders[N], D, Real>...};
+}
+
+}  // namespace
+
+template <int D, class Real>
+BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
+  if (domain.bent_rows.empty()) return;
+  const auto& grid = domain.grid;
+  const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
+  starts_.assign(1, 0);
+  for (std::int64_t line = 0; line < lines; ++line) {
+    auto at = grid.index(line * nx);
+    for (at[0] = 0; at[0] < nx && domain.bent(at[D - 1]); ++at[0]) {
+      const Column<D> up(domain, at, -1), down(domain, at, +1);
+      const double z_p = domain.impedance(wave_p)(at), z_s = domain.impedance(wave_s)(at);
+      if (z_p == 0) {
+        cells_.push_back({std::int32_t(at[0]), not_carried, false, {}, {}});
+        continue;
+      }
+      bool inside = false;
+      const auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
+      const auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
+      const bool near_free = low.p == Extension::traction_free || high.p == Extension::traction_free;
+      if (inside) {
+        cells_.push_back(
+            {std::int32_t(at[0]), std::int8_t(reach_within(low, high, reach)), z_s > 0, low, high});
+      } else if (reach > most_reach_at_contrasts &&
+                 (near_free || contrast(up, reach) || contrast(down, reach))) {
+        BentStencil::Side open;
+        open.cells = std::int8_t(reach);
+        cells_.push_back({std::int32_t(at[0]), most_reach_at_contrasts, z_s > 0, open, open});
+      }
+    }
+    starts_.push_back(std::int64_t(cells_.size()));
+  }
+}
+
+template <int D, class Real>
+void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRange& columns, Real scale,
+                                    const BentFields<const Real>& fields, const MaterialRows<Real>& material,
+                                    const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) const {
+  static constexpr auto correct_as = correctors<D, Real>(std::make_integer_sequence<int, order_count>());
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
+                               [](const BentStencil& stencil, std::int64_t x) { return stencil.x < x; });
+  for (; cell != stop && cell->x < columns.last; ++cell) {
+    const auto i = cell->x - columns.first;
+    if (cell->reach == not_carried) {
+      for (int c = 0; c < D; ++c) outgoing.up(c)[i] = outgoing.down(c)[i] = 0;
+      continue;
+    }
+    correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
+        *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
+        material.zs[i], {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride},
+        outgoing.at(i));
+  }
+}
+
+template class BentStencils<2, float>;
+template class BentStencils<2, double>;
+template class BentStencils<3, float>;
+template class BentStencils<3, double>;
+
+}  // namespace slipwave::solver

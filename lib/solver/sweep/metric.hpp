@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/kernels/kernels.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// The metric of a fitted grid on the computed grid (theory.md (F1)): of bent rows J and N by cell and face;
+/// of level rows their height, by which the sweep along z over them is shorter or longer. Empty, and never
+/// asked, where the grid is regular.
+template <int D, class Real>
+class Metric {
+ public:
+  Metric() = default;
+  explicit Metric(const Domain<D>& domain);
+
+  bool any_bent() const { return !bent_.empty(); }
+  /// Whether a row (in 3-D a plane of rows), counted along z, or any that its stencils read is not level.
+  bool bent_row(std::int64_t row) const { return !bent_.empty() && bent_[std::size_t(row)]; }
+  bool bent(std::int64_t line) const { return !bent_.empty() && bent_[std::size_t(line / lines_a_row_)]; }
+  /// h over the height of a level row; 1 for bent ones.
+  Real inverse_height(std::int64_t row) const {
+    return inverse_heights_.empty() ? Real(1) : inverse_heights_[std::size_t(row)];
+  }
+
+  /// Of a bent row, from a cell on.
+  BentAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
+  BentAcross<Real> across(const Index<D>& line, std::int64_t x) const;
+  /// J of a cell.
+  Real volume(const Index<D>& at) const;
+
+ private:
+  // Rows of a line: J, J of the face before the cell along each horizontal axis, N of the upper face, N.
+  static constexpr int row_j = 0, row_face = 1, row_n_face = D, row_n_cell = 2 * D - 1, rows = 3 * D - 2;
+  const Real* row(const Index<D>& line, int of) const {
+    return values_.data() + layout_.line(line) + of * layout_.row_pitch();
+  }
+  void fill(const Domain<D>& domain);
+  void fill_ghosts(const Domain<D>& domain);
+
+  std::int64_t lines_a_row_ = 1;
+  std::vector<char> bent_;             // by row
+  std::vector<Real> inverse_heights_;  // by row
+  Layout<D> layout_;
+  Buffer<Real> values_;
+};
+
+}  // namespace slipwave::solver
