@@ -161,7 +161,8 @@ void fit(Model<2>& model, const Settings& settings, double sampled_m, const cli:
   auto fitted = in_place(settings.floor.empty() ? "--surface" : "--floor",
                          [&] { return fit_imported(model, horizons); });
   for (const auto& sentence : fitted.warnings) context.warn(sentence);
-  if (!fitted.summary.empty()) context.say(fitted.summary);
+  context.say(fitted.summary.empty() ? "nothing to fit: surface and floor lie on faces of cells"
+                                     : fitted.summary);
   model = std::move(fitted.model);
 }
 

@@ -175,7 +175,9 @@ std::string Rows<D>::count_rows(std::size_t k) {
              aligned > 0 && std::abs(cells.mean / double(aligned) - 1) <= 0.1) {
     count = aligned;  // makes good what was rounded above
   }
-  count = last ? below.row - above.row : std::max(count, fewest);
+  // The bottom has its row already; each horizon before it needs one.
+  const auto room = knots_.back().row - above.row - std::int64_t(knots_.size() - 2 - k);
+  count = last ? below.row - above.row : std::min(std::max(count, fewest), room);
   if (count <= most && count >= fewest && count > 0) {
     below.row = above.row + count;
     return {};
@@ -340,7 +342,7 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
     if (why.empty()) {
       chosen = std::move(with);
     } else if (choice.asked && horizons[n].strong) {
-      throw Error(why + "; move it, use other cells or --fit none", ErrorKind::usage);
+      throw Error(why + "; move it, use other cells or do not fit it", ErrorKind::usage);
     } else if (!on_faces(n)) {
       fit.left_out.push_back("not fitted: " + why);
     }

@@ -133,6 +133,14 @@ TEST(Fit, GivesThinBedsTwoRows) {
   EXPECT_LE(largest, 1.15);
 }
 
+TEST(Fit, FindsRoomNearTheBottom) {
+  const auto fit = fit_layers(grid_of(4, 20, 5), {{0, 1500, 0, 1000}, {98, 3000, 1500, 2200}}, as_usual);
+  ASSERT_NE(fit.grid.rows, nullptr);
+  EXPECT_EQ(fit.rows[1], 19);
+  EXPECT_EQ(corner(fit.grid, 0, 19), 98);
+  EXPECT_EQ(corner(fit.grid, 0, 20), 100);
+}
+
 TEST(Fit, MakesAFreeSurfaceTheTop) {
   const auto grid = grid_of(100, 60, 5);
   const std::vector<Layer> layers = {curved("sine,52,10,250", 3000, 1500, 2000)};
@@ -192,7 +200,7 @@ TEST(Fit, RefusesWhatIsAskedForAndCannotBe) {
   const auto refusal = [&](const std::vector<Layer>& layers, const std::string& choice) {
     return sentence_of([&] { fit_layers(grid, layers, parse_fit(choice)); });
   };
-  const std::string remedy = "; move it, use other cells or --fit none";
+  const std::string remedy = "; move it, use other cells or do not fit it";
   const Layer water(0, 1500, 0, 1000), deep(200, 3000, 1500, 2000, 30), shallow(100, 3000, 1500, 2000, -30);
   EXPECT_EQ(refusal({water, deep}, "floor"),
             "floor at 200 m dip 30 leaves the model at its bottom, at x=500, z=488.675" + remedy);
