@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "model/fracture.hpp"
 #include "model/layers.hpp"
@@ -295,4 +296,46 @@ TEST(FittedModel, IsFracturedAndLoadedAtTrueDepths) {
                 -9.80665 * (1000 * floor + 2000 * (z - floor)), 1);
   }
   EXPECT_GT(fractured, 60);
+}
+
+TEST(Fit, OfAnyPileIsAGridThatFollowsWhatItSays) {
+  std::mt19937 random(19);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int fitted = 0;
+  for (int scene = 0; scene < 400; ++scene) {
+    const double h = draw(2, 12);
+    const auto grid = grid_of(60, 80, h);
+    std::vector<Layer> layers;
+    double depth = draw(0, 1) < 0.3 ? draw(0, 10 * h) : 0;
+    for (int n = 0; n < 5 && depth < 75 * h; ++n) {
+      const bool fluid = draw(0, 1) < 0.3;
+      Layer layer(depth, 1500 + 300 * n, fluid ? 0 : 800, 1000 + 200 * n,
+                  draw(0, 1) < 0.5 || n == 0 ? 0 : draw(-12, 12));
+      if (draw(0, 1) < 0.3 && depth > 0)
+        layer.top = Horizon::parse("sine," + std::to_string(depth) + ',' + std::to_string(draw(0, 4 * h)) +
+                                   ',' + std::to_string(draw(20 * h, 80 * h)));
+      layers.push_back(layer);
+      depth += draw(0, 1) < 0.2 ? draw(0.1 * h, 3 * h) : draw(3 * h, 30 * h);
+    }
+    const auto fit = fit_layers(grid, layers, as_usual);
+    if (!fit.grid.rows) continue;
+    ++fitted;
+    const auto& rows = *fit.grid.rows;
+    const auto [least, largest] = rows.heights();
+    EXPECT_GE(least, 0.2 * h * (1 - 1e-9)) << scene;
+    EXPECT_LE(largest, 1.6 * h * (1 + 1e-9)) << scene;
+    for (const double bottom : rows.row(fit.grid.shape[1])) EXPECT_EQ(bottom, 80 * h) << scene;
+    EXPECT_NEAR(fit.grid.end(1), 80 * h, 1e-9 * h);
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      if (fit.rows[n] < 0) continue;
+      for (std::int64_t i = 0; i <= 60; ++i)
+        EXPECT_LE(rows.corner({i, fit.rows[n]}), layers[n].top.at(double(i) * h)) << scene;
+    }
+    Model<2> model;
+    model.medium = layered_medium(fit.grid, layers, true, fit.rows);
+    check(model);
+  }
+  EXPECT_GT(fitted, 250);
 }
