@@ -174,6 +174,17 @@ TEST(Fit, LeavesOutWhatCrosses) {
             "not fitted: layer at 270 m dip -10 meets or crosses layer at 250 m at x=500, z=181.837");
 }
 
+TEST(Fit, KeepsHorizonsOnTheirFacesWhereOthersBendRows) {
+  const std::vector<Layer> layers = {
+      {50, 1500, 0, 1000}, {200, 3000, 1500, 2200, 5}, {400, 4000, 2000, 2500}};
+  const auto fit = fit_layers(grid_of(100, 100, 5), layers, parse_fit("floor"));
+  ASSERT_NE(fit.grid.rows, nullptr);
+  EXPECT_EQ(fit.rows[0], 0);
+  EXPECT_EQ(corner(fit.grid, 3, 0), 50);
+  EXPECT_EQ(corner(fit.grid, 3, fit.rows[2]), 400);
+  EXPECT_EQ(fit_layers(grid_of(100, 100, 5), layers, parse_fit("none")).grid.rows, nullptr);
+}
+
 TEST(Fit, FollowsTheFloorWhereALayerCropsOut) {
   const auto grid = grid_of(100, 100, 5);
   const std::vector<Layer> layers = {
