@@ -95,7 +95,8 @@ TEST_F(ModelFit, OfImportedStairsFindsTheirFloor) {
   // A line for each of a few points of the same floor.
   write("floor.txt",
         "0 102\n50 110.49\n100 114\n150 110.49\n200 102\n250 93.51\n300 90\n350 93.51\n400 102\n");
-  EXPECT_EQ(run(import + "--floor floor.txt -o given.nc").err, "sw-import: fitted: floor at smooth@floor.txt, rows 0.82 to 1.25 of 5 m\n");
+  EXPECT_EQ(run(import + "--floor floor.txt -o given.nc").err,
+            "sw-import: fitted: floor at smooth@floor.txt, rows 0.82 to 1.25 of 5 m\n");
   expect_refused(import + "--floor none.txt -o no.nc", 1,
                  "sw-import: --floor: none.txt: No such file or directory");
   done(import + "--floor found --extrude 50 -q -o deep.nc");
