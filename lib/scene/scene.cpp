@@ -170,18 +170,8 @@ bool Scene<D>::slips() const {
 
 template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  const double fastest = std::max(scene.subdomain.fastest, fastest_speed(scene.model.medium));
-  const auto& grid = scene.model.grid();
-  if (!grid.rows) return grid.spacing_m / fastest;
-  // Across low or steep rows a wave crosses more cells.
-  double most = fastest;
-  for (std::int64_t n = 0; n < grid.size(); ++n) {
-    auto at = grid.index(n);
-    at[D - 1] += grid.first[D - 1];
-    const double vp = scene.model.medium.vp[std::size_t(n)];
-    most = std::max(most, vp * grid.rows->stretch(at, grid.spacing_m));
-  }
-  return grid.spacing_m / most;
+  return scene.model.grid().spacing_m /
+         std::max(scene.subdomain.fastest_across_cells, fastest_across_cells(scene.model.medium));
 }
 
 template <int D>
