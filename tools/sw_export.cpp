@@ -87,14 +87,8 @@ void run(const Settings& settings, const cli::Context& context) {
   const bool is_model = kind_of(file) == "model";
   OutputFile out(settings.output, OutputFile::Content::binary);
   auto exported = is_model ? of_model(file, settings) : of_snapshots(std::move(file), settings);
-  if (exported.values.grid().rows) {
-    const bool linear = exported.take == DepthTake::linear;
-    exported.values = in_regular_depth(exported.values, exported.take);
-    context.say(shown_input(settings.input) + ": rows follow horizons; resampled to " +
-                shown(exported.values.grid()) + " in regular depth, " +
-                (linear ? "linearly between cells" : "each takes the cell its centre lies in") +
-                "; 0 above the surface");
-  }
+  const bool fitted = exported.values.grid().rows != nullptr;
+  exported.values = in_regular_depth(exported.values, exported.take);
   exported.facts.entries.push_back(context.version);
   std::string commands = history;
   append_history(commands, context.command_line);
@@ -105,6 +99,12 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   in_place(shown_input(settings.input), [&] { write_section(out, exported.values, exported.facts, format); });
   out.commit();
+  if (!fitted) return;
+  const bool linear = exported.take == DepthTake::linear;
+  context.say(shown_input(settings.input) + ": rows follow horizons; resampled to " +
+              shown(exported.values.grid()) + " in regular depth, " +
+              (linear ? "linearly between cells" : "each takes the cell its centre lies in") +
+              "; 0 above the surface");
 }
 
 }  // namespace
