@@ -97,7 +97,10 @@ double RowDepths<D>::slope(const Index& at, int axis, double spacing_m) const {
 template <int D>
 double RowDepths<D>::stretch(const Index& at, double spacing_m) const {
   double square = 1;
-  for (int axis = 0; axis < D - 1; ++axis) square += std::pow(slope(at, axis, spacing_m), 2);
+  for (int axis = 0; axis < D - 1; ++axis) {
+    const double slope = this->slope(at, axis, spacing_m);
+    square += slope * slope;
+  }
   return std::sqrt(square) * spacing_m / height(at);
 }
 

@@ -34,6 +34,20 @@ double fastest_speed(const Medium<D>& medium) {
   return fastest;
 }
 
+/// Largest speed in m/s at which a wave crosses cells, times their size: in a fitted grid waves cross low and
+/// steep rows in less time.
+template <int D>
+double fastest_across_cells(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
+  double fastest = fastest_speed(medium);
+  for (std::int64_t n = 0; grid.rows && n < grid.size(); ++n) {
+    auto at = grid.index(n);
+    at[D - 1] += grid.first[D - 1];
+    fastest = std::max(fastest, double(medium.vp[std::size_t(n)]) * grid.rows->stretch(at, grid.spacing_m));
+  }
+  return fastest;
+}
+
 /// Ratio of impedances from which an interface between neighbouring cells is strong: stencils on both sides
 /// end there. Below it stencils run across: random contrasts up to 1.5 stay stable at every order.
 inline constexpr double strong_interface_ratio = 1.5;

@@ -169,24 +169,9 @@ bool Scene<D>::slips() const {
 }
 
 template <int D>
-double fastest_in_cells(const Scene<D>& scene) {
-  const auto& grid = scene.model.grid();
-  double most = std::max(scene.subdomain.fastest, fastest_speed(scene.model.medium));
-  if (!grid.rows) return most;
-  most = std::max(most, scene.subdomain.fastest_in_cells);
-  // Across low or steep rows a wave crosses more cells.
-  for (std::int64_t n = 0; n < grid.size(); ++n) {
-    auto at = grid.index(n);
-    at[D - 1] += grid.first[D - 1];
-    const double vp = scene.model.medium.vp[std::size_t(n)];
-    most = std::max(most, vp * grid.rows->stretch(at, grid.spacing_m));
-  }
-  return most;
-}
-
-template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
-  return scene.model.grid().spacing_m / fastest_in_cells(scene);
+  return scene.model.grid().spacing_m /
+         std::max(scene.subdomain.fastest_across_cells, fastest_across_cells(scene.model.medium));
 }
 
 template <int D>
@@ -283,7 +268,6 @@ double highest_frequency_hz(const Survey<D>& survey) {
 }
 
 template struct Scene<2>;
-template double fastest_in_cells(const Scene<2>&);
 template double stable_time_step_s(const Scene<2>&);
 template double time_step_s(const Scene<2>&);
 template int zone_cells(const Scene<2>&, const Source<2>&);
@@ -291,7 +275,6 @@ template void check(const Scene<2>&);
 template SlowestWave slowest_wave(const Medium<2>&);
 template double highest_frequency_hz(const Survey<2>&);
 template struct Scene<3>;
-template double fastest_in_cells(const Scene<3>&);
 template double stable_time_step_s(const Scene<3>&);
 template double time_step_s(const Scene<3>&);
 template int zone_cells(const Scene<3>&, const Source<3>&);

@@ -66,11 +66,7 @@ struct Scene {
   bool slips() const;
 };
 
-/// The largest speed of a wave by which it crosses cells of size h, m/s: vp_max, and on a fitted grid more
-/// where rows are low or steep.
-template <int D>
-double fastest_in_cells(const Scene<D>& scene);
-/// h over that, s: the time step at Courant number 1.
+/// h/vp_max, s: the time step at Courant number 1.
 template <int D>
 double stable_time_step_s(const Scene<D>& scene);
 /// Largest c dt/h that is taken: no sweep moves a wave by more than a cell, with 13 % to spare at time

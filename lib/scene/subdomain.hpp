@@ -15,9 +15,9 @@ struct Subdomain {
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
-  bool slips = false;           // whether anything slips in any part
-  double fastest = 0;           // largest vp of the whole model, m/s
-  double fastest_in_cells = 0;  // the same as fastest_in_cells() has it
+  bool slips = false;               // whether anything slips in any part
+  double fastest = 0;               // largest vp of the whole model, m/s
+  double fastest_across_cells = 0;  // the same of fastest_across_cells()
 
   bool is_whole() const { return rows == 0; }
   /// Of the model it holds: whether rows before the first or behind the last are with other processes.

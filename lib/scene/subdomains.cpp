@@ -128,7 +128,7 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
 template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
-  scene.subdomain.fastest_in_cells = largest_of(&ranks, fastest_in_cells(scene));
+  scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
