@@ -5,40 +5,10 @@
 #include "acquisition/interpolation.hpp"
 #include "cube_extruded.hpp"
 #include "lab.hpp"
-#include "parallel/threads.hpp"
-#include "ranks_in_threads.hpp"
-#include "scene/subdomains.hpp"
-#include "solver/simulation.hpp"
+#include "shared_out.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-template <int D>
-Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
-  auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
-  join(part, ranks);
-  return part;
-}
-
-/// What the first of so many ranks gets of the first shot.
-template <int D>
-Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
-  const ThreadLimit limit(threads);
-  Gather found;
-  RanksInThreads::run(count, [&](Ranks& ranks) {
-    const auto part = part_of(scene, ranks);
-    check(part);
-    auto gather = shoot(part, 1, {}, {}, nullptr, nullptr, &ranks);
-    if (ranks.number() == 0) found = std::move(gather);
-  });
-  return found;
-}
-
-std::vector<double> all_samples(const Gather& gather) {
-  std::vector<double> all;
-  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
-  return all;
-}
 
 /// Water over rocks, with fractures and voids down to the bottom.
 Scene<2> reef(std::int64_t nx = 90) {
