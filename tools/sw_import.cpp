@@ -9,6 +9,7 @@
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
 #include "model/import.hpp"
+#include "model/import_fit.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/resample.hpp"
@@ -25,6 +26,7 @@ struct Settings {
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
   std::string crop, vs_from, rho_from;
+  std::string surface, floor;
   double fluid_vp = 1500;
   bool no_average = false;
   MediumLimits limits;
@@ -49,6 +51,12 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("no-average", settings.no_average, "interpolate also for larger cells");
   options.add("crop", settings.crop, "X0:X1,Z0:Z1",
               "keep only this box, after resampling; its top becomes the surface");
+  options.add(
+      "surface", settings.surface, "FILE",
+      "let rows of cells follow this surface, lines \"X Z\" or a horizon as of sw-layers; void above it is "
+      "left out");
+  options.add("floor", settings.floor, "FILE|found",
+              "let rows follow this sea floor, or the one found in the cells, made smooth within their size");
   options.add("extrude", settings.extrude_m, "LY",
               "finally extend the model to 3-D, uniform over LY m along y");
   options.add("title", settings.title, "TEXT", "title of the model file");
@@ -140,6 +148,24 @@ Medium<2> read_medium(const Settings& settings, std::string& history) {
   return medium;
 }
 
+/// Rows follow what is given of surface and floor.
+void fit(Model<2>& model, const Settings& settings, double sampled_m, const cli::Context& context) {
+  if (settings.surface.empty() && settings.floor.empty()) return;
+  ImportedHorizons horizons;
+  horizons.sampled_m = sampled_m;
+  horizons.find_floor = settings.floor == "found";
+  if (!settings.surface.empty())
+    horizons.surface = in_place("--surface", [&] { return parse_imported_horizon(settings.surface); });
+  if (!settings.floor.empty() && !horizons.find_floor)
+    horizons.floor = in_place("--floor", [&] { return parse_imported_horizon(settings.floor); });
+  auto fitted = in_place(settings.floor.empty() ? "--surface" : "--floor",
+                         [&] { return fit_imported(model, horizons); });
+  for (const auto& sentence : fitted.warnings) context.warn(sentence);
+  context.say(fitted.summary.empty() ? "nothing to fit: surface and floor lie on faces of cells"
+                                     : fitted.summary);
+  model = std::move(fitted.model);
+}
+
 template <int D>
 void write(Model<D> model, const Settings& settings, const cli::Context& context, OutputFile& out) {
   model.title = settings.title;
@@ -155,12 +181,14 @@ void run(const Settings& settings, const cli::Context& context) {
   Model<2> model;
   model.medium = read_medium(settings, model.history);
   check(model, settings.limits);
+  const double sampled_m = model.grid().spacing_m;
   if (settings.resample_m)
     model =
         in_place("--resample", [&] { return resampled(model, *settings.resample_m, !settings.no_average); });
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
   }
+  fit(model, settings, sampled_m, context);
   if (!settings.extrude_m) return write(std::move(model), settings, context, out);
   Model<3> deep;
   deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });

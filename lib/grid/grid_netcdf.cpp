@@ -124,7 +124,7 @@ void check_depths(const NetcdfFile& file, const Grid<D>& grid) {
 }
 
 template <int D>
-std::shared_ptr<const RowDepths<D>> read_rows(const NetcdfFile& file, const Grid<D>& grid) {
+RowDepths<D> read_rows(const NetcdfFile& file, const Grid<D>& grid) {
   const auto variable = file.variable(bounds_name);
   std::vector<std::size_t> shape;
   for (int axis = D - 1; axis >= 0; --axis) shape.push_back(std::size_t(grid.shape[std::size_t(axis)]) + 1);
@@ -137,9 +137,8 @@ std::shared_ptr<const RowDepths<D>> read_rows(const NetcdfFile& file, const Grid
   }
   auto corners = file.get<double>(bounds_name);
   auto horizons = read_horizons(file, grid.shape[D - 1]);
-  return in_place(bounds_name, [&] {
-    return std::make_shared<const RowDepths<D>>(grid.shape, std::move(corners), std::move(horizons));
-  });
+  return in_place(bounds_name,
+                  [&] { return RowDepths<D>(grid.shape, std::move(corners), std::move(horizons)); });
 }
 
 /// Variables of a fitted grid beside its coordinates.
@@ -244,7 +243,7 @@ Grid<D> read_grid(const NetcdfFile& file, bool whole) {
   const bool begins_below = std::abs(top) > 1e-4 * grid.spacing_m;
   if (file.has_variable(bounds_name)) {
     in_place(file.shown_name(), [&] {
-      grid.rows = read_rows(file, grid);
+      grid.rows = std::make_shared<const RowDepths<D>>(read_rows(file, grid));
       check_depths(file, grid);
     });
   } else if (begins_below && whole) {

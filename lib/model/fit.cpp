@@ -175,7 +175,9 @@ std::string Rows<D>::count_rows(std::size_t k) {
              aligned > 0 && std::abs(cells.mean / double(aligned) - 1) <= 0.1) {
     count = aligned;  // makes good what was rounded above
   }
-  count = last ? below.row - above.row : std::max(count, fewest);
+  // The bottom has its row already; each horizon before it needs one.
+  const auto room = knots_.back().row - above.row - std::int64_t(knots_.size() - 2 - k);
+  count = last ? below.row - above.row : std::min(std::max(count, fewest), room);
   if (count <= most && count >= fewest && count > 0) {
     below.row = above.row + count;
     return {};
@@ -273,11 +275,15 @@ bool is_chosen(const FitHorizon& horizon, const FitChoice& choice) {
 }
 
 /// Numbers of horizons in the order in which they are tried: strong ones first, each kind from the top down.
-std::vector<std::size_t> in_order_of_need(const std::vector<FitHorizon>& horizons, const FitChoice& choice) {
+/// Those on faces want to stay there when others bend the rows.
+std::vector<std::size_t> in_order_of_need(const std::vector<FitHorizon>& horizons, const FitChoice& choice,
+                                          double spacing_m) {
   std::vector<std::size_t> order;
   for (const bool strong : {true, false})
-    for (std::size_t n = 0; n < horizons.size(); ++n)
-      if (horizons[n].strong == strong && is_chosen(horizons[n], choice)) order.push_back(n);
+    for (std::size_t n = 0; n < horizons.size(); ++n) {
+      const bool wanted = is_chosen(horizons[n], choice) || lies_on_face(horizons[n], spacing_m);
+      if (horizons[n].strong == strong && wanted) order.push_back(n);
+    }
   return order;
 }
 
@@ -325,7 +331,7 @@ std::vector<Point<D>> corner_columns(const Grid<D>& grid) {
 template <int D>
 Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons, const FitChoice& choice) {
   Fit<D> fit{regular, std::vector<std::int64_t>(horizons.size(), -1), {}, {}};
-  const auto order = in_order_of_need(horizons, choice);
+  const auto order = in_order_of_need(horizons, choice, regular.spacing_m);
   const auto on_faces = [&](std::size_t n) { return lies_on_face(horizons[n], regular.spacing_m); };
   const auto stays_regular = [&](const std::vector<std::size_t>& followed) {
     return followed.empty() || (!choice.always && std::all_of(followed.begin(), followed.end(), on_faces));
@@ -333,19 +339,23 @@ Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons,
   if (stays_regular(order)) return fit;
   Rows<D> rows(regular, horizons);
   std::vector<std::size_t> chosen;
+  std::vector<std::pair<std::size_t, std::string>> left_out;
   for (const std::size_t n : order) {
     auto with = chosen;
     with.insert(std::upper_bound(with.begin(), with.end(), n), n);
     const auto why = rows.take(with);
     if (why.empty()) {
       chosen = std::move(with);
-    } else if (choice.asked && horizons[n].strong) {
-      throw Error(why + "; move it, use other cells or --fit none", ErrorKind::usage);
-    } else if (!on_faces(n)) {
-      fit.left_out.push_back("not fitted: " + why);
+    } else if (choice.asked && horizons[n].strong && is_chosen(horizons[n], choice)) {
+      throw Error(why + "; move it, use other cells or do not fit it", ErrorKind::usage);
+    } else {
+      left_out.emplace_back(n, "not fitted: " + why);
     }
   }
-  if (stays_regular(chosen)) return fit;
+  const bool regular_stays = stays_regular(chosen);
+  for (const auto& [n, sentence] : left_out)
+    if (!regular_stays || !on_faces(n)) fit.left_out.push_back(sentence);
+  if (regular_stays) return fit;
   rows.take(chosen);
   for (std::size_t n = 0; n < chosen.size(); ++n) fit.rows[chosen[n]] = rows.row(n);
   fit.grid = rows.grid(chosen);

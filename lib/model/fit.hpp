@@ -25,12 +25,11 @@ FitChoice parse_fit(std::string_view text);
 
 /// A horizon that rows of a grid may follow.
 struct FitHorizon {
-  std::string name;   // in files, of letters, digits and _, all different
-  std::string shown;  // as messages name it: "floor at 400 m"
-  std::string role;   // "surface", "floor" or "layer"
-  bool strong =
-      true;  // of solid, fluid and void: followed before others, with rows down to a fifth of a cell
-  bool is_top = false;           // nothing but void above: if followed, it becomes the top of the grid
+  std::string name;     // in files, of letters, digits and _, all different
+  std::string shown;    // as messages name it: "floor at 400 m"
+  std::string role;     // "surface", "floor" or "layer"
+  bool strong = true;   // of solid, fluid and void: followed first, with rows down to a fifth of a cell
+  bool is_top = false;  // nothing but void above: if followed, it becomes the top of the grid
   std::vector<double> depths_m;  // at the corners of all columns, x fastest (corner_columns())
 };
 
@@ -56,8 +55,8 @@ std::vector<Point<D>> corner_columns(const Grid<D>& grid);
 /// thickness in cells says, two at least where it is 2/5 of a cell or more, and more where it would be
 /// thicker than 1.6 cells a row. What crosses others, leaves the model, or would have rows thinner than a
 /// fifth of a cell (half, where it is not strong) is left out and said, or is an Error where `choice.asked`
-/// and it is strong. Where all horizons lie on faces of the regular grid, that is kept,
-/// but for `choice.always`.
+/// and it is strong. Horizons on faces are followed with others, chosen or not: rows that bend would
+/// leave them. Where all lie on faces of the regular grid, that is kept, but for `choice.always`.
 template <int D>
 Fit<D> fit_grid(const Grid<D>& regular, const std::vector<FitHorizon>& horizons, const FitChoice& choice);
 

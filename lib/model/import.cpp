@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <memory>
 
 #include "base/error.hpp"
 #include "model/layers.hpp"
@@ -21,6 +22,18 @@ template <int D>
 void check_grid(const Field<D>& field, const std::string& name, const Grid<D>& grid) {
   if (field.grid() == grid) return;
   throw Error(name + ": found " + shown(field.grid()) + ", expected " + shown(grid) + " as of vp");
+}
+
+/// Rows of a section all along y.
+void fit_extruded(const Grid<2>& flat, Grid<3>& grid) {
+  grid.shape[2] = flat.shape[1];
+  std::vector<double> corners;
+  for (std::int64_t row = 0; row <= grid.shape[2]; ++row)
+    for (std::int64_t line = 0; line <= grid.shape[1]; ++line) {
+      const auto of_row = flat.rows->row(row);
+      corners.insert(corners.end(), of_row.begin(), of_row.end());
+    }
+  grid.rows = std::make_shared<const RowDepths<3>>(grid.shape, std::move(corners), flat.rows->horizons());
 }
 
 }  // namespace
@@ -85,6 +98,7 @@ Medium<3> extruded(const Medium<2>& medium, double length_m) {
   const auto& flat = medium.grid();
   auto grid = grid_of_size<3>({flat.end(0) - flat.origin_m[0], length_m, flat.end(1)}, flat.spacing_m);
   grid.origin_m = {flat.origin_m[0], 0, flat.origin_m[1]};
+  if (flat.rows) fit_extruded(flat, grid);
   Medium<3> deep(grid, medium);
   for (const Property property : medium.properties()) {
     for (std::int64_t line = 0; line < grid.shape[1] * grid.shape[2]; ++line) {

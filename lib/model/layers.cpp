@@ -12,6 +12,23 @@
 #include "model/cut_cell.hpp"
 
 namespace slipwave {
+
+template <int D>
+void check_reach(const Grid<D>& grid, const Horizon& top) {
+  if (D == 2 && top.is_grid()) {
+    throw Error(
+        "found a grid of depths over x and y in " + top.name() + ", expected points X Z for a model in 2-D",
+        ErrorKind::usage);
+  }
+  for (int axis = 0; axis < D - 1; ++axis) {
+    const double first = grid.centre(axis, 0), last = grid.centre(axis, grid.shape[std::size_t(axis)] - 1);
+    if (top.from_m(axis) <= first && top.to_m(axis) >= last) continue;
+    throw Error(top.name() + " reaches from " + axis_names<D>()[std::size_t(axis)] + " = " +
+                shown(top.from_m(axis)) + " to " + shown(top.to_m(axis)) + " m, expected at least " +
+                shown(first) + " to " + shown(last) + ", the centres of the outer cells");
+  }
+}
+
 namespace {
 
 // vp, vs, rho, the fracture code, and what writing them needs.
@@ -49,23 +66,6 @@ std::int64_t different_lines(const Grid<D>& grid, const std::vector<Layer>& laye
   const bool grids =
       std::any_of(layers.begin(), layers.end(), [](const auto& layer) { return layer.top.is_grid(); });
   return grids ? lines_of(grid) : 1;
-}
-
-/// A curve or grid must reach all columns.
-template <int D>
-void check_reach(const Grid<D>& grid, const Horizon& top) {
-  if (D == 2 && top.is_grid()) {
-    throw Error(
-        "found a grid of depths over x and y in " + top.name() + ", expected points X Z for a model in 2-D",
-        ErrorKind::usage);
-  }
-  for (int axis = 0; axis < D - 1; ++axis) {
-    const double first = grid.centre(axis, 0), last = grid.centre(axis, grid.shape[std::size_t(axis)] - 1);
-    if (top.from_m(axis) <= first && top.to_m(axis) >= last) continue;
-    throw Error(top.name() + " reaches from " + axis_names<D>()[std::size_t(axis)] + " = " +
-                shown(top.from_m(axis)) + " to " + shown(top.to_m(axis)) + " m, expected at least " +
-                shown(first) + " to " + shown(last) + ", the centres of the outer cells");
-  }
 }
 
 /// Does a top lie above the one before it in every column?
@@ -373,6 +373,8 @@ std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<L
 
 template Grid<2> grid_of_size<2>(const Point<2>&, double);
 template Grid<3> grid_of_size<3>(const Point<3>&, double);
+template void check_reach(const Grid<2>&, const Horizon&);
+template void check_reach(const Grid<3>&, const Horizon&);
 template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);
 template Fit<3> fit_layers(const Grid<3>&, const std::vector<Layer>&, const FitChoice&);
 template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, bool,

@@ -38,6 +38,10 @@ Layer parse_layer(std::string_view text);
 template <int D>
 Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 
+/// Throws a usage Error unless a curve or grid reaches the centres of all columns of a grid.
+template <int D>
+void check_reach(const Grid<D>& grid, const Horizon& top);
+
 /// Lets rows of a regular grid follow tops of layers (fit_grid()); `rows` then has one entry a layer. A top
 /// above or below all of the model is no horizon. Throws as layered_medium().
 template <int D>

@@ -24,6 +24,9 @@ struct Contents {
   std::vector<double> normal = {0, 1}, friction = {0.1}, viscosity = {1}, strength = {0};
   std::string units = "m s-1", left_out;
   bool texts_for_speeds = false;
+  std::vector<double> corners;  // depths, none: not in the file
+  std::size_t corner_columns = 0;
+  std::string role = "floor";
 
   Contents(std::size_t columns, std::size_t rows)
       : vp(columns * rows, 3000.f), vs(columns * rows, 1500.f), rho(columns * rows, 2200.f) {
@@ -69,6 +72,16 @@ void write(const std::string& path, const Contents& model) {
     put("slip_friction", model.friction);
     put("slip_viscosity", model.viscosity);
     put("slip_strength", model.strength);
+  }
+  if (!model.corners.empty()) {
+    file.define_dimension("z_face", model.corners.size() / model.corner_columns);
+    file.define_dimension("x_face", model.corner_columns);
+    define("depth_bounds", Type::f64, {"z_face", "x_face"});
+    define("horizon_floor", Type::f64, {"x"});
+    file.put_attribute("horizon_floor", "role", model.role);
+    file.put_attribute("horizon_floor", "row", std::vector<int>{3});
+    put("depth_bounds", model.corners);
+    put("horizon_floor", std::vector<double>(model.x.size(), 15));
   }
   put("x", model.x);
   put("z", model.z);
@@ -119,6 +132,23 @@ void write_bad_models(const std::string& directory) {
   with("no-units", [](Contents& model) { model.units.clear(); });
   with("feet", [](Contents& model) { model.units = "ft/s"; });
   with("text", [](Contents& model) { model.texts_for_speeds = true; });
+  const auto fitted = [&](const std::string& name, const std::function<void(Contents&)>& flaw) {
+    with(name, [&](Contents& model) {
+      model.corner_columns = 41;
+      for (std::size_t n = 0; n < std::size_t(41) * 21; ++n) model.corners.push_back(5 * double(n / 41));
+      flaw(model);
+    });
+  };
+  fitted("nan-corner", [](Contents& model) { model.corners[3 * 41 + 7] = std::nan(""); });
+  fitted("folded", [](Contents& model) { model.corners[3 * 41 + 7] = 9; });
+  fitted("thin-row", [](Contents& model) {
+    for (std::size_t i = 0; i < 41; ++i) model.corners[3 * 41 + i] = 10.5;
+  });
+  fitted("few-corners", [](Contents& model) {
+    model.corners.resize(std::size_t(40) * 21);
+    model.corner_columns = 40;
+  });
+  fitted("ceiling", [](Contents& model) { model.role = "ceiling"; });
   write(directory + "/one-cell.nc", Contents(1, 1));
   write(directory + "/tall.nc", Contents(2, 70000));
 

@@ -13,7 +13,7 @@ class Checkpoint : public Shell {
  protected:
   Checkpoint() {
     done(
-        "sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1600:2200:3 | "
+        "sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1600:2200:3 --fit none | "
         "sw-fracture - --box 500:900,600:700 --dip 30 --friction 0.1 --viscosity 4e3 -o m.nc");
   }
   const std::string scene = "sw-shoot m.nc --source 700,50 --wavelet ricker:20 --receivers 0:1500:50,20 ";
@@ -244,7 +244,9 @@ TEST_F(Checkpoint, ASecondRunDoesNotTouchTheCheckpointOfTheFirst) {
 }
 
 TEST_F(Checkpoint, OneOfAnotherRunOrDamagedIsRefusedAndStaysAsItIs) {
-  done("sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1500:2200:3 -o other.nc");
+  done(
+      "sw-layers --size 1500x1200 --step 5 --layer 0:1500:0:1000 --layer 300:3000:1500:2200:3 --fit none -o "
+      "other.nc");
   ASSERT_EQ(ended_once_begun(shoot + "-o out.sgy " + seldom, "TERM").code, 128 + 15);
   const auto before = content("c");
   const std::string rest = " --checkpoint c -o out.sgy", begin = "sw-shoot: c: is of a run with ";

@@ -8,7 +8,7 @@ class Export : public Shell {
  protected:
   Export() {
     done(
-        "sw-layers --size 300x200 --step 2.5 --fit none --layer 0:1500:0:1000 --layer 45:3000:1600:2300:10 | "
+        "sw-layers --size 300x200 --step 2.5 --layer 0:1500:0:1000 --layer 45:3000:1600:2300:10 --fit none | "
         "sw-fracture - --box 100:200,120:150 --dip 30 --friction 0.1 --viscosity 0 -o m.nc");
   }
 };

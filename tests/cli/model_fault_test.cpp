@@ -9,7 +9,7 @@ using ModelFault = Shell;
 
 // 300 000 cells, so that the output does not fit any buffer on the way.
 const std::string large =
-    "sw-layers --size 3000x2500 --step 5 --layer 0:1500:0:1000 --layer 400:3000:1500:2200:5 ";
+    "sw-layers --size 3000x2500 --step 5 --layer 0:1500:0:1000 --layer 400:3000:1500:2200:5 --fit none ";
 const std::string crack = "--box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 1 ";
 
 }  // namespace
@@ -38,18 +38,20 @@ TEST_F(ModelFault, AFileSizeLimitIsSaidAndLeavesTheOlderFile) {
 }
 
 TEST_F(ModelFault, AReaderThatLeavesEarlyEndsTheWriterQuietly) {
-  EXPECT_EQ(run("sw-layers --size 3000x2500 --step 2.5 --layer 0:1500:0:1000 --layer 400:3000:1500:2200:5 | "
+  EXPECT_EQ(run("sw-layers --size 3000x2500 --step 2.5 --layer 0:1500:0:1000 --layer 400:3000:1500:2200:5 "
+                "--fit none | "
                 "head -c "
                 "100 > part; echo ${PIPESTATUS[0]}; wc -c < part")
                 .out,
             "141\n100\n");
-  const Ran quiet =
-      run("sw-layers --size 3000x2500 --step 2.5 --layer 400:3000:1500:2200:5 | head -c 100 > part");
+  const Ran quiet = run(
+      "sw-layers --size 3000x2500 --step 2.5 --layer 400:3000:1500:2200:5 --fit none | head -c 100 > part");
   EXPECT_NE(quiet.code, 0);
   EXPECT_EQ(quiet.err, "");
   // Also where the parent ignores SIGPIPE.
   const Ran ignoring =
-      run("trap '' PIPE; sw-layers --size 3000x2500 --step 2.5 --layer 400:3000:1500:2200:5 | head -c 100 > "
+      run("trap '' PIPE; sw-layers --size 3000x2500 --step 2.5 --layer 400:3000:1500:2200:5 --fit none | "
+          "head -c 100 > "
           "part");
   EXPECT_NE(ignoring.code, 0);
   EXPECT_EQ(ignoring.err, "");

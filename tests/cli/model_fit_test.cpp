@@ -12,10 +12,10 @@ const std::string sea = "sw-layers --size 400x300 --step 5 --layer 0:1500:0:1000
 
 TEST_F(ModelFit, SaysWhatItFollowsAndHowThinRowsAre) {
   const std::string line = sea + "--layer 102:3000:1500:2000:5 -o m.nc";
-  EXPECT_EQ(run(line).err, "sw-layers: fitted: floor at 102 m dip 5, rows 0.83 to 1.17 of 5 m\n");
+  EXPECT_EQ(run(line).err, "sw-layers: fitted: floor at 102 m dip 5, rows 0.76 to 1.23 of 5 m\n");
   done(line + " -q");
   const auto text = done("sw-info m.nc");
-  EXPECT_TRUE(has(text, "z             0 to 300 m")) << text;
+  EXPECT_TRUE(has(text, "z                0 to 300 m")) << text;
   EXPECT_TRUE(has(text, "row heights")) << text;
   EXPECT_TRUE(has(text, "name floor, role floor, row 24, depth 102 to 136.99")) << text;
 }
@@ -84,4 +84,29 @@ assert np.all(corners[0] == 0) and np.all(corners[-1] == 300) and np.all(np.diff
 )");
   const Ran checked = run("/usr/bin/python3 check.py");
   EXPECT_EQ(checked.code, 0) << checked.err;
+}
+
+TEST_F(ModelFit, OfImportedStairsFindsTheirFloor) {
+  done(sea + "--layer sine,102,12,400:3000:1500:2000 --fit none -o stairs.nc");
+  const std::string import = "sw-import --vp stairs.nc --vs stairs.nc --rho stairs.nc ";
+  EXPECT_EQ(run(import + "--floor found -o found.nc").err.find("sw-import: fitted: floor found, rows 0."),
+            0U);
+  EXPECT_TRUE(has(done("sw-info found.nc"), "name floor, role floor, row 20"));
+  // A line for each of a few points of the same floor.
+  write("floor.txt",
+        "0 102\n50 110.49\n100 114\n150 110.49\n200 102\n250 93.51\n300 90\n350 93.51\n400 102\n");
+  EXPECT_EQ(run(import + "--floor floor.txt -o given.nc").err,
+            "sw-import: fitted: floor at smooth@floor.txt, rows 0.82 to 1.25 of 5 m\n");
+  expect_refused(import + "--floor none.txt -o no.nc", 1,
+                 "sw-import: --floor: none.txt: No such file or directory");
+  done(import + "--floor found --extrude 50 -q -o deep.nc");
+  EXPECT_TRUE(has(done("sw-info deep.nc"), "name floor, role floor, row 20"));
+}
+
+TEST_F(ModelFit, OfImportedStairsLeavesOutVoidAboveTheSurface) {
+  done("sw-layers --size 400x300 --step 5 --layer sine,52,12,400:3000:1500:2000 --fit none -o stairs.nc");
+  const Ran ran =
+      run("sw-import --vp stairs.nc --vs stairs.nc --rho stairs.nc --surface sine,52,12,400 -o m.nc");
+  EXPECT_EQ(ran.err, "sw-import: fitted: surface at sine,52,12,400, rows 0.85 to 1.11 of 5 m\n");
+  EXPECT_TRUE(has(done("sw-info m.nc"), "void cells       0\n")) << done("sw-info m.nc");
 }

@@ -115,7 +115,8 @@ TEST_F(ShootOptions, SnapshotsAreReadableAndLeaveTheTracesAsTheyAre) {
 TEST_F(ShootOptions, DoNotDependOnThreadsOrOnTheMoment) {
   // A grid of many lines, so that threads share them.
   done(
-      "sw-layers --size 800x1500 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1500:2200:5 | sw-fracture - "
+      "sw-layers --size 800x1500 --step 5 --layer 0:1500:0:1000 --layer 100:3000:1500:2200:5 --fit none | "
+      "sw-fracture - "
       "--box 150:650,250:400 --dip 45 --friction 0.1 --viscosity 0 -o m.nc");
   const std::string line = shoot + at + "--snapshots s.nc --every 0.1 ";
   for (const std::string n : {"1", "2", "3"})

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "model/fracture.hpp"
 #include "model/layers.hpp"
@@ -133,6 +134,14 @@ TEST(Fit, GivesThinBedsTwoRows) {
   EXPECT_LE(largest, 1.15);
 }
 
+TEST(Fit, FindsRoomNearTheBottom) {
+  const auto fit = fit_layers(grid_of(4, 20, 5), {{0, 1500, 0, 1000}, {98, 3000, 1500, 2200}}, as_usual);
+  ASSERT_NE(fit.grid.rows, nullptr);
+  EXPECT_EQ(fit.rows[1], 19);
+  EXPECT_EQ(corner(fit.grid, 0, 19), 98);
+  EXPECT_EQ(corner(fit.grid, 0, 20), 100);
+}
+
 TEST(Fit, MakesAFreeSurfaceTheTop) {
   const auto grid = grid_of(100, 60, 5);
   const std::vector<Layer> layers = {curved("sine,52,10,250", 3000, 1500, 2000)};
@@ -165,6 +174,17 @@ TEST(Fit, LeavesOutWhatCrosses) {
             "not fitted: layer at 270 m dip -10 meets or crosses layer at 250 m at x=500, z=181.837");
 }
 
+TEST(Fit, KeepsHorizonsOnTheirFacesWhereOthersBendRows) {
+  const std::vector<Layer> layers = {
+      {50, 1500, 0, 1000}, {200, 3000, 1500, 2200, 5}, {400, 4000, 2000, 2500}};
+  const auto fit = fit_layers(grid_of(100, 100, 5), layers, parse_fit("floor"));
+  ASSERT_NE(fit.grid.rows, nullptr);
+  EXPECT_EQ(fit.rows[0], 0);
+  EXPECT_EQ(corner(fit.grid, 3, 0), 50);
+  EXPECT_EQ(corner(fit.grid, 3, fit.rows[2]), 400);
+  EXPECT_EQ(fit_layers(grid_of(100, 100, 5), layers, parse_fit("none")).grid.rows, nullptr);
+}
+
 TEST(Fit, FollowsTheFloorWhereALayerCropsOut) {
   const auto grid = grid_of(100, 100, 5);
   const std::vector<Layer> layers = {
@@ -192,7 +212,7 @@ TEST(Fit, RefusesWhatIsAskedForAndCannotBe) {
   const auto refusal = [&](const std::vector<Layer>& layers, const std::string& choice) {
     return sentence_of([&] { fit_layers(grid, layers, parse_fit(choice)); });
   };
-  const std::string remedy = "; move it, use other cells or --fit none";
+  const std::string remedy = "; move it, use other cells or do not fit it";
   const Layer water(0, 1500, 0, 1000), deep(200, 3000, 1500, 2000, 30), shallow(100, 3000, 1500, 2000, -30);
   EXPECT_EQ(refusal({water, deep}, "floor"),
             "floor at 200 m dip 30 leaves the model at its bottom, at x=500, z=488.675" + remedy);
@@ -287,4 +307,46 @@ TEST(FittedModel, IsFracturedAndLoadedAtTrueDepths) {
                 -9.80665 * (1000 * floor + 2000 * (z - floor)), 1);
   }
   EXPECT_GT(fractured, 60);
+}
+
+TEST(Fit, OfAnyPileIsAGridThatFollowsWhatItSays) {
+  std::mt19937 random(19);
+  const auto draw = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int fitted = 0;
+  for (int scene = 0; scene < 400; ++scene) {
+    const double h = draw(2, 12);
+    const auto grid = grid_of(60, 80, h);
+    std::vector<Layer> layers;
+    double depth = draw(0, 1) < 0.3 ? draw(0, 10 * h) : 0;
+    for (int n = 0; n < 5 && depth < 75 * h; ++n) {
+      const bool fluid = draw(0, 1) < 0.3;
+      Layer layer(depth, 1500 + 300 * n, fluid ? 0 : 800, 1000 + 200 * n,
+                  draw(0, 1) < 0.5 || n == 0 ? 0 : draw(-12, 12));
+      if (draw(0, 1) < 0.3 && depth > 0)
+        layer.top = Horizon::parse("sine," + std::to_string(depth) + ',' + std::to_string(draw(0, 4 * h)) +
+                                   ',' + std::to_string(draw(20 * h, 80 * h)));
+      layers.push_back(layer);
+      depth += draw(0, 1) < 0.2 ? draw(0.1 * h, 3 * h) : draw(3 * h, 30 * h);
+    }
+    const auto fit = fit_layers(grid, layers, as_usual);
+    if (!fit.grid.rows) continue;
+    ++fitted;
+    const auto& rows = *fit.grid.rows;
+    const auto [least, largest] = rows.heights();
+    EXPECT_GE(least, 0.2 * h * (1 - 1e-9)) << scene;
+    EXPECT_LE(largest, 1.6 * h * (1 + 1e-9)) << scene;
+    for (const double bottom : rows.row(fit.grid.shape[1])) EXPECT_EQ(bottom, 80 * h) << scene;
+    EXPECT_NEAR(fit.grid.end(1), 80 * h, 1e-9 * h);
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      if (fit.rows[n] < 0) continue;
+      for (std::int64_t i = 0; i <= 60; ++i)
+        EXPECT_LE(rows.corner({i, fit.rows[n]}), layers[n].top.at(double(i) * h)) << scene;
+    }
+    Model<2> model;
+    model.medium = layered_medium(fit.grid, layers, true, fit.rows);
+    check(model);
+  }
+  EXPECT_GT(fitted, 250);
 }

@@ -9,80 +9,129 @@
 namespace slipwave::solver {
 
 /// A vector in the order of the pairs of a sweep along z: z, x, in 3-D y. The normal of a row is (1, N_x,
-/// N_y)/|N|, so that at a level face the components are those of the pairs.
-template <int D>
-struct AcrossOrder {
-  /// Place of the component `c` of such a vector among the axes.
-  static constexpr int axis(int c) { return c == 0 ? D - 1 : c - 1; }
+/// N_y)/|N|, so that at a level face the components are those of the pairs. Named members: both compilers
+/// keep those in vector registers, arrays they do not.
+template <int D, class Real>
+struct RowVector;
+template <class Real>
+struct RowVector<2, Real> {
+  Real z, x;
+};
+template <class Real>
+struct RowVector<3, Real> {
+  Real z, x, y;
 };
 
-/// The traction times |N| on the row at a cell (F3): T = s N.
+template <class Real>
+[[gnu::always_inline]] inline RowVector<2, Real> operator+(RowVector<2, Real> a, RowVector<2, Real> b) {
+  return {a.z + b.z, a.x + b.x};
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<2, Real> operator-(RowVector<2, Real> a, RowVector<2, Real> b) {
+  return {a.z - b.z, a.x - b.x};
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<2, Real> operator*(Real factor, RowVector<2, Real> a) {
+  return {factor * a.z, factor * a.x};
+}
+template <class Real>
+[[gnu::always_inline]] inline Real dot(RowVector<2, Real> a, RowVector<2, Real> b) {
+  return a.z * b.z + a.x * b.x;
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<3, Real> operator+(RowVector<3, Real> a, RowVector<3, Real> b) {
+  return {a.z + b.z, a.x + b.x, a.y + b.y};
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<3, Real> operator-(RowVector<3, Real> a, RowVector<3, Real> b) {
+  return {a.z - b.z, a.x - b.x, a.y - b.y};
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<3, Real> operator*(Real factor, RowVector<3, Real> a) {
+  return {factor * a.z, factor * a.x, factor * a.y};
+}
+template <class Real>
+[[gnu::always_inline]] inline Real dot(RowVector<3, Real> a, RowVector<3, Real> b) {
+  return a.z * b.z + a.x * b.x + a.y * b.y;
+}
+
+/// The vector N of a face or cell from its horizontal components, `pitch` apart.
 template <int D, class Real>
-[[gnu::always_inline]] inline void row_traction(const BentFields<const Real>& fields, std::int64_t at,
-                                                const Real* normal, std::int64_t normal_pitch,
-                                                Real traction[D]) {
-  const Real* const f = fields.first + at;
-  const std::int64_t p = fields.pitch;
+[[gnu::always_inline]] inline RowVector<D, Real> row_normal(const Real* horizontal, long pitch) {
+  if constexpr (D == 2)
+    return {Real(1), horizontal[0]};
+  else
+    return {Real(1), horizontal[0], horizontal[pitch]};
+}
+
+/// The velocity at a cell from field row 0 of it, rows `pitch` apart.
+template <int D, class Real>
+[[gnu::always_inline]] inline RowVector<D, Real> row_velocity(const Real* field, long pitch) {
+  if constexpr (D == 2)
+    return {field[pitch], field[0]};
+  else
+    return {field[2 * pitch], field[0], field[pitch]};
+}
+
+/// The traction on the row at a cell times |N| (F3), T = s N.
+template <int D, class Real>
+[[gnu::always_inline]] inline RowVector<D, Real> row_traction(const Real* field, long pitch,
+                                                              const Real* horizontal, long normal_pitch) {
+  const Real nx = horizontal[0];
   if constexpr (D == 2) {
-    const Real nx = normal[0], sxx = f[2 * p], szz = f[3 * p], sxz = f[4 * p];
-    traction[0] = szz + nx * sxz;
-    traction[1] = sxz + nx * sxx;
+    const Real sxx = field[2 * pitch], szz = field[3 * pitch], sxz = field[4 * pitch];
+    return {szz + nx * sxz, sxz + nx * sxx};
   } else {
-    const Real nx = normal[0], ny = normal[normal_pitch];
-    const Real sxx = f[3 * p], syy = f[4 * p], szz = f[5 * p], sxy = f[6 * p], sxz = f[7 * p], syz = f[8 * p];
-    traction[0] = szz + nx * sxz + ny * syz;
-    traction[1] = sxz + nx * sxx + ny * sxy;
-    traction[2] = syz + nx * sxy + ny * syy;
+    const Real ny = horizontal[normal_pitch];
+    const Real sxx = field[3 * pitch], syy = field[4 * pitch], szz = field[5 * pitch];
+    const Real sxy = field[6 * pitch], sxz = field[7 * pitch], syz = field[8 * pitch];
+    return {szz + nx * sxz + ny * syz, sxz + nx * sxx + ny * sxy, syz + nx * sxy + ny * syy};
   }
 }
 
 /// What leaves a cell through one of its faces, as a vector (F4): along the normal of the face with the
-/// reconstruction of P, across it with that of S. side: +1 upwards, -1 downwards.
+/// reconstruction of P, across it with that of S. z v_p - side t_p and so on; zp and zs times |N| of the
+/// face.
 template <int D, class Real>
-[[gnu::always_inline]] inline void outgoing_wave(const Real v_p[D], const Real t_p[D], const Real v_s[D],
-                                                 const Real t_s[D], const Real normal[D], Real side, Real zp,
-                                                 Real zs, Real carries_s, Real out[D]) {
-  Real square = 0;
-  for (int c = 0; c < D; ++c) square += normal[c] * normal[c];
-  const Real inverse = 1 / square, length = square * __builtin_sqrt(inverse);
-  Real p = 0, s = 0, shear[D];
-  for (int c = 0; c < D; ++c) {
-    p += normal[c] * (zp * length * v_p[c] - side * t_p[c]);
-    shear[c] = carries_s * (zs * length * v_s[c] - side * t_s[c]);
-    s += normal[c] * shear[c];
-  }
-  const Real along = (p - s) * inverse;
-  for (int c = 0; c < D; ++c) out[c] = shear[c] + along * normal[c];
+[[gnu::always_inline]] inline RowVector<D, Real> outgoing_wave(const RowVector<D, Real>& v_p,
+                                                               const RowVector<D, Real>& t_p,
+                                                               const RowVector<D, Real>& v_s,
+                                                               const RowVector<D, Real>& t_s,
+                                                               const RowVector<D, Real>& normal, Real inverse,
+                                                               Real side, Real zp, Real zs, Real carries_s) {
+  const auto p = zp * v_p - side * t_p, s = carries_s * (zs * v_s - side * t_s);
+  return s + (inverse * dot(normal, p - s)) * normal;
 }
 
-/// The outgoing waves of a cell up and down (F4) from velocities and tractions round it, [component][cell],
-/// and the normals of the faces before and behind it.
-template <int Order, int D, class Real>
-[[gnu::always_inline]] inline void reconstruct_bent_cell(const Real (&v)[D][2 * reach_of(Order) + 1],
-                                                         const Real (&t)[D][2 * reach_of(Order) + 1],
-                                                         const Real normal_lo[D], const Real normal_hi[D],
-                                                         Real sign, Real stretched, Real zp, Real zs,
-                                                         Real up[D], Real down[D]) {
-  constexpr int reach = reach_of(Order);
-  Real v_up[2][D], v_down[2][D], t_up[2][D], t_down[2][D];
-  for (int wave = 0; wave < 2; ++wave) {
-    Real e0, e1, e2, e3, o1, o2, o3;
-    weights<Order>(stretched * (wave ? zs : zp), e0, e1, e2, e3, o1, o2, o3);
-    for (int c = 0; c < D; ++c) {
-      Real even, odd;
-      even_odd<Order>(v[c] + reach, 1, e0, e1, e2, e3, o1, o2, o3, even, odd);
-      v_up[wave][c] = even + odd;
-      v_down[wave][c] = even - odd;
-      even_odd<Order>(t[c] + reach, 1, e0, e1, e2, e3, o1, o2, o3, even, odd);
-      t_up[wave][c] = even + odd;
-      t_down[wave][c] = even - odd;
-    }
-  }
-  const Real carries_s = zs > 0 ? Real(1) : Real(0);
-  outgoing_wave<D>(v_up[0], t_up[0], v_up[1], t_up[1], normal_hi, Real(1), sign * zp, sign * zs, carries_s,
-                   up);
-  outgoing_wave<D>(v_down[0], t_down[0], v_down[1], t_down[1], normal_lo, Real(-1), sign * zp, sign * zs,
-                   carries_s, down);
+/// What the reconstruction of a bent cell reads besides fields: the normals of the faces before and behind
+/// it, c dt/h |N|/J for c = 1/Z, and the impedances, turned in a sweep back in time.
+template <int D, class Real>
+struct BentCell {
+  RowVector<D, Real> lower, upper;  // N of the faces towards lower and higher row coordinates
+  Real courant_p, courant_s, zp, zs, carries_s;
+};
+
+/// The outgoing waves of a cell up and down (F4); v(k) and t(k) are velocity and traction k rows further.
+template <int Order, int D, class Real, class V, class T>
+[[gnu::always_inline]] inline void reconstruct_bent_cell(const V& v, const T& t,
+                                                         const BentCell<D, Real>& cell,
+                                                         RowVector<D, Real>& up, RowVector<D, Real>& down) {
+  RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
+  Real e0, e1, e2, e3, o1, o2, o3;
+  weights<Order>(cell.courant_p, e0, e1, e2, e3, o1, o2, o3);
+  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vp_even, vp_odd);
+  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, tp_even, tp_odd);
+  weights<Order>(cell.courant_s, e0, e1, e2, e3, o1, o2, o3);
+  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vs_even, vs_odd);
+  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, ts_even, ts_odd);
+  const Real upper = dot(cell.upper, cell.upper), lower = dot(cell.lower, cell.lower);
+  const Real long_upper = __builtin_sqrt(upper), long_lower = __builtin_sqrt(lower);
+  // One division for both.
+  const Real both = 1 / (upper * lower);
+  up = outgoing_wave<D>(vp_even + vp_odd, tp_even + tp_odd, vs_even + vs_odd, ts_even + ts_odd, cell.upper,
+                        both * lower, Real(1), cell.zp * long_upper, cell.zs * long_upper, cell.carries_s);
+  down = outgoing_wave<D>(vp_even - vp_odd, tp_even - tp_odd, vs_even - vs_odd, ts_even - ts_odd, cell.lower,
+                          both * upper, Real(-1), cell.zp * long_lower, cell.zs * long_lower, cell.carries_s);
 }
 
 }  // namespace slipwave::solver

@@ -16,18 +16,18 @@ void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const Real* __r
                             const Real* __restrict s, const Real* __restrict impedance,
                             const Real* __restrict b, Real scale, const BentAlong<Real>& metric,
                             Real* __restrict up, Real* __restrict down) {
-  constexpr int reach = reach_of(Order);
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict j = metric.j, * __restrict j_lo = metric.j_lo, * __restrict j_hi = metric.j_hi;
   const std::int64_t j_stride = metric.stride;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    Real t[2 * reach + 1];
-    for (int k = -reach; k <= reach; ++k) t[k + reach] = j[i + k * j_stride] * s[i + k * stride];
+    const auto traction = [=](long k) __attribute__((always_inline)) {
+      return j[i + k * j_stride] * s[i + k * stride];
+    };
     Real e0, e1, e2, e3, o1, o2, o3, v_even, v_odd, t_even, t_odd;
     weights<Order>(size * (impedance[i] * b[i]), e0, e1, e2, e3, o1, o2, o3);
     even_odd<Order>(v + i, stride, e0, e1, e2, e3, o1, o2, o3, v_even, v_odd);
-    even_odd<Order>(t + reach, 1, e0, e1, e2, e3, o1, o2, o3, t_even, t_odd);
+    even_odd_of<Order>(traction, e0, e1, e2, e3, o1, o2, o3, t_even, t_odd);
     const Real z = sign * impedance[i];
     up[i] = z * j_hi[i] * (v_even + v_odd) - (t_even + t_odd);
     down[i] = z * j_lo[i] * (v_even - v_odd) + (t_even - t_odd);
@@ -78,94 +78,115 @@ void update_bent_along(std::int64_t n, Real scale, InterfaceStates<Real> lo, Int
   }
 }
 
+/// Writes a vector to the rows of a pair's first or second value.
+template <class Real>
+[[gnu::always_inline]] inline void put(const RowVector<2, Real>& from, Real* to, std::int64_t pitch) {
+  to[0] = from.z;
+  to[pitch] = from.x;
+}
+template <class Real>
+[[gnu::always_inline]] inline void put(const RowVector<3, Real>& from, Real* to, std::int64_t pitch) {
+  to[0] = from.z;
+  to[pitch] = from.x;
+  to[2 * pitch] = from.y;
+}
+template <int D, class Real>
+[[gnu::always_inline]] inline RowVector<D, Real> take(const Real* from, std::int64_t pitch) {
+  if constexpr (D == 2)
+    return {from[0], from[pitch]};
+  else
+    return {from[0], from[pitch], from[2 * pitch]};
+}
+
+// Bodies of loops stand in functions of their own: a vector that a loop itself declares would not be kept in
+// registers.
+
+/// The outgoing waves of one cell; pointers as in BentFields and BentAcross, at the cell.
+template <int Order, int D, class Real>
+[[gnu::always_inline]] inline void reconstruct_bent_at(const Real* field, std::int64_t pitch,
+                                                       std::int64_t stride, const Real* n_cell,
+                                                       const Real* n_face, std::int64_t of_metric,
+                                                       std::int64_t next, Real courant, Real sign, Real zp,
+                                                       Real zs, Real* out, std::int64_t out_pitch) {
+  const auto own = row_normal<D>(n_cell, of_metric);
+  const Real stretched = courant * __builtin_sqrt(dot(own, own));
+  RowVector<D, Real> up, down;
+  reconstruct_bent_cell<Order, D>(
+      [=](long k) __attribute__((always_inline)) { return row_velocity<D>(field + k * stride, pitch); },
+      [=](long k) __attribute__((always_inline)) {
+        return row_traction<D>(field + k * stride, pitch, n_cell + k * next, of_metric);
+      },
+      BentCell<D, Real>{row_normal<D>(n_face, of_metric), row_normal<D>(n_face + next, of_metric),
+                        stretched * zp, stretched * zs, sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0)},
+      up, down);
+  put(up, out, 2 * out_pitch);
+  put(down, out + out_pitch, 2 * out_pitch);
+}
+
 template <int Order, int D, class Real>
 void reconstruct_bent_across(std::int64_t n, Real scale, const BentFields<const Real>& fields,
                              const MaterialRows<Real>& material, const BentAcross<Real>& metric,
                              OutgoingWaves<Real> outgoing) {
-  constexpr int reach = reach_of(Order);
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
-  Real* const out = outgoing.first;
-  const std::int64_t out_pitch = outgoing.pitch;
+  const Real* __restrict field = fields.first, * __restrict j = metric.j;
+  const Real* __restrict n_cell = metric.n_cell, * __restrict n_face = metric.n_face;
+  const std::int64_t pitch = fields.pitch, stride = fields.stride;
+  const std::int64_t of_metric = metric.pitch, next = metric.stride, out_pitch = outgoing.pitch;
+  Real* __restrict out = outgoing.first;
 #pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    Real v[D][2 * reach + 1], t[D][2 * reach + 1];
-    for (int k = -reach; k <= reach; ++k) {
-      Real traction[D];
-      row_traction<D>(fields, i + k * fields.stride, metric.n_cell + i + k * metric.stride, metric.pitch,
-                      traction);
-      for (int c = 0; c < D; ++c) {
-        v[c][k + reach] = fields.first[i + k * fields.stride + AcrossOrder<D>::axis(c) * fields.pitch];
-        t[c][k + reach] = traction[c];
-      }
-    }
-    Real normal_lo[D], normal_hi[D];
-    normal_lo[0] = normal_hi[0] = 1;
-    Real square = 1;
-    for (int c = 1; c < D; ++c) {
-      normal_lo[c] = metric.n_face[i + (c - 1) * metric.pitch];
-      normal_hi[c] = metric.n_face[i + (c - 1) * metric.pitch + metric.stride];
-      const Real own = metric.n_cell[i + (c - 1) * metric.pitch];
-      square += own * own;
-    }
-    const Real stretched = size * b[i] * __builtin_sqrt(square) / metric.j[i];
-    Real up[D], down[D];
-    reconstruct_bent_cell<Order, D>(v, t, normal_lo, normal_hi, sign, stretched, zp[i], zs[i], up, down);
-    for (int c = 0; c < D; ++c) {
-      out[2 * c * out_pitch + i] = up[c];
-      out[(2 * c + 1) * out_pitch + i] = down[c];
-    }
-  }
+  for (std::int64_t i = 0; i < n; ++i)
+    reconstruct_bent_at<Order, D>(field + i, pitch, stride, n_cell + i, n_face + i, of_metric, next,
+                                  size * b[i] / j[i], sign, zp[i], zs[i], out + i, out_pitch);
 }
 
 /// The Riemann solution (E8) along and across the normal of a bent face. In fluid the velocity along the face
 /// is that of the cells: faces holds what the cell below the face sees, seen_above what the cell above does.
 template <int D, class Real>
+[[gnu::always_inline]] inline void solve_bent_at(RowVector<D, Real> normal, RowVector<D, Real> up,
+                                                 RowVector<D, Real> down, RowVector<D, Real> own_lo,
+                                                 RowVector<D, Real> own_hi, Real p_lo, Real p_hi, Real s_lo,
+                                                 Real s_hi, Real* face, std::int64_t face_pitch,
+                                                 Real* seen_above, std::int64_t seen_pitch) {
+  const Real over = 1 / __builtin_sqrt(dot(normal, normal)), inverse = over * over;
+  Real share_p, share_s, v_p, t_p;
+  riemann_shares<true>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
+  const Real p_up = inverse * dot(normal, up), p_down = inverse * dot(normal, down);
+  riemann(p_up, p_down, p_lo, p_hi, share_p, v_p, t_p);
+  const auto up_s = up - p_up * normal, down_s = down - p_down * normal;
+  const auto v_s = (over * share_s) * (up_s + down_s);
+  const auto t_s = share_s * (s_lo * down_s - s_hi * up_s);
+  // Along the face, of fluid cells.
+  const auto along_lo = own_lo - (inverse * dot(normal, own_lo)) * normal;
+  const auto along_hi = own_hi - (inverse * dot(normal, own_hi)) * normal;
+  const Real fluid_lo = (s_lo > 0 ? Real(0) : Real(1)) * (p_lo > 0 ? Real(1) : Real(0));
+  const Real fluid_hi = (s_hi > 0 ? Real(0) : Real(1)) * (p_hi > 0 ? Real(1) : Real(0));
+  const auto mixed = (Real(0.5) * fluid_lo * fluid_hi) * (along_hi - along_lo);
+  const auto of_p = (over * v_p) * normal;
+  put(of_p + ((1 - fluid_lo) * v_s + fluid_lo * (along_lo + mixed)), face, 2 * face_pitch);
+  put(of_p + ((1 - fluid_hi) * v_s + fluid_hi * (along_hi - mixed)), seen_above, seen_pitch);
+  put(t_p * normal + t_s, face + face_pitch, 2 * face_pitch);
+}
+
+template <int D, class Real>
 void solve_bent_across(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                        const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
                        const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
-                       const BentAcross<Real>& metric, InterfaceStates<Real> faces, Real* seen_above,
-                       std::int64_t seen_pitch) {
+                       const BentAcross<Real>& metric, InterfaceStates<Real> faces,
+                       Real* __restrict seen_above, std::int64_t seen_pitch) {
   const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
+  const Real* __restrict up = below.first, * __restrict down = above.first + above.pitch;
+  const Real* __restrict cell_lo = fields_lo.first, * __restrict cell_hi = fields_hi.first;
+  const Real* __restrict n_face = metric.n_face;
+  const std::int64_t up_pitch = 2 * below.pitch, down_pitch = 2 * above.pitch, pitch = fields_lo.pitch;
+  const std::int64_t of_metric = metric.pitch, face_pitch = faces.pitch;
+  Real* __restrict face = faces.first;
 #pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    Real normal[D], up[D], down[D], own_lo[D], own_hi[D];
-    normal[0] = 1;
-    for (int c = 1; c < D; ++c) normal[c] = metric.n_face[i + (c - 1) * metric.pitch];
-    Real square = 0, p_up = 0, p_down = 0, p_lo = 0, p_hi = 0;
-    for (int c = 0; c < D; ++c) {
-      up[c] = below.first[2 * c * below.pitch + i];
-      down[c] = above.first[(2 * c + 1) * above.pitch + i];
-      own_lo[c] = sign * fields_lo.first[AcrossOrder<D>::axis(c) * fields_lo.pitch + i];
-      own_hi[c] = sign * fields_hi.first[AcrossOrder<D>::axis(c) * fields_hi.pitch + i];
-      square += normal[c] * normal[c];
-      p_up += normal[c] * up[c];
-      p_down += normal[c] * down[c];
-      p_lo += normal[c] * own_lo[c];
-      p_hi += normal[c] * own_hi[c];
-    }
-    const Real inverse = 1 / square, length = square * __builtin_sqrt(inverse);
-    p_up *= inverse, p_down *= inverse, p_lo *= inverse, p_hi *= inverse;
-    Real share_p, share_s, v_p, t_p;
-    riemann_shares<true>(zp_lo[i], zp_hi[i], zs_lo[i], zs_hi[i], share_p, share_s);
-    riemann(p_up, p_down, zp_lo[i], zp_hi[i], share_p, v_p, t_p);
-    const Real over = inverse * length;  // 1/|N|
-    v_p *= over;
-    const bool solid_lo = zs_lo[i] > 0, solid_hi = zs_hi[i] > 0;
-    const bool fluid_lo = zp_lo[i] > 0 && !solid_lo, fluid_hi = zp_hi[i] > 0 && !solid_hi;
-    const Real half_hi = fluid_lo && fluid_hi ? Real(0.5) : Real(0);
-    for (int c = 0; c < D; ++c) {
-      Real v_s, t_s;
-      riemann(up[c] - p_up * normal[c], down[c] - p_down * normal[c], zs_lo[i], zs_hi[i], share_s, v_s, t_s);
-      v_s *= over;
-      const Real along_lo = own_lo[c] - p_lo * normal[c], along_hi = own_hi[c] - p_hi * normal[c];
-      const Real mixed = half_hi * (along_hi - along_lo);
-      const Real of_p = v_p * normal[c];
-      faces.first[2 * c * faces.pitch + i] = of_p + (fluid_lo ? along_lo + mixed : v_s);
-      seen_above[c * seen_pitch + i] = of_p + (fluid_hi ? along_hi - mixed : v_s);
-      faces.first[(2 * c + 1) * faces.pitch + i] = t_p * normal[c] + t_s;
-    }
-  }
+  for (std::int64_t i = 0; i < n; ++i)
+    solve_bent_at<D>(row_normal<D>(n_face + i, of_metric), take<D>(up + i, up_pitch),
+                     take<D>(down + i, down_pitch), sign * row_velocity<D>(cell_lo + i, pitch),
+                     sign * row_velocity<D>(cell_hi + i, pitch), zp_lo[i], zp_hi[i], zs_lo[i], zs_hi[i],
+                     face + i, face_pitch, seen_above + i, seen_pitch);
 }
 
 /// (F5): rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J). `lo` holds tractions, v_lo what this cell sees.
@@ -175,36 +196,40 @@ void update_bent_across(std::int64_t n, Real scale, InterfaceStates<Real> lo, co
                         const BentAcross<Real>& metric, const BentFields<Real>& fields) {
   const Real size = scale < 0 ? -scale : scale;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
+  const Real* __restrict hi_of = hi.first, * __restrict lo_of = lo.first + lo.pitch;
+  const Real* __restrict j = metric.j, * __restrict n_cell = metric.n_cell;
+  const std::int64_t hi_pitch = 2 * hi.pitch, lo_pitch = 2 * lo.pitch, p = fields.pitch;
+  Real* __restrict first = fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
     Real moved, p_modulus, mu;
-    const Real over = 1 / metric.j[i];
+    const Real over = 1 / j[i];
     update_coefficients<true>(scale, size, b[i], zp[i], zs[i], moved, p_modulus, mu);
     moved *= over, p_modulus *= over, mu *= over;
     const Real lambda = p_modulus - 2 * mu;
-    Real d[D];
-    for (int c = 0; c < D; ++c) {
-      d[c] = hi.first[2 * c * hi.pitch + i] - v_lo[c * v_lo_pitch + i];
-      fields.first[AcrossOrder<D>::axis(c) * fields.pitch + i] +=
-          moved * (hi.first[(2 * c + 1) * hi.pitch + i] - lo.first[(2 * c + 1) * lo.pitch + i]);
-    }
-    Real* const f = fields.first + i;
-    const std::int64_t p = fields.pitch;
-    const Real nx = metric.n_cell[i];
+    const auto d = take<D>(hi_of + i, hi_pitch) - take<D>(v_lo + i, v_lo_pitch);
+    const auto dt = moved * (take<D>(hi_of + i + hi.pitch, hi_pitch) - take<D>(lo_of + i, lo_pitch));
+    Real* __restrict f = first + i;
+    const Real nx = n_cell[i];
     if constexpr (D == 2) {
-      const Real trace = lambda * (nx * d[1] + d[0]);
-      f[2 * p] += trace + 2 * mu * (nx * d[1]);
-      f[3 * p] += trace + 2 * mu * d[0];
-      f[4 * p] += mu * (nx * d[0] + d[1]);
+      f[0] += dt.x;
+      f[p] += dt.z;
+      const Real trace = lambda * (nx * d.x + d.z);
+      f[2 * p] += trace + 2 * mu * (nx * d.x);
+      f[3 * p] += trace + 2 * mu * d.z;
+      f[4 * p] += mu * (nx * d.z + d.x);
     } else {
-      const Real ny = metric.n_cell[i + metric.pitch];
-      const Real trace = lambda * (nx * d[1] + ny * d[2] + d[0]);
-      f[3 * p] += trace + 2 * mu * (nx * d[1]);
-      f[4 * p] += trace + 2 * mu * (ny * d[2]);
-      f[5 * p] += trace + 2 * mu * d[0];
-      f[6 * p] += mu * (nx * d[2] + ny * d[1]);
-      f[7 * p] += mu * (nx * d[0] + d[1]);
-      f[8 * p] += mu * (ny * d[0] + d[2]);
+      const Real ny = n_cell[i + metric.pitch];
+      f[0] += dt.x;
+      f[p] += dt.y;
+      f[2 * p] += dt.z;
+      const Real trace = lambda * (nx * d.x + ny * d.y + d.z);
+      f[3 * p] += trace + 2 * mu * (nx * d.x);
+      f[4 * p] += trace + 2 * mu * (ny * d.y);
+      f[5 * p] += trace + 2 * mu * d.z;
+      f[6 * p] += mu * (nx * d.y + ny * d.x);
+      f[7 * p] += mu * (nx * d.z + d.x);
+      f[8 * p] += mu * (ny * d.z + d.y);
     }
   }
 }

@@ -47,29 +47,28 @@ template <int Order, class Real>
   }
 }
 
-/// Even and odd part of the field u around a cell: F_up = even + odd, F_down = even - odd. u points at the
-/// cell, neighbours lie `stride` apart.
-template <int Order, class Real>
-[[gnu::always_inline]] inline void even_odd(const Real* u, long stride, Real e0, Real e1, Real e2, Real e3,
-                                            Real o1, Real o2, Real o3, Real& even, Real& odd) {
+/// Even and odd part of a field around a cell: F_up = even + odd, F_down = even - odd. at(k) is the value, a
+/// number or a vector, k cells further along the sweep.
+template <int Order, class Real, class Value, class At>
+[[gnu::always_inline]] inline void even_odd_of(const At& at, Real e0, Real e1, Real e2, Real e3, Real o1,
+                                               Real o2, Real o3, Value& even, Value& odd) {
   // e0 is computed last of the weights: only one sum waits for it.
-  const Real own = u[0];
+  const Value own = at(0);
   if constexpr (Order == 1) {
     even = e0 * own;
-    odd = 0;
+    odd = Real(0) * own;
   } else {
-    const Real low = u[-stride], high = u[stride], sum = low + high, difference = high - low;
+    const Value low = at(-1), high = at(1), sum = low + high, difference = high - low;
     if constexpr (Order == 3) {
       even = e1 * sum + e0 * own;
       odd = o1 * difference;
     } else {
-      const Real low2 = u[-2 * stride], high2 = u[2 * stride], sum2 = low2 + high2,
-                 difference2 = high2 - low2;
+      const Value low2 = at(-2), high2 = at(2), sum2 = low2 + high2, difference2 = high2 - low2;
       if constexpr (Order == 5) {
         odd = o2 * difference2;
         even = e2 * sum2;
       } else {
-        const Real low3 = u[-3 * stride], high3 = u[3 * stride];
+        const Value low3 = at(-3), high3 = at(3);
         odd = o3 * (high3 - low3);
         even = e3 * (low3 + high3);
         odd = o2 * difference2 + odd;
@@ -80,6 +79,16 @@ template <int Order, class Real>
       even = e0 * own + even;
     }
   }
+}
+
+/// The same of the field u, which points at the cell; neighbours lie `stride` apart.
+template <int Order, class Real>
+[[gnu::always_inline]] inline void even_odd(const Real* u, long stride, Real e0, Real e1, Real e2, Real e3,
+                                            Real o1, Real o2, Real o3, Real& even, Real& odd) {
+  even_odd_of<Order>(
+      [=](long k) __attribute__((always_inline)) { return u[k * stride]; }, e0, e1, e2, e3, o1, o2, o3, even,
+      odd);
+  if constexpr (Order == 1) odd = 0;
 }
 
 /// Outgoing waves of a pair (v, s) of one cell: up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s].

@@ -89,94 +89,100 @@ bool contrast(const Column<D>& z, int reach) {
   return false;
 }
 
-/// Velocity and traction at cells of a column, extended beyond the ends of a stencil.
+/// Velocity and traction of a cell.
 template <int D, class Real>
-class Extended {
- public:
-  Extended(const BentStencil& stencil, const BentFields<const Real>& fields, const BentAcross<Real>& metric)
-      : stencil_(stencil), fields_(fields), metric_(metric) {}
-
-  void at(int offset, Real v[D], Real t[D]) const {
-    const bool below = offset < -stencil_.low.cells;
-    if (!below && offset <= stencil_.high.cells) return load(offset, v, t);
-    const auto& side = below ? stencil_.low : stencil_.high;
-    if (side.p == Extension::constant) return load(below ? -side.cells : side.cells, v, t);
-    // The mirror image lies nearer to the cell with each fold, so this ends.
-    at(below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset, v, t);
-    const int face = below ? -side.cells : side.cells + 1;
-    Real normal[D];
-    normal[0] = 1;
-    for (int c = 1; c < D; ++c) normal[c] = metric_.n_face[(c - 1) * metric_.pitch + face * metric_.stride];
-    if (side.p != Extension::interface) {
-      scale(normal, side.p == Extension::motionless ? -1 : 1, side.s == Extension::motionless ? -1 : 1, v);
-      scale(normal, side.p == Extension::traction_free ? -1 : 1, side.s == Extension::traction_free ? -1 : 1,
-            t);
-      return;
-    }
-    Real v_beyond[D], t_beyond[D];
-    load(below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1), v_beyond,
-         t_beyond);
-    for (int c = 0; c < D; ++c) v_beyond[c] -= v[c];
-    scale(normal, 2 * Real(side.share_p), 2 * Real(side.share_s), v_beyond);
-    // A fluid has no traction along the face.
-    if (side.share_s == 0 || !stencil_.solid) scale(normal, 1, 0, t_beyond);
-    if (!stencil_.solid) scale(normal, 1, 0, t);
-    for (int c = 0; c < D; ++c) t_beyond[c] -= t[c];
-    scale(normal, 2 - 2 * Real(side.share_p), stencil_.solid ? 2 - 2 * Real(side.share_s) : Real(0),
-          t_beyond);
-    for (int c = 0; c < D; ++c) v[c] += v_beyond[c], t[c] += t_beyond[c];
-  }
-
- private:
-  void load(int offset, Real v[D], Real t[D]) const {
-    row_traction<D>(fields_, offset * fields_.stride, metric_.n_cell + offset * metric_.stride, metric_.pitch,
-                    t);
-    for (int c = 0; c < D; ++c)
-      v[c] = fields_.first[offset * fields_.stride + AcrossOrder<D>::axis(c) * fields_.pitch];
-  }
-  /// Multiplies the part of a vector along the normal and the rest.
-  static void scale(const Real normal[D], Real along, Real across, Real vector[D]) {
-    Real square = 0, dot = 0;
-    for (int c = 0; c < D; ++c) square += normal[c] * normal[c], dot += normal[c] * vector[c];
-    for (int c = 0; c < D; ++c)
-      vector[c] = across * vector[c] + (along - across) * (dot / square) * normal[c];
-  }
-
-  const BentStencil& stencil_;
-  const BentFields<const Real>& fields_;
-  const BentAcross<Real>& metric_;
+struct Motion {
+  RowVector<D, Real> v, t;
 };
+
+/// Multiplies the part of a vector along a normal and the rest.
+template <int D, class Real>
+RowVector<D, Real> scaled(const RowVector<D, Real>& normal, Real along, Real across,
+                          const RowVector<D, Real>& vector) {
+  return across * vector + ((along - across) * dot(normal, vector) / dot(normal, normal)) * normal;
+}
+
+template <int D, class Real>
+Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real>& metric, int offset) {
+  const Real* const cell = fields.first + offset * fields.stride;
+  return {row_velocity<D>(cell, fields.pitch),
+          row_traction<D>(cell, fields.pitch, metric.n_cell + offset * metric.stride, metric.pitch)};
+}
+
+/// At a stencil offset, extended beyond the ends of the stencil.
+template <int D, class Real>
+Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real>& fields,
+                         const BentAcross<Real>& metric, const InterfaceCorrections<D, Real>& corrections,
+                         Real scale, int offset) {
+  const bool below = offset < -stencil.low.cells;
+  if (!below && offset <= stencil.high.cells) return load<D>(fields, metric, offset);
+  const auto& side = below ? stencil.low : stencil.high;
+  if (side.p == Extension::constant) return load<D>(fields, metric, below ? -side.cells : side.cells);
+  // The mirror image lies nearer to the cell with each fold, so this ends.
+  const int mirrored = below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset;
+  auto at = extended<D>(stencil, fields, metric, corrections, scale, mirrored);
+  const int face = below ? -side.cells : side.cells + 1;
+  const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
+  const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
+  if (side.p != Extension::interface)
+    return {
+        scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
+        scaled(normal, sign(side.p, Extension::traction_free), sign(side.s, Extension::traction_free), at.t)};
+  auto across =
+      load<D>(fields, metric,
+              below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
+  // A fluid has no traction along the face.
+  const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
+  at.t = scaled(normal, Real(1), solid, at.t);
+  across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
+  const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
+  at = {at.v + scaled(normal, p, s, across.v - at.v),
+        at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
+  if (side.slot < 0) return at;
+  const auto of = [&](auto&& component) {
+    RowVector<D, Real> vector;
+    vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
+    if constexpr (D == 3) vector.y = component(2)[side.slot];
+    return vector;
+  };
+  const auto velocity = of([&](int c) { return corrections.velocity(c); });
+  const auto traction = of([&](int c) { return corrections.traction(c); });
+  const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
+  const Real jump = (below ? 1 : -1) * scale;
+  // A fluid slides along the face.
+  return {at.v + Real(2 * ghost + 1) * scaled(normal, Real(1), solid, velocity),
+          at.t + jump * scaled(normal, 2 - p, solid * (2 - s), traction)};
+}
 
 template <int Order, int D, class Real>
 void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
-                  Real zp, Real zs, const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
+                  Real zp, Real zs, const BentAcross<Real>& metric,
+                  const InterfaceCorrections<D, Real>& corrections, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
-  const Extended<D, Real> extended(stencil, fields, metric);
-  Real v[D][2 * reach + 1], t[D][2 * reach + 1];
-  for (int k = -reach; k <= reach; ++k) {
-    Real v_at[D], t_at[D];
-    extended.at(k, v_at, t_at);
-    for (int c = 0; c < D; ++c) v[c][k + reach] = v_at[c], t[c][k + reach] = t_at[c];
-  }
-  Real normal_lo[D], normal_hi[D], square = 1;
-  normal_lo[0] = normal_hi[0] = 1;
-  for (int c = 1; c < D; ++c) {
-    normal_lo[c] = metric.n_face[(c - 1) * metric.pitch];
-    normal_hi[c] = metric.n_face[(c - 1) * metric.pitch + metric.stride];
-    const Real own = metric.n_cell[(c - 1) * metric.pitch];
-    square += own * own;
-  }
+  std::array<Motion<D, Real>, 2 * reach + 1> at;
+  for (int k = -reach; k <= reach; ++k)
+    at[std::size_t(k + reach)] = extended<D>(stencil, fields, metric, corrections, scale, k);
+  const auto own = row_normal<D>(metric.n_cell, metric.pitch);
   const Real sign = scale < 0 ? -1 : 1;
-  Real up[D], down[D];
-  reconstruct_bent_cell<Order, D>(v, t, normal_lo, normal_hi, sign,
-                                  sign * scale * b * Real(__builtin_sqrt(square)) / metric.j[0], zp, zs, up,
-                                  down);
-  for (int c = 0; c < D; ++c) outgoing.up(c)[0] = up[c], outgoing.down(c)[0] = down[c];
+  const Real courant = sign * scale * b * Real(__builtin_sqrt(dot(own, own))) / metric.j[0];
+  const BentCell<D, Real> cell = {row_normal<D>(metric.n_face, metric.pitch),
+                                  row_normal<D>(metric.n_face + metric.stride, metric.pitch),
+                                  courant * zp,
+                                  courant * zs,
+                                  sign * zp,
+                                  sign * zs,
+                                  Real(zs > 0 ? 1 : 0)};
+  RowVector<D, Real> up, down;
+  reconstruct_bent_cell<Order, D>([&](long k) { return at[std::size_t(k + reach)].v; },
+                                  [&](long k) { return at[std::size_t(k + reach)].t; }, cell, up, down);
+  outgoing.up(0)[0] = up.z, outgoing.up(1)[0] = up.x;
+  outgoing.down(0)[0] = down.z, outgoing.down(1)[0] = down.x;
+  if constexpr (D == 3) outgoing.up(2)[0] = up.y, outgoing.down(2)[0] = down.y;
 }
 
 template <int D, class Real>
 using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
-                         const BentAcross<Real>&, OutgoingWaves<Real>);
+                         const BentAcross<Real>&, const InterfaceCorrections<D, Real>&, OutgoingWaves<Real>);
 template <int D, class Real, int... N>
 constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
   return {correct_cell<orders[N], D, Real>...};
@@ -185,7 +191,8 @@ constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::intege
 }  // namespace
 
 template <int D, class Real>
-BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
+BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
+                                    const InterfaceCorrections<D, Real>& corrections) {
   if (domain.bent_rows.empty()) return;
   const auto& grid = domain.grid;
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -200,8 +207,14 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
         continue;
       }
       bool inside = false;
-      const auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
-      const auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
+      auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
+      auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
+      for (auto* side : {&low, &high}) {
+        if (side->p != Extension::interface) continue;
+        Index<D> face = at;
+        face[D - 1] += side == &low ? -low.cells : high.cells + 1;
+        side->slot = corrections.slot(face);
+      }
       const bool near_free = low.p == Extension::traction_free || high.p == Extension::traction_free;
       if (inside) {
         cells_.push_back(
@@ -220,7 +233,9 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
 template <int D, class Real>
 void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRange& columns, Real scale,
                                     const BentFields<const Real>& fields, const MaterialRows<Real>& material,
-                                    const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) const {
+                                    const BentAcross<Real>& metric,
+                                    const InterfaceCorrections<D, Real>& corrections,
+                                    OutgoingWaves<Real> outgoing) const {
   static constexpr auto correct_as = correctors<D, Real>(std::make_integer_sequence<int, order_count>());
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
@@ -234,7 +249,7 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
     correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
         *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
         material.zs[i], {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride},
-        outgoing.at(i));
+        corrections, outgoing.at(i));
   }
 }
 
