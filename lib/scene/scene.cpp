@@ -117,6 +117,12 @@ template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
   const double across = wave.direction[0], down = wave.direction[z];
+  const auto& rows = scene.model.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[z]; ++row)
+    if (!rows->row_is_level(row))
+      throw Error(
+          "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
+          "model with --fit none");
   const bool vertical = std::abs(across) < 1e-9;
   const int entry = down > 0 ? 0 : 1;
   const char* entry_name = entry == 0 ? "top" : "bottom";

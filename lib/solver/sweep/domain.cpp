@@ -26,16 +26,24 @@ constexpr std::int64_t shortest_run = 64;
 /// Depth in m of a corner counted in those of the whole model, from `axis` on; columns beyond a side of it
 /// continue with a slope that falls to zero within ten cells.
 template <int D>
-double corner_of_rows(const RowDepths<D>& rows, double spacing_m, Index<D> corner, int axis) {
+double corner_of_rows(const RowDepths<D>& rows, const std::array<bool, 2>& level_ends, double spacing_m,
+                      Index<D> corner, int axis) {
   constexpr double bend = 10;
   const std::int64_t last = rows.cells()[std::size_t(axis)], at = corner[std::size_t(axis)];
   const std::int64_t nearest = std::clamp<std::int64_t>(at, 0, last);
   corner[std::size_t(axis)] = nearest;
-  if (axis == D - 1) return rows.corner(corner) + double(at - nearest) * spacing_m;
-  const double depth = corner_of_rows(rows, spacing_m, corner, axis + 1);
+  if (axis == D - 1) {
+    const double edge = rows.corner(corner);
+    if (at == nearest) return edge;
+    // Rows beyond level ones are as high as they: a column of them is what plane waves enter by (Column).
+    corner[D - 1] += at < 0 ? 1 : -1;
+    const bool level = level_ends[at < 0 ? 0 : 1];
+    return edge + double(at - nearest) * (level ? std::abs(edge - rows.corner(corner)) : spacing_m);
+  }
+  const double depth = corner_of_rows(rows, level_ends, spacing_m, corner, axis + 1);
   if (at == nearest) return depth;
   corner[std::size_t(axis)] += at < 0 ? 1 : -1;
-  const double slope = depth - corner_of_rows(rows, spacing_m, corner, axis + 1);
+  const double slope = depth - corner_of_rows(rows, level_ends, spacing_m, corner, axis + 1);
   // The integral of (1 - t/bend)^2.
   const double left = std::max(1 - double(std::abs(at - nearest)) / bend, 0.);
   return depth + slope * bend / 3 * (1 - left * left * left);
@@ -47,6 +55,9 @@ void find_bent_rows(Domain<D>& domain) {
   if (!domain.model_grid.rows) return;
   const auto& rows = *domain.model_grid.rows;
   const std::int64_t count = domain.grid.shape[D - 1];
+  const auto last = rows.cells()[D - 1];
+  domain.level_ends = {rows.row_is_level(0) && rows.row_is_level(1),
+                       rows.row_is_level(last) && rows.row_is_level(last - 1)};
   std::vector<char> level(std::size_t(count) + 1, 0);
   for (std::int64_t k = 0; k <= count; ++k) {
     const auto of_model = k - domain.low_zone[D - 1] + domain.model_grid.first[D - 1];
@@ -116,7 +127,8 @@ bool Domain<D>::shear() const {
 template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner) {
   for (int axis = 0; axis < D; ++axis) corner[axis] += domain.model_grid.first[axis] - domain.low_zone[axis];
-  return corner_of_rows(*domain.model_grid.rows, domain.grid.spacing_m, corner, 0) / domain.grid.spacing_m;
+  return corner_of_rows(*domain.model_grid.rows, domain.level_ends, domain.grid.spacing_m, corner, 0) /
+         domain.grid.spacing_m;
 }
 
 template <int D>

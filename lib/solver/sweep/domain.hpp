@@ -30,6 +30,7 @@ class Domain {
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
   std::vector<char> bent_rows;
   std::vector<double> row_heights;
+  std::array<bool, 2> level_ends{};  // whether the first and the last row of the model are level
   bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
   double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
