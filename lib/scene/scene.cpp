@@ -97,10 +97,10 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     double behind = 0;
-    for (std::size_t axis = 0; axis < D; ++axis)
-      behind +=
-          (source.position_m[axis] - (axis == D - 1 ? grid.depth(at) : grid.centre(int(axis), at[axis]))) *
-          wave.direction[axis];
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const double place_m = axis == D - 1 ? grid.depth(at) : grid.centre(int(axis), at[axis]);
+      behind += (source.position_m[axis] - place_m) * wave.direction[axis];
+    }
     const auto cell = std::size_t(n);
     if (behind < 0 || behind > length) continue;
     if (medium.same(cell, from)) continue;

@@ -28,8 +28,8 @@ bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) 
   return true;
 }
 
-/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface that goes on
-/// as a level of faces as far as the corrections read.
+/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface that stays
+/// on one row of faces as far as the corrections read.
 template <int D>
 bool corrected(const Domain<D>& domain, const Index<D>& below) {
   constexpr int z = D - 1;

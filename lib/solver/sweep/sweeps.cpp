@@ -471,6 +471,33 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
          work, piece.remember);
 }
 
+/// The interface states of the face before a row, of these columns.
+template <int D, class Real>
+void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                   Real scale, Ring<Real>& ring) const {
+  const auto& layout = state_.layout;
+  const std::int64_t rows = layout.shape()[axis], x = columns.first;
+  Index<D> line_lo = at, line_hi = at;
+  line_lo[axis] = row - 1, line_hi[axis] = row;
+  const bool has_lo = row > 0, has_hi = row < rows;
+  const auto up = ring.outgoing(row - 1, x), down = ring.outgoing(row, x);
+  const auto faces = ring.faces(row, x);
+  const auto material_lo = state_.material_from(line_lo, x), material_hi = state_.material_from(line_hi, x);
+  if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
+    if (axis == z_axis) return solve_bent(line_lo, line_hi, columns, scale, up, down, faces);
+    bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
+                               metric_.along(axis, line_hi, x).j_lo, faces);
+    return;
+  }
+  const auto run = [&](const Index<D>& line, bool is_there) {
+    return is_there ? state_.uniform_run(layout.line_number(line), x, columns.last) : nullptr;
+  };
+  const auto *lo = run(line_lo, has_lo), *hi = run(line_hi, has_hi);
+  const bool uniform = lo && hi;
+  face_kernels(uniform).solve_riemann(columns.count(), up, down, uniform ? lo->rows() : material_lo,
+                                      uniform ? hi->rows() : material_hi, faces);
+}
+
 template <int D, class Real>
 void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns,
                              Real scale, Ring<Real>& ring, Workspace<Real>& work) {
@@ -493,33 +520,11 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
-    const auto bent = [&](std::int64_t k) { return k >= 0 && k < rows && metric_.bent_row(line(k)[z_axis]); };
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
     };
-    const auto solve = [&](const IndexRange& part) {
-      if (bent(row - 1) || bent(row)) {
-        const auto up = above.at(part.first - x), down = here.at(part.first - x);
-        if (axis == z_axis)
-          return solve_bent(line(row - 1), line(row), part, scale, up, down, ring.faces(row, part.first));
-        bent_kernels().solve_along(part.count(), up, down, state_.material_from(line(row - 1), part.first),
-                                   state_.material_from(line(row), part.first),
-                                   metric_.along(axis, line(row), part.first).j_lo,
-                                   ring.faces(row, part.first));
-        return;
-      }
-      const auto run = [&](std::int64_t k) {
-        return k >= 0 && k < rows ? state_.uniform_run(layout.line_number(line(k)), part.first, part.last)
-                                  : nullptr;
-      };
-      const auto *lo = run(row - 1), *hi = run(row);
-      const bool uniform = lo && hi;
-      const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
-      face_kernels(uniform).solve_riemann(part.count(), above.at(part.first - x), here.at(part.first - x),
-                                          uniform ? lo->rows() : from(row - 1),
-                                          uniform ? hi->rows() : from(row), ring.faces(row, part.first));
-    };
+    const auto solve = [&](const IndexRange& part) { solve_across(axis, at, row, part, scale, ring); };
     // Faces between cells of uniform runs are left out.
     const auto below = uniform_runs(row - 1);
     split_by_runs(

@@ -144,6 +144,8 @@ class Sweeps {
   Real scale_of(int axis, const Index<D>& line, Real scale) const {
     return axis == z_axis ? scale * metric_.inverse_height(line[z_axis]) : scale;
   }
+  void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
+                    Ring<Real>& ring) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
