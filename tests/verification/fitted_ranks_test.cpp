@@ -28,14 +28,12 @@ TEST(FittedRanks, RecordWhatOneProcessDoes) {
       scene.edges[0] = {sides, sides};
       scene.numerics.order = order;
       scene.numerics.time_order = time_order;
-      scene.recording.duration_s = 0.3;
+      scene.recording.duration_s = 0.2;
       check(scene);
       const auto alone = all_samples(shoot(scene, 1));
       ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
       for (const int count : {2, time_order == 4 ? 2 : 4})
-        for (const int threads : {1, 3})
-          EXPECT_TRUE(all_samples(shared_out(scene, count, threads)) == alone)
-              << count << " ranks, " << threads << " threads";
+        EXPECT_TRUE(all_samples(shared_out(scene, count, count == 2 ? 3 : 1)) == alone) << count << " ranks";
     }
 }
 

@@ -48,7 +48,7 @@ inline Scene<2> fitted_sea(std::int64_t nx = 220, std::int64_t nz = 90) {
   scene.survey.receivers_m = {{330, 130}, {462.5, 261.3}, {440, 333}, {40, 162}, {700, 301}, {505, 118}};
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.edges[1][0] = EdgeLaw::free;
-  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.1, 0.001};
+  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.07, 0.001};
   return scene;
 }
 
