@@ -215,12 +215,12 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
     domain.grid.origin_m[axis] -= double(domain.low_zone[axis]) * domain.grid.spacing_m;
   }
   // Places are counted from the whole computed grid, zones included.
-  if (part.cut(domain.model_grid, 0)) {
+  if (part.cut(0)) {
     domain.grid.first[z] += domain.low_zone[z];
     domain.grid.shape[z] -= std::exchange(domain.low_zone[z], 0);
     domain.edges[z][0] = EdgeLaw::absorbing;
   }
-  if (part.cut(domain.model_grid, 1)) {
+  if (part.cut(1)) {
     domain.grid.shape[z] -= std::exchange(domain.high_zone[z], 0);
     domain.edges[z][1] = EdgeLaw::absorbing;
   }
@@ -230,8 +230,8 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   find_bent_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];
-  if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
-  if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
+  if (part.cut(0)) domain.own.first = part.first - held;
+  if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
