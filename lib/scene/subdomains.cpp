@@ -16,6 +16,10 @@ constexpr int usual_steps = 2;
 /// Rows that points read beyond the one they are in, at most.
 constexpr std::int64_t beside_points = widest_stencil;
 
+/// Rows beyond those refreshed whose material decides how sweeps treat these: whether an interface is
+/// corrected, whether rows are level. Every rank must decide alike.
+constexpr std::int64_t beside_refreshed = 2 * max_reach;
+
 template <class Value, int D>
 Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
   if (field.empty()) return field;
@@ -105,7 +109,7 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
 }
 
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
-  const auto beside = std::max(part.exchanged, beside_points);
+  const auto beside = std::max(part.exchanged + beside_refreshed, beside_points);
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 
