@@ -20,6 +20,16 @@ constexpr std::int64_t beside_points = widest_stencil;
 /// corrected, whether rows are level. Every rank must decide alike.
 constexpr std::int64_t beside_refreshed = 2 * max_reach;
 
+template <int D>
+bool has_shear(const Medium<D>& medium) {
+  const auto& rows = medium.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
+    if (!rows->row_is_level(row)) return true;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (medium.is_solid(cell)) return true;
+  return false;
+}
+
 template <class Value, int D>
 Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
   if (field.empty()) return field;
@@ -133,6 +143,7 @@ template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
+  scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
