@@ -212,6 +212,25 @@ TEST(Ranks, ThatHoldAllRowsOfANeighbourDoSoInThreeDimensions) {
   EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
 }
 
+TEST(Ranks, ThatHoldFluidAloneRecordWhatOneProcessDoes) {
+  // Solid, or an interface, in the rows of another rank or at the end of those it holds.
+  for (const std::int64_t floor : {41, 44, 47, 50, 53, 56, 80}) {
+    auto scene = reef();
+    scene.model.medium = uniform_medium(60, 100, 10, {1500, 0, 1000});
+    for (std::int64_t k = floor; k < 100; ++k)
+      for (std::int64_t i = 0; i < 60; ++i) put(scene.model.medium, {i, k}, {2500, 1250, 2000});
+    scene.model.fracture = {};
+    scene.model.fracture_sets.clear();
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.survey.sources[0].position_m = {203, 381};
+    scene.survey.receivers_m = {{34.3, 5}, {444, 405}, {301, 777}};
+    scene.recording.duration_s = 0.5;
+    const auto alone = all_samples(shoot(scene, 1));
+    for (const int count : {2, 3})
+      EXPECT_TRUE(all_samples(shared_out(scene, count)) == alone) << count << " ranks, row " << floor;
+  }
+}
+
 TEST(Ranks, TakeTheSameSnapshotsAndSayWhereTheEnergyWent) {
   auto scene = reef();
   scene.snapshot_every_s = 0.05;

@@ -22,8 +22,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       edges_(domain.edges),
       order_(order),
       reach_(reach_of(order)),
-      // Bent rows couple all fields.
-      shear_(domain.shear() || !domain.bent_rows.empty()),
+      // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
+      shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
       metric_(domain),
       corrections_(state, domain, metric_),
       bent_stencils_(domain, reach_, corrections_) {
