@@ -56,11 +56,12 @@ inline Scene<2> fitted_sea(std::int64_t nx = 220, std::int64_t nz = 90) {
 inline Scene<2> fitted_hills(std::int64_t nx = 220, std::int64_t nz = 80) {
   auto scene = fitted_sea(nx, nz);
   scene.model.fracture = {};
-  scene.model.medium = fitted_medium<2>(
-      Grid<2>{{nx, nz}, 5, {0, 0}},
-      {below([](double x, double) { return 71 - 0.05 * (x - 550) + 9 * std::cos(x / 50); }, {2500, 1200, 2000}),
-       below(dipping(252, 0.05, 550), {4500, 2250, 2500})},
-      true);
+  scene.model.medium =
+      fitted_medium<2>(Grid<2>{{nx, nz}, 5, {0, 0}},
+                       {below([](double x, double) { return 71 - 0.05 * (x - 550) + 9 * std::cos(x / 50); },
+                              {2500, 1200, 2000}),
+                        below(dipping(252, 0.05, 550), {4500, 2250, 2500})},
+                       true);
   fracture_rows(scene.model, 100, 140, 100, 125, 1);
   fracture_rows(scene.model, 120, 140, 0, 14, 2);
   return scene;
