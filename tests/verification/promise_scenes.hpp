@@ -73,7 +73,6 @@ class DrawnScene {
     dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, 45));
     on_faces_ = dip_deg_ == 0 && chance(0.5);
     fitted_ = chance(0.6);
-    force_ = chance(0.4);
     cosine_ = std::cos(dip_deg_ * std::numbers::pi / 180);
     sine_ = std::sin(dip_deg_ * std::numbers::pi / 180);
     order_ = int(one_of({5, 5, 5, 5, 7, 3}));
@@ -95,6 +94,10 @@ class DrawnScene {
     const double last = faces_m_.empty() ? 0 : faces_m_.back(), first = free_surface_ ? 20 : -250;
     near_ = chance(0.15);
     source_b_ = across(first, last + 250, near_ ? 8 : 30);
+    // A force in a fluid has no closed form here.
+    std::size_t layer = 0;
+    for (std::size_t n = free_surface_ ? 1 : 0; n < faces_m_.size(); ++n) layer += source_b_ > faces_m_[n];
+    force_ = rocks_[layer].vs > 0 && chance(0.5);
     const double levels[] = {across(first, last + 200, near_ ? 8 : 30),
                              across(first, last + 200, near_ ? 8 : 30)};
     for (const double b : levels)

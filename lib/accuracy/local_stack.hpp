@@ -1,0 +1,45 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "accuracy/stack_response.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// How cells represent an interface.
+enum class Representation {
+  on_faces,  // of the grid, level
+  fitted,    // rows of cells follow it
+  averaged,  // cells that it cuts have the mean of both rocks
+  staircase  // of whole cells: fluid, solid or void by their centre
+};
+
+/// An interface of a model, as found in its cells from a source to its receivers.
+struct LocalInterface {
+  enum class Kind { surface, fluid_solid, inner };
+  Kind kind = Kind::inner;
+  Representation representation = Representation::on_faces;
+  double depth_m = 0;  // below the source
+  double dip_deg = 0;  // of the straight line nearest to it
+  double steepest_deg = 0;
+  double from_x_m = 0, to_x_m = 0;  // where it was followed
+  double contrast = 1;              // ratio of impedances of P, above 1; of S where that is larger
+  /// "sea floor at 400 m", "free surface", "interface at 700 m".
+  std::string name() const;
+};
+
+/// The layers round a source, flattened: each shot is taken as one over parallel layers with the dip that
+/// the strongest interface has there.
+struct LocalStack {
+  std::vector<LocalInterface> interfaces;  // those of places.faces_m
+  LayeredPlaces places;
+  double dip_deg = 0;
+  std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
+};
+
+/// Of a shot with a point source; at most `receivers` of its receivers, evenly chosen.
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers);
+
+}  // namespace slipwave
