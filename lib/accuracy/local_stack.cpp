@@ -4,10 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "base/error.hpp"
-#include "base/report.hpp"
+#include "base/parse.hpp"
 #include "grid/locate.hpp"
 
 namespace slipwave {
@@ -248,6 +249,18 @@ double slope_of(const Columns& columns, const Followed& line, std::size_t first,
   return (xz - x * z / n) / (xx - x * x / n);
 }
 
+/// Columns from step to step of an interface that is not level: a multiple of what a cell was split into.
+std::int64_t block_of(const Followed& line) {
+  std::int64_t block = 0, before = -1;
+  for (std::size_t m = 1; m < line.rows.size(); ++m) {
+    if (std::abs(line.rows[m] - line.rows[m - 1]) < 1e-3) continue;
+    if (before >= 0) block = std::gcd(block, std::int64_t(m) - before);
+    before = std::int64_t(m);
+    block = std::gcd(block, std::int64_t(std::lround(std::abs(line.rows[m] - line.rows[m - 1]))));
+  }
+  return std::max<std::int64_t>(block, 1);
+}
+
 void describe(const Columns& columns, const Followed& line, LocalInterface& interface, bool rows_bend) {
   const auto count = line.rows.size();
   interface.dip_deg = degrees(slope_of(columns, line, 0, count));
@@ -260,12 +273,30 @@ void describe(const Columns& columns, const Followed& line, LocalInterface& inte
   interface.from_x_m = columns.x(line.first) - columns.spacing() / 2;
   interface.to_x_m = columns.x(line.first + std::int64_t(count) - 1) + columns.spacing() / 2;
   const auto [low, high] = std::minmax_element(line.rows.begin(), line.rows.end());
+  interface.stairs = *high - *low;
+  interface.block = block_of(line);
   const bool in_one_row = *high - *low < 1e-3, on_face = std::abs(*low - std::round(*low)) < 1e-3;
   using enum Representation;
   if (in_one_row && on_face)
     interface.representation = rows_bend ? fitted : on_faces;
   else
     interface.representation = interface.kind == LocalInterface::Kind::inner ? averaged : staircase;
+}
+
+/// Depths of the level tops of layers that a command line of sw-layers in a model's history names.
+std::vector<double> tops_in_history(const std::string& history) {
+  std::vector<double> tops;
+  const std::string option = "--layer";
+  for (auto at = history.find(option); at != std::string::npos; at = history.find(option, at + 1)) {
+    std::string text = history.substr(at + option.size());
+    text.erase(0, text.find_first_not_of(" =\"'"));
+    try {
+      tops.push_back(parse_number(text.substr(0, text.find(':'))));
+    } catch (const Error&) {
+      // A curve or a file: it is no level top.
+    }
+  }
+  return tops;
 }
 
 /// What is followed round one source.
@@ -275,7 +306,8 @@ class Tracker {
       : scene_(scene),
         columns_(scene.model.medium),
         source_(scene.survey.sources[shot]),
-        column_(columns_.at(source_.position_m[0])) {
+        column_(columns_.at(source_.position_m[0])),
+        tops_(tops_in_history(scene.model.history)) {
     low_ = high_ = column_;
     for (const auto& receiver : scene.survey.receivers_m) {
       low_ = std::min(low_, columns_.at(receiver[0]));
@@ -322,8 +354,30 @@ class Tracker {
       line = follow(Follower(columns_, upper, lower), column_, double(row), low_, high_);
     describe(columns_, line, interface, fitted());
     interface.depth_m = columns_.depth(column_, line.row(column_));
+    interface.true_depth_m = interface.depth_m;
+    if (interface.representation == Representation::on_faces && interface.kind != LocalInterface::Kind::inner)
+      interface.true_depth_m += offset_of(interface.depth_m);
+    if (interface.representation == Representation::averaged && interface.stairs < 1e-3)
+      interface.block = cells_cut(line.row(column_));
     stack_.interfaces.push_back(interface);
     lines_.push_back(std::move(line));
+  }
+
+  /// How far from a face the top of a layer lies that the model's history names.
+  double offset_of(double depth_m) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const double top : tops_)
+      if (std::abs(top - depth_m) < std::abs(nearest)) nearest = top - depth_m;
+    return std::abs(nearest) < columns_.spacing() ? nearest : 0;
+  }
+  /// Cells of one material in the source's column that a level interface cuts.
+  std::int64_t cells_cut(double row) const {
+    const auto at = std::clamp<std::int64_t>(std::int64_t(row), 0, columns_.rows() - 1);
+    const auto cut = columns_.cell(column_, at);
+    std::int64_t count = 1;
+    for (auto k = at; k-- > 0 && alike(columns_.cell(column_, k), cut, 1e-6);) ++count;
+    for (auto k = at + 1; k < columns_.rows() && alike(columns_.cell(column_, k), cut, 1e-6); ++k) ++count;
+    return std::min<std::int64_t>(count, most_cut);
   }
 
   /// Puts all into the frame that runs along the strongest interface.
@@ -387,6 +441,7 @@ class Tracker {
   Columns columns_;
   const Source<2>& source_;
   std::int64_t column_, low_ = 0, high_ = 0;
+  std::vector<double> tops_;
   std::vector<Segment> segments_;
   std::vector<Followed> lines_;
   LocalStack stack_;

@@ -24,8 +24,13 @@ struct LocalInterface {
   double depth_m = 0;  // below the source
   double dip_deg = 0;  // of the straight line nearest to it
   double steepest_deg = 0;
+  double stairs = 0;  // rows of cells that it crosses
+  /// Cells a side that are alike, as after a model was split: what geometry is known to.
+  std::int64_t block = 1;
   double from_x_m = 0, to_x_m = 0;  // where it was followed
-  double contrast = 1;              // ratio of impedances of P, above 1; of S where that is larger
+  /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
+  double true_depth_m = 0;
+  double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
   /// "sea floor at 400 m", "free surface", "interface at 700 m".
   std::string name() const;
 };

@@ -106,6 +106,21 @@ class PlaneProblem {
       if (layer == source_) row[waves_.size()] -= sign * scale * direct(b)[quantity];
     }
   }
+  /// To the last row, which says that no shear traction acts on a solid: inertia of fluid that resists its
+  /// motion along the face.
+  void add_drag(std::size_t solid, std::size_t other, double b, double sign) {
+    const auto face = places_.free_surface ? std::max(solid, other) : std::max(solid, other) - 1;
+    if (places_.drag_m.empty() || places_.drag_m[face] == 0 || !fluid(other)) return;
+    const auto& last = places_.layers.back();
+    const auto load = sign * omega_ * omega_ * places_.layers[other].rho * places_.drag_m[face] /
+                      (last.rho * last.vp * std::abs(omega_));
+    Complex* row = &matrix_[(rows_ - 1) * (waves_.size() + 1)];
+    for (const auto& [layer, way] : {std::pair{solid, 1.}, std::pair{other, -1.}}) {
+      for (std::size_t n = 0; n < waves_.size(); ++n)
+        if (waves_[n].layer == layer) row[n] += way * load * wave(waves_[n], b)[0];
+      if (layer == source_) row[waves_.size()] -= way * load * direct(b)[0];
+    }
+  }
   void solve() {
     const auto count = waves_.size();
     matrix_.assign(count * (count + 1), 0);
@@ -121,7 +136,9 @@ class PlaneProblem {
       if (!slides) add_row(0, b, {{n, 1}, {n + 1, -1}});
       if (!slides) add_row(3, b, {{n, 1}, {n + 1, -1}});
       if (slides && !fluid(n)) add_row(3, b, {{n, 1}});
+      if (slides && !fluid(n)) add_drag(n, n + 1, b, -1);
       if (slides && !fluid(n + 1)) add_row(3, b, {{n + 1, 1}});
+      if (slides && !fluid(n + 1)) add_drag(n + 1, n, b, 1);
     }
     eliminate(count);
   }
@@ -215,6 +232,7 @@ StackResponse::StackResponse(const LayeredPlaces& places, const Wavelet& wavelet
   const MotionSpectrum none(bins);
   motion_.assign(places.receivers.size(), none);
   by_face_.assign(places.faces_m.size(), motion_);
+  by_drag_ = by_face_;
   by_speed_.assign(2 * places.layers.size(), motion_);
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const Complex omega(2 * pi * (double(bin) + 0.5) / window_s, -damping / window_s);
@@ -259,6 +277,12 @@ void StackResponse::add_wave_number(const LayeredPlaces& places, std::size_t bin
     changed.faces_m[face] += by;
     add_change(changed, by, by_face_[face]);
     changed.faces_m[face] = places.faces_m[face];
+    const auto below = places.free_surface ? face : face + 1;
+    if (below == 0 || (places.layers[below].vs > 0) == (places.layers[below - 1].vs > 0)) continue;
+    changed.drag_m.assign(places.faces_m.size(), 0);
+    changed.drag_m[face] = by;
+    add_change(changed, by, by_drag_[face]);
+    changed.drag_m.clear();
   }
   for (std::size_t layer = 0; layer < places.layers.size(); ++layer)
     for (const std::size_t wave : {0, 1}) {

@@ -14,6 +14,8 @@ struct LayeredPlaces {
   std::vector<UniformMedium> layers;  // by increasing b; fluid where vs = 0
   /// b of the interfaces, m: before layer n + 1, or with a free surface before layer n.
   std::vector<double> faces_m;
+  /// At each interface, the thickness of fluid that resists motion of the solid along it, m; empty: none.
+  std::vector<double> drag_m;
   bool free_surface = false;
   Point<2> force{};                          // along a and b, N/m
   SymmetricTensor<2, double> moment_rate{};  // in a and b
@@ -47,6 +49,10 @@ class StackResponse {
   const MotionSpectrum& by_face(std::size_t face, std::size_t receiver) const {
     return by_face_[face][receiver];
   }
+  /// d motion / d drag of an interface, 1/m; zero where it is not one of fluid and solid.
+  const MotionSpectrum& by_drag(std::size_t face, std::size_t receiver) const {
+    return by_drag_[face][receiver];
+  }
   /// d motion / d ln c of P (0) or S (1) waves in a layer.
   const MotionSpectrum& by_speed(std::size_t layer, int wave, std::size_t receiver) const {
     return by_speed_[2 * layer + std::size_t(wave)][receiver];
@@ -64,7 +70,7 @@ class StackResponse {
   std::vector<std::complex<double>> phases_;  // exp(i omega t), times fastest
   std::size_t times_ = 0;
   std::vector<MotionSpectrum> motion_;
-  std::vector<std::vector<MotionSpectrum>> by_face_, by_speed_;
+  std::vector<std::vector<MotionSpectrum>> by_face_, by_drag_, by_speed_;
 };
 
 }  // namespace slipwave

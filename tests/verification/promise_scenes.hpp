@@ -125,6 +125,8 @@ class DrawnScene {
     const double x0 = std::ceil((margin_m - low[0]) / h) * h;
     const bool flat_top = free_surface_ && dip_deg_ == 0;
     double z0 = flat_top ? 0 : std::ceil((margin_m - low[1]) / h) * h;
+    // A surface that dips stays below the top of the model.
+    if (free_surface_ && !flat_top) z0 = std::max(z0, std::ceil(x0 * sine_ / cosine_ / h + 8) * h);
     const double shift = on_faces_ || flat_top ? 0 : uniform(0.1, 0.9) * h;
     z0 += shift;
     if (on_faces_)
@@ -144,6 +146,14 @@ class DrawnScene {
     FitChoice choice;
     choice.surfaces = choice.floors = choice.layers = fitted_;
     const Grid<2> regular{{nx, nz}, h, {0, 0}};
+    // As sw-layers would write it.
+    std::ostringstream history;
+    history.precision(12);
+    history << "sw-layers --size 1x1 --step " << h << (fitted_ ? "" : " --fit none");
+    for (std::size_t n = 0; n < rocks_.size(); ++n)
+      history << " --layer " << layers[n].top.depth_m() << ':' << rocks_[n].vp << ':' << rocks_[n].vs << ':'
+              << rocks_[n].rho << ':' << (n == 0 && !free_surface_ ? 0 : dip_deg_);
+    scene_.model.history = history.str();
     const auto fit = fit_layers<2>(regular, layers, choice);
     scene_.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
     const auto place = [&](double a, double b) {
