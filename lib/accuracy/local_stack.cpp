@@ -348,6 +348,8 @@ class Tracker {
                      : upper.matter != lower.matter ? LocalInterface::Kind::fluid_solid
                                                     : LocalInterface::Kind::inner;
     interface.contrast = contrast_of(upper, lower);
+    interface.sea_floor = upper.matter == Matter::fluid && lower.matter == Matter::solid &&
+                          upper.rho == segments_.front().rock.rho && upper.vp == segments_.front().rock.vp;
     // The top of the grid is a surface where no cell lies above it.
     Followed line{low_, std::vector<double>(std::size_t(high_ - low_ + 1), 0)};
     if (row > 0 || interface.kind != LocalInterface::Kind::surface)
@@ -452,8 +454,10 @@ class Tracker {
 
 std::string LocalInterface::name() const {
   if (kind == Kind::surface) return "free surface";
-  return (kind == Kind::fluid_solid ? "fluid-solid interface at " : "interface at ") + shown(depth_m, 4) +
-         " m";
+  return (sea_floor                   ? "sea floor at "
+          : kind == Kind::fluid_solid ? "fluid-solid interface at "
+                                      : "interface at ") +
+         shown(depth_m, 4) + " m";
 }
 
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers) {

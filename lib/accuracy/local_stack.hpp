@@ -21,8 +21,9 @@ struct LocalInterface {
   enum class Kind { surface, fluid_solid, inner };
   Kind kind = Kind::inner;
   Representation representation = Representation::on_faces;
-  double depth_m = 0;  // below the source
-  double dip_deg = 0;  // of the straight line nearest to it
+  bool sea_floor = false;  // of the first layer, a fluid, and a solid
+  double depth_m = 0;      // below the source
+  double dip_deg = 0;      // of the straight line nearest to it
   double steepest_deg = 0;
   double stairs = 0;  // rows of cells that it crosses
   /// Cells a side that are alike, as after a model was split: what geometry is known to.
