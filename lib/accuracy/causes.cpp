@@ -34,6 +34,11 @@ constexpr double share_of_offset = 0.6;
 /// Error at a distance of one cell from the source at Courant number 0.9; it falls with the fourth power of
 /// the distance, and is larger with shorter steps.
 constexpr double near_share = 50;
+/// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, at 24 cells
+/// per wavelength of the slower wave; it falls with their cube.
+constexpr double bound_to_surface = 0.013, bound_to_floor = 0.028;
+/// Their decay with the distance from it, over the wave number.
+constexpr double bound_decay = 0.3;
 /// Stairs that count as such, in rows.
 constexpr double few_stairs = 1.5;
 
@@ -116,6 +121,12 @@ double grazing_share(double along_m, double mean_m, double wavelength_m, double 
   return std::min(0.5, 0.19 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
 }
 
+/// Error of what arrives straight above a shallow source in rock under a free surface, hardly less in smaller
+/// cells: a source `depth_m` deep, receivers between it and the surface, `aside_m` from it.
+double shallow_error(double depth_m, double aside_m, double wavelength_m) {
+  return 0.7 * std::exp(-7 * depth_m / wavelength_m - 1.3 * aside_m / std::max(depth_m, 0.01 * wavelength_m));
+}
+
 /// The error of the waves that slipping fractures send out, and their share of all: first estimates, from the
 /// figures of docs/accuracy.md.
 double slip_error(double cells_per_wavelength, double courant) {
@@ -172,11 +183,15 @@ struct ErrorSources::Shot {
   double near_field(const Discretisation& cells) const;
   double edge_error(const Edge& edge, const Discretisation& cells) const;
   double slip(const Discretisation& cells) const;
+  /// Of waves bound to an interface, where source and receivers are near it.
+  double bound_wave(std::size_t face, const Discretisation& cells) const;
+  double shallow_source() const;
   /// How far an interface is from the face that stands for it.
   double offset_m(std::size_t face, const Discretisation& cells) const {
     const auto& interface = stack.interfaces[face];
     const double own = std::abs(interface.true_depth_m - interface.depth_m);
-    if (own == 0 || !finer_geometry) return own;
+    if (own < 1e-6 * own_spacing_m) return 0;
+    if (!finer_geometry) return own;
     const double rows = interface.true_depth_m / cells.spacing_m;
     return std::abs(rows - std::round(rows)) * cells.spacing_m;
   }
@@ -233,7 +248,9 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   if (finer_geometry) geometry_m *= cells.spacing_m / own_spacing_m;
   const double h = shift.power > 0 ? cells.spacing_m : std::max(geometry_m, cells.spacing_m);
   const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
-  const double by = shift.share * h * std::pow(per_wave, -shift.power);
+  double by = shift.share * h * std::pow(per_wave, -shift.power);
+  if (interface.representation == averaged && interface.stairs < 1e-3)
+    by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
   const double offset = share_of_offset * offset_m(face, cells), drag = drag_of_stairs * h;
   return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
 }
@@ -246,6 +263,41 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
     const auto& at = stack.places.receivers[r];
     const double way = std::max(std::hypot(at.a_m, at.b_m) / cells.spacing_m, 1.);
     sum += std::pow(std::min(1., share / std::pow(way, 4)), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& cells) const {
+  const auto& interface = stack.interfaces[face];
+  const auto& places = stack.places;
+  const auto& below = places.layers[places.free_surface ? face : face + 1];
+  if (interface.kind == Kind::inner || (interface.kind == Kind::surface && !(below.vs > 0))) return 0;
+  const double wavelength = 0.93 * slowest_beside(places, face) / nominal_hz;
+  const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
+  const bool floor = interface.kind == Kind::fluid_solid;
+  // Short steps make those along fluid worse.
+  const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
+  const double steps = floor ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
+  const double rate = (floor ? bound_to_floor : bound_to_surface) * std::pow(coarser, 3) * steps;
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = places.receivers[r];
+    const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
+    const double error = rate * std::abs(at.a_m) / wavelength *
+                         std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
+    sum += std::pow(saturated(error * error), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::shallow_source() const {
+  const auto& places = stack.places;
+  if (!places.free_surface || !(places.layers[0].vs > 0) || places.source_layer() > 0) return 0;
+  const double depth = std::abs(places.faces_m[0]), wavelength = places.layers[0].vs / nominal_hz;
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = places.receivers[r];
+    if (at.b_m < 0) sum += std::pow(shallow_error(depth, std::abs(at.a_m), wavelength), 2) * energies[r];
   }
   return sum;
 }
@@ -417,6 +469,10 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
       add(cause_of(shot->stack.interfaces[face], shot->finer_geometry, shot->offset_m(face, cells) > 0),
           shot->face_error(face, cells));
+    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
+      add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
+          shot->bound_wave(face, cells));
+    add({"waves straight up from a shallow source", "", 0, false}, shot->shallow_source());
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},

@@ -275,6 +275,7 @@ void describe(const Columns& columns, const Followed& line, LocalInterface& inte
   const auto [low, high] = std::minmax_element(line.rows.begin(), line.rows.end());
   interface.stairs = *high - *low;
   interface.block = block_of(line);
+  interface.cut = *low - std::floor(*low);
   const bool in_one_row = *high - *low < 1e-3, on_face = std::abs(*low - std::round(*low)) < 1e-3;
   using enum Representation;
   if (in_one_row && on_face)

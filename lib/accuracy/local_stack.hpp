@@ -26,6 +26,7 @@ struct LocalInterface {
   double dip_deg = 0;      // of the straight line nearest to it
   double steepest_deg = 0;
   double stairs = 0;  // rows of cells that it crosses
+  double cut = 0;     // where it is level, the share of the cells it cuts that lies above it
   /// Cells a side that are alike, as after a model was split: what geometry is known to.
   std::int64_t block = 1;
   double from_x_m = 0, to_x_m = 0;  // where it was followed
