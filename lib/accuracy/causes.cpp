@@ -24,6 +24,7 @@ constexpr std::size_t directions = 6;
 constexpr double dispersion_margin = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
 constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4;
+constexpr double order_7_on_faces = 0.5;
 /// The same of other representations, in cells: with means, in stairs, and within less than two rows.
 constexpr double shift_of_means = 0.15, shift_of_gentle_means = 0.1, shift_of_stairs = 0.38,
                  shift_of_few_stairs = 0.3;
@@ -33,10 +34,14 @@ constexpr double drag_of_stairs = 1.5;
 constexpr double share_of_offset = 0.6;
 /// Error at a distance of one cell from the source at Courant number 0.9; it falls with the fourth power of
 /// the distance, and is larger with shorter steps.
-constexpr double near_share = 50;
+constexpr double near_share = 50, near_of_order_3 = 5;
+/// What comes back along a fitted surface that dips from where it becomes level beyond the sides.
+constexpr double bent_surface = 0.008;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, at 24 cells
 /// per wavelength of the slower wave; it falls with their cube.
-constexpr double bound_to_surface = 0.013, bound_to_floor = 0.028;
+constexpr double bound_to_surface = 0.015, bound_to_floor = 0.028;
+/// Of those of an explosion in rock, which sends out less of them.
+constexpr double bound_by_explosion = 0.4;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
 /// Stairs that count as such, in rows.
@@ -249,6 +254,11 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   const double h = shift.power > 0 ? cells.spacing_m : std::max(geometry_m, cells.spacing_m);
   const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
   double by = shift.share * h * std::pow(per_wave, -shift.power);
+  // Long stencils end at interfaces with less harm.
+  if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
+  // Long stairs of a surface scatter less where waves are longer.
+  if (interface.representation == staircase && interface.kind == Kind::surface && interface.steepest_deg < 14)
+    by *= std::min(1., 10 / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
   const double offset = share_of_offset * offset_m(face, cells), drag = drag_of_stairs * h;
@@ -258,7 +268,8 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   double sum = 0;
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double share = near_share * std::clamp(0.9 / courant, 1., 2.);
+  const double share =
+      near_share * std::clamp(0.9 / courant, 1., 2.) * (cells.order == 3 ? near_of_order_3 : 1);
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = stack.places.receivers[r];
     const double way = std::max(std::hypot(at.a_m, at.b_m) / cells.spacing_m, 1.);
@@ -279,11 +290,13 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
   const double steps = floor ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
   const double rate = (floor ? bound_to_floor : bound_to_surface) * std::pow(coarser, 3) * steps;
+  const bool force = places.force[0] != 0 || places.force[1] != 0;
+  const double sent = force || !(places.layers[places.source_layer()].vs > 0) ? 1 : bound_by_explosion;
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
     const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
-    const double error = rate * std::abs(at.a_m) / wavelength *
+    const double error = sent * rate * std::abs(at.a_m) / wavelength *
                          std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
     sum += std::pow(saturated(error * error), 2) * energies[r];
   }
@@ -472,6 +485,10 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
       add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
           shot->bound_wave(face, cells));
+    for (const auto& interface : shot->stack.interfaces)
+      if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
+        add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
+            bent_surface * bent_surface * shot->energy);
     add({"waves straight up from a shallow source", "", 0, false}, shot->shallow_source());
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
     for (const auto& edge : shot->edges)

@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t most_layers = 6;
 /// Cells whose speeds differ by less than this belong together.
 constexpr double same_rock = 0.01, same_layer = 0.1;
+/// Rows of a bed too thin for its sides to be told apart everywhere.
+constexpr double thin_bed = 8;
 /// Cells cut by an interface, in a column.
 constexpr std::int64_t most_cut = 4;
 
@@ -261,6 +263,20 @@ std::int64_t block_of(const Followed& line) {
   return std::max<std::int64_t>(block, 1);
 }
 
+/// Whether it goes on as it came, from a quarter to the next.
+bool is_straight(const Followed& line) {
+  const auto& rows = line.rows;
+  const auto quarter = rows.size() / 4;
+  if (quarter < 4) return false;
+  double least = 1e30, most = -1e30;
+  for (std::size_t n = 0; n < 4; ++n) {
+    const double slope = (rows[(n + 1) * quarter - 1] - rows[n * quarter]) / double(quarter);
+    least = std::min(least, slope);
+    most = std::max(most, slope);
+  }
+  return most - least < 0.2;
+}
+
 void describe(const Columns& columns, const Followed& line, LocalInterface& interface, bool rows_bend) {
   const auto count = line.rows.size();
   interface.dip_deg = degrees(slope_of(columns, line, 0, count));
@@ -355,6 +371,13 @@ class Tracker {
     Followed line{low_, std::vector<double>(std::size_t(high_ - low_ + 1), 0)};
     if (row > 0 || interface.kind != LocalInterface::Kind::surface)
       line = follow(Follower(columns_, upper, lower), column_, double(row), low_, high_);
+    // The lower side of a thin bed is where its upper side is.
+    if (!lines_.empty() && double(row) - lines_.back().row(column_) < thin_bed &&
+        std::abs(line.row(column_) - lines_.back().row(column_)) < thin_bed && !is_straight(line)) {
+      const double below = std::max(0.5, double(row) - lines_.back().row(column_));
+      line = lines_.back();
+      for (auto& at : line.rows) at += below;
+    }
     describe(columns_, line, interface, fitted());
     interface.depth_m = columns_.depth(column_, line.row(column_));
     interface.true_depth_m = interface.depth_m;
