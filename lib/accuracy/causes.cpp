@@ -19,7 +19,7 @@ constexpr std::size_t shots_followed = 2, receivers_followed = 12;
 /// Directions of travel, over a quarter circle, that dispersion is taken for.
 constexpr std::size_t directions = 6;
 
-// Fitted to the errors of 200 drawn scenes of layers against exact traces (docs/accuracy.md).
+// Fitted to the errors of 400 drawn scenes of layers against exact traces (docs/accuracy.md).
 /// What linear terms leave out of dispersion.
 constexpr double dispersion_margin = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
@@ -256,8 +256,9 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   double by = shift.share * h * std::pow(per_wave, -shift.power);
   // Long stencils end at interfaces with less harm.
   if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
-  // Long stairs of a surface scatter less where waves are longer.
-  if (interface.representation == staircase && interface.kind == Kind::surface && interface.steepest_deg < 14)
+  // The long stairs of a plane surface scatter less where waves are longer.
+  if (interface.representation == staircase && interface.kind == Kind::surface &&
+      interface.steepest_deg < 14 && !interface.is_curved())
     by *= std::min(1., 10 / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
@@ -409,8 +410,7 @@ ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
   bool curved = false;
   for (const auto& shot : shots_) {
     left_out = std::max(left_out, shot->stack.left_out);
-    for (const auto& interface : shot->stack.interfaces)
-      curved = curved || interface.steepest_deg > std::abs(interface.dip_deg) + 3;
+    for (const auto& interface : shot->stack.interfaces) curved = curved || interface.is_curved();
     if (shot->response.seconds() < 0.999 * scene.recording.duration_s && not_covered_.empty())
       not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
   }

@@ -118,7 +118,7 @@ void join_cut_cells(std::vector<Segment>& segments) {
   for (std::size_t n = 1; n + 1 < segments.size();) {
     std::size_t end = n;
     while (end + 1 < segments.size() && segments[end].last - segments[n].first <= most_cut &&
-           segments[end].last - segments[end].first <= 2)
+           segments[end].last - segments[end].first <= most_cut)
       ++end;
     bool cut = false;
     for (; end > n && !cut; --end) {

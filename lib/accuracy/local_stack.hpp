@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct LocalInterface {
   /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
   double true_depth_m = 0;
   double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
+  bool is_curved() const { return steepest_deg > std::abs(dip_deg) + 3; }
   /// "sea floor at 400 m", "free surface", "interface at 700 m".
   std::string name() const;
 };

@@ -29,10 +29,11 @@ double promised_error(const DrawnScene& drawn) {
 
 TEST(Promise, IsWithinAFactorOfTwoOfTheErrorInNineOfTenScenes) {
   const bool all = std::getenv("SLIPWAVE_LONG");
-  const int scenes = all ? 50 : 10;
+  // The short form takes every fifth.
+  const int scenes = all ? 50 : 10, step = all ? 1 : 5;
   int within = 0, too_small = 0;
   for (int n = 0; n < scenes; ++n) {
-    const DrawnScene drawn(first_seed + std::uint64_t(n));
+    const DrawnScene drawn(first_seed + std::uint64_t(n * step));
     const double found = true_error(drawn), stated = promised_error(drawn);
     within += stated >= found / 2 && stated <= 2 * found;
     too_small += stated < found / 2;
