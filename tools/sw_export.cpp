@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "cli/tool.hpp"
+#include "grid/true_depth.hpp"
 #include "io/input_bytes.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
@@ -45,6 +46,7 @@ void declare(cli::Options& options, Settings& settings) {
 struct Exported {
   Field<2> values;
   SectionFacts facts;
+  DepthTake take = DepthTake::nearest;  // where rows follow horizons
 };
 
 Exported of_model(const NetcdfFile& file, const Settings& settings) {
@@ -73,7 +75,8 @@ Exported of_snapshots(NetcdfFile file, const Settings& settings) {
   auto unit = reader.unit(settings.property);
   if (unit == "m s-1") unit = "m/s";
   return {std::move(values),
-          {settings.property + " at " + shown(reader.times_s()[time], 9) + " s", unit, {}}};
+          {settings.property + " at " + shown(reader.times_s()[time], 9) + " s", unit, {}},
+          DepthTake::linear};
 }
 
 void run(const Settings& settings, const cli::Context& context) {
@@ -84,6 +87,8 @@ void run(const Settings& settings, const cli::Context& context) {
   const bool is_model = kind_of(file) == "model";
   OutputFile out(settings.output, OutputFile::Content::binary);
   auto exported = is_model ? of_model(file, settings) : of_snapshots(std::move(file), settings);
+  const bool fitted = exported.values.grid().rows != nullptr;
+  exported.values = in_regular_depth(exported.values, exported.take);
   exported.facts.entries.push_back(context.version);
   std::string commands = history;
   append_history(commands, context.command_line);
@@ -94,6 +99,12 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   in_place(shown_input(settings.input), [&] { write_section(out, exported.values, exported.facts, format); });
   out.commit();
+  if (!fitted) return;
+  const bool linear = exported.take == DepthTake::linear;
+  context.say(shown_input(settings.input) + ": rows follow horizons; resampled to " +
+              shown(exported.values.grid()) + " in regular depth, " +
+              (linear ? "linearly between cells" : "each takes the cell its centre lies in") +
+              "; 0 above the surface");
 }
 
 }  // namespace

@@ -75,21 +75,27 @@ Radiation radiation(const PointInjection<2>& injection, const Speeds& speeds, co
               : 0};
 }
 
+/// Depth of the surface above a point, m.
+double surface_m(const Grid<2>& grid, const Point<2>& point) {
+  return grid.rows ? grid.depths_at(point)[0] : grid.origin_m[1];
+}
+
 /// The part of the energy between two points that goes as a Rayleigh wave along a free surface at the top.
 double rayleigh_share(const Scene<2>& scene, const Source<2>& source, const Point<2>& receiver) {
   const auto& medium = scene.model.medium;
-  const double top = medium.grid().origin_m[1], h = medium.grid().spacing_m;
+  const double top = surface_m(medium.grid(), source.position_m), h = medium.grid().spacing_m;
   const double vs = speeds_at(medium, {source.position_m[0], top + h / 2}).vs;
   if (scene.edges[1][0] != EdgeLaw::free || !(vs > 0)) return 0;
   const double k = 2 * std::numbers::pi * source.wavelet.nominal_hz() / (rayleigh_speed * vs);
-  return std::exp(-2 * rayleigh_decay * k * (source.position_m[1] - top + receiver[1] - top));
+  return std::exp(-2 * rayleigh_decay * k *
+                  (source.position_m[1] - top + receiver[1] - surface_m(medium.grid(), receiver)));
 }
 
 /// How much farther than the source its image in a free surface is from a receiver, m; in water only, whose
 /// surface sends all of the wave back.
 std::optional<double> detour_of_ghost(const Scene<2>& scene, const Point<2>& from, const Point<2>& receiver) {
   const auto& medium = scene.model.medium;
-  const double top = medium.grid().origin_m[1], x = receiver[0] - from[0];
+  const double top = surface_m(medium.grid(), from), x = receiver[0] - from[0];
   if (scene.edges[1][0] != EdgeLaw::free || speeds_at(medium, from).vs > 0 ||
       speeds_at(medium, {from[0], top}).vs > 0)
     return std::nullopt;
@@ -138,7 +144,7 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   add(sent.p, WaveKind::p);
   add(sent.s, WaveKind::s);
   if (!(share > 0)) return;
-  const auto [vp, vs] = speeds_at(medium, {from[0], medium.grid().origin_m[1]});
+  const auto [vp, vs] = speeds_at(medium, {from[0], surface_m(medium.grid(), from)});
   WayOfWave way;
   way.add(vp, rayleigh_speed * vs, std::abs(receiver[0] - from[0]) / (rayleigh_speed * vs));
   if (way.time_s() > scene.recording.duration_s) return;
@@ -151,7 +157,12 @@ void add_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneW
   const auto& grid = scene.model.grid();
   double length = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    const double low = grid.origin_m[axis], high = low + double(grid.shape[axis]) * grid.spacing_m;
+    double low = grid.origin_m[axis], high = low + double(grid.shape[axis]) * grid.spacing_m;
+    if (axis == 1 && grid.rows) {
+      const auto depths = grid.depths_at(receiver);
+      low = depths[0];
+      high = depths[1];
+    }
     if (std::abs(wave.direction[axis]) < 1e-9) continue;
     const double edge = wave.direction[axis] > 0 ? receiver[axis] - low : high - receiver[axis];
     length = std::min(length, edge / std::abs(wave.direction[axis]));

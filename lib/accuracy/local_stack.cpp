@@ -115,10 +115,14 @@ bool between(double a, double middle, double b) {
 /// Takes segments out that are but cells cut by an interface between their neighbours: each half of them goes
 /// to either side.
 void join_cut_cells(std::vector<Segment>& segments) {
+  // Where all lies on every third or fourth face, the model may have been split, and its cut cells with it.
+  std::int64_t every = 0;
+  for (std::size_t n = 1; n < segments.size(); ++n) every = std::gcd(every, segments[n].first);
+  const std::int64_t longest = every > 0 && every % 4 == 0 ? 4 : every > 0 && every % 3 == 0 ? 3 : 2;
   for (std::size_t n = 1; n + 1 < segments.size();) {
     std::size_t end = n;
     while (end + 1 < segments.size() && segments[end].last - segments[n].first <= most_cut &&
-           segments[end].last - segments[end].first <= most_cut)
+           segments[end].last - segments[end].first <= longest)
       ++end;
     bool cut = false;
     for (; end > n && !cut; --end) {

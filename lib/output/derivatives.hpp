@@ -7,7 +7,8 @@
 namespace slipwave {
 
 /// Derivative of a field along an axis, per metre: central differences of fourth order, of second order and
-/// one-sided towards the edges of the grid. For pictures; across interfaces it contains the jump.
+/// one-sided towards the edges of the grid. In a fitted grid along true x, y and z. For pictures; across
+/// interfaces it contains the jump.
 template <int D>
 Field<D> derivative(const Field<D>& field, int axis);
 

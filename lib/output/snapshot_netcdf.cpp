@@ -121,6 +121,7 @@ SnapshotWriter<D>::SnapshotWriter(const std::string& path, const Grid<D>& grid,
     file_.put_attribute(name, "_FillValue", std::vector<float>{std::numeric_limits<float>::quiet_NaN()});
     file_.put_attribute(name, "long_name", field.long_name);
     file_.put_attribute(name, "units", field.units);
+    put_coordinates(file_, grid, name);
   }
   put_grid(file_, grid);
 }

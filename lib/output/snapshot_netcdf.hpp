@@ -46,8 +46,9 @@ struct SnapshotHistory {
 };
 
 /// Writes snapshots of a run as netCDF-4 (docs/formats): dimensions time (unlimited), z, [y,] x; coordinates
-/// as in the model file; every field float(time, z, [y,] x), one chunk a time, shuffled and deflated. The
-/// file appears when commit() is called; destroyed before, the writer leaves nothing behind.
+/// as in the model file, of fitted grids with their depths; every field float(time, z, [y,] x), one chunk a
+/// time, shuffled and deflated. The file appears when commit() is called; destroyed before, the writer leaves
+/// nothing behind.
 template <int D>
 class SnapshotWriter {
  public:

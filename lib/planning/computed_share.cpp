@@ -30,7 +30,8 @@ double part_of_arrival(double cells) {
   return cells > 0 ? (rest + std::sqrt(rest * rest + 4 * cells * half<D>)) / 2 / cells : 0;
 }
 
-/// First arrivals by fast sweeping (Zhao 2005, first order) on blocks of cells, s from the source on.
+/// First arrivals by fast sweeping (Zhao 2005, first order) on blocks of cells, s from the source on. In a
+/// fitted grid places are row coordinates, as if all rows were as high as columns are wide.
 template <int D>
 class Arrivals {
  public:
@@ -114,7 +115,8 @@ class Arrivals {
 template <int D>
 double steps_to(const Scene<D>& scene, std::size_t axis, double place_m) {
   double low = std::numeric_limits<double>::infinity(), high = -low, sweeps = 0;
-  for (const auto& receiver : scene.survey.receivers_m) {
+  for (const auto& point_m : scene.survey.receivers_m) {
+    const auto receiver = scene.model.grid().row_coordinates(point_m);
     low = std::min(low, receiver[axis]);
     high = std::max(high, receiver[axis]);
   }
@@ -130,6 +132,7 @@ double share_of(const Scene<D>& scene, const Source<D>& source, const Arrivals<D
   const double dt_s = time_step_s(scene);
   const double end_s = dt_s * double(solver::Recorder<D, float>::steps_needed(scene.recording, dt_s));
   const auto& blocks = arrivals.blocks();
+  const auto source_at = scene.model.grid().row_coordinates(source.position_m);
   // In 2-D a cell is computed or not, in 3-D a line along x as a whole.
   const std::int64_t together = D == 2 ? 1 : blocks.shape[0];
   double reached = 0;
@@ -140,7 +143,7 @@ double share_of(const Scene<D>& scene, const Source<D>& source, const Arrivals<D
       double square = 0;
       for (int axis = 0; axis < D; ++axis) {
         const double place_m = blocks.centre(axis, at[std::size_t(axis)]);
-        square += std::pow(place_m - source.position_m[std::size_t(axis)], 2);
+        square += std::pow(place_m - source_at[std::size_t(axis)], 2);
         if ((D == 2 || axis > 0) && !scene.snapshot_every_s)
           unseen_s = std::max(unseen_s, dt_s * steps_to(scene, std::size_t(axis), place_m));
       }
@@ -163,7 +166,7 @@ double expected_share(const Scene<D>& scene, const Grid<D>& computed) {
       share += 1;
       continue;
     }
-    arrivals.start_at(source.position_m);
+    arrivals.start_at(scene.model.grid().row_coordinates(source.position_m));
     share += share_of(scene, source, arrivals);
   }
   return share / double(scene.survey.sources.size());

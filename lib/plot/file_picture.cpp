@@ -1,10 +1,12 @@
 #include "plot/file_picture.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
+#include "grid/true_depth.hpp"
 #include "io/input_bytes.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
@@ -62,12 +64,14 @@ std::optional<ModelSection> model_below(const PlotOptions& options, const Snapsh
   const bool as_sets = options.property == "fractures";
   auto model = read_model_section(NetcdfFile::open(options.over), as_sets ? "vp" : options.property,
                                   snapshots.slice());
+  const auto extent = [](const Grid<2>& of, int axis) {
+    return axis == 0 ? std::array{of.origin_m[0], of.end(0)} : depth_extent(of);
+  };
   for (const int axis : {0, 1}) {
-    const auto at = std::size_t(axis);
+    const auto [low, high] = extent(grid, axis);
+    const auto [model_low, model_high] = extent(model.grid(), axis);
     const double slack = grid.spacing_m / 2;
-    if (std::fabs(model.grid().origin_m[at] - grid.origin_m[at]) <= slack &&
-        std::fabs(model.grid().end(axis) - grid.end(axis)) <= slack)
-      continue;
+    if (std::fabs(model_low - low) <= slack && std::fabs(model_high - high) <= slack) continue;
     throw Error("--over: " + options.over + ": has a grid of " + shown(model.grid()) +
                 ", expected the extent of the snapshots, " + shown(grid));
   }

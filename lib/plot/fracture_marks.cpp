@@ -38,8 +38,7 @@ Hatch hatch_of(const SlipSystem<2>& system, const Panel& panel) {
 void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
                     const Image& below, bool hatched) {
   if (section.fracture.empty()) return;
-  const auto codes = reduced<std::uint8_t>([&](std::int64_t k) { return section.fracture.line(k).data(); },
-                                           pixels.columns, pixels.rows, Take::greatest);
+  const auto codes = reduced(section.fracture, pixels, Take::greatest);
   const auto code_at = [&](int column, int row) {
     if (column < 0 || row < 0 || column >= codes.width || row >= codes.height) return 0;
     const float code = codes.at(column, row);

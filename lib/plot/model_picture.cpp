@@ -29,8 +29,7 @@ ColourBar bar_of(const ModelSection& section, bool as_sets, const Look& look) {
 
 void colour_sets(Image& image, const ModelSection& section, const GridPixels& pixels) {
   if (section.fracture.empty()) return;
-  const auto codes = reduced<std::uint8_t>([&](std::int64_t k) { return section.fracture.line(k).data(); },
-                                           pixels.columns, pixels.rows, Take::greatest);
+  const auto codes = reduced(section.fracture, pixels, Take::greatest);
   for (std::size_t n = 0; n < image.pixels.size(); ++n) {
     const float code = codes.values[n];
     if (code >= 1) image.pixels[n] = pixel_of(line_colour(std::size_t(code) - 1));

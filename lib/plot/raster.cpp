@@ -58,6 +58,20 @@ std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double e
   return found;
 }
 
+void Reduction::add(float value) {
+  if (std::isnan(value)) return;
+  sum_ += double(value);
+  ++count_;
+  const bool farther =
+      take_ == Take::greatest ? !(chosen_ >= value) : !(std::fabs(chosen_) >= std::fabs(value));
+  if (farther) chosen_ = value;
+}
+
+float Reduction::value() const {
+  if (take_ != Take::mean) return chosen_;
+  return count_ > 0 ? float(sum_ / double(count_)) : none;
+}
+
 template <class Value>
 Raster reduced(const std::function<const Value*(std::int64_t)>& row, const std::vector<Cells>& columns,
                const std::vector<Cells>& rows, Take take) {

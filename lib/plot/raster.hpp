@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "plot/axis.hpp"
@@ -28,6 +29,21 @@ std::vector<double> edges_between(const std::vector<double>& places);
 /// What a pixel takes of its cells: the value farthest from zero (nothing of a wave is lost), the mean, or
 /// the greatest (codes). NaN does not count.
 enum class Take { extreme, mean, greatest };
+
+/// What one pixel takes of its cells, added one by one.
+class Reduction {
+ public:
+  explicit Reduction(Take take = Take::mean) : take_(take) {}
+  void add(float value);
+  /// NaN where nothing was added.
+  float value() const;
+
+ private:
+  Take take_;
+  float chosen_ = std::numeric_limits<float>::quiet_NaN();
+  double sum_ = 0;
+  std::int64_t count_ = 0;
+};
 
 /// Values of pixels, the first row first; NaN where there is none.
 struct Raster {

@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "grid/true_depth.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 
@@ -85,14 +86,14 @@ ModelSection read_model_section(const NetcdfFile& file, const std::string& prope
   Field<2> rho;
   if (dimension_of(file) == 3) {
     const auto grid = read_grid<3>(file);
-    const auto [axis, number] = in_place(file.shown_name(), [&] { return layer_to_show(grid, slice); });
-    section.axes = section_axes(axis);
-    section.values = section_of(read_property(file, grid, property), axis, number);
-    if (may_have_void(file)) rho = section_of(read_property(file, grid, "rho"), axis, number);
+    const auto layer = in_place(file.shown_name(), [&] { return layer_to_show(grid, slice); });
+    section.axes = section_axes(layer.axis);
+    section.values = section_of(read_property(file, grid, property), layer);
+    if (may_have_void(file)) rho = section_of(read_property(file, grid, "rho"), layer);
     if (file.has_variable("fracture")) {
       const auto sets = read_fracture_sets<3>(file);
-      section.sets = seen_in_section(sets, axis);
-      section.fracture = section_of(read_codes(file, grid, sets.size()), axis, number);
+      section.sets = seen_in_section(sets, layer.axis);
+      section.fracture = section_of(read_codes(file, grid, sets.size()), layer);
     }
   } else {
     if (slice)
@@ -114,20 +115,55 @@ ModelSection read_model_section(const NetcdfFile& file, const std::string& prope
 
 GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid) {
   const Rect& plot = panel.plot();
-  return {cells_of_pixels(panel.x_scale(), plot.x, plot.right(), pixels_along(plot.width, page),
-                          even_edges(grid.origin_m[0], grid.spacing_m, grid.shape[0])),
-          cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), pixels_along(plot.height, page),
-                          even_edges(grid.origin_m[1], grid.spacing_m, grid.shape[1]))};
+  const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
+  GridPixels pixels{cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width,
+                                    even_edges(grid.origin_m[0], grid.spacing_m, grid.shape[0])),
+                    {},
+                    {},
+                    std::size_t(height)};
+  if (!grid.rows) {
+    pixels.rows = cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height,
+                                  even_edges(grid.origin_m[1], grid.spacing_m, grid.shape[1]));
+    return pixels;
+  }
+  const double pixel_pt = plot.width / width;
+  pixels.bent_rows = [=, x = panel.x_scale(), y = panel.y_scale()](std::size_t pixel, std::int64_t column) {
+    const double middle_m = x.value(plot.x + (double(pixel) + 0.5) * pixel_pt);
+    const double share = std::clamp((middle_m - grid.origin_m[0]) / grid.spacing_m - double(column), 0., 1.);
+    std::vector<double> faces(std::size_t(grid.shape[1]) + 1);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const double left = grid.rows->corner({column, std::int64_t(k)});
+      faces[k] = left + share * (grid.rows->corner({column + 1, std::int64_t(k)}) - left);
+    }
+    return cells_of_pixels(y, plot.y, plot.bottom(), height, faces);
+  };
+  return pixels;
 }
 
-Raster reduced(const Field<2>& field, const GridPixels& pixels, Take take) {
-  return reduced<float>([&](std::int64_t k) { return field.line(k).data(); }, pixels.columns, pixels.rows,
-                        take);
+template <class Value>
+Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take) {
+  if (!pixels.bent_rows)
+    return reduced<Value>([&](std::int64_t k) { return field.line(k).data(); }, pixels.columns, pixels.rows,
+                          take);
+  Raster raster{int(pixels.columns.size()), int(pixels.height), {}};
+  raster.values.resize(pixels.columns.size() * pixels.height);
+  std::vector<Reduction> column(pixels.height);
+  for (std::size_t pixel = 0; pixel < pixels.columns.size(); ++pixel) {
+    std::fill(column.begin(), column.end(), Reduction(take));
+    for (auto i = pixels.columns[pixel].first; i < pixels.columns[pixel].last; ++i) {
+      const auto rows = pixels.bent_rows(pixel, i);
+      for (std::size_t n = 0; n < rows.size(); ++n)
+        for (auto k = rows[n].first; k < rows[n].last; ++k) column[n].add(float(field({i, k})));
+    }
+    for (std::size_t n = 0; n < column.size(); ++n)
+      raster.values[n * pixels.columns.size() + pixel] = column[n].value();
+  }
+  return raster;
 }
 
 SectionAxes axes_of(const Grid<2>& grid, const Look& look, const std::array<const char*, 2>& names) {
-  SectionAxes axes{{names[0], "m", grid.origin_m[0], grid.end(0)},
-                   {names[1], "m", grid.origin_m[1], grid.end(1)}};
+  const auto [top, bottom] = depth_extent(grid);
+  SectionAxes axes{{names[0], "m", grid.origin_m[0], grid.end(0)}, {names[1], "m", top, bottom}};
   axes.depth.upwards = false;
   narrow(axes.x, look.x, "--x");
   narrow(axes.depth, look.y, "--y");
@@ -141,5 +177,8 @@ SectionAxes axes_of(const Grid<2>& grid, const Look& look, const std::array<cons
 double height_per_width(const Axis& x, const Axis& depth) {
   return (depth.high - depth.low) / (x.high - x.low);
 }
+
+template Raster reduced(const Field<2, float>&, const GridPixels&, Take);
+template Raster reduced(const Field<2, std::uint8_t>&, const GridPixels&, Take);
 
 }  // namespace slipwave::plot

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,14 +39,26 @@ ModelSection read_model_section(const NetcdfFile& file, const std::string& prope
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {
   std::vector<Cells> columns, rows;
+  /// Of a fitted grid, instead of `rows`: what a column of pixels shows of a column of cells. Rows are where
+  /// they are in the middle of the pixels.
+  std::function<std::vector<Cells>(std::size_t pixel, std::int64_t column)> bent_rows = {};
+  std::size_t height = 0;  // pixels
+  /// Whether a pixel has cells or, of a fitted grid, lies above or below cells.
+  bool within(std::size_t pixel) const {
+    const Cells& across = columns[pixel % columns.size()];
+    if (bent_rows || across.first == across.last) return across.first < across.last;
+    const Cells& down = rows[pixel / columns.size()];
+    return down.first < down.last;
+  }
 };
 GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid);
 
 /// A field reduced to these pixels.
-Raster reduced(const Field<2>& field, const GridPixels& pixels, Take take);
+template <class Value>
+Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take);
 
-/// The x and depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel over
-/// its width that gives them one scale.
+/// The x and true depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel
+/// over its width that gives them one scale.
 struct SectionAxes {
   Axis x, depth;
 };
@@ -56,5 +69,8 @@ double height_per_width(const Axis& x, const Axis& depth);
 /// Outlines fractured cells and, if so wanted, hatches them along their planes, over what is drawn.
 void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& section, const GridPixels& pixels,
                     const Image& below, bool hatched = true);
+
+extern template Raster reduced(const Field<2, float>&, const GridPixels&, Take);
+extern template Raster reduced(const Field<2, std::uint8_t>&, const GridPixels&, Take);
 
 }  // namespace slipwave::plot

@@ -18,7 +18,7 @@ SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const std:
     : of_(open(std::move(file))) {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&of_)) {
     layer_ = in_place(deep->name(), [&] { return layer_to_show(deep->grid(), slice); });
-    grid_ = section_grid(deep->grid(), layer_->axis);
+    grid_ = section_grid(deep->grid(), *layer_);
   } else {
     const auto& flat = std::get<SnapshotReader<2>>(of_);
     if (slice)
@@ -30,8 +30,12 @@ SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const std:
   minus_.emplace(open(NetcdfFile::open(minus)));
   std::visit(
       [](const auto& one, const auto& other) {
-        if constexpr (std::is_same_v<decltype(one), decltype(other)>)
+        if constexpr (std::is_same_v<decltype(one), decltype(other)>) {
           if (one.grid() == other.grid()) return;
+          if (shown(one.grid()) == shown(other.grid()) && (one.grid().rows || other.grid().rows))
+            throw Error(other.name() + ": its rows lie at other depths than those of " + one.name() +
+                        ", expected the same grid");
+        }
         throw Error(other.name() + ": has a grid of " + shown(other.grid()) + ", expected that of " +
                     one.name() + ", " + shown(one.grid()));
       },
@@ -54,7 +58,7 @@ std::size_t SnapshotFile::nearest(double time_s) const {
 
 Field<2> SnapshotFile::values(const Reader& reader, const std::string& field, std::size_t time) const {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&reader))
-    return section_of(deep->read(field, time), layer_->axis, layer_->number);
+    return section_of(deep->read(field, time), *layer_);
   return std::get<SnapshotReader<2>>(reader).read(field, time);
 }
 
@@ -81,7 +85,7 @@ Snapshot SnapshotFile::read(const std::string& field, std::size_t time) const {
 std::optional<Slice> SnapshotFile::slice() const {
   const auto* deep = std::get_if<SnapshotReader<3>>(&of_);
   if (!deep) return std::nullopt;
-  return Slice{layer_->axis, deep->grid().centre(layer_->axis, layer_->number)};
+  return plane_of(deep->grid(), *layer_);
 }
 
 }  // namespace slipwave::plot

@@ -70,11 +70,15 @@ Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional
   if (page.height_pt == 0) Panel::fit_page(page, spec, height_per_width(spec.x, spec.y));
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
 
-  const auto raster = reduced(snapshot.values, pixels_of(panel, page, grid), Take::extreme);
+  const auto pixels = pixels_of(panel, page, grid);
+  const auto raster = reduced(snapshot.values, pixels, Take::extreme);
   Image image = model ? ground_of(*model, panel, page) : Image(raster.width, raster.height);
   for (std::size_t n = 0; n < image.pixels.size(); ++n) {
     const double value = double(raster.values[n]);
-    if (std::isnan(value)) continue;
+    if (std::isnan(value)) {
+      if (!model && pixels.within(n)) image.pixels[n] = pixel_of(no_data);  // no cells in this depth
+      continue;
+    }
     image.pixels[n] = model ? over(image.pixels[n], value, *spec.bar)
                             : spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
   }

@@ -44,7 +44,7 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   const auto& source = scene.survey.sources[shot - 1];
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  const double dt_s = time_step_s(scene), volume = std::pow(grid.spacing_m, D);
+  const double dt_s = time_step_s(scene), cube = std::pow(grid.spacing_m, D);
   double lightest = std::numeric_limits<double>::infinity(), heaviest = 0;
   for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
     if (medium.is_void(cell)) continue;
@@ -58,7 +58,9 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
   if (const auto injection = point_injection(source)) {
     if (scene.subdomain.owns(grid, source.position_m)) {
-      const auto cell = std::size_t(grid.flat(cell_of(grid, source.position_m)));
+      const auto at = cell_of(grid, source.position_m);
+      const auto cell = std::size_t(grid.flat(at));
+      const double volume = cube * (grid.height(at) / grid.spacing_m);
       const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
       const double in_cell =
           strength.integral_s / volume *

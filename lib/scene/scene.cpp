@@ -97,8 +97,10 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     double behind = 0;
-    for (std::size_t axis = 0; axis < D; ++axis)
-      behind += (source.position_m[axis] - grid.centre(int(axis), at[axis])) * wave.direction[axis];
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      const double place_m = axis == D - 1 ? grid.depth(at) : grid.centre(int(axis), at[axis]);
+      behind += (source.position_m[axis] - place_m) * wave.direction[axis];
+    }
     const auto cell = std::size_t(n);
     if (behind < 0 || behind > length) continue;
     if (medium.same(cell, from)) continue;
@@ -115,6 +117,12 @@ template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
   const double across = wave.direction[0], down = wave.direction[z];
+  const auto& rows = scene.model.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[z]; ++row)
+    if (!rows->row_is_level(row))
+      throw Error(
+          "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
+          "model with --fit none");
   const bool vertical = std::abs(across) < 1e-9;
   const int entry = down > 0 ? 0 : 1;
   const char* entry_name = entry == 0 ? "top" : "bottom";

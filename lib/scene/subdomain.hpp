@@ -16,17 +16,14 @@ struct Subdomain {
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
   bool slips = false;               // whether anything slips in any part
+  bool shear = false;               // whether any part has shear stress: solid cells or bent rows
   double fastest = 0;               // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()
 
   bool is_whole() const { return rows == 0; }
-  /// Of the model it holds: whether rows before the first or behind the last are with other processes.
-  template <int D>
-  bool cut(const Grid<D>& held, int side) const {
-    if (is_whole()) return false;
-    const auto begin = held.first[D - 1];
-    return side ? begin + held.shape[D - 1] < rows : begin > 0;
-  }
+  /// Whether rows before the first or behind the last are with other processes. Its model may hold all of
+  /// them: where a neighbour owns no more rows than are refreshed.
+  bool cut(int side) const { return !is_whole() && (side ? last < rows : first > 0); }
   /// Whether it owns a row of the model it holds.
   template <int D>
   bool owns(const Grid<D>& held, std::int64_t row) const {

@@ -16,6 +16,20 @@ constexpr int usual_steps = 2;
 /// Rows that points read beyond the one they are in, at most.
 constexpr std::int64_t beside_points = widest_stencil;
 
+/// Rows beyond those refreshed whose material decides how sweeps treat these: whether an interface is
+/// corrected, whether rows are level. Every rank must decide alike.
+constexpr std::int64_t beside_refreshed = 2 * max_reach;
+
+template <int D>
+bool has_shear(const Medium<D>& medium) {
+  const auto& rows = medium.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
+    if (!rows->row_is_level(row)) return true;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (medium.is_solid(cell)) return true;
+  return false;
+}
+
 template <class Value, int D>
 Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
   if (field.empty()) return field;
@@ -105,7 +119,7 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
 }
 
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
-  const auto beside = std::max(part.exchanged, beside_points);
+  const auto beside = std::max(part.exchanged + beside_refreshed, beside_points);
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 
@@ -129,6 +143,7 @@ template <int D>
 void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
+  scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 

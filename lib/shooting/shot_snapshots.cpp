@@ -31,7 +31,7 @@ Field<D> snapshot_of(const std::string& name, const FieldReader<D>& field) {
 template <int D>
 Grid<D> cut_grid(const Grid<D>& grid, const std::optional<CellLayer>& cut) {
   if constexpr (D == 3)
-    if (cut) return layer_of(grid, cut->axis, cut->number);
+    if (cut) return layer_of(grid, *cut);
   return grid;
 }
 
@@ -41,8 +41,7 @@ std::optional<CellLayer> cut_of(const Grid<2>&, const std::string&) { return std
 
 std::optional<CellLayer> cut_of(const Grid<3>& grid, const std::string& slice) {
   if (slice.empty()) return std::nullopt;
-  const auto plane = parse_slice(slice);
-  return CellLayer{plane.axis, cells_on(grid, plane)};
+  return layer_on(grid, parse_slice(slice));
 }
 
 template <int D>
@@ -66,7 +65,7 @@ template <int D>
 Field<D> ShotSnapshots<D>::taken(const std::string& name, const FieldReader<D>& field) const {
   auto whole = snapshot_of<D>(name, field);
   if constexpr (D == 3)
-    if (cut_) return layer_of(whole, cut_->axis, cut_->number);
+    if (cut_) return layer_of(whole, *cut_);
   return whole;
 }
 

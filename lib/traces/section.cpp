@@ -19,7 +19,7 @@ std::vector<std::string> text_of(const Grid<2>& grid, const SectionFacts& facts,
   const double h = grid.spacing_m;
   entries.push_back("Section in depth: " + facts.quantity + (facts.unit.empty() ? "" : ", " + facts.unit));
   entries.push_back("Sample interval in us = step in m times 1000: 1 ms stands for 1 m");
-  entries.push_back("Step " + shown(h) + " m, first sample at depth " + shown(h / 2) + " m");
+  entries.push_back("Step " + shown(h) + " m, first sample at depth " + shown(grid.centre(1, 0)) + " m");
   entries.push_back("Bytes: trace number 21 (and 193), x at 73, 81 and 181, scalar (byte 71) " +
                     std::to_string(layout.coordinate_scalar));
   return entries;

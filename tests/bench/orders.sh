@@ -6,7 +6,7 @@ bin=${1:-$(dirname -- "$0")/../../build/release/bin}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 "$bin/sw-layers" --size 3000x2000 --step 10 --layer 0:1500:0:1000 --layer 400:2500:1200:2000 \
-  --layer 900:3500:1900:2300:3 -o "$work/model.nc"
+  --layer 900:3500:1900:2300:3 --fit none -o "$work/model.nc"
 least() {
   for _ in 1 2 3; do
     "$bin/sw-accuracy" "$work/model.nc" --source 503,203 --wavelet ricker:8 --receivers 700:2900:100,200 --time 3 \

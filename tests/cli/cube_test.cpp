@@ -92,6 +92,24 @@ TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {
                  "sw-export: m.nc: found a model in 3-D, expected one in 2-D");
 }
 
+TEST_F(Cube, ShowsSlicesOfFittedGridsAtTrueDepths) {
+  done("sw-layers -q --size 200x120x150 --step 10 --layer sine,30,12,150:2500:1250:2000 -o m.nc");
+  EXPECT_TRUE(has(done("sw-info m.nc"), "role surface"));
+  const std::string snapshots =
+      "sw-shoot m.nc --source 105,65,95 --wavelet ricker:15 --receivers 55,65,95 --time 0.1 --every 0.05 "
+      "--fields vz,div -q -o /dev/null ";
+  done(snapshots + "--snapshots volume.nc");
+  for (const std::string plane : {"x=105", "y=65", "z=37"}) {
+    done(snapshots + "--snapshots slice.nc --slice " + plane);
+    EXPECT_EQ(has(done("ncdump -h slice.nc"), "vz:coordinates = \"depth\""), plane[0] != 'z');
+    done("sw-plot volume.nc --over m.nc --slice " + plane +
+         " --field div -o a.svg && sw-plot slice.nc --over m.nc --field div -o b.svg");
+    done("cmp <(grep -o 'base64,[^\"]*' a.svg) <(grep -o 'base64,[^\"]*' b.svg)");
+  }
+  expect_refused("sw-plot m.nc --slice z=151 -o no.png", 2,
+                 "sw-plot: m.nc: found z=151, expected it from 0 to 150");
+}
+
 TEST_F(Cube, GoesOnFromACheckpoint) {
   done("sw-layers --size 200x120x150 " + layers + "-o m.nc");
   const std::string run = "sw-shoot m.nc " + shot + "--source 60,60,60 --receivers 20:180:40,30:90:20,5 ";

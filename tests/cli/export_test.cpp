@@ -49,6 +49,42 @@ TEST_F(Export, TakesOneSnapshot) {
   EXPECT_TRUE(has(text(""), "sw-layers --size 300x200"));
 }
 
+TEST_F(Export, OfFittedGridsHasTrueDepths) {
+  const std::string layers =
+      " --size 300x200 --step 2.5 --layer sine,21,8,200:1500:0:1000 --layer "
+      "90:3000:1600:2300:10 --layer 170:4000:2300:2500 ";
+  done("sw-layers -q" + layers + "-o fitted.nc; sw-layers --fit none --no-average" + layers +
+       "-o regular.nc");
+  EXPECT_TRUE(has(done("sw-info fitted.nc"), "fitted horizons"));
+  const std::string note =
+      "sw-export: fitted.nc: rows follow horizons; resampled to 120 x 80 cells of 2.5 m in regular depth, ";
+  for (const std::string property : {"vp", "vs", "rho"})
+    EXPECT_EQ(run("sw-export fitted.nc --property " + property + " -o " + property + ".sgy").err,
+              note + "each takes the cell its centre lies in; 0 above the surface\n");
+  done("sw-import --vp vp.sgy --vs vs.sgy --rho rho.sgy --step 2.5 -o again.nc");
+  // The regular model takes the material at the centre of every cell, too: the same within a cell of an
+  // interface, of which a column has three.
+  const auto differing = std::stoi(
+      done("for m in again regular; do ncdump -v rho $m.nc | sed '1,/^data:/d' | tr -d ' \\n' | tr , '\\n' > "
+           "$m; done; diff again regular | grep -c '^<' || true"));
+  EXPECT_LE(differing, 40);
+  EXPECT_TRUE(has(done("sw-info again.nc"), "void cells"));
+}
+
+TEST_F(Export, OfSnapshotsOnFittedGridsHasTrueDepths) {
+  done(
+      "sw-layers -q --size 300x200 --step 2.5 --layer sine,21,8,200:3000:1600:2300 -o fitted.nc; "
+      "sw-shoot fitted.nc --source 150,100 --wavelet ricker:30 --receivers 0:300:100,60 --time 0.05 "
+      "--snapshots s.nc --every 0.05 --fields vz -o /dev/null -q");
+  const Ran ran = run("sw-export s.nc --property vz -o vz.sgy");
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_EQ(ran.err,
+            "sw-export: s.nc: rows follow horizons; resampled to 120 x 80 cells of 2.5 m in regular depth, "
+            "linearly between cells; 0 above the surface\n");
+  const auto info = done("sw-info vz.sgy");
+  EXPECT_TRUE(has(info, "samples a trace  80\n")) << info;
+}
+
 TEST_F(Export, RefusesWhatItCannotExport) {
   struct Case {
     std::string line;

@@ -50,6 +50,23 @@ TEST_F(Plot, DrawsEveryKindInEveryFormatTheSameTwice) {
   }
 }
 
+TEST_F(Plot, DrawsFittedGridsAtTrueDepths) {
+  const auto model = [](const std::string& floor) {
+    return "sw-layers -q --size 600x400 --step 10 --layer 0:1500:0:1000 --layer " + floor +
+           ":2500:1250:2200 ";
+  };
+  done(model("sine,103,30,300") + "| " + fracture + "-o m.nc; " + shoot +
+       "--snapshots s.nc --every 0.1 --fields vz,curl -q -o g.sgy");
+  done("sw-plot m.nc --survey g.sgy -o m.svg; sw-plot s.nc --over m.nc --survey g.sgy -o s.svg");
+  done("sw-plot m.nc --property fractures -o f.png; sw-plot s.nc --minus s.nc -o zero.png");
+  const auto size = done("sw-plot s.nc --movie -o film.png; ls film-*.png | wc -l");
+  EXPECT_EQ(size, "3\n");
+  done(model("sine,106,30,300") + "-o other.nc; mv m.nc first.nc; cp other.nc m.nc; " + shoot +
+       "--snapshots t.nc --every 0.1 --fields vz,curl -q -o h.sgy");
+  expect_refused("sw-plot s.nc --minus t.nc -o no.png", 1,
+                 "sw-plot: t.nc: its rows lie at other depths than those of s.nc, expected the same grid");
+}
+
 TEST_F(Plot, TakesItsInputFromAPipeAndWritesAPngToOne) {
   done(everything);
   for (const std::string file : {"m.nc", "g.sgy", "s.nc", "a.nc"}) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "bent_grid.hpp"
+
 namespace slipwave {
 namespace {
 
@@ -73,6 +75,48 @@ TEST(Curl, HasThreeComponentsIn3D) {
     EXPECT_NEAR(rotation[1][cell], -3, 1e-5);
     EXPECT_NEAR(rotation[2][cell], -1, 1e-5);
     EXPECT_NEAR(divergence<3>(v)[cell], 0, 1e-5);
+  }
+}
+
+/// Rows bent by waves of `height` of the depth, regular at the bottom.
+template <int D>
+Grid<D> waving(const Grid<D>& grid, double height) {
+  const double bottom = grid.end(D - 1);
+  return bent<D>(grid, [=](double x, double y, double zeta) {
+    return zeta + height * bottom * (1 - zeta / bottom) * (0.5 + 0.5 * std::sin(5 * (x + 0.5 * y) / bottom));
+  });
+}
+
+TEST(Derivative, OfLinearFieldsIsExactOnBentRows) {
+  const auto flat = waving(Grid<2>{{20, 15}, 0.5, {}}, 0.2);
+  const auto of_plane = at_centres<2>(flat, [](const auto& p) { return 1 + 2 * p[0] - 3 * p[1]; });
+  const auto deep = waving(Grid<3>{{9, 8, 7}, 0.5, {}}, 0.2);
+  const auto of_space = at_centres<3>(deep, [](const auto& p) { return 2 * p[0] - 3 * p[1] + 5 * p[2]; });
+  for (const auto& [axis, slope] : {std::pair{0, 2}, {1, -3}})
+    for (const float value : derivative<2>(of_plane, axis)) EXPECT_NEAR(value, slope, 1e-4);
+  for (const auto& [axis, slope] : {std::pair{0, 2}, {1, -3}, {2, 5}})
+    for (const float value : derivative<3>(of_space, axis)) EXPECT_NEAR(value, slope, 1e-4);
+}
+
+TEST(Derivative, ConvergesToTrueDirectionsOnBentRows) {
+  const auto error = [](std::int64_t cells, int axis) {
+    const auto grid = waving(Grid<2>{{cells, cells}, 1. / double(cells), {}}, 0.2);
+    const auto field = at_centres<2>(grid, [](const auto& p) { return std::sin(9 * p[0] + 6 * p[1]); });
+    const auto exact = at_centres<2>(
+        grid, [&](const auto& p) { return (axis == 0 ? 9 : 6) * std::cos(9 * p[0] + 6 * p[1]); });
+    const auto slope = derivative<2>(field, axis);
+    double largest = 0;
+    for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
+      const auto at = grid.index(cell);
+      const auto inside = [&](std::int64_t i) { return i >= 2 && i < cells - 2; };
+      if (!inside(at[0]) || !inside(at[1])) continue;
+      largest = std::max(largest, double(std::abs(slope[std::size_t(cell)] - exact[std::size_t(cell)])));
+    }
+    return largest;
+  };
+  for (const int axis : {0, 1}) {
+    EXPECT_LT(error(40, axis), 0.01) << axis;
+    EXPECT_GT(std::log2(error(20, axis) / error(40, axis)), 2.7) << axis;
   }
 }
 

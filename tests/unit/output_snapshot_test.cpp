@@ -8,8 +8,11 @@
 #include <iterator>
 
 #include "base/error.hpp"
+#include "bent_grid.hpp"
 #include "grid/grid_netcdf.hpp"
+#include "grid/slice.hpp"
 #include "output/snapshot_netcdf.hpp"
+#include "output/snapshot_reader.hpp"
 
 namespace slipwave {
 namespace {
@@ -46,6 +49,47 @@ class Snapshots : public testing::Test {
   Grid<2> grid_{{7, 4}, 2.5, {100, 0}};
   std::filesystem::path folder_;
 };
+
+TEST_F(Snapshots, OfRegularGridsHaveNoDepthsOfTheirOwn) {
+  write_to("s.nc");
+  const auto file = NetcdfFile::open(path("s.nc"));
+  for (const char* name : {"depth", "depth_bounds"}) EXPECT_FALSE(file.has_variable(name));
+  EXPECT_FALSE(file.text_attribute("vz", "coordinates"));
+  EXPECT_EQ(file.text_attribute("z", "standard_name"), "depth");
+}
+
+TEST_F(Snapshots, OfFittedGridsKnowTheirDepths) {
+  grid_ = bent<2>(grid_, [](double x, double, double zeta) { return 1 + 0.01 * x + 0.8 * zeta; });
+  write_to("s.nc");
+  const auto file = NetcdfFile::open(path("s.nc"));
+  for (const char* name : {"vz", "div"}) EXPECT_EQ(file.text_attribute(name, "coordinates"), "depth");
+  EXPECT_EQ(file.variable("depth").dimensions, (std::vector<std::string>{"z", "x"}));
+  const auto depths = file.get<double>("depth");
+  for (std::int64_t cell = 0; cell < grid_.size(); ++cell)
+    EXPECT_NEAR(depths[std::size_t(cell)], grid_.depth(grid_.index(cell)), 1e-5);
+  EXPECT_EQ(SnapshotReader<2>(NetcdfFile::open(path("s.nc"))).grid(), grid_);
+}
+
+TEST_F(Snapshots, OfSlicesOfFittedVolumesKnowTheirDepths) {
+  const auto volume = bent<3>({{6, 5, 4}, 10, {0, 0, 0}}, [](double x, double y, double zeta) {
+    return 5 + 0.1 * x + 0.2 * y + 0.8 * zeta;
+  });
+  const auto field = at_centres<3>(volume, [](const auto& p) { return p[2]; });
+  for (const auto& slice : {Slice{0, 25}, Slice{1, 25}, Slice{2, 21}}) {
+    const auto part = layer_of(field, layer_on(volume, slice));
+    SnapshotWriter<3> writer(path("s.nc"), part.grid(), {"vz"}, {});
+    writer.write(0, std::vector{part});
+    writer.commit();
+    const SnapshotReader<3> reader(NetcdfFile::open(path("s.nc")));
+    EXPECT_EQ(reader.grid(), part.grid()) << slice.axis;
+    const auto found = reader.read("vz", 0);
+    for (std::int64_t cell = 0; cell < part.grid().size(); ++cell) {
+      const double depth = reader.grid().depth(reader.grid().index(cell));
+      // On a level plane the depth of the cell it runs through, of a height of 8 m.
+      EXPECT_NEAR(found[std::size_t(cell)], depth, slice.axis == 2 ? 4.01 : 1e-5);
+    }
+  }
+}
 
 TEST_F(Snapshots, ComeBackAsTheyWereWritten) {
   write_to("s.nc");

@@ -5,40 +5,10 @@
 #include "acquisition/interpolation.hpp"
 #include "cube_extruded.hpp"
 #include "lab.hpp"
-#include "parallel/threads.hpp"
-#include "ranks_in_threads.hpp"
-#include "scene/subdomains.hpp"
-#include "solver/simulation.hpp"
+#include "shared_out.hpp"
 
 namespace slipwave::solver {
 namespace {
-
-template <int D>
-Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
-  auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
-  join(part, ranks);
-  return part;
-}
-
-/// What the first of so many ranks gets of the first shot.
-template <int D>
-Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
-  const ThreadLimit limit(threads);
-  Gather found;
-  RanksInThreads::run(count, [&](Ranks& ranks) {
-    const auto part = part_of(scene, ranks);
-    check(part);
-    auto gather = shoot(part, 1, {}, {}, nullptr, nullptr, &ranks);
-    if (ranks.number() == 0) found = std::move(gather);
-  });
-  return found;
-}
-
-std::vector<double> all_samples(const Gather& gather) {
-  std::vector<double> all;
-  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
-  return all;
-}
 
 /// Water over rocks, with fractures and voids down to the bottom.
 Scene<2> reef(std::int64_t nx = 90) {
@@ -109,6 +79,61 @@ TEST(Ranks, RecordAlongAWholeBoreholeWhatOneProcessDoes) {
   EXPECT_EQ(subdomain_for(scene, scene.model.grid(), 1, 4).exchanged, spread_of_a_tile(scene));
 }
 
+/// Whether a rank holds rows of others up to an edge of the model.
+template <int D>
+bool holds_all_of_a_neighbour(const Scene<D>& scene, int count) {
+  bool any = false;
+  for (int number = 0; number < count; ++number) {
+    const auto part = subdomain_for(scene, scene.model.grid(), number, count);
+    const auto [first, last] = rows_held(part);
+    any |= (part.first > 0 && first == 0) || (part.last < part.rows && last == part.rows);
+  }
+  return any;
+}
+
+/// Whether every rank computes its own rows alone, and those of the zones beyond them.
+template <int D>
+bool each_owns_its_part(const Scene<D>& scene, int count) {
+  bool all = true;
+  for (int number = 0; number < count; ++number) {
+    const auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), number, count));
+    const auto zone = zone_cells(scene, scene.survey.sources[0]);
+    const auto domain = make_domain(part.model.medium, part.edges, zone, part.subdomain);
+    std::int64_t rows = part.subdomain.last - part.subdomain.first;
+    if (number == 0 && part.edges[D - 1][0] == EdgeLaw::absorbing) rows += zone;
+    if (number + 1 == count && part.edges[D - 1][1] == EdgeLaw::absorbing) rows += zone;
+    all &= domain.own.count() == rows;
+  }
+  return all;
+}
+
+TEST(Ranks, ThatHoldAllRowsOfANeighbourRecordWhatOneProcessDoes) {
+  // Receivers near every row and no more rows than ranks must have: those they are sent reach the edges.
+  const auto surface = edges_all(EdgeLaw::free);
+  for (const auto& [count, rows] : {std::pair{2, 28}, {3, 42}, {4, 57}})
+    for (const int absorbing : {0, 1, 2, 3}) {
+      SCOPED_TRACE(std::to_string(count) + " ranks, " + std::to_string(rows) + " rows, edges " +
+                   std::to_string(absorbing));
+      auto scene = reef();
+      scene.model.medium = uniform_medium(60, rows, 5, {4500, 2250, 2500});
+      scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+      for (std::int64_t k = 5; k < rows; ++k)
+        for (std::int64_t i = 30; i < 50; ++i) scene.model.fracture({i, k}) = 1 + (i + k) % 2;
+      scene.edges[1] = surface[1];
+      for (const int side : {0, 1})
+        if (absorbing & (1 << side)) scene.edges[1][std::size_t(side)] = EdgeLaw::absorbing;
+      scene.survey.sources[0].position_m = {203, 81};
+      scene.survey.receivers_m.clear();
+      for (double z = 3; z < 5. * double(rows); z += 7) scene.survey.receivers_m.push_back({123.4, z});
+      EXPECT_TRUE(holds_all_of_a_neighbour(scene, count));
+      ASSERT_TRUE(each_owns_its_part(scene, count));
+      const auto alone = all_samples(shoot(scene, 1));
+      ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
+      for (const int threads : {1, 3})
+        EXPECT_TRUE(all_samples(shared_out(scene, count, threads)) == alone) << threads << " threads";
+    }
+}
+
 TEST(Ranks, RecordOnLinesOfSeveralStripesWhatOneProcessDoes) {
   // Fractures are a small part of each line: they take half sweeps alone.
   auto scene = reef(600);
@@ -167,6 +192,42 @@ TEST(Ranks, RecordInThreeDimensionsWhatOneProcessDoes) {
     EXPECT_GT(*std::max_element(alone.begin(), alone.end()), 0);
     for (const int count : {2, 3})
       EXPECT_TRUE(all_samples(shared_out(scene, count, count)) == alone) << count << " ranks";
+  }
+}
+
+TEST(Ranks, ThatHoldAllRowsOfANeighbourDoSoInThreeDimensions) {
+  const Index<3> shape = {24, 16, 30};
+  auto medium = uniform_cube(shape, 10, {1500, 0, 1000});
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n)
+    if (medium.grid().index(n)[2] >= 10) put(medium, medium.grid().index(n), {2500, 1250, 2000});
+  auto edges = edges_all_3d(EdgeLaw::absorbing);
+  edges[2][0] = EdgeLaw::free;
+  auto scene =
+      scene_of(medium, edges, {105, 65, 95}, "explosion", "ricker:8",
+               {{55, 65, 95}, {55, 65, 155}, {75, 42, 171}}, {Component::vz, Component::p}, 0.1, 0.001);
+  EXPECT_TRUE(holds_all_of_a_neighbour(scene, 2));
+  ASSERT_TRUE(each_owns_its_part(scene, 2));
+  const auto alone = all_samples(shoot(scene, 1));
+  ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
+  EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
+}
+
+TEST(Ranks, ThatHoldFluidAloneRecordWhatOneProcessDoes) {
+  // Solid, or an interface, in the rows of another rank or at the end of those it holds.
+  for (const std::int64_t floor : {41, 44, 47, 50, 53, 56, 80}) {
+    auto scene = reef();
+    scene.model.medium = uniform_medium(60, 100, 10, {1500, 0, 1000});
+    for (std::int64_t k = floor; k < 100; ++k)
+      for (std::int64_t i = 0; i < 60; ++i) put(scene.model.medium, {i, k}, {2500, 1250, 2000});
+    scene.model.fracture = {};
+    scene.model.fracture_sets.clear();
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.survey.sources[0].position_m = {203, 381};
+    scene.survey.receivers_m = {{34.3, 5}, {444, 405}, {301, 777}};
+    scene.recording.duration_s = 0.5;
+    const auto alone = all_samples(shoot(scene, 1));
+    for (const int count : {2, 3})
+      EXPECT_TRUE(all_samples(shared_out(scene, count)) == alone) << count << " ranks, row " << floor;
   }
 }
 

@@ -51,19 +51,32 @@ class PlaneForm {
   std::array<double, 5> factor_{};
 };
 
+/// Depths of the centres of rows, all of them level, m.
+std::vector<double> depths_of_rows(const Domain<2>& domain) {
+  std::vector<double> depths;
+  for (std::int64_t k = 0; k < domain.grid.shape[1]; ++k)
+    depths.push_back(domain.row_heights.empty()
+                         ? domain.grid.centre(1, k)
+                         : (corner_depth(domain, {0, k}) + corner_depth(domain, {0, k + 1})) / 2 *
+                               domain.grid.spacing_m);
+  return depths;
+}
+
 /// Sets the wave of t = 0 in every cell; it has not reached any interface yet.
 template <class Real>
-void begin_with(const PlaneForm& form, const Grid<2>& grid, State<2, Real>& state) {
+void begin_with(const PlaneForm& form, const Grid<2>& grid, const std::vector<double>& depths,
+                State<2, Real>& state) {
   Index<2> line{};
   for (line[1] = 0; line[1] < grid.shape[1]; ++line[1])
     for (std::int64_t i = 0; i < grid.shape[0]; ++i) {
-      const double wave = form.wave(grid.centre(0, i), grid.centre(1, line[1]), 0);
+      const double wave = form.wave(grid.centre(0, i), depths[std::size_t(line[1])], 0);
       for (int row = 0; row < Rows::count; ++row)
         state.field_row(line, row)[i] = Real(form.factor(row) * wave);
     }
 }
 
-/// A column of cells transposed: z becomes x, where cells follow each other in memory.
+/// A column of cells transposed: z becomes x, where cells follow each other in memory. Cells of another
+/// height become cells of one height that waves cross in the same time, of the same impedance and mass.
 Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   const auto& grid = medium.grid();
   const Grid<2> lying{{grid.shape[1], 1},
@@ -73,6 +86,13 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
   Medium<2> column(lying, medium);
   for (const auto property : medium.properties())
     for (std::int64_t k = 0; k < grid.shape[1]; ++k) column[property]({k, 0}) = medium[property]({x, k});
+  for (std::int64_t k = 0; grid.rows && k < grid.shape[1]; ++k) {
+    const double height = grid.height({x, k}) / grid.spacing_m;
+    const auto cell = std::size_t(k);
+    column.vp[cell] = float(column.vp[cell] / height);
+    column.vs[cell] = float(column.vs[cell] / height);
+    column.rho[cell] = float(column.rho[cell] * height);
+  }
   return column;
 }
 
@@ -110,8 +130,8 @@ class ColumnValues {
 template <class Real>
 class Column {
  public:
-  Column(const Scene<2>& scene, int zone_cells, std::int64_t x, const PlaneForm& form, double dt_s,
-         double vp_max)
+  Column(const Scene<2>& scene, int zone_cells, std::int64_t x, const PlaneForm& form,
+         const std::vector<double>& depths, double dt_s, double vp_max)
       : medium_(column_of(scene.model.medium, x)),
         domain_(make_domain(medium_, edges_of(scene), zone_cells)),
         state_(make_filled_state<2, Real>(domain_, medium_, dt_s)),
@@ -121,7 +141,7 @@ class Column {
         factors_(zone_factors(domain_, 0, dt_s, vp_max)),
         values_(domain_.grid.shape[0]) {
     for (std::int64_t k = 0; k < domain_.grid.shape[0]; ++k) {
-      const double wave = form.wave(0, domain_.grid.centre(0, k), 0);
+      const double wave = form.wave(0, depths[std::size_t(k)], 0);
       for (int row = 0; row < Rows::count; ++row) field(row)[k] = Real(form.factor(row) * wave);
     }
   }
@@ -175,6 +195,7 @@ class VerticalWave : public IncidentWave<2, Real> {
                double dt_s, double vp_max)
       : form_(form),
         grid_(domain.grid),
+        depths_(depths_of_rows(domain)),
         entry_(from_top ? IndexRange{0, domain.low_zone[1]}
                         : IndexRange{grid_.shape[1] - domain.high_zone[1], grid_.shape[1]}),
         incoming_(std::size_t(grid_.shape[1]), 0.),
@@ -184,12 +205,12 @@ class VerticalWave : public IncidentWave<2, Real> {
       if (domain.edges[0][side] == EdgeLaw::absorbing)
         columns_[std::size_t(side)] =
             std::make_unique<Column<Real>>(scene, int(std::max(domain.low_zone[1], domain.high_zone[1])),
-                                           side ? last : 0, form, dt_s, vp_max);
+                                           side ? last : 0, form, depths_, dt_s, vp_max);
   }
-  void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
+  void begin(State<2, Real>& state) override { begin_with(form_, grid_, depths_, state); }
   void advance(const StepTime& time) override {
     for (std::int64_t k = entry_.first; k < entry_.last; ++k) {
-      const double wave = form_.wave(0, grid_.centre(1, k), time.end_s());
+      const double wave = form_.wave(0, depths_[std::size_t(k)], time.end_s());
       incoming_[std::size_t(k)] = wave;
       for (int row = 0; row < Rows::count; ++row)
         values_.row(time.step, row)[k] = Real(form_.factor(row) * wave);
@@ -211,6 +232,7 @@ class VerticalWave : public IncidentWave<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
+  std::vector<double> depths_;
   IndexRange entry_;              // rows of the zone it enters through
   std::vector<double> incoming_;  // of each row at the end of the newest step
   ColumnValues<Real> values_;     // in the zones above and below
@@ -221,12 +243,13 @@ class VerticalWave : public IncidentWave<2, Real> {
 template <class Real>
 class ObliqueWave : public IncidentWave<2, Real> {
  public:
-  ObliqueWave(const PlaneForm& form, const Domain<2>& domain) : form_(form), grid_(domain.grid) {}
-  void begin(State<2, Real>& state) override { begin_with(form_, grid_, state); }
+  ObliqueWave(const PlaneForm& form, const Domain<2>& domain)
+      : form_(form), grid_(domain.grid), depths_(depths_of_rows(domain)) {}
+  void begin(State<2, Real>& state) override { begin_with(form_, grid_, depths_, state); }
   void advance(const StepTime&) override {}
   IncidentValues<Real> values(const StepTime& time, int, int, const Index<2>& line, std::int64_t x_first,
                               std::int64_t count, Real* room) const override {
-    const double z = grid_.centre(1, line[1]), t = time.end_s();
+    const double z = depths_[std::size_t(line[1])], t = time.end_s();
     const auto x = [&](std::int64_t i) { return grid_.centre(0, x_first + i); };
     if (form_.is_zero({x(0), z}, {x(count - 1), z}, t)) return {zeros_.data(), 1, false};
     for (std::int64_t i = 0; i < count; ++i) {
@@ -241,6 +264,7 @@ class ObliqueWave : public IncidentWave<2, Real> {
  private:
   PlaneForm form_;
   Grid<2> grid_;
+  std::vector<double> depths_;
   std::array<Real, Rows::count> zeros_{};
 };
 

@@ -178,7 +178,7 @@ Field<D> Slip<D, Real>::field(SlipField which) const {
 template <int D, class Real>
 SlipTotals Slip<D, Real>::totals() const {
   SlipTotals totals;
-  const double volume = std::pow(domain_.grid.spacing_m, D);
+  const double square = std::pow(domain_.grid.spacing_m, D - 1);
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       if (!domain_.owns(state_.layout.line_index(line)[D - 1])) continue;
@@ -189,8 +189,12 @@ SlipTotals Slip<D, Real>::totals() const {
           if (diary_.empty()) continue;
           const auto& entry = diary_[g][place];
           totals.slipped += entry.slip > 0;
-          totals.dissipated += volume * entry.heat / (unit_ * unit_);
-          totals.out_of_waves += volume * entry.out_of_waves / (unit_ * unit_);
+          auto cell = state_.layout.line_index(line);
+          cell[0] = segment.first + std::int64_t(place - segment.place);
+          const double volume =
+              square * domain_.model_grid.height(domain_.model_cell(cell)) / (unit_ * unit_);
+          totals.dissipated += volume * entry.heat;
+          totals.out_of_waves += volume * entry.out_of_waves;
         }
     }
   return totals;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -24,21 +25,98 @@ constexpr int every_axis = 0;
 constexpr std::int64_t shortest_run = 64;
 
 /// Depth in m of a corner counted in those of the whole model, from `axis` on; columns beyond a side of it
-/// continue with a slope that falls to zero within ten cells.
+/// continue with a slope that falls to zero within the cells of `side_bends`.
 template <int D>
-double corner_of_rows(const RowDepths<D>& rows, double spacing_m, Index<D> corner, int axis) {
-  constexpr double bend = 10;
+double corner_of_rows(const Domain<D>& domain, Index<D> corner, int axis) {
+  const auto& rows = *domain.model_grid.rows;
   const std::int64_t last = rows.cells()[std::size_t(axis)], at = corner[std::size_t(axis)];
   const std::int64_t nearest = std::clamp<std::int64_t>(at, 0, last);
   corner[std::size_t(axis)] = nearest;
-  if (axis == D - 1) return rows.corner(corner) + double(at - nearest) * spacing_m;
-  const double depth = corner_of_rows(rows, spacing_m, corner, axis + 1);
+  if (axis == D - 1) {
+    const double edge = rows.corner(corner);
+    if (at == nearest) return edge;
+    // Rows beyond level ones are as high as they: a column of them is what plane waves enter by (Column).
+    corner[D - 1] += at < 0 ? 1 : -1;
+    const bool level = domain.level_ends[at < 0 ? 0 : 1];
+    return edge +
+           double(at - nearest) * (level ? std::abs(edge - rows.corner(corner)) : domain.grid.spacing_m);
+  }
+  const double depth = corner_of_rows(domain, corner, axis + 1);
   if (at == nearest) return depth;
   corner[std::size_t(axis)] += at < 0 ? 1 : -1;
-  const double slope = depth - corner_of_rows(rows, spacing_m, corner, axis + 1);
+  const double slope = depth - corner_of_rows(domain, corner, axis + 1);
   // The integral of (1 - t/bend)^2.
+  const double bend = domain.side_bends[std::size_t(axis)][at < 0 ? 0 : 1];
   const double left = std::max(1 - double(std::abs(at - nearest)) / bend, 0.);
   return depth + slope * bend / 3 * (1 - left * left * left);
+}
+
+/// How much faster waves cross a cell of the model's or of a zone's rows than a regular one; infinite where
+/// rows fold.
+template <int D>
+double stretch_of_cell(const Domain<D>& domain, const Index<D>& at) {
+  constexpr int corners = 1 << D, z = 1 << (D - 1);
+  std::array<double, std::size_t(corners)> depth{};
+  double least = std::numeric_limits<double>::infinity(), height = 0, square = 1;
+  for (int n = 0; n < corners; ++n) {
+    Index<D> corner = at;
+    for (int axis = 0; axis < D; ++axis) corner[std::size_t(axis)] += (n >> axis) & 1;
+    depth[std::size_t(n)] = corner_depth(domain, corner);
+    if (n < z) continue;
+    const double edge = depth[std::size_t(n)] - depth[std::size_t(n - z)];
+    least = std::min(least, edge);
+    height += edge / z;
+  }
+  if (least <= 0) return std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < D - 1; ++axis) {
+    double slope = 0;
+    for (int n = 0; n < corners; ++n) slope += ((n >> axis) & 1 ? 1 : -1) * depth[std::size_t(n)] / z;
+    square += slope * slope;
+  }
+  return std::sqrt(square) / height;
+}
+
+/// Whether no row beyond a side becomes so low that the time step of the model is too long there.
+template <int D>
+bool zone_keeps_heights(const Domain<D>& domain, int axis, int side) {
+  // The time step is for the lowest or steepest rows of the model; rows of a side may come near to them.
+  constexpr double least_room = 1.02, room = 1.25;
+  const auto [thinnest, thickest] = domain.model_grid.rows->heights();
+  const double most = domain.grid.spacing_m / thinnest;
+  Index<D> shape = domain.model_grid.rows->cells();
+  shape[std::size_t(axis)] = 1;
+  std::int64_t cells = 1;
+  for (const auto n : shape) cells *= n;
+  for (std::int64_t n = 0; n < cells; ++n) {
+    Index<D> at{};
+    for (std::int64_t rest = n, other = 0; other < D; ++other) {
+      at[std::size_t(other)] = rest % shape[std::size_t(other)] + domain.low_zone[int(other)];
+      rest /= shape[std::size_t(other)];
+    }
+    // Counted in the rows that are held.
+    at[D - 1] -= domain.model_grid.first[D - 1];
+    const std::int64_t edge = side ? domain.model_grid.shape[axis] - 1 : 0;
+    at[std::size_t(axis)] = domain.low_zone[axis] + edge;
+    const double own = stretch_of_cell(domain, at);
+    const double largest = std::max(least_room * own, std::min(room * own, most));
+    for (const std::int64_t away : {1, 2, 4, 7, 10}) {
+      at[std::size_t(axis)] = domain.low_zone[axis] + edge + (side ? away : -away);
+      if (stretch_of_cell(domain, at) > largest) return false;
+    }
+  }
+  return true;
+}
+
+/// Finds within how many cells rows become level beyond the sides: ten, or less where they would become too
+/// low on the way.
+template <int D>
+void find_side_bends(Domain<D>& domain) {
+  if (!domain.model_grid.rows) return;
+  for (int axis = 0; axis < D - 1; ++axis)
+    for (const int side : {0, 1})
+      for (auto& bend = domain.side_bends[std::size_t(axis)][std::size_t(side)];
+           bend > 0.5 && !zone_keeps_heights(domain, axis, side);)
+        bend *= 0.7;
 }
 
 /// Finds bent rows, and the heights of others.
@@ -47,6 +125,9 @@ void find_bent_rows(Domain<D>& domain) {
   if (!domain.model_grid.rows) return;
   const auto& rows = *domain.model_grid.rows;
   const std::int64_t count = domain.grid.shape[D - 1];
+  const auto last = rows.cells()[D - 1];
+  domain.level_ends = {rows.row_is_level(0) && rows.row_is_level(1),
+                       rows.row_is_level(last) && rows.row_is_level(last - 1)};
   std::vector<char> level(std::size_t(count) + 1, 0);
   for (std::int64_t k = 0; k <= count; ++k) {
     const auto of_model = k - domain.low_zone[D - 1] + domain.model_grid.first[D - 1];
@@ -116,7 +197,7 @@ bool Domain<D>::shear() const {
 template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner) {
   for (int axis = 0; axis < D; ++axis) corner[axis] += domain.model_grid.first[axis] - domain.low_zone[axis];
-  return corner_of_rows(*domain.model_grid.rows, domain.grid.spacing_m, corner, 0) / domain.grid.spacing_m;
+  return corner_of_rows(domain, corner, 0) / domain.grid.spacing_m;
 }
 
 template <int D>
@@ -134,22 +215,23 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
     domain.grid.origin_m[axis] -= double(domain.low_zone[axis]) * domain.grid.spacing_m;
   }
   // Places are counted from the whole computed grid, zones included.
-  if (part.cut(domain.model_grid, 0)) {
+  if (part.cut(0)) {
     domain.grid.first[z] += domain.low_zone[z];
     domain.grid.shape[z] -= std::exchange(domain.low_zone[z], 0);
     domain.edges[z][0] = EdgeLaw::absorbing;
   }
-  if (part.cut(domain.model_grid, 1)) {
+  if (part.cut(1)) {
     domain.grid.shape[z] -= std::exchange(domain.high_zone[z], 0);
     domain.edges[z][1] = EdgeLaw::absorbing;
   }
   // Its rows are those of the model, not of a grid of that size.
   domain.grid.rows = nullptr;
+  find_side_bends(domain);
   find_bent_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];
-  if (part.cut(domain.model_grid, 0)) domain.own.first = part.first - held;
-  if (part.cut(domain.model_grid, 1)) domain.own.last = part.last - held + domain.low_zone[z];
+  if (part.cut(0)) domain.own.first = part.first - held;
+  if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];

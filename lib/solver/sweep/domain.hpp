@@ -30,6 +30,9 @@ class Domain {
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
   std::vector<char> bent_rows;
   std::vector<double> row_heights;
+  /// Within how many cells beyond each side of the model its rows become level.
+  std::array<std::array<double, 2>, std::size_t(D)> side_bends = every_side(10);
+  std::array<bool, 2> level_ends{};  // whether the first and the last row of the model are level
   bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
   double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
@@ -59,6 +62,11 @@ class Domain {
   }
 
  private:
+  static std::array<std::array<double, 2>, std::size_t(D)> every_side(double cells) {
+    std::array<std::array<double, 2>, std::size_t(D)> all;
+    for (auto& sides : all) sides = {cells, cells};
+    return all;
+  }
   std::array<Field<D>, 2> impedances_;
 };
 

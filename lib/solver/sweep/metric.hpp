@@ -41,6 +41,11 @@ class Metric {
   }
   void fill(const Domain<D>& domain);
   void fill_ghosts(const Domain<D>& domain);
+  void fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side);
+  Real* place(const Index<D>& at, int of) {
+    return values_.data() + layout_.cell(at) + of * layout_.row_pitch();
+  }
+  void put(const Index<D>& at, int of, double value) { *place(at, of) = Real(value); }
 
   std::int64_t lines_a_row_ = 1;
   std::vector<char> bent_;             // by row

@@ -22,10 +22,11 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       edges_(domain.edges),
       order_(order),
       reach_(reach_of(order)),
-      // Bent rows couple all fields.
-      shear_(domain.shear() || !domain.bent_rows.empty()),
+      // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
+      shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
       metric_(domain),
-      bent_stencils_(domain, reach_) {
+      corrections_(state, domain, metric_),
+      bent_stencils_(domain, reach_, corrections_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -37,12 +38,14 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
       const auto wave = Wave(n % 2);
+      SlotBefore<D> slot_before;
+      if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
       const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
       stencils_[axis][wave] =
-          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected);
+          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected, slot_before);
     }
   });
 }
@@ -134,7 +137,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(
         order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down);
+        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down,
+        corrections_of(axis, p));
     prefetch.prefetch_one();
   }
 }
@@ -149,7 +153,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
-    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, outgoing);
+    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
@@ -161,7 +165,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
                                      pair.wave == wave_p ? material.zp : material.zs, material.b, scale,
                                      metric, outgoing.up(p), outgoing.down(p));
     stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, outgoing.up(p),
-                                       outgoing.down(p), &metric);
+                                       outgoing.down(p), corrections_of(axis, p), &metric);
   }
 }
 
@@ -281,6 +285,7 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (const int side : {0, 1})
     free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
+  if (axis == z_axis) corrections_.update_all(state_);
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -466,6 +471,33 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
          work, piece.remember);
 }
 
+/// The interface states of the face before a row, of these columns.
+template <int D, class Real>
+void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                   Real scale, Ring<Real>& ring) const {
+  const auto& layout = state_.layout;
+  const std::int64_t rows = layout.shape()[axis], x = columns.first;
+  Index<D> line_lo = at, line_hi = at;
+  line_lo[axis] = row - 1, line_hi[axis] = row;
+  const bool has_lo = row > 0, has_hi = row < rows;
+  const auto up = ring.outgoing(row - 1, x), down = ring.outgoing(row, x);
+  const auto faces = ring.faces(row, x);
+  const auto material_lo = state_.material_from(line_lo, x), material_hi = state_.material_from(line_hi, x);
+  if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
+    if (axis == z_axis) return solve_bent(line_lo, line_hi, columns, scale, up, down, faces);
+    bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
+                               metric_.along(axis, line_hi, x).j_lo, faces);
+    return;
+  }
+  const auto run = [&](const Index<D>& line, bool is_there) {
+    return is_there ? state_.uniform_run(layout.line_number(line), x, columns.last) : nullptr;
+  };
+  const auto *lo = run(line_lo, has_lo), *hi = run(line_hi, has_hi);
+  const bool uniform = lo && hi;
+  face_kernels(uniform).solve_riemann(columns.count(), up, down, uniform ? lo->rows() : material_lo,
+                                      uniform ? hi->rows() : material_hi, faces);
+}
+
 template <int D, class Real>
 void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, const IndexRange& columns,
                              Real scale, Ring<Real>& ring, Workspace<Real>& work) {
@@ -488,33 +520,11 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
-    const auto bent = [&](std::int64_t k) { return k >= 0 && k < rows && metric_.bent_row(line(k)[z_axis]); };
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
     };
-    const auto solve = [&](const IndexRange& part) {
-      if (bent(row - 1) || bent(row)) {
-        const auto up = above.at(part.first - x), down = here.at(part.first - x);
-        if (axis == z_axis)
-          return solve_bent(line(row - 1), line(row), part, scale, up, down, ring.faces(row, part.first));
-        bent_kernels().solve_along(part.count(), up, down, state_.material_from(line(row - 1), part.first),
-                                   state_.material_from(line(row), part.first),
-                                   metric_.along(axis, line(row), part.first).j_lo,
-                                   ring.faces(row, part.first));
-        return;
-      }
-      const auto run = [&](std::int64_t k) {
-        return k >= 0 && k < rows ? state_.uniform_run(layout.line_number(line(k)), part.first, part.last)
-                                  : nullptr;
-      };
-      const auto *lo = run(row - 1), *hi = run(row);
-      const bool uniform = lo && hi;
-      const auto from = [&](std::int64_t k) { return state_.material_from(line(k), part.first); };
-      face_kernels(uniform).solve_riemann(part.count(), above.at(part.first - x), here.at(part.first - x),
-                                          uniform ? lo->rows() : from(row - 1),
-                                          uniform ? hi->rows() : from(row), ring.faces(row, part.first));
-    };
+    const auto solve = [&](const IndexRange& part) { solve_across(axis, at, row, part, scale, ring); };
     // Faces between cells of uniform runs are left out.
     const auto below = uniform_runs(row - 1);
     split_by_runs(
@@ -647,6 +657,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   };
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
+  corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

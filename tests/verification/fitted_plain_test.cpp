@@ -1,0 +1,119 @@
+#include "fitted_scenes.hpp"
+#include "plain_and_tiled.hpp"
+
+// The tiled executor against the plain one where rows follow horizons.
+namespace slipwave::solver {
+namespace {
+
+TEST(FittedPlain, GivesTheBitsOfTilesAtAllOrders) {
+  const SlipCorrection corrections[] = {SlipCorrection::first, SlipCorrection::second,
+                                        SlipCorrection::exponential, SlipCorrection::second};
+  for (std::size_t n = 0; n < std::size(orders); ++n) {
+    SCOPED_TRACE(orders[n]);
+    auto scene = orders[n] == 5 ? fitted_hills() : fitted_sea();
+    scene.numerics.order = orders[n];
+    scene.numerics.correction = corrections[n % 4];
+    scene.numerics.double_precision = orders[n] == 3;
+    expect_same(scene);
+  }
+}
+
+TEST(FittedPlain, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
+  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing})
+    for (const int time_order : {sides == EdgeLaw::free || sides == EdgeLaw::rigid ? 2 : 4}) {
+      SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
+      auto scene = time_order == 4 ? fitted_sea() : fitted_hills();
+      scene.edges[0] = {sides, sides};
+      if (sides != EdgeLaw::mirror) scene.edges[1] = {sides, sides};
+      scene.numerics.time_order = time_order;
+      scene.numerics.order = time_order == 4 ? 7 : 5;
+      scene.numerics.double_precision = sides == EdgeLaw::rigid;
+      scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
+      expect_same(scene);
+    }
+}
+
+TEST(FittedPlain, GivesTheBitsOfTilesWithSnapshotsADiaryAndOpening) {
+  auto scene = fitted_sea();
+  scene.snapshot_every_s = 0.03;
+  scene.slip_diary = true;
+  expect_same(scene);
+  for (auto& set : scene.model.fracture_sets)
+    for (auto& system : set.systems) {
+      system.opens = true;
+      system.strength_pa = 10;
+    }
+  scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -20.F));
+  scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 3.F);
+  expect_same(scene);
+}
+
+TEST(FittedPlain, GivesTheBitsOfTilesInThreeDimensions) {
+  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
+    auto scene = fitted_sea_3d();
+    for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {sides, sides};
+    scene.numerics.order = sides == EdgeLaw::rigid ? 7 : 5;
+    scene.numerics.time_order = sides == EdgeLaw::free ? 4 : 2;
+    scene.numerics.double_precision = sides == EdgeLaw::absorbing;
+    scene.slip_diary = true;
+    expect_same(scene);
+  }
+}
+
+/// The same scene with a grid that has the depths of a regular one.
+template <int D>
+Scene<D> with_regular_rows(Scene<D> scene) {
+  auto grid = scene.model.grid();
+  std::vector<double> corners;
+  const auto columns = corner_columns(grid).size();
+  for (std::int64_t row = 0; row <= grid.shape[D - 1]; ++row)
+    corners.insert(corners.end(), columns, double(row) * grid.spacing_m);
+  grid.rows = std::make_shared<const RowDepths<D>>(grid.shape, std::move(corners));
+  const auto on_it = [&](auto& field) {
+    auto moved = std::decay_t<decltype(field)>(grid);
+    std::copy(field.begin(), field.end(), moved.begin());
+    field = std::move(moved);
+  };
+  auto& model = scene.model;
+  for (const Property property : model.medium.properties()) on_it(model.medium[property]);
+  if (!model.fracture.empty()) on_it(model.fracture);
+  return scene;
+}
+
+template <int D>
+void expect_regular_rows_give_the_same(const Scene<D>& scene) {
+  const auto fitted = with_regular_rows(scene);
+  ASSERT_TRUE(fitted.model.grid().rows);
+  EXPECT_EQ(time_step_s(fitted), time_step_s(scene));
+  const auto expected = samples_of(shoot(scene, 1));
+  EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0);
+  EXPECT_TRUE(samples_of(shoot(fitted, 1)) == expected);
+}
+
+TEST(FittedRows, ThatAreAllOneCellHighGiveTheBitsOfARegularGrid) {
+  for (const int order : orders) {
+    Scene<2> scene = fitted_sea();
+    scene.model = {};
+    scene.model.medium = uniform_medium(220, 90, 5, {4500, 2250, 2500});
+    for (std::int64_t k = 0; k < 90; ++k)
+      for (std::int64_t i = 0; i < 220; ++i) {
+        if (k < 20 + i / 40) put(scene.model.medium, {i, k}, {1500, 0, 1000});
+        if (k > 60) put(scene.model.medium, {i, k}, {2500, 1200, 2000});
+      }
+    fracture_rows(scene.model, 230, 290, 70, 100, 1);
+    scene.model.fracture_sets = {{"cracks", {{{0, 1}, 0.5, 1000, 0}}}};
+    scene.numerics.order = order;
+    expect_regular_rows_give_the_same(scene);
+  }
+  auto cube = fitted_sea_3d();
+  cube.model = {};
+  cube.model.medium = lumps({40, 22, 44}, 5, 7);
+  for (std::int64_t n = 0; n < cube.model.grid().size(); ++n)
+    if (const auto at = cube.model.grid().index(n); at[0] > 15 && at[0] < 37)
+      put(cube.model.medium, at, {4500, 2250, 2500});
+  for (auto& receiver : cube.survey.receivers_m) receiver[0] = 120;
+  expect_regular_rows_give_the_same(cube);
+}
+
+}  // namespace
+}  // namespace slipwave::solver

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "parallel/threads.hpp"
+#include "ranks_in_threads.hpp"
+#include "scene/subdomains.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave::solver {
+
+/// What one of several ranks computes of a scene.
+template <int D>
+Scene<D> part_of(const Scene<D>& scene, Ranks& ranks) {
+  auto part = cut_to(scene, subdomain_for(scene, scene.model.grid(), ranks.number(), ranks.count()));
+  join(part, ranks);
+  return part;
+}
+
+/// What the first of so many ranks gets of the first shot.
+template <int D>
+Gather shared_out(const Scene<D>& scene, int count, int threads = 1) {
+  const ThreadLimit limit(threads);
+  Gather found;
+  RanksInThreads::run(count, [&](Ranks& ranks) {
+    const auto part = part_of(scene, ranks);
+    check(part);
+    auto gather = shoot(part, 1, {}, {}, nullptr, nullptr, &ranks);
+    if (ranks.number() == 0) found = std::move(gather);
+  });
+  return found;
+}
+
+inline std::vector<double> all_samples(const Gather& gather) {
+  std::vector<double> all;
+  for (const auto& trace : gather.traces) all.insert(all.end(), trace.samples.begin(), trace.samples.end());
+  return all;
+}
+
+}  // namespace slipwave::solver
