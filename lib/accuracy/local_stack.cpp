@@ -267,7 +267,7 @@ std::int64_t block_of(const Followed& line) {
   return std::max<std::int64_t>(block, 1);
 }
 
-/// Whether it goes on as it came, from a quarter to the next.
+/// Whether it continues as it came, from a quarter to the next.
 bool is_straight(const Followed& line) {
   const auto& rows = line.rows;
   const auto quarter = rows.size() / 4;
