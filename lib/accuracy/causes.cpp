@@ -466,7 +466,7 @@ std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, d
 PromisedError ErrorSources::promised(const Discretisation& cells) const {
   PromisedError promise;
   Sum causes;
-  double energy = 0, all = 0, floor = 0;
+  double energy = 0, all = 0, floor = 0, slip = 0;
   const auto add = [&](ErrorCause cause, double squared) {
     all += squared;
     if (!cause.curable) floor += squared;
@@ -494,10 +494,13 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
           shot->edge_error(edge, cells));
+    slip += shot->slip(cells);
     add({"slip of fractures", "shorter time steps", 0, true}, shot->slip(cells));
   }
   if (!(energy > 0)) return promise;
   promise.error = saturated(all / energy);
+  promise.without_slip = saturated((all - slip) / energy);
+  promise.slip = saturated(slip / energy);
   promise.floor = saturated(floor / energy);
   promise.causes = causes.take(energy);
   return promise;

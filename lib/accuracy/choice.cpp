@@ -78,9 +78,11 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
     best = &candidate;
     break;
   }
-  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, ""};
+  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, ""};
+  const auto expected = in(best->setting);
+  if (expected.promise) choice.slip_error = expected.promise->slip;
   if (choice.good_enough) return choice;
-  if (const auto promise = in(best->setting).promise; promise && !promise->causes.empty()) {
+  if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {
     const auto& causes = promise->causes;
     const auto stays = std::find_if(causes.begin(), causes.end(), [&](const ErrorCause& cause) {
       return !cause.curable && margin * cause.error > wanted;
@@ -104,7 +106,9 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
   return name_of(choice.setting, scene) + ": expected error up to " + shown(100 * choice.expected_error, 2) +
-         " %";
+         " %" +
+         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % in what fractures add"
+                                : "");
 }
 
 }  // namespace slipwave

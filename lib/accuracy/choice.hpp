@@ -10,6 +10,7 @@ struct Choice {
   double expected_error = 0;    // ExpectedError::of_reflections_too()
   bool good_enough = false;     // below what was wanted, by the margin
   bool finer_geometry = false;  // other cells are filled from the model's horizons (finer_model())
+  double slip_error = 0;        // what the response of fractures adds, a first estimate
   /// What stands in the way where none is good enough: the largest cause that no setting cures, or the
   /// largest.
   std::string reason;

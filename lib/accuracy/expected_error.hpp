@@ -25,8 +25,8 @@ struct ExpectedError {
   /// That of the direct waves, or of the P waves where there are none.
   double overall() const { return direct.value_or(p); }
   /// The largest of that, of P waves to the end (reflections matter, however small beside the direct waves)
-  /// and of what is promised.
-  double of_reflections_too() const { return std::max({overall(), p, promise ? promise->error : 0.}); }
+  /// and of what is promised but for slip, so that shots with and without it are computed alike.
+  double of_reflections_too() const { return std::max({overall(), p, promise ? promise->without_slip : 0.}); }
 };
 
 /// With the step error e(f) (E15) of each medium on the way, n steps in it, and the spectrum W(f) of the
