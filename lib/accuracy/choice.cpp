@@ -1,8 +1,10 @@
 #include "accuracy/choice.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "accuracy/expected_error.hpp"
+#include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -59,22 +61,54 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
              0});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  const WavesOfScene waves(scene);
+  const bool finer = finer_model(scene.model, own_m).has_value();
+  const WavesOfScene waves(scene, finer);
   const Candidate* best = nullptr;
-  for (auto& candidate : candidates) {
-    const auto& setting = candidate.setting;
+  const auto in = [&](const AccuracySetting& setting) {
     const double time_step_s = setting.cfl * stable_time_step_s(scene) * setting.spacing_m / own_m;
-    candidate.error = waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order})
-                          .of_reflections_too();
-    if (!best || candidate.error < best->error) best = &candidate;
-    if (margin * candidate.error <= wanted) break;
+    return waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order});
+  };
+  for (auto& candidate : candidates) {
+    const auto expected = in(candidate.setting);
+    candidate.error = expected.of_reflections_too();
+    // Where most of the error has no cure, what gains a little is not worth more time.
+    const bool in_vain = expected.promise && expected.promise->floor > 0.5 * candidate.error;
+    if (!best || candidate.error < (in_vain ? 0.98 : 1) * best->error) best = &candidate;
+    if (margin * candidate.error > wanted) continue;
+    best = &candidate;
+    break;
   }
-  return {best->setting, best->error, margin * best->error <= wanted};
+  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, ""};
+  const auto expected = in(best->setting);
+  if (expected.promise) choice.slip_error = expected.promise->slip;
+  if (choice.good_enough) return choice;
+  if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {
+    const auto& causes = promise->causes;
+    const auto stays = std::find_if(causes.begin(), causes.end(), [&](const ErrorCause& cause) {
+      return !cause.curable && margin * cause.error > wanted;
+    });
+    choice.reason = sentence_of(stays == causes.end() ? causes.front() : *stays);
+  }
+  return choice;
+}
+
+Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
+  const double own_m = scene.model.grid().spacing_m, spacing_m = choice.setting.spacing_m;
+  if (!choice.finer_geometry || spacing_m == own_m) return with_setting(scene, choice.setting);
+  auto setting = choice.setting;
+  setting.spacing_m = own_m;
+  auto chosen = with_setting(scene, setting);
+  auto finer = finer_model(scene.model, spacing_m);
+  if (!finer) return with_setting(scene, choice.setting);
+  chosen.model = std::move(*finer);
+  return chosen;
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
   return name_of(choice.setting, scene) + ": expected error up to " + shown(100 * choice.expected_error, 2) +
-         " %";
+         " %" +
+         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % in what fractures add"
+                                : "");
 }
 
 }  // namespace slipwave

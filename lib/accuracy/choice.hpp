@@ -7,8 +7,13 @@ namespace slipwave {
 /// A way to compute a scene, and what is expected of it.
 struct Choice {
   AccuracySetting setting;
-  double expected_error = 0;  // ExpectedError::of_reflections_too()
-  bool good_enough = false;   // below what was wanted, by the margin
+  double expected_error = 0;    // ExpectedError::of_reflections_too()
+  bool good_enough = false;     // below what was wanted, by the margin
+  bool finer_geometry = false;  // other cells are filled from the model's horizons (finer_model())
+  double slip_error = 0;        // what the response of fractures adds, a first estimate
+  /// What stands in the way where none is good enough: the largest cause that no setting cures, or the
+  /// largest.
+  std::string reason;
 };
 
 /// The cheapest of all orders from 3 on (and fourth order in time with order 7), Courant numbers that may pay
@@ -17,6 +22,9 @@ struct Choice {
 /// proportions, so the same scene gets the same choice on every machine. The best there is when none is good
 /// enough.
 Choice cheapest_setting(const Scene<2>& scene, double wanted);
+
+/// The scene as chosen.
+Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice);
 
 /// "order 7, Courant 0.5, 2.5 m: expected error up to 0.8 %".
 std::string sentence_of(const Choice& choice, const Scene<2>& scene);

@@ -213,8 +213,9 @@ Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
 
 }  // namespace
 
-WavesOfScene::WavesOfScene(const Scene<2>& scene)
+WavesOfScene::WavesOfScene(const Scene<2>& scene, bool finer_geometry)
     : own_{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order},
+      sources_(scene, finer_geometry),
       direct_(direct_waves(scene)),
       longest_p_(longest_waves(scene, WaveKind::p)),
       longest_s_(longest_waves(scene, WaveKind::s)) {}
@@ -224,7 +225,9 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
     if (trains.empty()) return std::nullopt;
     return std::sqrt(squared_error(cells, trains));
   };
-  return {of(direct_), of(longest_p_).value_or(0), of(longest_s_)};
+  ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered()};
+  if (sources_.any()) error.promise = sources_.promised(cells);
+  return error;
 }
 
 }  // namespace slipwave

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "accuracy/wave_train.hpp"
+#include "accuracy/causes.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
@@ -18,19 +18,25 @@ struct ExpectedError {
   /// medium for the share of time that a ray through the whole model spends there. No s in fluids only.
   double p = 0;
   std::optional<double> s;
+  /// Of all traces together, with all that is counted; nothing without receivers, or of plane waves.
+  std::optional<PromisedError> promise;
+  /// What that leaves out.
+  std::vector<std::string> not_covered;
   /// That of the direct waves, or of the P waves where there are none.
   double overall() const { return direct.value_or(p); }
-  /// The larger of that and of P waves to the end: reflections matter, however small beside the direct waves.
-  double of_reflections_too() const { return std::max(overall(), p); }
+  /// The largest of that, of P waves to the end (reflections matter, however small beside the direct waves)
+  /// and of what is promised but for slip, so that shots with and without it are computed alike.
+  double of_reflections_too() const { return std::max({overall(), p, promise ? promise->without_slip : 0.}); }
 };
 
 /// With the step error e(f) (E15) of each medium on the way, n steps in it, and the spectrum W(f) of the
 /// wavelet as the wave carries it (times sqrt(f) from a point source in 2-D),
 ///   error^2 = integral |exp(sum n e) - 1|^2 |W|^2 df / integral |W|^2 df.                           (E16)
-/// What interfaces, slip and the edges add is not in it.
+/// What interfaces, slip and the edges add is in the promise (ErrorSources).
 class WavesOfScene {
  public:
-  explicit WavesOfScene(const Scene<2>& scene);
+  /// `finer_geometry`: smaller cells will be filled from the model's horizons (finer_model()).
+  explicit WavesOfScene(const Scene<2>& scene, bool finer_geometry = false);
   /// For the cells and steps of the scene.
   ExpectedError expected() const { return expected(own_); }
   /// For others, of the same model, survey and recording.
@@ -38,6 +44,7 @@ class WavesOfScene {
 
  private:
   Discretisation own_;
+  ErrorSources sources_;
   std::vector<WaveTrain> direct_, longest_p_, longest_s_;
 };
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "accuracy/dispersion.hpp"
+#include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
 #include "base/processor_time.hpp"
 #include "parallel/threads.hpp"
@@ -89,7 +90,9 @@ Plan<D> plan_as(const Scene<D>& scene) {
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  if constexpr (D == 2) plan.error = WavesOfScene(scene).expected();
+  if constexpr (D == 2)
+    plan.error =
+        WavesOfScene(scene, finer_model(scene.model, scene.model.grid().spacing_m).has_value()).expected();
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -114,6 +117,24 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
   return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
 }
 
+namespace {
+
+/// What is promised of all traces together, and why it is not less.
+void report_promise(const ExpectedError& error, Report& report) {
+  /// Causes that make less of the whole are left out.
+  constexpr double least = 0.1;
+  if (error.promise) {
+    report.text("error", "up to " + shown(100 * error.promise->error, 2) + " % of all traces together");
+    std::vector<std::string> causes;
+    for (const auto& cause : error.promise->causes)
+      if (cause.error > least * error.promise->error) causes.push_back(sentence_of(cause));
+    if (!causes.empty()) report.texts("by", causes);
+  }
+  if (!error.not_covered.empty()) report.texts("not counted", error.not_covered);
+}
+
+}  // namespace
+
 template <int D>
 Report report_of(const Plan<D>& plan) {
   Report report;
@@ -128,6 +149,8 @@ Report report_of(const Plan<D>& plan) {
                   (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
+  if (D == 2) report_promise(plan.error, report);
+  if (D == 3) report.text("error", "not estimated in 3-D");
   if (D == 2 && plan.error.direct)
     report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in direct arrivals");
   if (D == 2)

@@ -66,9 +66,10 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages&
     const auto choice = cheapest_setting(scene, wanted);
     if (!choice.good_enough)
       throw Error("--error: found no setting for " + shown(wanted) + "; the best is " +
-                  sentence_of(choice, scene) + " (margin: 1.5)");
+                  sentence_of(choice, scene) + " (margin: 1.5)" +
+                  (choice.reason.empty() ? "" : "; " + choice.reason));
     messages.say("chose " + sentence_of(choice, scene));
-    auto chosen = with_setting(scene, choice.setting);
+    auto chosen = chosen_scene(scene, choice);
     check(chosen);
     return chosen;
   }
@@ -81,7 +82,8 @@ void print_plan(const Scene<D>& scene, bool with_choice, const std::string& path
   if constexpr (D == 2)
     if (with_choice) {
       const auto choice = cheapest_setting(scene, 0.01);
-      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene));
+      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene) +
+                                             (choice.reason.empty() ? "" : "; " + choice.reason));
     }
   const std::string text = report.lines();
   OutputFile out(path, OutputFile::Content::text);

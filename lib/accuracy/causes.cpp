@@ -1,0 +1,514 @@
+#include "accuracy/causes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "accuracy/local_stack.hpp"
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+using Complex = std::complex<double>;
+using enum Representation;
+using Kind = LocalInterface::Kind;
+
+constexpr std::size_t shots_followed = 2, receivers_followed = 12;
+/// Directions of travel, over a quarter circle, that dispersion is taken for.
+constexpr std::size_t directions = 6;
+
+// Fitted to the errors of 400 drawn scenes of layers against exact traces (docs/accuracy.md).
+/// What linear terms leave out of dispersion.
+constexpr double dispersion_margin = 1.2;
+/// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
+constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4;
+constexpr double order_7_on_faces = 0.5;
+/// The same of other representations, in cells: with means, in stairs, and within less than two rows.
+constexpr double shift_of_means = 0.15, shift_of_gentle_means = 0.1, shift_of_stairs = 0.38,
+                 shift_of_few_stairs = 0.3;
+/// Fluid that stairs make resist motion of the solid along them, in cells.
+constexpr double drag_of_stairs = 1.5;
+/// Of an interface known to lie beside its face, the share of the way that counts.
+constexpr double share_of_offset = 0.6;
+/// Error at a distance of one cell from the source at Courant number 0.9; it falls with the fourth power of
+/// the distance, and is larger with shorter steps.
+constexpr double near_share = 50, near_of_order_3 = 5;
+/// What comes back along a fitted surface that dips from where it becomes level beyond the sides.
+constexpr double bent_surface = 0.008;
+/// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, at 24 cells
+/// per wavelength of the slower wave; it falls with their cube.
+constexpr double bound_to_surface = 0.015, bound_to_floor = 0.028;
+/// Of those of an explosion in rock, which sends out less of them.
+constexpr double bound_by_explosion = 0.4;
+/// Their decay with the distance from it, over the wave number.
+constexpr double bound_decay = 0.3;
+/// Stairs that count as such, in rows.
+constexpr double few_stairs = 1.5;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+/// By how much an interface seems to be moved, as a share of a cell: `share` over cells per wavelength of the
+/// slowest wave beside it to this power.
+struct Shift {
+  double share, power;
+};
+Shift shift_of(const LocalInterface& interface) {
+  switch (interface.representation) {
+    case on_faces:
+    case fitted:
+      return {interface.kind == Kind::inner     ? shift_on_faces
+              : interface.kind == Kind::surface ? shift_of_surface
+                                                : shift_of_floor,
+              2};
+    case averaged:
+      // Where it is nearly level, its errors differ from place to place and cancel.
+      return {interface.stairs > 1 && interface.steepest_deg < 10 ? shift_of_gentle_means : shift_of_means,
+              0};
+    case staircase:
+      return {interface.stairs < few_stairs ? shift_of_few_stairs : shift_of_stairs, 0};
+  }
+  return {1, 0};
+}
+
+bool has_drag(const LocalInterface& interface) {
+  return interface.representation == staircase && interface.stairs >= few_stairs &&
+         interface.kind == Kind::fluid_solid;
+}
+
+double slowest_of(const UniformMedium& rock) { return rock.vs > 0 ? rock.vs : rock.vp; }
+double slowest_beside(const LayeredPlaces& places, std::size_t face) {
+  const auto below = places.free_surface ? face : face + 1;
+  const double speed = slowest_of(places.layers[below]);
+  return below > 0 ? std::min(speed, slowest_of(places.layers[below - 1])) : speed;
+}
+
+/// Errors beyond some tens of percent do not grow as small ones do: waves that are shifted by more than half
+/// a period are as wrong as can be.
+double saturated(double squared) { return std::sqrt(squared / (1 + squared / 2)); }
+
+std::string percent(double share) { return shown(100 * share, 2) + " %"; }
+
+/// Where an interface is, for messages.
+std::string range_of(const LocalInterface& interface) {
+  return " between x=" + shown(interface.from_x_m, 4) + " and " + shown(interface.to_x_m, 4);
+}
+
+/// Name and remedy of the error of an interface.
+ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool beside_face) {
+  ErrorCause cause;
+  const std::string fit = interface.kind == Kind::surface       ? "surface"
+                          : interface.kind == Kind::fluid_solid ? "floor"
+                                                                : "all";
+  const bool represented = interface.representation == on_faces || interface.representation == fitted;
+  const bool known = represented && !beside_face;
+  cause.curable = known || finer_geometry;
+  if (!known) cause.remedy = "fit it (sw-layers --fit " + fit + ")";
+  cause.name = interface.name();
+  if (interface.representation == staircase)
+    cause.name +=
+        range_of(interface) + ", a staircase of up to " + shown(interface.steepest_deg, 2) + " degrees";
+  if (interface.representation == averaged)
+    cause.name += range_of(interface) + ", means in the cells it cuts";
+  if (interface.representation == fitted) cause.name += ", fitted";
+  if (interface.representation == on_faces)
+    cause.name += beside_face ? ", " + shown(std::abs(interface.true_depth_m - interface.depth_m), 2) +
+                                    " m beside the face that stands for it"
+                              : ", on a face";
+  return cause;
+}
+
+/// The part of the waves between two points that comes back from an absorbing edge in which they graze along,
+/// as measured for P waves (docs/accuracy.md): `mean_m` from the edge on average.
+double grazing_share(double along_m, double mean_m, double wavelength_m, double zone_m) {
+  const double way = along_m / (5 * wavelength_m), width = zone_m / (0.5 * wavelength_m);
+  return std::min(0.5, 0.19 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
+}
+
+/// Error of what arrives straight above a shallow source in rock under a free surface, hardly less in smaller
+/// cells: a source `depth_m` deep, receivers between it and the surface, `aside_m` from it.
+double shallow_error(double depth_m, double aside_m, double wavelength_m) {
+  return 0.7 * std::exp(-7 * depth_m / wavelength_m - 1.3 * aside_m / std::max(depth_m, 0.01 * wavelength_m));
+}
+
+/// The error of the waves that slipping fractures send out, and their share of all: first estimates, from the
+/// figures of docs/accuracy.md.
+double slip_error(double cells_per_wavelength, double courant) {
+  return 0.44 * std::pow(7.5 / cells_per_wavelength, 1.3) * (0.4 + 0.67 * courant);
+}
+constexpr double slip_share = 0.1;
+
+}  // namespace
+
+struct ErrorSources::Shot {
+  LocalStack stack;
+  StackResponse response;
+  double nominal_hz, highest_hz;
+  double own_spacing_m;
+  bool finer_geometry;
+  std::vector<double> energies;          // of receivers
+  double energy = 0;                     // of all
+  std::vector<double> by_face, by_drag;  // squared error per squared metre, at nominal_hz
+  double stable_speed = 0;               // of the fastest wave in the model
+  bool slips = false;
+  struct Edge {
+    std::string name;
+    double zone_cells;
+    std::vector<std::array<double, 2>> along_and_mean_m;  // of receivers
+  };
+  std::vector<Edge> edges;
+
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer)
+      : stack(local_stack(scene, shot, receivers_followed)),
+        response(stack.places, scene.survey.sources[shot].wavelet,
+                 scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
+        highest_hz(scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        own_spacing_m(scene.model.grid().spacing_m),
+        finer_geometry(finer),
+        stable_speed(own_spacing_m / stable_time_step_s(scene)),
+        slips(scene.slips()) {
+    for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
+      energies.push_back(response.energy(response.motion(r)));
+      energy += energies.back();
+    }
+    for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
+    for (const int axis : {0, 1})
+      for (const int side : {0, 1})
+        if (scene.edges[axis][side] == EdgeLaw::absorbing) add_edge(scene, shot, axis, side);
+  }
+
+  struct Dispersion {
+    double p = 0, s = 0, both = 0;
+  };
+  /// Squared errors, times the energy.
+  Dispersion dispersion(const Discretisation& cells) const;
+  double face_error(std::size_t face, const Discretisation& cells) const;
+  double near_field(const Discretisation& cells) const;
+  double edge_error(const Edge& edge, const Discretisation& cells) const;
+  double slip(const Discretisation& cells) const;
+  /// Of waves bound to an interface, where source and receivers are near it.
+  double bound_wave(std::size_t face, const Discretisation& cells) const;
+  double shallow_source() const;
+  /// How far an interface is from the face that stands for it.
+  double offset_m(std::size_t face, const Discretisation& cells) const {
+    const auto& interface = stack.interfaces[face];
+    const double own = std::abs(interface.true_depth_m - interface.depth_m);
+    if (own < 1e-6 * own_spacing_m) return 0;
+    if (!finer_geometry) return own;
+    const double rows = interface.true_depth_m / cells.spacing_m;
+    return std::abs(rows - std::round(rows)) * cells.spacing_m;
+  }
+
+ private:
+  void add_face(std::size_t face);
+  void add_edge(const Scene<2>& scene, std::size_t shot, int axis, int side);
+  /// What a step does to each wave: [direction][2 layer + wave][bin], the logarithm of the factor on it.
+  using Steps = std::vector<std::vector<std::vector<Complex>>>;
+  Steps steps(const Discretisation& cells) const;
+};
+
+void ErrorSources::Shot::add_face(std::size_t face) {
+  double moved = 0, dragged = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    auto change = response.by_face(face, r);
+    for (std::size_t bin = 0; bin < change.size(); ++bin) {
+      const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
+      const double by = std::pow(hz / nominal_hz, shift_of(stack.interfaces[face]).power);
+      for (auto& part : change[bin]) part *= by;
+    }
+    moved += response.energy(change);
+    if (has_drag(stack.interfaces[face])) dragged += response.energy(response.by_drag(face, r));
+  }
+  by_face.push_back(moved);
+  by_drag.push_back(dragged);
+}
+
+void ErrorSources::Shot::add_edge(const Scene<2>& scene, std::size_t shot, int axis, int side) {
+  constexpr const char* names[2][2] = {{"left", "right"}, {"upper", "lower"}};
+  const auto& source = scene.survey.sources[shot];
+  Edge edge{names[axis][side], double(zone_cells(scene, source)), {}};
+  const auto& grid = scene.model.grid();
+  const auto across = std::size_t(axis);
+  const auto& all = scene.survey.receivers_m;
+  const auto count = energies.size();
+  const std::size_t stride =
+      std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
+  const auto from = grid.row_coordinates(source.position_m);
+  const double place = side == 0 ? grid.origin_m[across] : grid.end(axis);
+  for (std::size_t n = stride / 2; n < all.size() && edge.along_and_mean_m.size() < count; n += stride) {
+    const auto to = grid.row_coordinates(all[n]);
+    edge.along_and_mean_m.push_back({std::abs(to[1 - across] - from[1 - across]),
+                                     (std::abs(to[across] - place) + std::abs(from[across] - place)) / 2});
+  }
+  edges.push_back(std::move(edge));
+}
+
+double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& cells) const {
+  const auto& interface = stack.interfaces[face];
+  const auto shift = shift_of(interface);
+  // Cells that are split keep the geometry that there was.
+  double geometry_m = double(interface.block) * own_spacing_m;
+  if (finer_geometry) geometry_m *= cells.spacing_m / own_spacing_m;
+  const double h = shift.power > 0 ? cells.spacing_m : std::max(geometry_m, cells.spacing_m);
+  const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
+  double by = shift.share * h * std::pow(per_wave, -shift.power);
+  // Long stencils end at interfaces with less harm.
+  if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
+  // The long stairs of a plane surface scatter less where waves are longer.
+  if (interface.representation == staircase && interface.kind == Kind::surface &&
+      interface.steepest_deg < 14 && !interface.is_curved())
+    by *= std::min(1., 10 / per_wave);
+  if (interface.representation == averaged && interface.stairs < 1e-3)
+    by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
+  const double offset = share_of_offset * offset_m(face, cells), drag = drag_of_stairs * h;
+  return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
+}
+
+double ErrorSources::Shot::near_field(const Discretisation& cells) const {
+  double sum = 0;
+  const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
+  const double share =
+      near_share * std::clamp(0.9 / courant, 1., 2.) * (cells.order == 3 ? near_of_order_3 : 1);
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = stack.places.receivers[r];
+    const double way = std::max(std::hypot(at.a_m, at.b_m) / cells.spacing_m, 1.);
+    sum += std::pow(std::min(1., share / std::pow(way, 4)), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& cells) const {
+  const auto& interface = stack.interfaces[face];
+  const auto& places = stack.places;
+  const auto& below = places.layers[places.free_surface ? face : face + 1];
+  if (interface.kind == Kind::inner || (interface.kind == Kind::surface && !(below.vs > 0))) return 0;
+  const double wavelength = 0.93 * slowest_beside(places, face) / nominal_hz;
+  const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
+  const bool floor = interface.kind == Kind::fluid_solid;
+  // Short steps make those along fluid worse.
+  const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
+  const double steps = floor ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
+  const double rate = (floor ? bound_to_floor : bound_to_surface) * std::pow(coarser, 3) * steps;
+  const bool force = places.force[0] != 0 || places.force[1] != 0;
+  const double sent = force || !(places.layers[places.source_layer()].vs > 0) ? 1 : bound_by_explosion;
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = places.receivers[r];
+    const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
+    const double error = sent * rate * std::abs(at.a_m) / wavelength *
+                         std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
+    sum += std::pow(saturated(error * error), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::shallow_source() const {
+  const auto& places = stack.places;
+  if (!places.free_surface || !(places.layers[0].vs > 0) || places.source_layer() > 0) return 0;
+  const double depth = std::abs(places.faces_m[0]), wavelength = places.layers[0].vs / nominal_hz;
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = places.receivers[r];
+    if (at.b_m < 0) sum += std::pow(shallow_error(depth, std::abs(at.a_m), wavelength), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::edge_error(const Edge& edge, const Discretisation& cells) const {
+  double sum = 0;
+  const double wavelength = stack.places.layers[stack.places.source_layer()].vp / nominal_hz;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& [along, mean] = edge.along_and_mean_m[r];
+    sum +=
+        std::pow(grazing_share(along, mean, wavelength, edge.zone_cells * cells.spacing_m), 2) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::slip(const Discretisation& cells) const {
+  if (!slips) return 0;
+  double slowest = stack.places.layers.front().vp;
+  for (const auto& rock : stack.places.layers)
+    if (rock.vs > 0) slowest = std::min(slowest, rock.vs);
+  const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
+  return std::pow(slip_share * slip_error(slowest / nominal_hz / cells.spacing_m, courant), 2) * energy;
+}
+
+ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells) const {
+  const double per_cell = cells.time_step_s / cells.spacing_m;
+  Steps all(directions);
+  for (std::size_t n = 0; n < directions; ++n) {
+    const double angle = (double(n) + 0.5) / directions * std::numbers::pi / 2;
+    for (const auto& rock : stack.places.layers)
+      for (const auto kind : {WaveKind::p, WaveKind::s}) {
+        auto& of = all[n].emplace_back(response.bins());
+        const double speed = kind == WaveKind::p ? rock.vp : rock.vs;
+        if (!(speed > 0)) continue;
+        const UniformScheme scheme{cells.order, rock.vp * per_cell, rock.vs * per_cell, cells.time_order};
+        for (std::size_t bin = 0; bin < of.size(); ++bin) {
+          const double per_wave = 2 * std::numbers::pi * speed / response.omega(bin).real() / cells.spacing_m;
+          // Waves shorter than two cells are not on the grid at all: they are lost.
+          of[bin] = per_wave <= 2.05 ? Complex(-1, 0) : std::conj(step_error(scheme, kind, per_wave, angle));
+        }
+      }
+  }
+  return all;
+}
+
+ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  const auto all = steps(cells);
+  const double dt = cells.time_step_s;
+  Dispersion sum;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const auto& at = places.receivers[r];
+    const double way = std::max(std::hypot(at.a_m, at.b_m), cells.spacing_m);
+    // The direction of the direct wave from the vertical counts as much as all others.
+    const double own = std::asin(std::abs(std::sin(std::atan2(at.a_m, at.b_m) - radians(stack.dip_deg))));
+    const auto direct = std::min(directions - 1, std::size_t(own / (std::numbers::pi / 2) * directions));
+    for (std::size_t n = 0; n < directions; ++n) {
+      std::array<MotionSpectrum, 3> wrong;
+      wrong.fill(MotionSpectrum(response.bins()));
+      for (std::size_t m = 0; m < all[n].size(); ++m) {
+        const auto& rock = places.layers[m / 2];
+        const double speed = m % 2 == 0 ? rock.vp : rock.vs;
+        if (!(speed > 0)) continue;
+        const double count = way / speed / dt;
+        const auto& change = response.by_speed(m / 2, int(m % 2), r);
+        for (std::size_t bin = 0; bin < response.bins(); ++bin) {
+          // By which share the wave is slower: the imaginary part is loss. No wave is more wrong than absent.
+          const auto whole = count * all[n][m][bin];
+          const double size = std::abs(whole);
+          const auto limited = size < 1e-6 ? whole : whole * (std::abs(std::exp(whole) - 1.) / size);
+          const auto slower = limited / (count * dt) * Complex(0, 1) / response.omega(bin).real();
+          for (const auto of : {m % 2, std::size_t(2)})
+            for (const std::size_t c : {0, 1}) wrong[of][bin][c] -= slower * change[bin][c];
+        }
+      }
+      const double weight =
+          (0.5 / directions + (n == direct ? 0.5 : 0)) * dispersion_margin * dispersion_margin;
+      sum.p += weight * response.energy(wrong[0]);
+      sum.s += weight * response.energy(wrong[1]);
+      sum.both += weight * response.energy(wrong[2]);
+    }
+  }
+  return sum;
+}
+
+ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
+  const auto& sources = scene.survey.sources;
+  if (!scene.survey.receivers_m.empty()) {
+    const std::size_t stride =
+        std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
+    for (std::size_t n = stride / 2; n < sources.size(); n += stride)
+      if (point_injection(sources[n])) shots_.push_back(std::make_unique<Shot>(scene, n, finer_geometry));
+    if (shots_.empty()) not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
+  }
+  std::size_t left_out = 0;
+  bool curved = false;
+  for (const auto& shot : shots_) {
+    left_out = std::max(left_out, shot->stack.left_out);
+    for (const auto& interface : shot->stack.interfaces) curved = curved || interface.is_curved();
+    if (shot->response.seconds() < 0.999 * scene.recording.duration_s && not_covered_.empty())
+      not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
+  }
+  if (left_out > 0)
+    not_covered_.push_back(std::to_string(left_out) + " weak interfaces or parts of gradients");
+  if (curved) not_covered_.emplace_back("focusing by curved interfaces");
+  if (scene.slips())
+    not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
+}
+ErrorSources::~ErrorSources() = default;
+ErrorSources::ErrorSources(ErrorSources&&) noexcept = default;
+ErrorSources& ErrorSources::operator=(ErrorSources&&) noexcept = default;
+
+namespace {
+
+/// Causes by name, with squared errors times energies.
+class Sum {
+ public:
+  void add(ErrorCause cause, double squared) {
+    for (auto& known : causes_)
+      if (known.name == cause.name) {
+        known.error += squared;
+        return;
+      }
+    cause.error = squared;
+    causes_.push_back(std::move(cause));
+  }
+  /// `floor` and `all` get the sums over causes that are not curable and over all.
+  std::vector<ErrorCause> take(double energy) {
+    for (auto& cause : causes_) cause.error = saturated(cause.error / energy);
+    std::stable_sort(causes_.begin(), causes_.end(),
+                     [](const ErrorCause& a, const ErrorCause& b) { return a.error > b.error; });
+    std::erase_if(causes_, [](const ErrorCause& cause) { return !(cause.error > 0); });
+    return std::move(causes_);
+  }
+
+ private:
+  std::vector<ErrorCause> causes_;
+};
+
+std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, double spacing_m) {
+  double slowest = 1e30;
+  for (const auto& rock : places.layers) {
+    const double speed = shear ? rock.vs : rock.vp;
+    if (speed > 0) slowest = std::min(slowest, speed);
+  }
+  return std::string(shear ? "S" : "P") + " waves, " + shown(slowest / hz / spacing_m, 2) +
+         " cells per shortest wavelength";
+}
+
+}  // namespace
+
+PromisedError ErrorSources::promised(const Discretisation& cells) const {
+  PromisedError promise;
+  Sum causes;
+  double energy = 0, all = 0, floor = 0, slip = 0;
+  const auto add = [&](ErrorCause cause, double squared) {
+    all += squared;
+    if (!cause.curable) floor += squared;
+    causes.add(std::move(cause), squared);
+  };
+  for (const auto& shot : shots_) {
+    energy += shot->energy;
+    const auto& places = shot->stack.places;
+    const auto of = shot->dispersion(cells);
+    all += of.both;
+    causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
+    causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
+    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
+      add(cause_of(shot->stack.interfaces[face], shot->finer_geometry, shot->offset_m(face, cells) > 0),
+          shot->face_error(face, cells));
+    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
+      add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
+          shot->bound_wave(face, cells));
+    for (const auto& interface : shot->stack.interfaces)
+      if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
+        add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
+            bent_surface * bent_surface * shot->energy);
+    add({"waves straight up from a shallow source", "", 0, false}, shot->shallow_source());
+    add({"near fields of the source", "", 0, true}, shot->near_field(cells));
+    for (const auto& edge : shot->edges)
+      add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
+          shot->edge_error(edge, cells));
+    slip += shot->slip(cells);
+    add({"slip of fractures", "shorter time steps", 0, true}, shot->slip(cells));
+  }
+  if (!(energy > 0)) return promise;
+  promise.error = saturated(all / energy);
+  promise.without_slip = saturated((all - slip) / energy);
+  promise.slip = saturated(slip / energy);
+  promise.floor = saturated(floor / energy);
+  promise.causes = causes.take(energy);
+  return promise;
+}
+
+std::string sentence_of(const ErrorCause& cause) {
+  return percent(cause.error) + ": " + cause.name + (cause.curable ? "" : ", however fine the cells") +
+         (cause.remedy.empty() ? "" : "; " + cause.remedy);
+}
+
+}  // namespace slipwave

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "accuracy/wave_train.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// Something that makes traces differ from exact ones.
+struct ErrorCause {
+  std::string name;     // "S waves, 6.1 cells per shortest wavelength"
+  std::string remedy;   // "fit it (sw-layers --fit floor)"
+  double error = 0;     // relative L2 over all traces, of this cause alone
+  bool curable = true;  // smaller cells reduce it
+};
+
+/// What is promised of a scene: the error of all traces together, and where it comes from.
+struct PromisedError {
+  double error = 0;                // up to
+  double without_slip = 0;         // of it, all but the response of fractures, which is a first estimate
+  double slip = 0;                 // that
+  double floor = 0;                // of it, what smaller cells and shorter steps do not cure
+  std::vector<ErrorCause> causes;  // largest first
+};
+/// "12 %: free surface, a staircase of 15 degrees, however fine the cells: fit it (sw-layers --fit surface)".
+std::string sentence_of(const ErrorCause& cause);
+
+/// Estimates errors of traces before anything is run, from the response of the layers round each source
+/// (StackResponse): dispersion changes speeds, an interface that is badly represented seems to be moved, and
+/// both are carried through all waves that reach the receivers. What cannot be put so (near fields, PML at
+/// grazing angles, slip) is added from measured figures.
+class ErrorSources {
+ public:
+  /// With `finer_geometry` smaller cells will be filled anew from the horizons of the model; otherwise they
+  /// are parts of the cells that there are.
+  explicit ErrorSources(const Scene<2>& scene, bool finer_geometry = false);
+  ~ErrorSources();
+  ErrorSources(ErrorSources&&) noexcept;
+  ErrorSources& operator=(ErrorSources&&) noexcept;
+
+  /// Whether there is anything to promise: a point source and a receiver.
+  bool any() const { return !shots_.empty(); }
+  /// Of other cells and steps of the same model.
+  PromisedError promised(const Discretisation& cells) const;
+  /// Sentences on what is not in it.
+  const std::vector<std::string>& not_covered() const { return not_covered_; }
+
+ private:
+  struct Shot;
+  std::vector<std::unique_ptr<Shot>> shots_;
+  std::vector<std::string> not_covered_;
+};
+
+}  // namespace slipwave

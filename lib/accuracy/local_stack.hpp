@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "accuracy/stack_response.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// How cells represent an interface.
+enum class Representation {
+  on_faces,  // of the grid, level
+  fitted,    // rows of cells follow it
+  averaged,  // cells that it cuts have the mean of both rocks
+  staircase  // of whole cells: fluid, solid or void by their centre
+};
+
+/// An interface of a model, as found in its cells from a source to its receivers.
+struct LocalInterface {
+  enum class Kind { surface, fluid_solid, inner };
+  Kind kind = Kind::inner;
+  Representation representation = Representation::on_faces;
+  bool sea_floor = false;  // of the first layer, a fluid, and a solid
+  double depth_m = 0;      // below the source
+  double dip_deg = 0;      // of the straight line nearest to it
+  double steepest_deg = 0;
+  double stairs = 0;  // rows of cells that it crosses
+  double cut = 0;     // where it is level, the share of the cells it cuts that lies above it
+  /// Cells a side that are alike, as after a model was split: what geometry is known to.
+  std::int64_t block = 1;
+  double from_x_m = 0, to_x_m = 0;  // where it was followed
+  /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
+  double true_depth_m = 0;
+  double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
+  bool is_curved() const { return steepest_deg > std::abs(dip_deg) + 3; }
+  /// "sea floor at 400 m", "free surface", "interface at 700 m".
+  std::string name() const;
+};
+
+/// The layers round a source, flattened: each shot is taken as one over parallel layers with the dip that
+/// the strongest interface has there.
+struct LocalStack {
+  std::vector<LocalInterface> interfaces;  // those of places.faces_m
+  LayeredPlaces places;
+  double dip_deg = 0;
+  std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
+};
+
+/// Of a shot with a point source; at most `receivers` of its receivers, evenly chosen.
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers);
+
+}  // namespace slipwave

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <vector>
+
+#include "accuracy/full_space.hpp"
+#include "acquisition/survey.hpp"
+
+namespace slipwave {
+
+/// Parallel layers round a line source at a = b = 0: a runs along the layers, b across them, downwards.
+struct LayeredPlaces {
+  std::vector<UniformMedium> layers;  // by increasing b; fluid where vs = 0
+  /// b of the interfaces, m: before layer n + 1, or with a free surface before layer n.
+  std::vector<double> faces_m;
+  /// At each interface, the thickness of fluid that resists motion of the solid along it, m; empty: none.
+  std::vector<double> drag_m;
+  bool free_surface = false;
+  Point<2> force{};                          // along a and b, N/m
+  SymmetricTensor<2, double> moment_rate{};  // in a and b
+  struct Receiver {
+    double a_m, b_m;
+    std::size_t layer;
+  };
+  std::vector<Receiver> receivers;
+  double duration_s = 0;  // of the traces
+
+  std::size_t source_layer() const;
+};
+
+/// The motion of a receiver, along a and b, by bins of frequency.
+using MotionSpectrum = std::vector<std::array<std::complex<double>, 2>>;
+
+/// How the exact response of layers changes with what they are: with the place of each interface and with the
+/// speed of each wave in each layer. All waves are in it: reflected, converted, multiple ones, those bound to
+/// interfaces. By wave number: a sum over plane waves per frequency, each by continuity of motion and
+/// traction at all interfaces.
+class StackResponse {
+ public:
+  /// `band_hz` is the highest frequency that matters. Longer records than affordable are cut (seconds()).
+  StackResponse(const LayeredPlaces& places, const Wavelet& wavelet, double band_hz);
+
+  std::size_t bins() const { return omega_.size(); }
+  /// Angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window decays.
+  std::complex<double> omega(std::size_t bin) const { return omega_[bin]; }
+  const MotionSpectrum& motion(std::size_t receiver) const { return motion_[receiver]; }
+  /// d motion / d b of an interface, 1/m.
+  const MotionSpectrum& by_face(std::size_t face, std::size_t receiver) const {
+    return by_face_[face][receiver];
+  }
+  /// d motion / d drag of an interface, 1/m; zero where it is not one of fluid and solid.
+  const MotionSpectrum& by_drag(std::size_t face, std::size_t receiver) const {
+    return by_drag_[face][receiver];
+  }
+  /// d motion / d ln c of P (0) or S (1) waves in a layer.
+  const MotionSpectrum& by_speed(std::size_t layer, int wave, std::size_t receiver) const {
+    return by_speed_[2 * layer + std::size_t(wave)][receiver];
+  }
+  double seconds() const { return seconds_; }
+  /// The sum of squares over all times of the traces that belong to a spectrum, both components.
+  double energy(const MotionSpectrum& spectrum) const;
+
+ private:
+  void add_wave_number(const LayeredPlaces& places, std::size_t bin, double k, std::complex<double> scale,
+                       double slowest);
+
+  double seconds_ = 0;
+  std::vector<std::complex<double>> omega_;
+  std::vector<std::complex<double>> phases_;  // exp(i omega t), times fastest
+  std::size_t times_ = 0;
+  std::vector<MotionSpectrum> motion_;
+  std::vector<std::vector<MotionSpectrum>> by_face_, by_drag_, by_speed_;
+};
+
+}  // namespace slipwave

@@ -1,0 +1,197 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "lab.hpp"
+#include "layer_stack.hpp"
+#include "model/layers.hpp"
+#include "scene/scene.hpp"
+
+namespace slipwave::solver {
+
+/// A scene drawn from a seed, and its exact traces: parallel layers of solid and fluid, flat or dipping, on
+/// and off faces, with and without a free surface, on fitted and on regular grids.
+class DrawnScene {
+ public:
+  explicit DrawnScene(std::uint64_t seed) : engine_(seed) {
+    draw_layers();
+    draw_places();
+    build();
+  }
+  const Scene<2>& scene() const { return scene_; }
+  const std::string& name() const { return name_; }
+  /// vx of all receivers, then vz.
+  std::vector<double> exact_traces() const {
+    LayerStack exact{rocks_, faces_m_, free_surface_, source_b_, !force_, {}};
+    if (force_) exact.force = {0.5 * cosine_ + sine_, cosine_ - 0.5 * sine_};
+    const auto count = std::size_t(scene_.recording.samples());
+    const auto found = exact.ricker(peak_hz, interval_s, count, receivers_);
+    std::vector<double> all;
+    for (const bool vertical : {false, true})
+      for (const auto& motion : found)
+        for (std::size_t n = 0; n < count; ++n)
+          all.push_back(vertical ? motion[0][n] * sine_ + motion[1][n] * cosine_
+                                 : motion[0][n] * cosine_ - motion[1][n] * sine_);
+    return all;
+  }
+
+ private:
+  static constexpr double peak_hz = 15, interval_s = 0.001, duration_s = 0.6;
+
+  /// Distributions of the standard library differ from house to house.
+  double uniform(double low, double high) { return low + (high - low) * double(engine_() >> 11) * 0x1p-53; }
+  bool chance(double share) { return uniform(0, 1) < share; }
+  double one_of(std::initializer_list<double> values) {
+    return values.begin()[std::size_t(uniform(0, double(values.size())))];
+  }
+
+  Rock draw_rock() {
+    const double vp = uniform(2000, 4500), vs = std::max(850., vp / uniform(1.6, 2.2));
+    return {vp, vs, 1740 * std::pow(vp / 1000, 0.25)};
+  }
+
+  void draw_layers() {
+    const int count = 1 + int(uniform(0, 4));
+    free_surface_ = chance(0.3);
+    for (int n = 0; n < count; ++n) {
+      const bool fluid = n + 1 < count && chance(n == 0 ? 0.45 : 0.15);
+      rocks_.push_back(fluid ? Rock{1500, 0, 1000} : draw_rock());
+    }
+    if (free_surface_) faces_m_.push_back(0);
+    double at = free_surface_ ? uniform(120, 300) : 0;
+    for (int n = 0; n + 1 < count; ++n) {
+      faces_m_.push_back(at);
+      at += chance(0.2) ? uniform(12, 40) : uniform(60, 220);
+    }
+    dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, 45));
+    on_faces_ = dip_deg_ == 0 && chance(0.5);
+    fitted_ = chance(0.6);
+    cosine_ = std::cos(dip_deg_ * std::numbers::pi / 180);
+    sine_ = std::sin(dip_deg_ * std::numbers::pi / 180);
+    order_ = int(one_of({5, 5, 5, 5, 7, 3}));
+    cfl_ = one_of({0.9, 0.9, 0.9, 0.5});
+    cells_ = one_of({10, 12, 16, 20, 24});
+  }
+
+  /// Place across the layers that is not within `away` of a face.
+  double across(double low, double high, double away) {
+    for (;;) {
+      const double b = uniform(low, high);
+      if (std::all_of(faces_m_.begin(), faces_m_.end(),
+                      [&](double face) { return std::abs(b - face) >= away; }))
+        return b;
+    }
+  }
+
+  void draw_places() {
+    const double last = faces_m_.empty() ? 0 : faces_m_.back(), first = free_surface_ ? 20 : -250;
+    near_ = chance(0.15);
+    source_b_ = across(first, last + 250, near_ ? 8 : 30);
+    // A force in a fluid has no closed form here.
+    std::size_t layer = 0;
+    for (std::size_t n = free_surface_ ? 1 : 0; n < faces_m_.size(); ++n) layer += source_b_ > faces_m_[n];
+    force_ = rocks_[layer].vs > 0 && chance(0.5);
+    const double levels[] = {across(first, last + 200, near_ ? 8 : 30),
+                             across(first, last + 200, near_ ? 8 : 30)};
+    for (const double b : levels)
+      for (const double a : {-250., -80., 90., 240., 400.})
+        if (std::hypot(a, b - source_b_) > 60) receivers_.push_back({a, b});
+  }
+
+  void build() {
+    double slowest = 1e30;
+    for (const auto& rock : rocks_) slowest = std::min(slowest, rock.vs > 0 ? rock.vs : rock.vp);
+    const double h = slowest / peak_hz / cells_;
+    // What lies where if (0, 0) of the frame of the layers is at the origin.
+    double low[2] = {0, 0}, high[2] = {0, 0};
+    const auto reach = [&](const LayerStack::Receiver& at) {
+      const Point<2> place = {at.a * cosine_ - at.b * sine_, at.a * sine_ + at.b * cosine_};
+      for (const std::size_t axis : {0, 1}) {
+        low[axis] = std::min(low[axis], place[axis]);
+        high[axis] = std::max(high[axis], place[axis]);
+      }
+    };
+    reach({0, source_b_});
+    for (const auto& at : receivers_) reach(at);
+    if (!faces_m_.empty()) reach({0, faces_m_.back()});
+    constexpr double margin_m = 150;
+    const double x0 = std::ceil((margin_m - low[0]) / h) * h;
+    const bool flat_top = free_surface_ && dip_deg_ == 0;
+    double z0 = flat_top ? 0 : std::ceil((margin_m - low[1]) / h) * h;
+    // A surface that dips stays below the top of the model.
+    if (free_surface_ && !flat_top) z0 = std::max(z0, std::ceil(x0 * sine_ / cosine_ / h + 8) * h);
+    const double shift = on_faces_ || flat_top ? 0 : uniform(0.1, 0.9) * h;
+    z0 += shift;
+    if (on_faces_)
+      for (auto& face : faces_m_) face = std::round(face / h) * h;
+    const std::int64_t nx = std::int64_t(std::ceil((x0 + high[0] + margin_m) / h));
+    const std::int64_t nz = std::int64_t(std::ceil((z0 + high[1] + margin_m) / h));
+    std::vector<Layer> layers;
+    const double slope = sine_ / cosine_;
+    for (std::size_t n = 0; n < rocks_.size(); ++n) {
+      const auto& rock = rocks_[n];
+      const double face = free_surface_ ? faces_m_[n] : n == 0 ? 0 : faces_m_[n - 1];
+      if (n == 0 && !free_surface_)
+        layers.emplace_back(-1e5, rock.vp, rock.vs, rock.rho);
+      else
+        layers.emplace_back(z0 + face / cosine_ - x0 * slope, rock.vp, rock.vs, rock.rho, dip_deg_);
+    }
+    FitChoice choice;
+    choice.surfaces = choice.floors = choice.layers = fitted_;
+    const Grid<2> regular{{nx, nz}, h, {0, 0}};
+    // As sw-layers would write it.
+    std::ostringstream history;
+    history.precision(12);
+    history << "sw-layers --size 1x1 --step " << h << (fitted_ ? "" : " --fit none");
+    for (std::size_t n = 0; n < rocks_.size(); ++n)
+      history << " --layer " << layers[n].top.depth_m() << ':' << rocks_[n].vp << ':' << rocks_[n].vs << ':'
+              << rocks_[n].rho << ':' << (n == 0 && !free_surface_ ? 0 : dip_deg_);
+    scene_.model.history = history.str();
+    const auto fit = fit_layers<2>(regular, layers, choice);
+    scene_.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+    const auto place = [&](double a, double b) {
+      return Point<2>{x0 + a * cosine_ - b * sine_, z0 + a * sine_ + b * cosine_};
+    };
+    scene_.survey.sources = {{place(0, source_b_), parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"),
+                              parse_wavelet("ricker:15"), 1e6}};
+    for (const auto& at : receivers_) scene_.survey.receivers_m.push_back(place(at.a, at.b));
+    scene_.edges = edges_all(EdgeLaw::absorbing);
+    if (free_surface_) scene_.edges[1][0] = EdgeLaw::free;
+    scene_.recording = {{Component::vx, Component::vz}, duration_s, interval_s};
+    scene_.numerics.order = order_;
+    scene_.numerics.cfl = cfl_;
+    check(scene_);
+    name(fit.summary.empty() ? "regular" : "fitted", fit.left_out.size());
+  }
+
+  void name(const std::string& grid, std::size_t left_out) {
+    std::ostringstream text;
+    text << (free_surface_ ? "surface," : "") << ' ';
+    for (std::size_t n = 0; n < rocks_.size(); ++n)
+      text << int(rocks_[n].vp) << '/' << int(rocks_[n].vs) << ' ';
+    text << "dip " << dip_deg_ << (on_faces_ ? " on faces, " : " off faces, ") << grid;
+    if (left_out > 0) text << " but " << left_out;
+    text << (force_ ? ", force" : ", explosion") << (near_ ? " near" : "") << ", order " << order_
+         << " Courant " << cfl_ << ", n " << cells_;
+    name_ = text.str();
+  }
+
+  std::mt19937_64 engine_;
+  std::vector<Rock> rocks_;
+  std::vector<double> faces_m_;
+  std::vector<LayerStack::Receiver> receivers_;
+  bool free_surface_ = false, on_faces_ = false, fitted_ = false, force_ = false, near_ = false;
+  double dip_deg_ = 0, cosine_ = 1, sine_ = 0, cells_ = 10, cfl_ = 0.9, source_b_ = 0;
+  int order_ = 5;
+  Scene<2> scene_;
+  std::string name_;
+};
+
+}  // namespace slipwave::solver
