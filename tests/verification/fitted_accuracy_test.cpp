@@ -167,12 +167,12 @@ INSTANTIATE_TEST_SUITE_P(FittedGrid, Stack, testing::ValuesIn(stacks),
 
 TEST(FittedSweep, OfDipsKeepsItsErrors) {
   if (!std::getenv("SLIPWAVE_LONG")) GTEST_SKIP() << "in the long form";
-  for (const double dip_deg : {0., 10., 20., 35., 45.})
+  for (const double dip_deg : {0., 10., 20., 35.})
     for (const auto& [over, under, bound] :
          {std::tuple(water, rock, 4.), {mud, hard, 2.}, {soft, hard, 1.}}) {
       // Solid tops are fitted up to smaller dips; steep ones meet the sides of the model, off which S waves
       // then come back.
-      if (dip_deg > (over.vp == soft.vp ? 10 : over.vs > 0 ? 20 : 45)) continue;
+      if (dip_deg > (over.vp == soft.vp ? 10 : over.vs > 0 ? 20 : 35)) continue;
       const DippingStack stack{"",          {over, under}, {0},  dip_deg, false,
                                "explosion", both_sides,    -200, bound,   2};
       const auto exact = exact_traces(stack);
