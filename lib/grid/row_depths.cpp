@@ -143,21 +143,16 @@ double RowDepths<D>::row_position(std::array<double, std::size_t(D)> at) const {
 
 template <int D>
 bool RowDepths<D>::row_is_level(std::int64_t row) const {
-  Index at{};
-  at[D - 1] = row;
-  const auto first = corners_m_.begin() + std::ptrdiff_t(corner_place(at));
-  std::ptrdiff_t count = 1;
-  for (std::size_t axis = 0; axis + 1 < D; ++axis) count *= std::ptrdiff_t(cells_[axis] + 1);
-  return std::all_of(first, first + count, [&](double depth) { return depth == *first; });
+  const auto depths = this->row(row);
+  return std::all_of(depths.begin(), depths.end(), [&](double depth) { return depth == depths.front(); });
 }
 
 template <int D>
 std::array<double, 2> RowDepths<D>::heights() const {
   std::array<double, 2> range{std::numeric_limits<double>::infinity(), 0};
-  std::int64_t a_row = 1;
-  for (std::size_t axis = 0; axis + 1 < D; ++axis) a_row *= cells_[axis] + 1;
-  for (std::size_t n = std::size_t(a_row); n < corners_m_.size(); ++n) {
-    const double height = corners_m_[n] - corners_m_[n - std::size_t(a_row)];
+  const std::size_t a_row = row(0).size();
+  for (std::size_t n = a_row; n < corners_m_.size(); ++n) {
+    const double height = corners_m_[n] - corners_m_[n - a_row];
     range = {std::min(range[0], height), std::max(range[1], height)};
   }
   return range;

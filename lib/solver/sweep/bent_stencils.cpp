@@ -70,16 +70,10 @@ BentStencil::Side side_of(const Column<D>& z, EdgeLaw edge, int reach, bool& ins
   return side;
 }
 
-/// As for level rows (interface_stencils.cpp).
-constexpr int most_reach_at_contrasts = 2;
-constexpr double contrast_ratio = 1.2;
-
 int reach_within(const BentStencil::Side& low, const BentStencil::Side& high, int reach) {
-  const int interfaces = (low.p == Extension::interface) + (high.p == Extension::interface);
-  const int others = low.cells + high.cells;
-  const bool ends = low.p != Extension::none && high.p != Extension::none;
-  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
-  return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+  return solver::reach_within((low.p == Extension::interface) + (high.p == Extension::interface),
+                              low.p != Extension::none && high.p != Extension::none, low.cells + high.cells,
+                              reach);
 }
 
 template <int D>

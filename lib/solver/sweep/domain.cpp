@@ -325,9 +325,8 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   const double elastic =
       mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
              : trace * trace / (D * D * lambda);
-  const double volume =
-      domain.model_grid.rows ? domain.model_grid.height(domain.model_cell(whole)) : domain.grid.spacing_m;
-  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * volume;
+  const double height = domain.model_grid.height(domain.model_cell(whole));
+  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * height;
 }
 
 template <int D, class Real>

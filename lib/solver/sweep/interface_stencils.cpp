@@ -75,13 +75,7 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
   return side;
 }
 
-/// Cells the reconstruction may reach beside a corrected free surface, a strong interface or a contrast: with
-/// three, solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
-constexpr int most_reach_at_contrasts = 2;
-/// Ratio of impedances from which a face within the stencil of a cell is a contrast.
-constexpr double contrast_ratio = 1.2;
-
-/// Whether there is one up to `reach` cells to one side.
+/// Whether there is a contrast up to `reach` cells to one side.
 template <int D>
 bool contrast(const Walk<D>& z, int reach) {
   for (int n = 1; n <= reach && !z.leaves_grid(n) && z(n) > 0; ++n)
@@ -130,15 +124,10 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
-/// Cells the reconstruction may reach. Between two strong interfaces w cells allow order 2w - 1 and no more,
-/// and so does a single cell between a strong interface and another end: with more, random media of single
-/// cells and a crust of one cell grew at order 5 and 7 (docs/theory.md).
 int reach_within(const Side& low, const Side& high, int reach) {
-  const int interfaces = (low.law == Extension::interface) + (high.law == Extension::interface);
-  const int others = low.cells + high.cells;
-  const bool ends = low.law != Extension::none && high.law != Extension::none;
-  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
-  return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+  return solver::reach_within((low.law == Extension::interface) + (high.law == Extension::interface),
+                              low.law != Extension::none && high.law != Extension::none,
+                              low.cells + high.cells, reach);
 }
 
 /// The pair (v, s) of cells in a line, with `j` of a bent row (v, J s).
@@ -214,6 +203,11 @@ constexpr std::array<CorrectCell<Real>*, sizeof...(N)> correctors(std::integer_s
 }
 
 }  // namespace
+
+int reach_within(int interfaces, bool ends, int others, int reach) {
+  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
+  return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
+}
 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,

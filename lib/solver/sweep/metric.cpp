@@ -8,32 +8,31 @@
 namespace slipwave::solver {
 namespace {
 
-/// Of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
+/// What the depth of corners gains from a cell's first corners to the next along `step`, the mean along the
+/// horizontal axis other than `axis`.
 template <int D>
-double slope_of_face(const Domain<D>& domain, const Index<D>& cell, int axis) {
-  double slope = 0;
+double mean_gain(const Domain<D>& domain, const Index<D>& cell, int axis, int step) {
+  double gain = 0;
   for (int other = 0; other < D - 1; ++other) {
     Index<D> from = cell;
     if (D == 3) from[1 - axis] += other;
     Index<D> to = from;
-    ++to[axis];
-    slope += corner_depth(domain, to) - corner_depth(domain, from);
+    ++to[step];
+    gain += corner_depth(domain, to) - corner_depth(domain, from);
   }
-  return slope / (D - 1);
+  return gain / (D - 1);
+}
+
+/// Of the upper face of a cell along a horizontal axis: dz/dx or dz/dy.
+template <int D>
+double slope_of_face(const Domain<D>& domain, const Index<D>& cell, int axis) {
+  return mean_gain(domain, cell, axis, axis);
 }
 
 /// Height in cells of the face before a cell along a horizontal axis.
 template <int D>
 double height_of_face(const Domain<D>& domain, const Index<D>& cell, int axis) {
-  double height = 0;
-  for (int other = 0; other < D - 1; ++other) {
-    Index<D> upper = cell;
-    if (D == 3) upper[1 - axis] += other;
-    Index<D> lower = upper;
-    ++lower[D - 1];
-    height += corner_depth(domain, lower) - corner_depth(domain, upper);
-  }
-  return height / (D - 1);
+  return mean_gain(domain, cell, axis, D - 1);
 }
 
 }  // namespace
