@@ -8,6 +8,7 @@
 #include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
@@ -165,6 +166,12 @@ class Sweeps {
   bool shear_;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
+  InterfaceCorrections<D, Real> corrections_;
+  /// Those of a pair of the sweep along an axis.
+  PairCorrections<Real> corrections_of(int axis, int pair) const {
+    if (axis != z_axis) return {nullptr, nullptr};
+    return {corrections_.velocity(pair), corrections_.traction(pair)};
+  }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed>, D> changed_;                   // [axis]
