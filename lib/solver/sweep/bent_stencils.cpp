@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/kernels/bent_formulas.hpp"
+#include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -89,18 +90,30 @@ struct Motion {
   RowVector<D, Real> v, t;
 };
 
-/// Multiplies the part of a vector along a normal and the rest.
-template <int D, class Real>
-RowVector<D, Real> scaled(const RowVector<D, Real>& normal, Real along, Real across,
-                          const RowVector<D, Real>& vector) {
-  return across * vector + ((along - across) * dot(normal, vector) / dot(normal, normal)) * normal;
-}
-
 template <int D, class Real>
 Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real>& metric, int offset) {
   const Real* const cell = fields.first + offset * fields.stride;
   return {row_velocity<D>(cell, fields.pitch),
           row_traction<D>(cell, fields.pitch, metric.n_cell + offset * metric.stride, metric.pitch)};
+}
+
+/// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
+template <int D, class Real>
+void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
+                    const RowVector<D, Real>& normal, const InterfaceCorrections<D, Real>& corrections,
+                    int ghost, Real scale, Motion<D, Real>& at) {
+  const auto of = [&](auto&& component) {
+    RowVector<D, Real> vector;
+    vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
+    if constexpr (D == 3) vector.y = component(2)[side.slot];
+    return vector;
+  };
+  // A fluid slides along the face.
+  const Real solid = stencil.solid ? 1 : 0;
+  at.v = at.v + Real(2 * ghost + 1) *
+                    scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
+  at.t = at.t + scale * scaled(normal, 2 - 2 * Real(side.share_p), solid * (2 - 2 * Real(side.share_s)),
+                               of([&](int c) { return corrections.traction(c); }));
 }
 
 /// At a stencil offset, extended beyond the ends of the stencil.
@@ -118,34 +131,25 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   const int face = below ? -side.cells : side.cells + 1;
   const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
-  if (side.p != Extension::interface)
-    return {
+  const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
+  if (side.p != Extension::interface) {
+    at = {
         scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
         scaled(normal, sign(side.p, Extension::traction_free), sign(side.s, Extension::traction_free), at.t)};
-  auto across =
-      load<D>(fields, metric,
-              below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
-  // A fluid has no traction along the face.
-  const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
-  at.t = scaled(normal, Real(1), solid, at.t);
-  across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
-  const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
-  at = {at.v + scaled(normal, p, s, across.v - at.v),
-        at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
-  if (side.slot < 0) return at;
-  const auto of = [&](auto&& component) {
-    RowVector<D, Real> vector;
-    vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
-    if constexpr (D == 3) vector.y = component(2)[side.slot];
-    return vector;
-  };
-  const auto velocity = of([&](int c) { return corrections.velocity(c); });
-  const auto traction = of([&](int c) { return corrections.traction(c); });
-  const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
-  const Real jump = (below ? 1 : -1) * scale;
-  // A fluid slides along the face.
-  return {at.v + Real(2 * ghost + 1) * scaled(normal, Real(1), solid, velocity),
-          at.t + jump * scaled(normal, 2 - p, solid * (2 - s), traction)};
+  } else {
+    auto across =
+        load<D>(fields, metric,
+                below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
+    // A fluid has no traction along the face.
+    const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
+    at.t = scaled(normal, Real(1), solid, at.t);
+    across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
+    const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
+    at = {at.v + scaled(normal, p, s, across.v - at.v),
+          at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
+  }
+  if (side.slot >= 0) add_correction(stencil, side, normal, corrections, ghost, below ? scale : -scale, at);
+  return at;
 }
 
 template <int Order, int D, class Real>
@@ -206,15 +210,17 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
       auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
       auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
       for (auto* side : {&low, &high}) {
-        if (side->p != Extension::interface) continue;
         Index<D> face = at;
         face[D - 1] += side == &low ? -low.cells : high.cells + 1;
-        side->slot = corrections.slot(face);
+        if (side->p != Extension::none) side->slot = corrections.slot(face);
       }
+      const bool corrected = low.slot >= 0 || high.slot >= 0;
       const bool near_free = low.p == Extension::traction_free || high.p == Extension::traction_free;
       if (inside) {
-        cells_.push_back(
-            {std::int32_t(at[0]), std::int8_t(reach_within(low, high, reach)), z_s > 0, low, high});
+        cells_.push_back({std::int32_t(at[0]),
+                          std::int8_t(std::min(reach_within(low, high, reach),
+                                               corrected ? most_reach_at_contrasts : reach)),
+                          z_s > 0, low, high});
       } else if (reach > most_reach_at_contrasts &&
                  (near_free || contrast(up, reach) || contrast(down, reach))) {
         BentStencil::Side open;

@@ -11,7 +11,7 @@
 namespace slipwave::solver {
 
 /// Corrections of the extensions across interfaces inside the grid that follow a row of faces (theory.md
-/// (E12a)): in solids and fluids that touch, velocities bend with what happens along the interface, and
+/// (E11a)): in solids and fluids that touch, velocities bend with what happens along the interface, and
 /// sweeps along it leave tractions on both sides that differ when a sweep across begins. By place ("slot") of
 /// the interface; components as those of a sweep along z: z, x, in 3-D y.
 template <int D, class Real>

@@ -69,10 +69,11 @@ class Sweeps {
   /// For a sweep along that axis of columns from `first` on, once the material is filled in.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
-  /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
-  /// free_surface_reach cells on all sides as they were before the sweep.
+  /// Whether free surfaces or interfaces of an axis are corrected: sweeps along it then need the velocities
+  /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
-    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
+    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
+           (axis == z_axis && !corrections_.empty());
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
