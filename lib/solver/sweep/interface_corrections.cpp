@@ -70,9 +70,10 @@ bool goes_on(const Domain<D>& domain, const Index<D>& from, int step) {
   return true;
 }
 
+/// Whether the face before a row bends.
 template <int D>
-bool fitted(const Domain<D>& domain) {
-  return !domain.bent_rows.empty() || !domain.row_heights.empty();
+bool bent_face(const Domain<D>& domain, std::int64_t row) {
+  return domain.bent(row - 1) || domain.bent(row);
 }
 
 /// Whether the faces before a row (in 3-D plane) part fluid from solid along all of it.
@@ -88,8 +89,8 @@ bool spans_grid(const Domain<D>& domain, std::int64_t row) {
   return true;
 }
 
-/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or on a
-/// fitted grid at the free surface of a solid, that goes on far enough.
+/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or in bent
+/// rows at the free surface of a solid, that goes on far enough.
 template <int D>
 bool corrected(const Domain<D>& domain, const Index<D>& below) {
   Index<D> above = below;
@@ -98,8 +99,8 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   if (carries(wave_s, above) == carries(wave_s, below)) return false;
   const double z_above = domain.impedance(wave_p)(above), z_below = domain.impedance(wave_p)(below);
   if (z_above == 0 || z_below == 0) {
-    // Beside void a regular grid keeps the mirror image.
-    if (!fitted(domain)) return false;
+    // Beside void level rows keep the mirror image.
+    if (!bent_face(domain, below[D - 1])) return false;
   } else if (z_above > gas_ratio * z_below || z_below > gas_ratio * z_above) {
     return false;
   }
@@ -121,7 +122,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
   first_.assign(2, 0);
   for (std::int64_t row = 1; row < shape[z]; ++row) {
     // Stairs of a regular grid are of first order anyway, and its axes are alike.
-    const bool wanted = any && (fitted(domain) || spans_grid(domain, row));
+    const bool wanted = any && (bent_face(domain, row) || spans_grid(domain, row));
     for (std::int64_t n = 0; wanted && n < plane.size(); ++n) {
       Index<D> at = plane.index(n);
       at[z] = row;
