@@ -13,6 +13,10 @@ namespace {
 /// Columns swept together across: their data stays in the first cache.
 constexpr std::int64_t stripe_width = 256;
 
+/// Halves of rows to prefetch after the reconstruction and after the update of a bent row: with those of its
+/// metric there are twice as many.
+constexpr int prefetched_by_bent = 3;
+
 }  // namespace
 
 template <int D, class Real>
@@ -111,7 +115,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                                       OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
   if (metric_.bent(number))
-    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing);
+    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
   scale = scale_of(axis, line, scale);
   const std::int64_t nx = state_.layout.shape()[0];
   // The padding of the last block of a row has no material: with it a piece would never be uniform.
@@ -142,8 +146,10 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
 template <int D, class Real>
 void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns,
                                            const Real* fields, std::int64_t pitch, std::int64_t stride,
-                                           Real scale, OutgoingWaves<Real> outgoing) const {
+                                           Real scale, OutgoingWaves<Real> outgoing,
+                                           PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
+  prefetch.prefetch(prefetched_by_bent);
   const auto material = state_.material_from(line, columns.first);
   if (axis == z_axis) {
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
@@ -153,16 +159,15 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
+  BentPairs<Real> pairs{};
   for (int p = 0; p < D; ++p) {
-    const Pair& pair = pairs_[axis][p];
-    const Real* const v = fields + pair.v * pitch + columns.first;
-    const Real* const s = fields + pair.s * pitch + columns.first;
-    bent_kernels().reconstruct_along(columns.count(), stride, v, s,
-                                     pair.wave == wave_p ? material.zp : material.zs, material.b, scale,
-                                     metric, outgoing.up(p), outgoing.down(p));
-    stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, outgoing.up(p),
-                                       outgoing.down(p), &metric);
+    pairs.v[p] = fields + pairs_[axis][p].v * pitch + columns.first;
+    pairs.s[p] = fields + pairs_[axis][p].s * pitch + columns.first;
   }
+  bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
+  for (int p = 0; p < D; ++p)
+    stencils_[axis][pairs_[axis][p].wave].correct(order_, number, columns, stride, pairs.v[p], pairs.s[p],
+                                                  material, scale, outgoing.up(p), outgoing.down(p), &metric);
 }
 
 template <int D, class Real>
@@ -172,7 +177,7 @@ void Sweeps<D, Real>::solve_bent(const Index<D>& above_face, const Index<D>& bel
   const auto fields = [&](const Index<D>& line) {
     return BentFields<const Real>{state_.field_row(line, 0) + columns.first, state_.layout.row_pitch(), 0};
   };
-  bent_kernels().solve_across(
+  bent_kernels().solve_across[metric_.fluid_at_face(state_.layout.line_number(below_face))](
       columns.count(), scale < 0 ? -1 : 1, up, down, state_.material_from(above_face, columns.first),
       state_.material_from(below_face, columns.first), fields(above_face), fields(below_face),
       metric_.across(below_face, columns.first), faces, faces.v(D), faces.pitch);
@@ -190,13 +195,14 @@ void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRan
                                   std::int64_t pitch, Real scale, const Flux& flux,
                                   const SweptRows<Real>& rows) const {
   const auto material = state_.material_from(line, columns.first);
+  const bool fluid = axis == z_axis && metric_.fluid_at_face(state_.layout.line_number(line));
   if (axis == z_axis)
-    bent_kernels().update_across(columns.count(), scale, flux.lo, flux.lo.v(D), flux.lo.pitch, flux.hi,
-                                 material, metric_.across(line, columns.first),
-                                 {fields + columns.first, pitch, 0});
+    bent_kernels().update_across(columns.count(), scale, flux.lo, fluid ? flux.lo.v(D) : flux.lo.v(0),
+                                 fluid ? flux.lo.pitch : 2 * flux.lo.pitch, flux.hi, material,
+                                 metric_.across(line, columns.first), {fields + columns.first, pitch, 0});
   else
     bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi, material,
-                                metric_.along(axis, line, columns.first).j, rows);
+                                metric_.along(axis, line, columns.first).over_j, rows);
 }
 
 /// Advances these columns.
@@ -238,9 +244,10 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
         .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
                 run ? run->rows() : state_.material_from(line, part.first), swept(part.first));
   };
-  if (metric_.bent(number))
+  if (metric_.bent(number)) {
     update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
-  else
+    work.prefetch().prefetch(prefetched_by_bent);
+  } else
     split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                   between_faces);
   work.prefetch().prefetch_one();
@@ -317,6 +324,9 @@ void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& column
   if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
                  state_.material_layout.row_pitch(), material_rows);
+  if (metric_.bent(line))
+    prefetch.add(metric_.first_row(at) + columns.first, columns.count(), metric_.row_pitch(),
+                 metric_.rows_of_line);
 }
 
 /// At the low edge the wave upwards follows from the one downwards, at the high edge the other way round.

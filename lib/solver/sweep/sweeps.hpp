@@ -117,8 +117,8 @@ class Sweeps {
                        PrefetchQueue<Real>& prefetch) const;
   /// The same of a bent row of a fitted grid.
   void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                            std::int64_t pitch, std::int64_t stride, Real scale,
-                            OutgoingWaves<Real> outgoing) const;
+                            std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
+                            PrefetchQueue<Real>& prefetch) const;
   /// The interface states of a face across the rows that is bent, or before or behind a bent row.
   void solve_bent(const Index<D>& above_face, const Index<D>& below_face, const IndexRange& columns,
                   Real scale, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
