@@ -233,66 +233,103 @@ template <bool Fluid, class Real>
 }
 
 template <bool Fluid, int D, class Real>
-void solve_bent_across(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                       const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
-                       const BentAcross<Real>& metric, InterfaceStates<Real> faces,
-                       Real* __restrict seen_above, std::int64_t seen_pitch) {
-  const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
-  const Real* __restrict up = below.first, * __restrict down = above.first + above.pitch;
-  const Real* __restrict cell_lo = fields_lo.first, * __restrict cell_hi = fields_hi.first;
-  const Real* __restrict n_face = metric.n_face, * __restrict over_face = metric.over_face;
-  const std::int64_t up_pitch = 2 * below.pitch, down_pitch = 2 * above.pitch, pitch = fields_lo.pitch;
-  const std::int64_t of_metric = metric.pitch, face_pitch = faces.pitch;
-  Real* __restrict face = faces.first;
+void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
+  const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
+  const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
+  const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
+  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
+                     cells = at.fields_lo.pitch;
+  const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
+  Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
     solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
                          take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
-                         cell_hi + i, pitch, zp_lo[i], zp_hi[i], zs_lo[i], zs_hi[i], face + i, face_pitch,
+                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
                          seen_above + i, seen_pitch);
 }
 
-/// (F5): rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J). `lo` holds tractions, v_lo what this cell sees.
+/// (F5) of one cell: rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J), from velocities and tractions
+/// before and behind it; v_lo is what this cell sees.
 template <int D, class Real>
-void update_bent_across(std::int64_t n, Real scale, InterfaceStates<Real> lo, const Real* __restrict v_lo,
-                        std::int64_t v_lo_pitch, InterfaceStates<Real> hi, const MaterialRows<Real>& material,
-                        const BentAcross<Real>& metric, const BentFields<Real>& fields) {
+[[gnu::always_inline]] inline void update_bent_at(Real scale, Real size, Real b, Real zp, Real zs,
+                                                  const Real* n_cell, std::int64_t of_metric,
+                                                  RowVector<D, Real> v_lo, RowVector<D, Real> v_hi,
+                                                  RowVector<D, Real> t_lo, RowVector<D, Real> t_hi, Real* f,
+                                                  std::int64_t p) {
+  Real moved, p_modulus, mu;
+  update_coefficients<true>(scale, size, b, zp, zs, moved, p_modulus, mu);
+  const Real lambda = p_modulus - 2 * mu;
+  const auto d = v_hi - v_lo;
+  const auto dt = moved * (t_hi - t_lo);
+  const Real nx = n_cell[0];
+  if constexpr (D == 2) {
+    f[0] += dt.x;
+    f[p] += dt.z;
+    const Real along = nx * d.x;
+    f[2 * p] += lambda * d.z + p_modulus * along;
+    f[3 * p] += lambda * along + p_modulus * d.z;
+    f[4 * p] += mu * (nx * d.z + d.x);
+  } else {
+    const Real ny = n_cell[of_metric];
+    f[0] += dt.x;
+    f[p] += dt.y;
+    f[2 * p] += dt.z;
+    const Real trace = lambda * (nx * d.x + ny * d.y + d.z);
+    f[3 * p] += trace + 2 * mu * (nx * d.x);
+    f[4 * p] += trace + 2 * mu * (ny * d.y);
+    f[5 * p] += trace + 2 * mu * d.z;
+    f[6 * p] += mu * (nx * d.y + ny * d.x);
+    f[7 * p] += mu * (nx * d.z + d.x);
+    f[8 * p] += mu * (ny * d.z + d.y);
+  }
+}
+
+template <int D, class Real>
+void update_bent_across(std::int64_t n, Real scale, const BentUpdate<Real>& of) {
   const Real size = scale < 0 ? -scale : scale;
-  const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
-  const Real* __restrict hi_of = hi.first, * __restrict lo_of = lo.first + lo.pitch;
-  const Real* __restrict over_j = metric.over_j, * __restrict n_cell = metric.n_cell;
-  const std::int64_t hi_pitch = 2 * hi.pitch, lo_pitch = 2 * lo.pitch, p = fields.pitch;
-  Real* __restrict first = fields.first;
+  const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
+  const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
+  const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
+  const std::int64_t of_metric = of.metric.pitch;
+  Real* __restrict f = of.fields.first;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i)
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
+                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
+                      take<D>(t_hi + i, hi), f + i, p);
+}
+
+/// The solution at a face and the update of another row in one loop: the same bits as both loops.
+template <bool Fluid, int D, class Real>
+void advance_bent_across(std::int64_t n, Real scale, const BentSolve<Real>& at, const BentUpdate<Real>& of) {
+  const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
+  const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
+  const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
+  const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
+  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
+                     cells = at.fields_lo.pitch;
+  const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
+  Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
+  const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
+  const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
+  const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
+  Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    Real moved, p_modulus, mu;
-    update_coefficients<true>(scale, size, over_j[i] * b[i], zp[i], zs[i], moved, p_modulus, mu);
-    const Real lambda = p_modulus - 2 * mu;
-    const auto d = take<D>(hi_of + i, hi_pitch) - take<D>(v_lo + i, v_lo_pitch);
-    const auto dt = moved * (take<D>(hi_of + i + hi.pitch, hi_pitch) - take<D>(lo_of + i, lo_pitch));
-    Real* __restrict f = first + i;
-    const Real nx = n_cell[i];
-    if constexpr (D == 2) {
-      f[0] += dt.x;
-      f[p] += dt.z;
-      const Real along = nx * d.x;
-      f[2 * p] += lambda * d.z + p_modulus * along;
-      f[3 * p] += lambda * along + p_modulus * d.z;
-      f[4 * p] += mu * (nx * d.z + d.x);
-    } else {
-      const Real ny = n_cell[i + metric.pitch];
-      f[0] += dt.x;
-      f[p] += dt.y;
-      f[2 * p] += dt.z;
-      const Real trace = lambda * (nx * d.x + ny * d.y + d.z);
-      f[3 * p] += trace + 2 * mu * (nx * d.x);
-      f[4 * p] += trace + 2 * mu * (ny * d.y);
-      f[5 * p] += trace + 2 * mu * d.z;
-      f[6 * p] += mu * (nx * d.y + ny * d.x);
-      f[7 * p] += mu * (nx * d.z + d.x);
-      f[8 * p] += mu * (ny * d.z + d.y);
-    }
+    solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
+                         take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
+                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
+                         seen_above + i, seen_pitch);
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
+                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
+                      take<D>(t_hi + i, hi), f + i, p);
   }
 }
 
@@ -303,7 +340,8 @@ constexpr BentKernels<Real> bent_kernels = {
     update_bent_along<D, Real>,
     reconstruct_bent_across<Order, D, Real>,
     {solve_bent_across<false, D, Real>, solve_bent_across<true, D, Real>},
-    update_bent_across<D, Real>};
+    update_bent_across<D, Real>,
+    {advance_bent_across<false, D, Real>, advance_bent_across<true, D, Real>}};
 
 }  // namespace
 }  // namespace slipwave::solver

@@ -129,6 +129,31 @@ struct BentFields {
   std::int64_t pitch, stride;
 };
 
+/// What the solution at a face across the rows reads and writes: outgoing waves, material and fields of the
+/// cells before and behind it; its metric; the states, and the velocities that the cells above it see where
+/// there is fluid.
+template <class Real>
+struct BentSolve {
+  OutgoingWaves<Real> below, above;
+  MaterialRows<Real> lo, hi;
+  BentFields<const Real> fields_lo, fields_hi;
+  BentAcross<Real> metric;
+  InterfaceStates<Real> faces;
+  Real* seen_above;
+  std::int64_t seen_pitch;
+};
+/// What the update of a row reads and writes: the states at the faces before and behind it, where v_lo are
+/// the velocities that its cells see.
+template <class Real>
+struct BentUpdate {
+  InterfaceStates<Real> lo, hi;
+  const Real* v_lo;
+  std::int64_t v_lo_pitch;
+  MaterialRows<Real> material;
+  BentAcross<Real> metric;
+  BentFields<Real> fields;
+};
+
 /// Loops of sweeps through bent rows (bent_rows.hpp), with shear everywhere. Across the rows interface states
 /// are vectors, components z, x, [y], and outgoing waves as outgoing_wave() resolves them: both are those of
 /// the pairs where a face is level.
@@ -146,14 +171,11 @@ struct BentKernels {
                              const MaterialRows<Real>& material, const BentAcross<Real>& metric,
                              OutgoingWaves<Real> outgoing);
   /// By whether there is fluid: else the velocity is the same on both sides, and `seen_above` not written.
-  void (*solve_across[2])(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                          const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                          const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
-                          const BentAcross<Real>& metric, InterfaceStates<Real> faces, Real* seen_above,
-                          std::int64_t seen_pitch);
-  void (*update_across)(std::int64_t n, Real scale, InterfaceStates<Real> lo, const Real* v_lo,
-                        std::int64_t v_lo_pitch, InterfaceStates<Real> hi, const MaterialRows<Real>& material,
-                        const BentAcross<Real>& metric, const BentFields<Real>& fields);
+  void (*solve_across[2])(std::int64_t n, Real sign, const BentSolve<Real>& at);
+  void (*update_across)(std::int64_t n, Real scale, const BentUpdate<Real>& of);
+  /// Both in one loop; the face must be none of the row's.
+  void (*advance_across[2])(std::int64_t n, Real scale, const BentSolve<Real>& at,
+                            const BentUpdate<Real>& of);
 };
 
 /// Inner loops of a sweep over n neighbouring cells of one row, for one order and one instruction set.
