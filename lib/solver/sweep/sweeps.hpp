@@ -119,12 +119,17 @@ class Sweeps {
                        PrefetchQueue<Real>& prefetch) const;
   /// The same of a bent row of a fitted grid.
   void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                            std::int64_t pitch, std::int64_t stride, Real scale,
-                            OutgoingWaves<Real> outgoing) const;
-  /// The interface states of a face across the rows that is bent, or before or behind a bent row.
-  void solve_bent(const Index<D>& above_face, const Index<D>& below_face, const IndexRange& columns,
-                  Real scale, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
-                  InterfaceStates<Real> faces) const;
+                            std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
+                            PrefetchQueue<Real>& prefetch) const;
+  /// Of the face before a row, across the rows, that is bent, or before or behind a bent row.
+  BentSolve<Real> bent_face(const Index<D>& at, std::int64_t row, std::int64_t x, Ring<Real>& ring) const;
+  /// Of a bent row in a sweep across the rows.
+  BentUpdate<Real> bent_update(const Index<D>& line, std::int64_t x, Real* fields, std::int64_t pitch,
+                               InterfaceStates<Real> lo, InterfaceStates<Real> hi) const;
+  bool advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
+                    Ring<Real>& ring, Workspace<Real>& work);
+  /// Whether an effect filters the update of any of these columns.
+  bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
   const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     return kernels_[uniform]->face[D - 2][shear_];
@@ -145,6 +150,8 @@ class Sweeps {
   Real scale_of(int axis, const Index<D>& line, Real scale) const {
     return axis == z_axis ? scale * metric_.inverse_height(line[z_axis]) : scale;
   }
+  void solve_along(std::int64_t line, const IndexRange& cells, bool begins, bool ends,
+                   OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
