@@ -1,9 +1,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "model/property.hpp"
+#include "plot/derived_property.hpp"
 #include "plot/file_picture.hpp"
 #include "trace_input.hpp"
 
@@ -24,7 +26,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("size", settings.page.size, "SIZE", "size of the picture, 16x10cm or 1200x800px");
   options.add("dpi", settings.page.dpi, "N", "pixels per inch");
   options.add("title", settings.page.title, "TEXT", "title above the picture");
-  options.add("map", texts.map, "NAME", "colours: uniform, grey, white-black, blue-red, red-blue");
+  options.add("map", texts.map, "NAME", "colours: " + joined(plot::ColourMap::names()));
   options.add("clip", settings.look.clip_percent, "PERCENT",
               "colours saturate at this percentile of absolute amplitude");
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
@@ -32,11 +34,11 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
   options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
   options.add("shot", settings.shot, "N", "gather: this shot only");
-  options.add_choice("axis", texts.axis, {"auto", "x", "midpoint", "offset", "depth", "trace"},
-                     "gather: position of the traces");
+  options.add_choice("axis", texts.axis, plot::trace_axis_names(), "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
   auto drawn = property_names();
+  for (const auto& derived : plot::derived_properties()) drawn.emplace_back(derived.name);
   drawn.push_back("fractures");
   options.add_choice("property", settings.property, drawn, "model: property to draw");
   options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
@@ -48,7 +50,11 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
   options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
-  options.add("overlay", settings.overlay, "errors: several files in one panel");
+  options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
+  options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
+  options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
+  options.add("interpolate", settings.look.interpolate,
+              "linearly between traces and cells wider than pixels");
   texts.traces.declare(options);
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
@@ -29,16 +30,26 @@ SurveyMarks survey_of(const PlotOptions& options, int axis) {
   return read_survey(reader, axis);
 }
 
-Picture gather_picture(InputFile& input, const PlotOptions& options, const Page& page) {
-  segy::Reader reader(input.path, options.traces.read_options(), {input.taken.begin(), input.taken.end()});
-  TraceChoice choice{options.component, std::nullopt};
-  if (options.shot) choice.shot = std::int64_t(*options.shot);
-  auto section = read_section(reader, choice);
+/// "fine" for "run/fine.sgy".
+std::string name_beside_others(const std::string& path) {
+  if (path == "-") return "standard input";
+  return std::filesystem::path(path).stem().string();
+}
+
+Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& options, const Page& page) {
+  std::vector<NamedGather> gathers;
   std::string text;
-  if (!reader.header().su) {
+  for (auto& input : inputs) {
+    segy::Reader reader(input.path, options.traces.read_options(), {input.taken.begin(), input.taken.end()});
+    TraceChoice choice{options.component, std::nullopt};
+    if (options.shot) choice.shot = std::int64_t(*options.shot);
+    gathers.push_back({name_beside_others(input.path), read_section(reader, choice)});
+    if (reader.header().su) continue;
     for (const auto& line : segy::shown_lines(reader.header().text)) text += line + "\n";
   }
-  return draw_gather(std::move(section), options.gather, options.look, with_history(page, text));
+  auto style = options.gather;
+  style.overlay = options.overlay;
+  return draw_gathers(std::move(gathers), style, options.look, with_history(page, text));
 }
 
 /// With the plane in its title.
@@ -87,9 +98,10 @@ Picture snapshot_picture(InputFile& input, const PlotOptions& options, const Pag
   const SnapshotFile snapshots(std::move(*input.file), options.minus, options.slice);
   const auto field = options.field.empty() ? snapshots.fields().front() : options.field;
   const auto time = options.time_s ? snapshots.nearest(*options.time_s) : snapshots.times_s().size() - 1;
-  const auto snapshot = snapshots.read(field, time);
+  auto snapshot = snapshots.read(field, time);
   Magnitudes magnitudes;
   magnitudes.add({snapshot.values.data(), snapshot.values.size()});
+  snapshot.extent = {magnitudes.lowest(), magnitudes.highest()};
   return draw_snapshot(snapshot, full_of(magnitudes, options), model_below(options, snapshots),
                        survey_of(options, snapshots.axis()), options.look, on_plane(page, snapshots.slice()));
 }
@@ -106,10 +118,11 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
   if (inputs.empty()) inputs.push_back(open_input("-", options.traces.su));
   const Kind kind = inputs.front().kind;
   for (const auto& input : inputs) {
-    const bool together = input.kind == kind && (kind == Kind::spectra || kind == Kind::accuracy);
+    const bool together = input.kind == kind && kind != Kind::model && kind != Kind::snapshots;
     if (inputs.size() > 1 && !together)
       throw Error(shown_input(input.path) +
-                      ": several files can be drawn together only if all hold spectra or all hold errors",
+                      ": several files can be drawn together only if all hold gathers, all spectra or all "
+                      "errors",
                   ErrorKind::usage);
   }
   std::string history;
@@ -117,7 +130,7 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
     if (input.file) history += input.history() + "\n";
   }
   const auto page = with_history(given, history);
-  if (kind == Kind::gather) return gather_picture(inputs.front(), options, page);
+  if (kind == Kind::gather) return gather_picture(inputs, options, page);
   if (kind == Kind::model) return model_picture(inputs.front(), options, page);
   if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), options, page);
   if (kind == Kind::spectra) {

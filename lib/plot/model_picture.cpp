@@ -20,10 +20,11 @@ Limits range_of(const Field<2>& field) {
 }
 
 ColourBar bar_of(const ModelSection& section, bool as_sets, const Look& look) {
-  const Limits range = look.colours.value_or(range_of(section.values));
+  const Limits all = range_of(section.values), range = look.colours.value_or(all);
   ColourBar bar{map_of(look, as_sets ? "grey" : "uniform"),
                 {section.property, section.unit, range.low, range.high}};
   if (range.low == range.high) widen(bar.axis, 0);
+  bar.point_beyond(all.low, all.high);
   return bar;
 }
 
@@ -60,7 +61,7 @@ Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks&
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
 
   const auto pixels = pixels_of(panel, page, section.grid());
-  const auto raster = reduced(section.values, pixels, Take::mean);
+  const auto raster = shown_values(section.values, panel, page, Take::mean, look);
   Image image(raster.width, raster.height);
   const double low = spec.bar->axis.low, span = spec.bar->axis.high - low;
   for (std::size_t n = 0; n < image.pixels.size(); ++n)

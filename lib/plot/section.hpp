@@ -57,6 +57,9 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid);
 template <class Value>
 Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take);
 
+/// The same as `look` asks for: interpolated between cells, or not.
+Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page, Take take, const Look& look);
+
 /// The x and true depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel
 /// over its width that gives them one scale.
 struct SectionAxes {

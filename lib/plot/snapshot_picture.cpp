@@ -13,8 +13,8 @@ Colour ground_colour(double number) {
   return {light, light, light};
 }
 
-Image ground_of(const ModelSection& model, const Panel& panel, const Page& page) {
-  const auto raster = reduced(model.values, pixels_of(panel, page, model.grid()), Take::mean);
+Image ground_of(const ModelSection& model, const Panel& panel, const Page& page, const Look& look) {
+  const auto raster = shown_values(model.values, panel, page, Take::mean, look);
   double low = INFINITY, high = -INFINITY;
   for (const float value : raster.values) {
     if (std::isnan(value)) continue;
@@ -67,12 +67,13 @@ Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional
   PanelSpec spec{title_of(snapshot, page.title), axes.x, axes.depth,
                  ColourBar{map_of(look, "blue-red"), {snapshot.name, snapshot.unit, limits.low, limits.high}},
                  legend_of(marks)};
+  spec.bar->point_beyond(snapshot.extent.low, snapshot.extent.high);
   if (page.height_pt == 0) Panel::fit_page(page, spec, height_per_width(spec.x, spec.y));
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
 
   const auto pixels = pixels_of(panel, page, grid);
-  const auto raster = reduced(snapshot.values, pixels, Take::extreme);
-  Image image = model ? ground_of(*model, panel, page) : Image(raster.width, raster.height);
+  const auto raster = shown_values(snapshot.values, panel, page, Take::extreme, look);
+  Image image = model ? ground_of(*model, panel, page, look) : Image(raster.width, raster.height);
   for (std::size_t n = 0; n < image.pixels.size(); ++n) {
     const double value = double(raster.values[n]);
     if (std::isnan(value)) {

@@ -17,6 +17,7 @@ struct Snapshot {
   double time_s = 0;
   Field<2> values;
   std::array<const char*, 2> axes = {"x", "depth"};  // across and down
+  Limits extent = {0, 0};                            // of all values on this scale, for the colour bar
 };
 
 /// "m/s" for "m s-1": units of files as pictures show them.
