@@ -48,7 +48,8 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
+  options.add("movie", settings.movie, "snapshots: all, to -o NAME.mp4, or NAME-0001.png and so on");
+  options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
   options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
@@ -79,7 +80,11 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   settings.gather.wiggle = texts.style != "density";
   settings.page.history = context.command_line;
   settings.traces = texts.traces;
-  if (settings.movie) return plot::draw_movie(settings, context.progress("frames"));
+  if (settings.movie) {
+    plot::take_movie_name(settings);
+    for (const auto& note : plot::draw_movie(settings, context.progress("frames"))) context.warn(note);
+    return;
+  }
 
   const auto page = plot::page_of(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);

@@ -94,10 +94,8 @@ std::string typeset(std::string unit) {
   return unit;
 }
 
-}  // namespace
-
-ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
-                                const std::optional<Slice>& slice) {
+/// Without its values.
+ModelSection begun_section(const NetcdfFile& file, const std::string& property) {
   ModelSection section;
   section.property = property;
   if (const auto row = find_property(property)) section.unit = typeset(row_of(*row).shown_unit);
@@ -106,32 +104,82 @@ ModelSection read_model_section(const NetcdfFile& file, const std::string& prope
     section.unit = derived->unit;
   }
   section.title = file.text_attribute("", "title").value_or("");
-  Field<2> rho;
+  return section;
+}
+
+/// Where rho is 0 there is no rock.
+void take_void_out(ModelSection& section, const Field<2>& rho) {
+  for (std::size_t cell = 0; cell < rho.size(); ++cell)
+    if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
+}
+
+std::vector<ModelSection> sections_of(const NetcdfFile& file, const Grid<3>& grid,
+                                      const std::string& property, const std::vector<CellLayer>& layers) {
+  std::vector<ModelSection> sections(layers.size(), begun_section(file, property));
+  {
+    const auto values = read_property(file, grid, property);
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      sections[n].axes = section_axes(layers[n].axis);
+      sections[n].values = section_of(values, layers[n]);
+    }
+  }
+  if (may_have_void(file)) {
+    const auto rho = read_stored(file, grid, "rho");
+    for (std::size_t n = 0; n < layers.size(); ++n) take_void_out(sections[n], section_of(rho, layers[n]));
+  }
+  if (file.has_variable("fracture")) {
+    const auto sets = read_fracture_sets<3>(file);
+    const auto codes = read_codes(file, grid, sets.size());
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      sections[n].sets = seen_in_section(sets, layers[n].axis);
+      sections[n].fracture = section_of(codes, layers[n]);
+    }
+  }
+  return sections;
+}
+
+}  // namespace
+
+std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
+                                              std::span<const Slice> planes) {
+  const auto grid = read_grid<3>(file);
+  std::vector<CellLayer> layers;
+  for (const auto& plane : planes)
+    layers.push_back(in_place(file.shown_name(), [&] { return layer_on(grid, plane); }));
+  return sections_of(file, grid, property, layers);
+}
+
+std::vector<Slice> three_planes(const Grid<3>& grid, const std::optional<Point<3>>& through) {
+  if (std::any_of(grid.shape.begin(), grid.shape.end(), [](auto cells) { return cells == 1; })) return {};
+  std::vector<Slice> planes;
+  for (const int axis : {0, 1, 2}) {
+    const auto along = std::size_t(axis);
+    const auto [low, high] =
+        axis == 2 ? depth_extent(grid) : std::array{grid.origin_m[along], grid.end(axis)};
+    const bool inside = through && (*through)[along] >= low && (*through)[along] <= high;
+    const double at_m = inside && axis != 2 ? (*through)[along] : (low + high) / 2;
+    planes.push_back(plane_of(grid, layer_on(grid, {axis, at_m})));
+  }
+  return planes;
+}
+
+ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
+                                const std::optional<Slice>& slice) {
   if (dimension_of(file) == 3) {
     const auto grid = read_grid<3>(file);
     const auto layer = in_place(file.shown_name(), [&] { return layer_to_show(grid, slice); });
-    section.axes = section_axes(layer.axis);
-    section.values = section_of(read_property(file, grid, property), layer);
-    if (may_have_void(file)) rho = section_of(read_property(file, grid, "rho"), layer);
-    if (file.has_variable("fracture")) {
-      const auto sets = read_fracture_sets<3>(file);
-      section.sets = seen_in_section(sets, layer.axis);
-      section.fracture = section_of(read_codes(file, grid, sets.size()), layer);
-    }
-  } else {
-    if (slice)
-      throw Error(file.shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
-                  ErrorKind::usage);
-    const auto grid = read_grid<2>(file);
-    section.values = read_property(file, grid, property);
-    if (may_have_void(file)) rho = read_property(file, grid, "rho");
-    if (file.has_variable("fracture")) {
-      section.sets = read_fracture_sets<2>(file);
-      section.fracture = read_codes(file, grid, section.sets.size());
-    }
+    return std::move(sections_of(file, grid, property, {layer}).front());
   }
-  for (std::size_t cell = 0; cell < rho.size(); ++cell) {
-    if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
+  if (slice)
+    throw Error(file.shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
+                ErrorKind::usage);
+  auto section = begun_section(file, property);
+  const auto grid = read_grid<2>(file);
+  section.values = read_property(file, grid, property);
+  if (may_have_void(file)) take_void_out(section, read_stored(file, grid, "rho"));
+  if (file.has_variable("fracture")) {
+    section.sets = read_fracture_sets<2>(file);
+    section.fracture = read_codes(file, grid, section.sets.size());
   }
   return section;
 }

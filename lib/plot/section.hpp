@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,14 @@ struct ModelSection {
 /// lies on a plane. Throws Error naming the file.
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice = std::nullopt);
+
+/// The same of a model in 3-D on several planes, read once.
+std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
+                                              std::span<const Slice> planes);
+
+/// Planes across x, y and z to show a volume by: through this point or, where there is none, the middle;
+/// the level one always half way down. Nothing of a grid that is one cell thick.
+std::vector<Slice> three_planes(const Grid<3>& grid, const std::optional<Point<3>>& through);
 
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {

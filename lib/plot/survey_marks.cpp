@@ -90,6 +90,12 @@ SurveyMarks read_survey(segy::Reader& reader, int axis) {
   return marks;
 }
 
+Point<3> first_source(segy::Reader& reader) {
+  segy::Trace trace;
+  if (!reader.next(trace)) throw Error(reader.name() + ": has no traces, expected at least one");
+  return reader.si_header(trace).source_m;
+}
+
 void draw_survey(Canvas& canvas, const Panel& panel, const SurveyMarks& marks) {
   draw_marks(canvas, panel, marks.receivers, Marker::triangle_down, receiver_pt, 0.9 * receiver_pt,
              receiver_colour);

@@ -23,6 +23,9 @@ struct SurveyMarks {
 /// Of all traces of a file, as a section across this axis shows them.
 SurveyMarks read_survey(segy::Reader& reader, int axis = 1);
 
+/// x, y, z of the source of the first trace.
+Point<3> first_source(segy::Reader& reader);
+
 /// Stars for sources, smaller where they stand close, triangles for receivers, of which only some are drawn
 /// where they would hide each other. Of a plane wave no star, but its front and an arrow along its way, where
 /// that is known.
