@@ -76,6 +76,10 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
   settings.gather.axis = plot::trace_axis_named(texts.axis);
+  if (settings.overlay && texts.style == "both")
+    throw Error("--overlay: draws lines, which --style both does not go with", ErrorKind::usage);
+  if (settings.gather.difference_gain == 0)
+    throw Error("--difference-gain: found 0, expected a number other than 0", ErrorKind::usage);
   settings.gather.density = texts.style != "wiggle";
   settings.gather.wiggle = texts.style != "density";
   settings.page.history = context.command_line;

@@ -8,7 +8,7 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr double least_pt = 2.4 * points_per_cm, highest_pt = 17 * points_per_cm;
+constexpr double least_pt = 1.6 * points_per_cm, highest_pt = 17 * points_per_cm;
 
 struct Size {
   double width = 0, height = 0;

@@ -23,7 +23,7 @@ std::string name_of(const Slice& plane);
 
 /// Three planes across x, y and z, in this order, on one scale: the level one above, the others below it,
 /// where each cuts the others a dashed line, one colour bar. `page.height_pt` 0: as high as that needs. A
-/// volume so flat or narrow that a panel would be below 2.4 cm is stretched there.
+/// volume so flat or narrow that a panel would be below 1.6 cm is stretched there.
 Picture draw_three_slices(std::array<SlicePanel, 3> slices, const std::vector<LegendEntry>& legend,
                           Page page);
 
