@@ -48,7 +48,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie, "snapshots: all, to -o NAME.mp4, or NAME-0001.png and so on");
+  options.add("movie", settings.movie, "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
   options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
