@@ -41,14 +41,16 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   for (const auto& derived : plot::derived_properties()) drawn.emplace_back(derived.name);
   drawn.push_back("fractures");
   options.add_choice("property", settings.property, drawn, "model: property to draw");
-  options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
+  options.add("slice", texts.slice, "AXIS=AT",
+              "model, snapshot in 3-D: the section on this plane, y=500, or three through X,Y,Z");
   options.add("survey", settings.survey, "GATHER",
               "model, snapshot: mark sources and receivers of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie, "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
+  options.add("movie", settings.movie,
+              "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
   options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
   options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
@@ -70,7 +72,10 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   limits("--range", texts.range, settings.look.colours);
   limits("--x", texts.x, settings.look.x);
   limits("--y", texts.y, settings.look.y);
-  if (!texts.slice.empty()) settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
+  if (texts.slice.find(',') != std::string::npos)
+    settings.through = in_place("--slice", [&] { return parse_point<3>(texts.slice); });
+  else if (!texts.slice.empty())
+    settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
   if (!texts.component.empty())
     settings.component = in_place("--component", [&] { return component_named(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))

@@ -56,11 +56,12 @@ Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& option
   return draw_gathers(std::move(gathers), style, options.look, with_history(page, text));
 }
 
-/// Planes of volumes are drawn through the first source of the survey.
-std::optional<Point<3>> through_of(const PlotOptions& options) {
-  if (options.survey.empty()) return std::nullopt;
+WantedPlanes wanted_planes(const PlotOptions& options) {
+  WantedPlanes wanted{options.slice, options.through, {}};
+  if (options.survey.empty()) return wanted;
   segy::Reader reader(options.survey, options.traces.read_options());
-  return first_source(reader);
+  wanted.source = first_source(reader);
+  return wanted;
 }
 
 /// Three sections have axes of their own.
@@ -81,19 +82,23 @@ Page on_plane(Page page, const std::optional<Slice>& slice) {
 Picture model_picture(InputFile& input, const PlotOptions& options, const Page& page) {
   const bool as_sets = options.property == "fractures";
   const std::string property = as_sets ? "vp" : options.property;
-  if (!options.slice && dimension_of(*input.file) == 3) {
-    const auto planes = three_planes(read_grid<3>(*input.file), through_of(options));
-    if (!planes.empty()) {
-      refuse_parts(options.look);
-      std::vector<SurveyMarks> marks;
-      for (const auto& plane : planes) marks.push_back(survey_of(options, plane.axis));
-      return draw_model_volume(read_model_sections(*input.file, property, planes), planes, as_sets, marks,
-                               options.look, page);
-    }
+  if (dimension_of(*input.file) == 2) {
+    if (options.slice || options.through)
+      throw Error(input.file->shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
+                  ErrorKind::usage);
+    return draw_model(read_model_section(*input.file, property), as_sets, survey_of(options, 1), options.look,
+                      page);
   }
-  const auto section = read_model_section(*input.file, property, options.slice);
-  return draw_model(section, as_sets, survey_of(options, options.slice ? options.slice->axis : 1),
-                    options.look, on_plane(page, options.slice));
+  const auto grid = read_grid<3>(*input.file);
+  const auto planes =
+      in_place(input.file->shown_name(), [&] { return planes_of(grid, wanted_planes(options)); });
+  const auto sections = read_model_sections(*input.file, property, planes);
+  std::vector<SurveyMarks> marks;
+  for (const auto& plane : planes) marks.push_back(survey_of(options, plane.axis));
+  if (planes.size() == 1)
+    return draw_model(sections.front(), as_sets, marks.front(), options.look, on_plane(page, options.slice));
+  refuse_parts(options.look);
+  return draw_model_volume(sections, planes, as_sets, marks, options.look, page);
 }
 
 /// What snapshots are drawn with, whatever their time.
@@ -101,7 +106,7 @@ class SnapshotDrawing {
  public:
   SnapshotDrawing(InputFile& input, const PlotOptions& options)
       : options_(options),
-        file_(std::move(*input.file), options.minus, {options.slice, through_of(options)}),
+        file_(std::move(*input.file), options.minus, wanted_planes(options)),
         field_(options.field.empty() ? file_.fields().front() : options.field) {
     for (std::size_t n = 0; n < file_.sections(); ++n) marks_.push_back(survey_of(options, file_.axis(n)));
     if (file_.sections() > 1) refuse_parts(options.look);

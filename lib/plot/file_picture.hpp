@@ -29,7 +29,8 @@ struct PlotOptions {
   // models and snapshots
   std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
-  std::optional<Slice> slice;  // of what is in 3-D
+  std::optional<Slice> slice;       // of what is in 3-D
+  std::optional<Point<3>> through;  // or three of them
   bool movie = false;
   double frames_per_s = 10;
   // spectra and errors

@@ -149,15 +149,20 @@ std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std:
   return sections_of(file, grid, property, layers);
 }
 
-std::vector<Slice> three_planes(const Grid<3>& grid, const std::optional<Point<3>>& through) {
-  if (std::any_of(grid.shape.begin(), grid.shape.end(), [](auto cells) { return cells == 1; })) return {};
+std::vector<Slice> planes_of(const Grid<3>& grid, const WantedPlanes& wanted) {
+  const bool thin = std::any_of(grid.shape.begin(), grid.shape.end(), [](auto cells) { return cells == 1; });
+  if (wanted.slice || thin) return {plane_of(grid, layer_to_show(grid, wanted.slice))};
   std::vector<Slice> planes;
   for (const int axis : {0, 1, 2}) {
     const auto along = std::size_t(axis);
     const auto [low, high] =
         axis == 2 ? depth_extent(grid) : std::array{grid.origin_m[along], grid.end(axis)};
-    const bool inside = through && (*through)[along] >= low && (*through)[along] <= high;
-    const double at_m = inside && axis != 2 ? (*through)[along] : (low + high) / 2;
+    double at_m = (low + high) / 2;
+    if (wanted.through)
+      at_m = (*wanted.through)[along];
+    else if (const auto& source = wanted.source;
+             source && axis != 2 && (*source)[along] >= low && (*source)[along] <= high)
+      at_m = (*source)[along];
     planes.push_back(plane_of(grid, layer_on(grid, {axis, at_m})));
   }
   return planes;

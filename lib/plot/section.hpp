@@ -41,9 +41,15 @@ ModelSection read_model_section(const NetcdfFile& file, const std::string& prope
 std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
                                               std::span<const Slice> planes);
 
-/// Planes across x, y and z to show a volume by: through this point or, where there is none, the middle;
-/// the level one always half way down. Nothing of a grid that is one cell thick.
-std::vector<Slice> three_planes(const Grid<3>& grid, const std::optional<Point<3>>& through);
+/// The planes that a volume is shown on.
+struct WantedPlanes {
+  std::optional<Slice> slice = {};       // this one alone
+  std::optional<Point<3>> through = {};  // three, across x, y and z, through this point,
+  std::optional<Point<3>> source = {};   // or the upright ones through this one, if it is within
+};
+/// One plane, or three where none is wanted: through the middle, if nothing else is said. Of a grid one cell
+/// thick that layer. Throws a usage Error when a wanted one misses the grid.
+std::vector<Slice> planes_of(const Grid<3>& grid, const WantedPlanes& wanted);
 
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {

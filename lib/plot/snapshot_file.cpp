@@ -14,18 +14,15 @@ SnapshotFile::Reader SnapshotFile::open(NetcdfFile file) {
   return SnapshotReader<2>(std::move(file));
 }
 
-SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const Planes& planes)
+SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const WantedPlanes& wanted)
     : of_(open(std::move(file))) {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&of_)) {
-    if (!planes.slice)
-      for (const auto& plane : three_planes(deep->grid(), planes.through))
-        layers_.push_back(layer_on(deep->grid(), plane));
-    if (layers_.empty())
-      layers_.push_back(in_place(deep->name(), [&] { return layer_to_show(deep->grid(), planes.slice); }));
+    const auto planes = in_place(deep->name(), [&] { return planes_of(deep->grid(), wanted); });
+    for (const auto& plane : planes) layers_.push_back(layer_on(deep->grid(), plane));
     for (const auto& layer : layers_) grids_.push_back(section_grid(deep->grid(), layer));
   } else {
     const auto& flat = std::get<SnapshotReader<2>>(of_);
-    if (planes.slice)
+    if (wanted.slice || wanted.through)
       throw Error(flat.name() + ": found snapshots in 2-D, expected them in 3-D with --slice",
                   ErrorKind::usage);
     grids_ = {flat.grid()};

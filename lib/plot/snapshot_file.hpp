@@ -15,12 +15,7 @@ namespace slipwave::plot {
 /// is given.
 class SnapshotFile {
  public:
-  /// What is drawn of volumes: what lies on `slice`, or on the three_planes `through` a point.
-  struct Planes {
-    std::optional<Slice> slice = {};
-    std::optional<Point<3>> through = {};
-  };
-  SnapshotFile(NetcdfFile file, const std::string& minus, const Planes& planes);
+  SnapshotFile(NetcdfFile file, const std::string& minus, const WantedPlanes& planes);
 
   const std::vector<double>& times_s() const;
   const std::vector<std::string>& fields() const;

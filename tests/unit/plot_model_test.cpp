@@ -285,15 +285,19 @@ TEST(PlotModel, AVolumeIsThreeSlicesOnOneScale) {
 
 TEST(PlotModel, PlanesOfAVolumeRunThroughTheSourceOrTheMiddle) {
   const Grid<3> grid{{40, 20, 10}, 10, {0, 0, 0}};
-  const auto middle = three_planes(grid, std::nullopt);
+  const auto middle = planes_of(grid, {});
   ASSERT_EQ(middle.size(), 3u);
   EXPECT_EQ(middle[0].at_m, 205);  // the middle lies between two cells
   EXPECT_EQ(middle[2].at_m, 55);
-  const auto source = three_planes(grid, Point<3>{77, 123, 5});
+  const auto source = planes_of(grid, {.source = Point<3>{77, 123, 5}});
   EXPECT_EQ(source[0].at_m, 75);
   EXPECT_EQ(source[1].at_m, 125);
   EXPECT_EQ(source[2].at_m, 55);
-  EXPECT_TRUE(three_planes({{40, 1, 10}, 10, {}}, std::nullopt).empty());
+  EXPECT_EQ(planes_of(grid, {.source = Point<3>{770, 123, 5}})[0].at_m, 205);  // far outside
+  EXPECT_EQ(planes_of(grid, {.through = Point<3>{77, 123, 5}})[2].at_m, 5);
+  EXPECT_THROW(planes_of(grid, {.through = Point<3>{770, 123, 5}}), Error);
+  EXPECT_EQ(planes_of(grid, {.slice = Slice{1, 88}}).size(), 1u);
+  EXPECT_EQ(planes_of({{40, 1, 10}, 10, {}}, {}).size(), 1u);
 }
 
 }  // namespace
