@@ -126,36 +126,27 @@ struct MapRow {
   Colour (*colour)(double part);
 };
 
+template <const auto& shades>
+Colour along(double part) {
+  static const Path path(shades);
+  return path.even(part);
+}
+
+template <const auto& below, const auto& above>
+Colour from_middle(double part) {
+  return part < 0 ? along<below>(-part) : along<above>(part);
+}
+
 constexpr MapRow maps[] = {
-    {"uniform", false,
-     [](double part) {
-       static const Path path(uniform);
-       return path.even(part);
-     }},
+    {"uniform", false, along<uniform>},
     {"viridis", false,
      [](double part) {
        return Published{viridis, true}.at(part);
      }},
-    {"grey", false,
-     [](double part) {
-       static const Path path(grey);
-       return path.even(part);
-     }},
-    {"white-black", false,
-     [](double part) {
-       static const Path path(grey);
-       return path.even(1 - part);
-     }},
-    {"blue-red", true,
-     [](double part) {
-       static const Path low(blue), high(red);
-       return part < 0 ? low.even(-part) : high.even(part);
-     }},
-    {"red-blue", true,
-     [](double part) {
-       static const Path low(red), high(blue);
-       return part < 0 ? low.even(-part) : high.even(part);
-     }},
+    {"grey", false, along<grey>},
+    {"white-black", false, [](double part) { return along<grey>(1 - part); }},
+    {"blue-red", true, from_middle<blue, red>},
+    {"red-blue", true, from_middle<red, blue>},
     {"seismic", true,
      [](double part) {
        return Published{seismic, false}.at((1 + part) / 2);
