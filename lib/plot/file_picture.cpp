@@ -43,11 +43,13 @@ std::string name_beside_others(const std::string& path) {
 Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& options, const Page& page) {
   std::vector<NamedGather> gathers;
   std::string text;
+  auto component = options.component;
   for (auto& input : inputs) {
     segy::Reader reader(input.path, options.traces.read_options(), {input.taken.begin(), input.taken.end()});
-    TraceChoice choice{options.component, std::nullopt};
+    TraceChoice choice{component, std::nullopt};
     if (options.shot) choice.shot = std::int64_t(*options.shot);
     gathers.push_back({name_beside_others(input.path), read_section(reader, choice)});
+    component = gathers.front().section.component;  // of the others, too
     if (reader.header().su) continue;
     for (const auto& line : segy::shown_lines(reader.header().text)) text += line + "\n";
   }
@@ -183,6 +185,10 @@ Picture snapshot_picture(InputFile& input, const PlotOptions& options, const Pag
 }  // namespace
 
 Page page_of(const PlotOptions& options) {
+  if (names_movie(options.output))
+    throw Error("--output: found '" + options.output +
+                    "', expected a name that ends with .png, .pdf or .svg, or --movie",
+                ErrorKind::usage);
   return page_of(in_place("--output", [&] { return format_of(options.output); }), options.page);
 }
 

@@ -250,9 +250,14 @@ Picture draw_side_by_side(const Drawing& drawing, const GatherStyle& style, cons
   const std::optional<ColourBar> bar = style.density ? std::optional(drawing.bar) : std::nullopt;
   const auto rooms =
       rooms_of(specs.front(), bar, {0, top_pt, page.width_pt, page.height_pt - top_pt}, count, page);
-  std::size_t every = 1;
+  double tallest = 0;  // some have bands above the data
   for (std::size_t n = 0; n < count; ++n) {
     if (n + 1 == count) specs[n].bar = bar;
+    tallest = std::max(tallest, Panel(specs[n], rooms[n], page).plot().y - rooms[n].y);
+  }
+  std::size_t every = 1;
+  for (std::size_t n = 0; n < count; ++n) {
+    specs[n].least_top_pt = tallest;
     const Panel panel(specs[n], rooms[n], page);
     every = std::max(every, draw_content(canvas, panel, drawing.contents[n], drawing, style, look));
     panel.draw(canvas);

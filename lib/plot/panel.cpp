@@ -94,6 +94,7 @@ Panel::Margins Panel::margins() const {
     else
       free.bottom += legend_->height() + 0.5 * text_pt_;
   }
+  free.top = std::max(free.top, spec_.least_top_pt);
   free.left = std::max(free.left, spec_.least_left_pt);
   free.right = std::max(free.right, spec_.least_right_pt);
   // Labels of x stand out to the sides.

@@ -23,6 +23,7 @@ struct PanelSpec {
   std::optional<ColourBar> bar = {};
   std::vector<LegendEntry> legend = {};
   double least_left_pt = 0, least_right_pt = 0;  // beside the data, to align panels above each other
+  double least_top_pt = 0;                       // above them, likewise
   Bands bands = {};
 };
 

@@ -150,6 +150,8 @@ TEST_F(Plot, GathersStandTogether) {
   done("sw-plot g.sgy h.sgy --component vz --difference -o three.png");
   done("sw-plot g.sgy h.sgy --component vz --overlay -o over.pdf");
   EXPECT_GT(std::stoi(done(size_line("three.png")).substr(1)), 1500);
+  done("sw-select h.sgy --where component=vz | sw-plot - g.sgy -o two.png");  // vz of both, which nobody left
+                                                                              // out
   expect_refused(
       "sw-plot g.sgy m.nc --component p -o x.png", 2,
       "sw-plot: m.nc: several files can be drawn together only if all hold gathers, all spectra or "
@@ -213,7 +215,8 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
       "notes.txt -o x.png", 1,
       "notes.txt: is not a netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
       "or a gather");
-  refused("m.nc -o x.gif", 2, "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg");
+  refused("m.nc -o x.gif", 2,
+          "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg, or --movie");
   refused(
       "m.nc --map jet -o x.png", 2,
       "--map: the map 'jet' is refused: its lightness rises and falls, which draws edges that are not in the "
@@ -235,6 +238,8 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   refused("g.sgy g.sgy --component p --difference --difference-gain 0 -o x.png", 2,
           "--difference-gain: found 0, expected a number other than 0");
   refused("s.nc --movie x.mp4 -o y.mp4", 2, "--movie: found x.mp4 and -o y.mp4, expected one of them");
+  refused("s.nc -o x.mp4", 2,
+          "--output: found 'x.mp4', expected a name that ends with .png, .pdf or .svg, or --movie");
   refused("s.nc --movie x.mp4 --fps 0", 2, "--fps: found 0, expected 0.1 to 240");
   refused("m.nc --movie -o x.png", 1, "m.nc: holds no snapshots, expected them for --movie");
   refused("s.nc --movie", 2,
