@@ -162,7 +162,8 @@ TEST_F(Plot, APlaneWaveIsNoPoint) {
   done("sw-layers --size 600x400 --step 10 --layer 0:4000:2000:2400 -o m.nc");
   const std::string wave =
       "sw-shoot m.nc --source 300,0 --wavelet ricker:15 --receivers 0:600:20,10 --time 0.2 --top absorbing ";
-  done(wave + "--kind plane:0 -q -o plane.sgy; " + wave + "-q -o point.sgy");
+  write("shot.cfg", "kind = plane:10\n");
+  done(wave + "--config shot.cfg -q -o plane.sgy; " + wave + "-q -o point.sgy");
   const auto reds = [&](const std::string& gather) {  // lines in the colour of sources
     done("sw-plot m.nc --survey " + gather + " -o p.svg");
     return done("grep -cE 'stroke[:=]\"?rgb\\(80%' p.svg || true");
