@@ -16,7 +16,7 @@ struct Size {
 
 /// Of the room in which the data of a panel have this size.
 Size room_size(const PanelSpec& spec, const Size& data, const Page& page) {
-  Size room{data.width + 60, data.height + 50};
+  Size room{data.width + 150, data.height + 120};
   for (int pass = 0; pass < 3; ++pass) {  // words depend on the axes' lengths
     const Rect plot = Panel(spec, {0, 0, room.width, room.height}, page).plot();
     room = {room.width + data.width - plot.width, room.height + data.height - plot.height};
@@ -58,6 +58,13 @@ Layout fitted(const std::array<SlicePanel, 3>& slices, double top_pt, const Page
     if (over <= 0 && pass > 0) break;
     points_a_metre = std::max(points_a_metre - over, 0.1 * points_a_metre);
   }
+  constexpr double rounding_pt = 2;
+  if (page.height_pt > 0 &&
+      (layout.width() > page.width_pt + rounding_pt || layout.height(top_pt) > page.height_pt + rounding_pt))
+    throw Error("--size: three sections need " + shown(std::ceil(layout.width() / points_per_cm)) + "x" +
+                    shown(std::ceil(layout.height(top_pt) / points_per_cm)) +
+                    "cm here; --slice y=AT draws one",
+                ErrorKind::usage);
   return layout;
 }
 
@@ -74,8 +81,7 @@ void draw_cuts(Canvas& canvas, const Panel& panel, const SlicePanel& slice,
 }  // namespace
 
 std::string name_of(const Slice& plane) {
-  return std::string(1, axis_names<3>()[std::size_t(plane.axis)]) + " = " + shown(plane.at_m) +
-         " m";
+  return std::string(1, axis_names<3>()[std::size_t(plane.axis)]) + " = " + shown(plane.at_m) + " m";
 }
 
 Picture draw_three_slices(std::array<SlicePanel, 3> slices, const std::vector<LegendEntry>& legend,
