@@ -21,7 +21,7 @@ constexpr double traction_share = 0.5;
 constexpr double gas_ratio = 100;
 /// Cells of one medium needed on either side: no stencil may reach another extension as well.
 constexpr auto fewest_across = std::int64_t(2) * max_reach;
-/// Cells by which the interface must go on along each axis: a shorter one holds no wave.
+/// Cells of the interface needed to both sides along each axis: a shorter one holds no wave.
 constexpr int fewest_along = 8;
 
 template <int D>
@@ -41,7 +41,7 @@ bool thin(const Domain<D>& domain, int axis) {
 
 /// Whether enough cells like this one lie behind it along z (`step` 1 or -1) and beside it.
 template <int D>
-bool goes_on(const Domain<D>& domain, const Index<D>& from, int step) {
+bool extends_far(const Domain<D>& domain, const Index<D>& from, int step) {
   constexpr int z = D - 1;
   Index<D> at = from;
   const bool is_void = domain.impedance(wave_p)(from) == 0;
@@ -90,7 +90,7 @@ bool spans_grid(const Domain<D>& domain, std::int64_t row) {
 }
 
 /// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or in bent
-/// rows at the free surface of a solid, that goes on far enough.
+/// rows at the free surface of a solid, that extends far enough.
 template <int D>
 bool corrected(const Domain<D>& domain, const Index<D>& below) {
   Index<D> above = below;
@@ -104,7 +104,7 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   } else if (z_above > gas_ratio * z_below || z_below > gas_ratio * z_above) {
     return false;
   }
-  return goes_on(domain, above, -1) && goes_on(domain, below, 1);
+  return extends_far(domain, above, -1) && extends_far(domain, below, 1);
 }
 
 }  // namespace
