@@ -162,9 +162,8 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
     const int position = k + reach;
     at[std::size_t(position)] = extended<D>(stencil, fields, metric, corrections, scale, k);
   }
-  const auto own = row_normal<D>(metric.n_cell, metric.pitch);
   const Real sign = scale < 0 ? -1 : 1;
-  const Real courant = sign * scale * b * Real(__builtin_sqrt(dot(own, own))) / metric.j[0];
+  const Real courant = sign * scale * b * metric.stretch[0];
   const BentCell<D, Real> cell = {row_normal<D>(metric.n_face, metric.pitch),
                                   row_normal<D>(metric.n_face + metric.stride, metric.pitch),
                                   courant * zp,
@@ -250,7 +249,8 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
     }
     correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
         *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
-        material.zs[i], {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride},
+        material.zs[i],
+        {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride, metric.stretch + i},
         corrections, outgoing.at(i));
   }
 }

@@ -161,19 +161,28 @@ std::int32_t InterfaceCorrections<D, Real>::slot(const Index<D>& below) const {
   const auto row = std::size_t(below[D - 1]);
   if (slots_.empty() || below[D - 1] < 1 || row + 1 >= first_.size()) return none;
   const std::int64_t column = D == 2 ? below[0] : below[1] * padded_nx_ + below[0];
+  const auto found = first_at(row, column);
+  return found < first_[row + 1] && slots_[found].column == column ? std::int32_t(found) : none;
+}
+
+/// The first slot of a row at this column or behind it.
+template <int D, class Real>
+std::size_t InterfaceCorrections<D, Real>::first_at(std::size_t row, std::int64_t column) const {
   const auto begin = slots_.begin() + std::ptrdiff_t(first_[row]),
              end = slots_.begin() + std::ptrdiff_t(first_[row + 1]);
-  const auto found = std::lower_bound(
-      begin, end, column, [](const Slot& slot, std::int64_t wanted) { return slot.column < wanted; });
-  return found != end && found->column == column ? std::int32_t(found - slots_.begin()) : none;
+  return std::size_t(
+      std::lower_bound(begin, end, column,
+                       [](const Slot& slot, std::int64_t wanted) { return slot.column < wanted; }) -
+      slots_.begin());
 }
 
 template <int D, class Real>
 void InterfaceCorrections<D, Real>::update(const State<D, Real>& state, std::int64_t row,
                                            const IndexRange& columns) {
   if (slots_.empty() || row < 1 || std::size_t(row) + 1 >= first_.size()) return;
-  for (auto n = first_[std::size_t(row)]; n < first_[std::size_t(row) + 1]; ++n)
-    if (slots_[n].column >= columns.first && slots_[n].column < columns.last) update_slot(state, n);
+  for (auto n = first_at(std::size_t(row), columns.first), end = first_[std::size_t(row) + 1];
+       n < end && slots_[n].column < columns.last; ++n)
+    update_slot(state, n);
 }
 
 template <int D, class Real>

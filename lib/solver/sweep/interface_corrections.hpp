@@ -48,6 +48,7 @@ class InterfaceCorrections {
     std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
     std::array<Side, 2> sides;
   };
+  std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
