@@ -35,6 +35,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("without", s.without, "LIST",
               "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress");
   options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");
+  options.add("allow-slow", s.limits.allow_slow, "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
 }
 

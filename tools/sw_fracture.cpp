@@ -190,10 +190,10 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
       settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
-  in_place(input, [&] { check(model, {.allow_auxetic = true}); });
+  in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
   const auto count = add_fractures<D>(model, set, region.contains);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
-  check(model, {.allow_auxetic = true});
+  check(model, {.allow_auxetic = true, .allow_slow = true});
   warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
