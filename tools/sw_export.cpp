@@ -80,7 +80,7 @@ Exported of_snapshots(NetcdfFile file, const Settings& settings) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  const auto format = settings.output_options.file_format();
+  const auto format = settings.output_options.file_format(settings.output);
   expect_other_files(settings.output, {settings.input});
   auto file = NetcdfFile::open(settings.input);
   const std::string history = file.text_attribute("", "history").value_or("");

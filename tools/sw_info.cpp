@@ -120,7 +120,8 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   std::optional<std::uint64_t> size;
   if (start.is_regular()) size = std::filesystem::file_size(path);
-  if (options.su || options.endian || options.format || segy::looks_like_segy(bytes, size))
+  if (options.su || segy::names_su(path) || options.endian || options.format ||
+      segy::looks_like_segy(bytes, size))
     return look_at_traces(path, options, start.taken());
   throw Error(shown_input(path) + ": is " +
               (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gather/difference.hpp"
+#include "segy/sniff.hpp"
 
 namespace slipwave::segy {
 namespace {
@@ -32,6 +33,8 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
   FileInfo info;
   info.format = format;
   info.axis = reader.axis();
+  info.raw_format = header.format;
+  info.raw_endian = header.endian;
   info.lengths_vary = reader.lengths_by_trace() && (!header.su || format.su);
   if (header.su) {
     info.text = lay_out_text(std::vector<std::string>{entry}, format.revision);
@@ -52,7 +55,8 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
   return info;
 }
 
-FileInfo info_like(const Reader& reader, const std::string& entry) {
+FileInfo info_like(const Reader& reader, const std::string& entry, const std::string& output) {
+  if (names_su(output)) return info_as(reader, entry, format_named_by(output));
   FileFormat format = format_of(reader);
   const SampleFormat& samples = *reader.header().format;
   format.code = samples.code == 6 || samples.bytes == 8 ? 6 : 5;
