@@ -1,5 +1,5 @@
 #!/bin/sh
-# completion.sh TOOL OUTPUT [EMULATOR...]: writes the bash completion of a tool, made from what its --help says.
+# completion.sh TOOL OUTPUT [EMULATOR...]: writes the bash completion of a tool, made from what its --help-all says.
 #   a|b|c                 one of them
 #   NAME                  one of those that the text ends in, "...: a, b, c"
 #   LIST                  several of those that the text ends in, "...: a, b, c" or "of a, b, c"
@@ -9,7 +9,7 @@ program=$1
 output=$2
 shift 2
 tool=$(basename "$program")
-help=$("$@" "$program" --help)
+help=$("$@" "$program" --help-all)
 printf '%s\n' "$help" | awk -v tool="$tool" '
   # "a, b, c" behind a word of the text, up to the end of the clause; nothing where the list ends with "...".
   function names_in(text) {
@@ -62,12 +62,12 @@ printf '%s\n' "$help" | awk -v tool="$tool" '
   END {
     done()
     if (all == "") {
-      print tool ": --help shows no options" > "/dev/stderr"
+      print tool ": --help-all shows no options" > "/dev/stderr"
       exit 1
     }
     name = tool
     gsub(/-/, "_", name)
-    print "# bash completion of " tool ", made from its --help."
+    print "# bash completion of " tool ", made from its --help-all."
     print "_" name "() {"
     print "  local word=$2 before=$3 choices=\"\" list=\"\" begun=\"\""
     print "  COMPREPLY=()"

@@ -211,10 +211,8 @@ PlaceWords place_words(const TraceWords& words, const FileHeader& file,
   place.offset_m = place.unit_m * real_or(extension, "xoffset", static_cast<double>(words.get("offset")));
   if (file.su || file.major < 1) return place;
   const double length_m = words.get("counit") <= 1 ? place.unit_m : 1;
-  const auto coordinate = [&](FieldName<TraceLayout> name, FieldName<ExtensionLayout> wide) {
-    return length_m * real_or(extension, wide, scaled(words.get(name), words.get("scalco")));
-  };
-  place.midpoint_m = {coordinate("cdpx", "xcdpx"), coordinate("cdpy", "xcdpy")};
+  place.midpoint_m = {length_m * scaled(words.get("cdpx"), words.get("scalco")),
+                      length_m * scaled(words.get("cdpy"), words.get("scalco"))};
   return place;
 }
 

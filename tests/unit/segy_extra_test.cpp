@@ -115,6 +115,25 @@ TEST(ExtendedText, IsReadByCountAndUpToItsStanzaAndCarriedAlong) {
   }
 }
 
+TEST(ExtendedText, EndsWithItsStanzaInAnyCaseBlanksAndCode) {
+  const Scratch scratch;
+  const Bytes plain = plain_file(scratch, 1);
+  for (const std::string end : {"((SEG: EndText))", "((  seg: endTEXt  ))", "( ( SEG : ENDTEXT ) )"})
+    for (const TextEncoding first : {TextEncoding::ebcdic, TextEncoding::ascii})
+      for (const TextEncoding last : {TextEncoding::ebcdic, TextEncoding::ascii}) {
+        Bytes bytes = plain;
+        for (const Bytes& block :
+             {text_block(end, last), text_block("((SEG: Notes ver 1.0)) of the crew", first)})
+          bytes.insert(bytes.begin() + 3600, block.begin(), block.end());
+        put_word(bytes, "extended", -1);
+        put_bytes(scratch.file("x"), bytes);
+        expect_same(read_file(scratch.file("x")), survey_gather(samples, 1));
+        const Reader reader(scratch.file("x"));
+        ASSERT_EQ(reader.header().extended.size(), 2U) << end;
+        EXPECT_EQ(reader.header().extended[1].text.substr(0, end.size()), end);
+      }
+}
+
 TEST(ExtendedText, ChangesItsCodeWithTheFirst) {
   const Scratch scratch;
   Bytes bytes = plain_file(scratch, 1);
