@@ -64,6 +64,8 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"friction", "viscosity"}) options.require(name);
+  options.common({"box", "polygon", "slab", "dip", "normal", "friction", "viscosity", "strength", "prestress",
+                  "name", "output"});
 }
 
 /// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".

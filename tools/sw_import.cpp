@@ -72,6 +72,8 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   options.require(row_of(Property::vp).name);
+  options.common({"vp", "vs", "rho", "shape", "order", "step", "units", "vs-from-vp", "rho-from-vp",
+                  "resample", "crop", "output"});
 }
 
 void check_choices(const Settings& settings) {

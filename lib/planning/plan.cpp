@@ -172,6 +172,21 @@ void report_promise(const ExpectedError& error, Report& report) {
 }  // namespace
 
 template <int D>
+std::string cost_of_a_second(const Scene<D>& scene) {
+  // Of one thread, docs/performance.md.
+  constexpr double cells_per_s = D == 2 ? 200e6 : 45e6;
+  const auto zone = 2 * zone_cells(scene, scene.survey.sources.front());
+  double cells = 1;
+  for (const auto n : scene.model.grid().shape) cells *= double(n + zone);
+  const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
+  const auto slowest = slowest_wave(scene.model.medium);
+  return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
+         shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
+         " MiB; waves up to " + shown(slowest.speed / (fewest_cells * scene.model.grid().spacing_m), 2) +
+         " Hz";
+}
+
+template <int D>
 Report summary_of(const Plan<D>& plan) {
   Report report;
   if (D == 3) {
@@ -246,11 +261,13 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
 
 template Plan<2> plan(const Scene<2>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
+template std::string cost_of_a_second(const Scene<2>&);
 template Report summary_of(const Plan<2>&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
 template Plan<3> plan(const Scene<3>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
+template std::string cost_of_a_second(const Scene<3>&);
 template Report summary_of(const Plan<3>&);
 template Report report_of(const Plan<3>&);
 template std::vector<std::string> warnings(const Scene<3>&);
