@@ -171,7 +171,7 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
                " m are too large for slip weakening: friction falls to the dynamic one at once where the "
                "prestress presses most, at " +
                place_of(model.grid(), cell) + ". Use cells below " + shown(length_m, 3) +
-               " m or a longer slip distance");
+               " m (--step of the model) or a longer slip distance (--law)");
 }
 
 template <int D>
@@ -199,7 +199,8 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
-                 std::to_string(count.marked) + " cells are fractured");
+                 std::to_string(count.marked) +
+                 " cells are fractured; a region within rock (--box, --polygon) has none");
   }
   context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
                std::to_string(count.taken) + " of them from earlier sets");

@@ -217,7 +217,8 @@ void fit(Model<2>& model, const Settings& settings, double sampled_m, const cli:
     horizons.floor = in_place("--floor", [&] { return parse_imported_horizon(settings.floor); });
   auto fitted = in_place(settings.floor.empty() ? "--surface" : "--floor",
                          [&] { return fit_imported(model, horizons); });
-  for (const auto& sentence : fitted.warnings) context.warn(sentence);
+  for (const auto& sentence : fitted.warnings)
+    context.warn(sentence + "; --floor found takes the floor of the cells");
   context.say(fitted.summary.empty() ? "nothing to fit: surface and floor lie on faces of cells"
                                      : fitted.summary);
   model = std::move(fitted.model);

@@ -64,8 +64,9 @@ void build(const Settings& settings, const cli::Context& context) {
       in_place("--layer", [&] { return layered_medium(fit.grid, layers, !settings.no_average, fit.rows); });
   check(model, settings.limits);
   if (!fit.summary.empty()) context.say(fit.summary);
-  for (const auto& sentence : fit.left_out) context.warn(sentence);
-  for (const auto& sentence : cut_off_layers(grid, layers)) context.warn(sentence);
+  for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit says what to follow");
+  for (const auto& sentence : cut_off_layers(grid, layers))
+    context.warn(sentence + "; if that is not meant, change the --layer");
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;

@@ -89,15 +89,15 @@ std::string record_difference(const Reader& found, const Reader& expected) {
 std::vector<std::string> losses_of(const Reader& reader, const FileFormat& format) {
   const FileHeader& header = reader.header();
   std::vector<std::string> losses;
-  const auto lose = [&](std::int64_t count, const std::string& what) {
-    if (count != 0) losses.push_back(reader.name() + ": " + what + " left out");
+  const auto lose = [&](std::int64_t count, const std::string& what, const std::string& cure) {
+    if (count != 0) losses.push_back(reader.name() + ": " + what + " left out; " + cure);
   };
   if (!holds_extended_text(format))
-    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are");
-  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are");
-  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are");
+    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are", "--revision 1 keeps them");
+  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are", "--revision 2 in the same byte order keeps them");
+  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are", "only a copy of the file keeps them");
   if (header.feet && format.su)
-    losses.push_back(reader.name() + ": lengths are in feet, which SU does not say");
+    losses.push_back(reader.name() + ": lengths are in feet, which SU does not say; SEG-Y (no --su) does");
   return losses;
 }
 

@@ -70,7 +70,8 @@ TEST_F(ModelPipeline, WarnsOfFluidInTheRegionUnlessQuiet) {
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(
       ran.err,
-      "sw-fracture: warning: 40 fluid or void cells in the region stay intact, 40 cells are fractured\n");
+      "sw-fracture: warning: 40 fluid or void cells in the region stay intact, 40 cells are fractured; a "
+      "region within rock (--box, --polygon) has none\n");
   done(line + " -q");
 }
 
