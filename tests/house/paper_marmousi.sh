@@ -9,7 +9,7 @@ fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 unset MAKEFLAGS MAKELEVEL
-SLIPWAVE_BUILD=$2 "$1/surveys/run" paper-marmousi DATA="$data" OUT="$out"
+SLIPWAVE_BUILD=$2 "$1/surveys/run" paper-marmousi STEP=5 ORDER=5 DATA="$data" OUT="$out"
 
 # The response of the cluster is near one per cent of the full field, over all traces.
 awk '
