@@ -48,5 +48,6 @@ cut -d ' ' -f 1 "$work/finished" | xargs stat -c '%n %Y %i' | sort | cmp -s - "$
 for x in 300 500 700 900 1100 1300; do
   cmp "$work/whole/shot-$x.sgy" "$work/out/shot-$x.sgy" || broken "shot $x is another"
 done
-cmp "$work/whole/line.sgy" "$work/out/line.sgy" || broken 'the line is another'
+# The textual header names the files.
+cmp -i 3200 "$work/whole/line.sgy" "$work/out/line.sgy" || broken 'the line is another'
 exit "$status"
