@@ -19,7 +19,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
               "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
   options.add("kind", s.kind, "KIND", source_kind_help());
   options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
-  options.add("amplitude", s.amplitude, "A", amplitude_help());
+  options.add("amplitude", s.amplitude, "A", "peak of the moment rate, force or velocity: " + amplitude_help());
   options.add("receivers", s.receivers, "X0:X1:DX,Z",
               "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "
               "X0:X1:DX,Y0:Y1:DY,Z");
@@ -27,15 +27,24 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",
               "components: " + joined(component_names(2)) + "; in 3-D also " + joined(component_names(3, 2)));
-  options.add_choice("top", s.top, edges, "boundary at the surface, z = 0");
-  options.add_choice("sides", s.sides, edges, "left and right boundaries, in 3-D all four");
-  options.add_choice("bottom", s.bottom, edges, "boundary at the bottom");
+  options.add_choice(
+      "top", s.top, edges,
+      "boundary at z = 0: free (no traction), absorbing, rigid (no motion) or mirror (a plane of symmetry: "
+      "no motion across it, no shear traction)");
+  options.add_choice("sides", s.sides, edges,
+                     "the same of the left and right boundaries, in 3-D of all four");
+  options.add_choice("bottom", s.bottom, edges, "the same of the boundary at the bottom");
   options.add("edge-width", s.edge_width, "CELLS",
               "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
   options.add("without", s.without, "LIST",
               "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress");
-  options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");
+  options.add("allow-slow", s.limits.allow_slow, "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
+  options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");
+  options.headings({{"source", "Source"},
+                    {"receivers", "Receivers and recording"},
+                    {"top", "Model and its boundaries"},
+                    {"precision", "Numerics"}});
 }
 
 /// Numbers of a list as texts.

@@ -17,7 +17,7 @@ enum class TextEncoding { ebcdic, ascii };
 /// "ebcdic" or "ascii".
 const char* name_of(TextEncoding encoding);
 
-/// What a textual header is written in: by its first byte, else by the commoner blank.
+/// What a textual header is written in: by its first byte or that of a stanza, else by the commoner blank.
 TextEncoding encoding_of(std::span<const std::uint8_t> text);
 
 /// Bytes of a file to ISO 8859-1 (EBCDIC is code page 037), one character a byte; encode_text is its inverse.

@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "segy/extension.hpp"
+#include "segy/sniff.hpp"
 #include "segy/writer_headers.hpp"
 
 namespace slipwave::segy {
@@ -57,6 +58,13 @@ void Writer::write(const Trace& trace, bool from_su) {
 }
 
 void Writer::write(const RawTrace& trace, bool from_su) {
+  const bool other_order = info_.raw_endian != info_.format.endian;
+  if (info_.raw_format && (info_.raw_format != &sample_format_ || other_order)) {
+    Trace decoded{trace.words, {}, trace.extensions};
+    decoded.samples.resize(trace.samples.size() / static_cast<std::size_t>(info_.raw_format->bytes));
+    decode_samples(trace.samples, *info_.raw_format, info_.raw_endian, decoded.samples);
+    return write(decoded, from_su);
+  }
   in_place("trace " + std::to_string(written_ + 1), [&] {
     put_headers(carried(trace.words, from_su), trace.extensions,
                 static_cast<std::int64_t>(trace.samples.size()) / sample_format_.bytes);
@@ -104,6 +112,15 @@ void Writer::put_samples(std::span<const double> samples) {
   encode_samples(samples, sample_format_, info_.format.endian, bytes_);
   out_.write(bytes_.data(), bytes_.size());
   ++written_;
+}
+
+FileFormat format_named_by(const std::string& path, const FileFormat& format) {
+  if (!names_su(path)) return format;
+  FileFormat su;
+  su.endian = native_endian;
+  su.encoding = format.encoding;
+  su.su = true;
+  return su;
 }
 
 void write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,

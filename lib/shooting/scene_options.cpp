@@ -36,7 +36,7 @@ Scene<D> SceneOptions::without_model() const {
   Scene<D> scene;
   scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
-    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name); }));
+    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name, D); }));
   scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
   for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};

@@ -28,6 +28,7 @@ void check_outputs(const ShootingOptions& options) {
 template <int D>
 Scene<D> make_scene(const ShootingOptions& options) {
   const auto& output = options.output;
+  if (options.json && !options.plan) throw Error("--json needs --plan", ErrorKind::usage);
   const bool any_snapshot = !output.snapshots.empty();
   auto scene = options.scene.without_model<D>();
   if (any_snapshot) {
@@ -76,17 +77,25 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages&
   throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
 }
 
+/// What sw-shoot --error 0.01 would choose, and what it costs against the scene as it is.
+Report setting_for_1_percent(const Scene<2>& scene) {
+  Report report;
+  const auto choice = cheapest_setting(scene, 0.01);
+  report.text("for 1 percent", (choice.good_enough ? "--error 0.01: " : "none is known; at best ") +
+                             sentence_of(choice, scene) +
+                             (choice.reason.empty() ? "" : "; " + choice.reason));
+  return report;
+}
+
 template <int D>
-void print_plan(const Scene<D>& scene, bool with_choice, const std::string& path) {
-  auto report = report_of(plan(scene));
+void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
+  const auto planned = plan(scene);
+  auto report = summary_of(planned);
   if constexpr (D == 2)
-    if (with_choice) {
-      const auto choice = cheapest_setting(scene, 0.01);
-      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene) +
-                                             (choice.reason.empty() ? "" : "; " + choice.reason));
-    }
-  const std::string text = report.lines();
-  OutputFile out(path, OutputFile::Content::text);
+    if (!options.wanted_error) report.append(setting_for_1_percent(scene));
+  if (options.details || options.json) report.append(report_of(planned));
+  const std::string text = options.json ? report.json() + "\n" : report.lines();
+  OutputFile out(options.output.traces, OutputFile::Content::text);
   out.write(text.data(), text.size());
   out.commit();
 }
@@ -99,7 +108,7 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   file.close();
   if (options.wanted_error) scene = with_wanted_error(scene, *options.wanted_error, messages);
   for (const auto& sentence : warnings(scene)) messages.warn(sentence);
-  if (options.plan) return print_plan(scene, !options.wanted_error, options.output.traces);
+  if (options.plan) return print_plan(scene, options);
   options.output.check_scene(scene, messages.warn);
   SurveyRun<D>(scene, options.output, provenance, messages, nullptr).run();
 }
