@@ -15,14 +15,26 @@ namespace slipwave {
 inline void declare_scene(cli::Options& options, SceneOptions& s) {
   const std::vector<std::string> edges = {"free", "absorbing", "rigid", "mirror"};
   options.positional(s.model, "MODEL");
-  options.add("source", s.sources, "X,Z",
-              "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
+  options.add(
+      "source", s.survey.sources, "X,Z",
+      "position of the source, m; X0:X1:DX,Z or repeated: several shots; Z may be surface+D or floor-D; "
+      "@FILE: a table; in 3-D X,Y,Z");
   options.add("kind", s.kind, "KIND", source_kind_help());
   options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
   options.add("amplitude", s.amplitude, "A", amplitude_help());
-  options.add("receivers", s.receivers, "X0:X1:DX,Z",
-              "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "
-              "X0:X1:DX,Y0:Y1:DY,Z");
+  options.add("receivers", s.survey.receivers, "X0:X1:DX,Z",
+              "line of receivers, or one at X,Z, m; repeatable; +X0:+X1:DX moves with the source; Z may be "
+              "surface+D or floor-D; @FILE: a table; in 3-D also an area, X0:X1:DX,Y0:Y1:DY,Z");
+  options.add("geometry", s.survey.geometry, "FILE",
+              "sources and receivers of a SEG-Y or SU file, a CSV table or SPS files (one option each)");
+  options.add("origin", s.survey.origin, "X,Y", "with --geometry: where x = 0 (in 3-D y = 0) is on its map");
+  options.add("azimuth", s.survey.azimuth_deg, "DEG",
+              "with --geometry: where the x axis points on its map, clockwise from north [90: along its x]");
+  options.add("source-depth", s.survey.source_depth, "Z",
+              "with --geometry: depth of all sources, as in --source, instead of those of the file");
+  options.add("receiver-depth", s.survey.receiver_depth, "Z", "the same of all receivers");
+  options.add("blend", s.survey.blend, "FILE",
+              "table of shots that are fired into one record: record, shot, delay, amplitude");
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",

@@ -34,7 +34,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("plan", s.plan, "print grid, cost and expected error, and stop");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");
-  for (const char* name : {"source", "wavelet", "time"}) options.require(name);
+  options.require("time");
   options.add_threads();
 }
 

@@ -27,6 +27,8 @@ void check_outputs(const ShootingOptions& options) {
 /// The scene without its model, all options checked.
 template <int D>
 Scene<D> make_scene(const ShootingOptions& options) {
+  if (!options.scene.survey.any_source())
+    throw Error("--source is missing; expected --source X,Z", ErrorKind::usage);
   const auto& output = options.output;
   const bool any_snapshot = !output.snapshots.empty();
   auto scene = options.scene.without_model<D>();
@@ -38,7 +40,7 @@ Scene<D> make_scene(const ShootingOptions& options) {
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());
   check_outputs(options);
-  if (scene.survey.receivers_m.empty() && !any_snapshot && !options.plan)
+  if (!scene.survey.any_receiver() && !any_snapshot && !options.plan)
     throw Error("nothing to record: give --receivers or --snapshots", ErrorKind::usage);
   return scene;
 }

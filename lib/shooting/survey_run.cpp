@@ -34,8 +34,7 @@ SurveyRun<D>::SurveyRun(const Scene<D>& scene, const OutputOptions& options, con
       provenance_{"", provenance.version, history_of(scene, provenance)},
       state_(state_settings(provenance.version)),
       traces_(options,
-              writes() && !scene.survey.receivers_m.empty() ? scene.recording.components
-                                                            : std::vector<Component>(),
+              writes() && scene.survey.any_receiver() ? scene.recording.components : std::vector<Component>(),
               textual_header_of(scene, provenance_.history, provenance.version)),
       at_once_(groups ? groups->groups() : shots_at_once(options, scene)) {}
 
