@@ -24,6 +24,44 @@ std::array<double, 2> MapFrame::model_m(double map_x, double map_y) const {
   return {x * east + y * north, y * east - x * north};
 }
 
+MapFrame fitting_frame(const GivenSurvey& survey, int dimension) {
+  std::vector<std::array<double, 2>> points;
+  const auto add = [&](const Place& place) { points.push_back({place.at_m[0], place.at_m[1]}); };
+  for (const auto& shot : survey.shots) add(shot.sources.front().place);
+  for (const auto& place : survey.places) add(place);
+  MapFrame frame;
+  if (points.empty()) return frame;
+  frame.origin_m = points.front();
+  if (dimension == 3) {
+    for (const auto& point : points)
+      for (const std::size_t axis : {0, 1})
+        frame.origin_m[axis] = std::min(frame.origin_m[axis], point[axis]);
+    return frame;
+  }
+  std::array<double, 2> mean{};
+  for (const auto& point : points)
+    for (const std::size_t axis : {0, 1}) mean[axis] += point[axis] / double(points.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const auto& [x, y] : points) {
+    xx += (x - mean[0]) * (x - mean[0]);
+    xy += (x - mean[0]) * (y - mean[1]);
+    yy += (y - mean[1]) * (y - mean[1]);
+  }
+  // The angle of the axis of least squares, towards where the survey goes.
+  double angle = std::atan2(2 * xy, xx - yy) / 2;
+  const auto along = [&](const std::array<double, 2>& point) {
+    return (point[0] - mean[0]) * std::cos(angle) + (point[1] - mean[1]) * std::sin(angle);
+  };
+  if (along(points.back()) < along(points.front())) angle += std::numbers::pi;
+  frame.azimuth_deg = std::round(std::remainder(90 - angle * 180 / std::numbers::pi, 360) * 100) / 100;
+  double least = 0;
+  for (const auto& point : points) least = std::min(least, along(point));
+  // Rounded, it still lies before the first place.
+  frame.origin_m = {std::round(mean[0] + (least - 1) * std::cos(angle)),
+                    std::round(mean[1] + (least - 1) * std::sin(angle))};
+  return frame;
+}
+
 std::size_t ReceiverCollector::Hash::operator()(const Place& place) const {
   std::uint64_t sum = 0x9e3779b97f4a7c15U + std::uint64_t(place.depth_from);
   for (const double value : place.at_m) {

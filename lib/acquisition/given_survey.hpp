@@ -59,11 +59,16 @@ struct GivenSurvey {
   bool distinct = true;     // and no two have the same
   bool told_apart = false;  // shots have receivers of their own
   bool from_map = false;    // of a file that knows nothing of the model
+  std::string doubt;        // what may be wrong with its coordinates; empty: nothing
 
   std::span<const ReceiverRun> runs_of(std::size_t shot) const {
     return {runs.data() + shots[shot].first_run, shots[shot].last_run - shots[shot].first_run};
   }
 };
+
+/// The frame in which a survey on a map begins at the origin of a model and runs along its x axis: by the
+/// line that fits its places best; of a model in 3-D from their lowest coordinates, unturned.
+MapFrame fitting_frame(const GivenSurvey& survey, int dimension);
 
 /// Puts the receivers of one shot after the other into a survey.
 class ReceiverCollector {

@@ -74,11 +74,10 @@ template <int D>
 Point<D> Spreads<D>::source_of(std::size_t shot, std::size_t which) const {
   const auto& of_shot = given_->shots[shot - 1];
   const auto& source = of_shot.sources[which];
-  const std::string who = source.from.empty() ? "source " + std::to_string(shot) : source.from;
   try {
     return point_of(source.place, {});
   } catch (const PlacingError& error) {
-    throw Error(who + ' ' + error.what());
+    throw Error(name_of_source(shot, which) + ' ' + error.what());
   }
 }
 
@@ -147,6 +146,24 @@ void Spreads<D>::each_place(const std::function<void(const Point<D>&, std::size_
 }
 
 template <int D>
+std::string Spreads<D>::name_of_source(std::size_t shot, std::size_t which) const {
+  const auto& from = given_->shots[shot - 1].sources[which].from;
+  return from.empty() ? "source " + std::to_string(shot) : from + ": the source";
+}
+
+template <int D>
+std::string Spreads<D>::remedy() const {
+  if (!given_->from_map) return "";
+  const auto fitting = fitting_frame(*given_, D);
+  const std::string doubt = given_->doubt.empty() ? "" : "; or " + given_->doubt;
+  if (fitting.origin_m == given_->frame.origin_m && fitting.azimuth_deg == given_->frame.azimuth_deg)
+    return doubt;
+  return "; the survey would begin at the model's origin with --origin " + shown(fitting.origin_m[0]) + "," +
+         shown(fitting.origin_m[1]) +
+         (fitting.azimuth_deg == 90 ? "" : " --azimuth " + shown(fitting.azimuth_deg)) + doubt;
+}
+
+template <int D>
 double Spreads<D>::moved_m() const {
   if (D == 3) return 0;
   double most = 0;
@@ -157,6 +174,25 @@ double Spreads<D>::moved_m() const {
     for (const auto& source : shot.sources) see(source.place);
   for (const auto& place : given_->places)
     if (axes_from_source(place) == 0) see(place);
+  return most;
+}
+
+template <int D>
+double Spreads<D>::offset_change_m() const {
+  if (D == 3) return 0;
+  double most = 0;
+  for (const auto& shot : given_->shots) {
+    const auto& source = shot.sources.front().place.at_m;
+    for (std::size_t n = shot.first_run; n < shot.last_run; ++n)
+      for (std::uint32_t k = 0; k < given_->runs[n].count; ++k) {
+        const auto& place = given_->places[given_->runs[n].first_place + k];
+        if (axes_from_source(place) != 0) continue;
+        const double x = place.at_m[0] - source[0], y = place.at_m[1] - source[1];
+        const auto to = given_->frame.model_m(place.at_m[0], place.at_m[1]);
+        const auto from = given_->frame.model_m(source[0], source[1]);
+        most = std::max(most, std::abs(std::hypot(x, y) - std::abs(to[0] - from[0])));
+      }
+  }
   return most;
 }
 

@@ -45,8 +45,14 @@ class Spreads {
   std::array<double, 3> map_source_of(std::size_t shot) const;
   /// Whether a receiver stands at one place in all shots that have it: then one look is enough.
   bool stands(const Place& place) const { return axes_from_source(place) == 0; }
+  /// "shots.csv: line 3: the source" or "source 3".
+  std::string name_of_source(std::size_t shot, std::size_t which) const;
+  /// What to try where the survey misses the model; empty where it was not given on a map.
+  std::string remedy() const;
   /// By how much places were moved to come onto a section, m at most.
   double moved_m() const;
+  /// By how much that changed distances of receivers from their sources, m at most.
+  double offset_change_m() const;
 
  private:
   unsigned axes_from_source(const Place& place) const;

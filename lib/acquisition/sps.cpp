@@ -260,7 +260,7 @@ GivenSurvey SpsReader::finish(const std::string& names) && {
     added.number = shot.number;
     GivenSource source;
     source.place = sources_.places[sources_.numbers.at(shot.source)];
-    source.from = shot.place + ": source";
+    source.from = shot.place;
     added.sources.push_back(std::move(source));
     survey_.shots.push_back(std::move(added));
     collector.begin(survey_.shots.size() - 1);

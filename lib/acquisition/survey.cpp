@@ -20,7 +20,8 @@ bool is_inside(const Point<D>& point, const Grid<D>& grid) {
 }
 
 template <int D>
-void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid) {
+void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid,
+                  const std::string& remedy) {
   if (is_inside<D>(point, grid)) return;
   std::string place, extent;
   for (int axis = 0; axis < D; ++axis) {
@@ -30,7 +31,7 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
     const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
     extent += separator + name + "=" + shown(depths[0]) + ".." + shown(depths[1]) + (bent ? " there" : "");
   }
-  throw Error(what + " at " + place + " lies outside the model, expected " + extent);
+  throw Error(what + " at " + place + " lies outside the model, expected " + extent + remedy);
 }
 
 }  // namespace
@@ -60,6 +61,18 @@ std::int64_t Survey<D>::number_of(std::size_t shot) const {
 }
 
 template <int D>
+std::int64_t Survey<D>::label_of(std::size_t shot) const {
+  return spreads && spreads->given().distinct ? number_of(shot) : std::int64_t(shot);
+}
+
+template <int D>
+std::string Survey<D>::name_of_source(std::size_t shot, std::size_t which) const {
+  if (spreads) return spreads->name_of_source(shot, which);
+  return "source " + std::to_string(shot) +
+         (which == 0 ? "" : " (blended, " + std::to_string(which + 1) + ")");
+}
+
+template <int D>
 std::vector<const Source<D>*> Survey<D>::sources_of(std::size_t shot) const {
   std::vector<const Source<D>*> all = {&sources[shot - 1]};
   if (!blended.empty())
@@ -82,7 +95,7 @@ std::string name_of_receiver(const Survey<D>& survey, std::size_t shot, std::siz
   if (receiver.channel != std::int64_t(number)) name += " (channel " + std::to_string(receiver.channel) + ")";
   if (!survey.spreads->given().frame.is_identity())
     name += ", on the map at " + shown(receiver.map_m[0]) + "," + shown(receiver.map_m[1]) + ",";
-  return "shot " + std::to_string(survey.number_of(shot)) + ": " + name;
+  return "shot " + std::to_string(survey.label_of(shot)) + ": " + name;
 }
 
 template <int D>
@@ -122,21 +135,23 @@ void place(Survey<D>& survey, Ground<D> ground) {
 
 template <int D>
 void check(const Survey<D>& survey, const Grid<D>& grid) {
-  const auto check_source = [&](const Source<D>& source, const std::string& who) {
+  const auto check_source = [&](const Source<D>& source, std::size_t shot, std::size_t which) {
+    if (std::isfinite(source.amplitude) &&
+        (std::holds_alternative<PlaneWave<D>>(source.mechanism) || is_inside<D>(source.position_m, grid)))
+      return;
+    const auto who = survey.name_of_source(shot, which);
     if (!std::isfinite(source.amplitude))
       throw Error(who + ": found an amplitude that is not finite, expected a number");
-    if (!std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      check_inside<D>(who, source.position_m, grid);
+    check_inside<D>(who, source.position_m, grid, survey.spreads ? survey.spreads->remedy() : "");
   };
   for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
-    const std::string number = std::to_string(survey.number_of(shot));
     const auto of_shot = survey.sources_of(shot);
-    for (std::size_t n = 0; n < of_shot.size(); ++n)
-      check_source(*of_shot[n],
-                   "source " + number + (n == 0 ? "" : " (blended, " + std::to_string(n + 1) + ")"));
+    for (std::size_t n = 0; n < of_shot.size(); ++n) check_source(*of_shot[n], shot, n);
   }
   each_receiver<D>(survey, [&](const Point<D>& point, std::size_t shot, std::size_t number) {
-    if (!is_inside<D>(point, grid)) check_inside<D>(name_of_receiver(survey, shot, number), point, grid);
+    if (!is_inside<D>(point, grid))
+      check_inside<D>(name_of_receiver(survey, shot, number), point, grid,
+                      survey.spreads ? survey.spreads->remedy() : "");
   });
 }
 

@@ -72,6 +72,10 @@ struct Survey {
   bool any_receiver() const;
   /// Number of the field record of a shot.
   std::int64_t number_of(std::size_t shot) const;
+  /// What messages and names of files call a shot: its number where no other has it, else its place in order.
+  std::int64_t label_of(std::size_t shot) const;
+  /// "source 3", or where it was given.
+  std::string name_of_source(std::size_t shot, std::size_t which) const;
   /// The first source of a shot and those that are blended with it.
   std::vector<const Source<D>*> sources_of(std::size_t shot) const;
 };

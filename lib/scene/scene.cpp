@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -160,20 +161,19 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
 }
 
 template <int D>
-void check_source(const Scene<D>& scene, const Source<D>& source, std::int64_t number) {
+void check_source(const Scene<D>& scene, const Source<D>& source, const std::function<std::string()>& who) {
   const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
   if (wave && D == 3)
     throw Error("found a plane wave in 3-D, expected it in 2-D or a point source", ErrorKind::usage);
   if (wave && source.delay_s != 0)
-    throw Error("source " + std::to_string(number) + ": found a delay of " + shown(source.delay_s) +
+    throw Error(who() + ": found a delay of " + shown(source.delay_s) +
                 " s of a plane wave, expected none; move its --source back instead");
   if (!(source.delay_s >= 0 && std::isfinite(source.delay_s)))
-    throw Error("source " + std::to_string(number) + ": found a delay of " + shown(source.delay_s) +
-                " s, expected 0 or more");
+    throw Error(who() + ": found a delay of " + shown(source.delay_s) + " s, expected 0 or more");
   if (wave)
     check_plane_wave(scene, source, *wave);
   else
-    refuse_void<D>(scene, source.position_m, [&] { return "source " + std::to_string(number); });
+    refuse_void<D>(scene, source.position_m, who);
   check_moment_in_fluid(scene, source);
   if (!std::isfinite(source.amplitude) || source.amplitude == 0)
     throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",
@@ -183,11 +183,11 @@ void check_source(const Scene<D>& scene, const Source<D>& source, std::int64_t n
 template <int D>
 void check_sources(const Scene<D>& scene, std::size_t shot) {
   const auto sources = scene.survey.sources_of(shot);
-  for (const auto* source : sources) {
-    check_source(scene, *source, scene.survey.number_of(shot));
-    if (sources.size() > 1 && std::holds_alternative<PlaneWave<D>>(source->mechanism))
-      throw Error("source " + std::to_string(scene.survey.number_of(shot)) +
-                  ": found a plane wave in a blended shot, expected point sources");
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const auto who = [&] { return scene.survey.name_of_source(shot, n); };
+    check_source(scene, *sources[n], who);
+    if (sources.size() > 1 && std::holds_alternative<PlaneWave<D>>(sources[n]->mechanism))
+      throw Error(who() + ": found a plane wave in a blended shot, expected point sources");
   }
 }
 

@@ -69,6 +69,7 @@ class GeometryReader {
   std::vector<std::vector<std::size_t>> shots_;
   Known known_;
   double rounding_m_ = 0;
+  std::int64_t multiplied_ = 0;  // the largest scalar of coordinates
 };
 
 void GeometryReader::check_words() const {
@@ -111,6 +112,7 @@ void GeometryReader::take() {
   if (traces_.empty()) known_.least_offset_m = known_.largest_offset_m = found.offset_m;
   known_.least_offset_m = std::min(known_.least_offset_m, found.offset_m);
   known_.largest_offset_m = std::max(known_.largest_offset_m, found.offset_m);
+  multiplied_ = std::max(multiplied_, words.get("scalco"));
   const auto scalar = words.get("scalel");
   rounding_m_ = std::max(rounding_m_, 0.5 * length * segy::scaled(1, scalar));
   if (!known_.source && !known_.receiver) {
@@ -179,7 +181,7 @@ void GeometryReader::add_shot(GivenSurvey& survey, ReceiverCollector& collector,
   shot.number = first.shot;
   GivenSource source;
   source.place.at_m = first.source_m;
-  source.from = place(std::int64_t(traces.front()) + 1) + ": the source";
+  source.from = place(std::int64_t(traces.front()) + 1);
   shot.sources.push_back(std::move(source));
   collector.begin(survey.shots.size() - 1);
   std::map<std::pair<std::int64_t, std::int16_t>, std::size_t> channels;  // of each component: trace
@@ -210,6 +212,9 @@ GivenSurvey GeometryReader::collect() {
   for (const auto& traces : shots_) add_shot(survey, collector, traces);
   settle_numbers(survey);
   survey.numbered = true;
+  if (multiplied_ > 1)
+    survey.doubt = "the scalar scalco (byte 71) " + std::to_string(multiplied_) +
+                   " is reversed: it multiplies, -" + std::to_string(multiplied_) + " divides";
   return survey;
 }
 

@@ -57,6 +57,10 @@ void OutputOptions::check_names(std::size_t shots) const {
   if (first_shot < 1)
     throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
                 ErrorKind::usage);
+  if (first_shot != 1 && !shot_labels.empty())
+    throw Error("found --first-shot " + std::to_string(first_shot) +
+                    " and a survey that numbers its shots, expected one of them",
+                ErrorKind::usage);
   if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
     throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
                     ", expected {shot} in the name",
