@@ -35,6 +35,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("receiver-depth", s.survey.receiver_depth, "Z", "the same of all receivers");
   options.add("blend", s.survey.blend, "FILE",
               "table of shots that are fired into one record: record, shot, delay, amplitude");
+  options.add("shots", s.survey.shots, "LIST", "only these shots of the survey, by number: 3,10:20");
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",

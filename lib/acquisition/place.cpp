@@ -39,6 +39,19 @@ bool take_relative_sign(std::string& range) {
   return any;
 }
 
+/// Errors quote what was typed, not what was made of it.
+template <int D>
+std::vector<std::array<double, D>> points_of(const std::string& plain, const std::string& typed) {
+  try {
+    return parse_line<D>(plain);
+  } catch (const Error& error) {
+    std::string sentence = error.what();
+    const auto at = sentence.find('\'' + plain + '\'');
+    if (at != std::string::npos) sentence.replace(at + 1, plain.size(), excerpt(typed));
+    throw Error(sentence, error.kind());
+  }
+}
+
 }  // namespace
 
 GivenDepth parse_depth(std::string_view text) {
@@ -66,7 +79,7 @@ std::vector<Place> parse_places(const std::string& text, bool of_receivers) {
   }
   std::string plain = parts[0];
   for (std::size_t n = 1; n < parts.size(); ++n) plain += "," + parts[n];
-  const auto points = parse_line<D>(plain);
+  const auto points = points_of<D>(plain, text);
   for (std::size_t axis = 0; of_receivers && axis + 1 < D; ++axis)
     if ((common.relative >> axis & 1U) == 0 &&
         std::all_of(points.begin(), points.end(), [&](const auto& point) { return point[axis] < 0; }))

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 
 namespace slipwave {
 namespace {
@@ -12,7 +13,8 @@ namespace {
 /// Columns that hold a place: "x y z depth", or with a letter in front.
 class PlaceColumns {
  public:
-  PlaceColumns(const Table& table, const std::string& prefix, int dimension) : table_(table) {
+  PlaceColumns(const Table& table, const std::string& prefix, int dimension, bool of_receivers)
+      : table_(table), of_receivers_(of_receivers) {
     x_ = table.find(prefix + "x");
     y_ = table.find(prefix + "y");
     z_ = table.find(prefix + "z");
@@ -27,8 +29,8 @@ class PlaceColumns {
 
   Place place() const {
     Place place;
-    place.at_m[0] = table_.number(*x_);
-    if (y_) place.at_m[1] = table_.number(*y_);
+    set_coordinate(place, 0, *x_);
+    if (y_) set_coordinate(place, 1, *y_);
     try {
       const auto depth = parse_depth(table_.text(z_ ? *z_ : *depth_));
       if (!z_ && depth.from != DepthFrom::datum)
@@ -42,10 +44,24 @@ class PlaceColumns {
   }
 
  private:
+  /// One that begins with + is counted from the source, where there can be such.
+  void set_coordinate(Place& place, std::size_t axis, std::size_t column) const {
+    auto text = table_.text(column);
+    if (of_receivers_ && text.size() > 1 && text.front() == '+') {
+      text.remove_prefix(1);
+      place.relative |= std::uint8_t(1U << axis);
+    }
+    try {
+      place.at_m[axis] = parse_number(text);
+    } catch (const Error& error) {
+      table_.refuse(column, error.what());
+    }
+  }
   [[noreturn]] void refuse(const std::string& missing) const {
     throw Error(table_.name() + ": found no column " + missing + ", expected one");
   }
   const Table& table_;
+  bool of_receivers_;
   std::optional<std::size_t> x_, y_, z_, depth_;
 };
 
@@ -88,7 +104,7 @@ double amplitude_of(const Table& table, std::size_t column) {
 
 void read_sources(Table& table, int dimension, GivenSurvey& survey) {
   name_plain_columns(table, dimension, {"delay", "amplitude", "kind", "wavelet"});
-  const PlaceColumns places(table, "", dimension);
+  const PlaceColumns places(table, "", dimension, false);
   const auto shot = table.find("shot"), delay = table.find("delay"), amplitude = table.find("amplitude"),
              kind = table.find("kind"), wavelet = table.find("wavelet");
   std::map<std::int64_t, std::size_t> shots;
@@ -115,7 +131,7 @@ void read_sources(Table& table, int dimension, GivenSurvey& survey) {
 
 std::vector<TableReceiver> read_receivers(Table& table, int dimension) {
   name_plain_columns(table, dimension, {"channel"});
-  const PlaceColumns places(table, "", dimension);
+  const PlaceColumns places(table, "", dimension, true);
   const auto shot = table.find("shot"), channel = table.find("channel");
   std::vector<TableReceiver> receivers;
   while (table.next()) {
@@ -149,7 +165,7 @@ GivenSurvey read_survey(Table& table, int dimension) {
   if (table.columns().empty())
     throw Error(table.name() + ": found no header line, expected names above the columns: sx, sz, gx, gz");
   table.expect_columns({"sx", "sy", "sz", "sdepth", "gx", "gy", "gz", "gdepth", "shot", "channel", "cdp"});
-  const PlaceColumns sources(table, "s", dimension), receivers(table, "g", dimension);
+  const PlaceColumns sources(table, "s", dimension, false), receivers(table, "g", dimension, false);
   const auto shot = table.find("shot"), channel = table.find("channel"), bin = table.find("cdp");
   std::vector<ShotRows> shots;
   std::map<std::tuple<std::int64_t, double, double, double>, std::size_t> of_source;

@@ -20,7 +20,8 @@ struct TableReceiver {
   std::int64_t shot = 0, channel = 0;  // 0: not given
   std::string from;
 };
-/// Receivers in a row each: columns x, [y,] and z or depth; shot and channel where given.
+/// Receivers in a row each: columns x, [y,] and z or depth; shot and channel where given. x and y that begin
+/// with + are counted from the source.
 std::vector<TableReceiver> read_receivers(Table& table, int dimension);
 
 /// A whole survey, a row for each trace: columns sx, sz (or sdepth), gx, gz (or gdepth); sy, gy, shot,

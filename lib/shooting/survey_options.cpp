@@ -114,6 +114,34 @@ void add_receivers_by_shot(GivenSurvey& survey, const Receivers& receivers) {
   }
 }
 
+/// "3" or "10:20".
+std::pair<std::int64_t, std::int64_t> range_of(const std::string& text) {
+  const auto ends = split(text, ':');
+  const auto first = parse_integer(ends.front()), last = parse_integer(ends.back());
+  if (ends.size() > 2 || last < first)
+    throw Error("found '" + excerpt(text) + "', expected a number or FIRST:LAST", ErrorKind::usage);
+  return {first, last};
+}
+
+/// Leaves those of these numbers; they keep them.
+void select_shots(GivenSurvey& survey, const std::string& list) {
+  if (!survey.numbered)
+    for (std::size_t n = 0; n < survey.shots.size(); ++n) survey.shots[n].number = std::int64_t(n) + 1;
+  settle_numbers(survey);
+  std::vector<GivenShot> selected;
+  for (const auto& text : split(list, ',')) {
+    const auto [first, last] = range_of(text);
+    const auto before = selected.size();
+    for (const auto& shot : survey.shots)
+      if (shot.number >= first && shot.number <= last) selected.push_back(shot);
+    if (selected.size() == before) throw Error("found no shot " + text + " in the survey, expected one");
+  }
+  survey.shots = std::move(selected);
+  settle_numbers(survey);
+  if (!survey.distinct)
+    throw Error("found a shot twice in '" + excerpt(list) + "' or in the survey, expected each once");
+}
+
 enum class GeometryKind { traces, sps, table };
 
 GeometryKind kind_of(const InputStart& start, std::optional<std::uint64_t> size) {
@@ -229,9 +257,11 @@ GivenSurvey SurveyOptions::read_geometry(int dimension) const {
 GivenSurvey SurveyOptions::read(int dimension) const {
   check();
   auto survey = geometry.empty() ? read_lines(dimension) : read_geometry(dimension);
-  if (blend.empty()) return survey;
-  Table table(blend);
-  slipwave::blend(table, survey);
+  if (!blend.empty()) {
+    Table table(blend);
+    slipwave::blend(table, survey);
+  }
+  if (!shots.empty()) in_place("--shots", [&] { select_shots(survey, shots); });
   return survey;
 }
 

@@ -17,6 +17,7 @@ struct SurveyOptions {
   std::optional<double> azimuth_deg;
   std::string source_depth, receiver_depth;  // instead of those of the geometry
   std::string blend;                         // a table
+  std::string shots;                         // numbers of those that are shot, "3,10:20"; empty: all
 
   bool any_source() const { return !sources.empty() || !geometry.empty(); }
   bool any_receiver() const { return !receivers.empty() || !geometry.empty(); }
