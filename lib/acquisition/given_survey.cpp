@@ -57,8 +57,8 @@ MapFrame fitting_frame(const GivenSurvey& survey, int dimension) {
   double least = 0;
   for (const auto& point : points) least = std::min(least, along(point));
   // Rounded, it still lies before the first place.
-  frame.origin_m = {std::round(mean[0] + (least - 1) * std::cos(angle)),
-                    std::round(mean[1] + (least - 1) * std::sin(angle))};
+  frame.origin_m = {std::round(mean[0] + (least - 1) * std::cos(angle)) + 0.0,
+                    std::round(mean[1] + (least - 1) * std::sin(angle)) + 0.0};
   return frame;
 }
 

@@ -120,7 +120,10 @@ void place(Survey<D>& survey, Ground<D> ground) {
     for (std::size_t n = 1; n < given->shots[shot - 1].sources.size(); ++n)
       survey.blended[shot - 1][n - 1].position_m = spreads->source_of(shot, n);
   }
-  const bool alike = !given->numbered && !given->told_apart && given->frame.is_identity() &&
+  const bool of_options = std::all_of(given->shots.begin(), given->shots.end(), [](const GivenShot& shot) {
+    return shot.sources.front().from.empty();
+  });
+  const bool alike = of_options && !given->numbered && !given->told_apart && given->frame.is_identity() &&
                      std::all_of(given->places.begin(), given->places.end(),
                                  [&](const Place& one) { return spreads->stands(one); });
   survey.receivers_m.clear();

@@ -60,9 +60,9 @@ struct Survey {
   std::vector<Source<D>> sources;     // one of each shot
   std::vector<Point<D>> receivers_m;  // of every shot, where there are no spreads
   /// Further sources of a shot that are recorded with its first (a blended shot); empty: none of any.
-  std::vector<std::vector<Source<D>>> blended;
+  std::vector<std::vector<Source<D>>> blended = {};
   /// Of shots with receivers, channels or numbers of their own; null: channels count from 1, shots too.
-  std::shared_ptr<const Spreads<D>> spreads;
+  std::shared_ptr<const Spreads<D>> spreads = {};
 
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
   std::size_t receiver_count(std::size_t shot) const {

@@ -135,17 +135,21 @@ void GeometryReader::complete() {
     for (auto& trace : traces_)
       trace.source_m = {trace.receiver_m[0] - trace.offset_m, trace.receiver_m[1], trace.source_m[2]};
   if (known_.source || known_.receiver) return;
-  if (known_.midpoint && !any_offset) {
-    for (std::size_t n = 0; n < traces_.size(); ++n)
+  const bool differ = known_.least_offset_m != known_.largest_offset_m;
+  if (known_.midpoint && (!any_offset || differ)) {
+    for (std::size_t n = 0; n < traces_.size(); ++n) {
       for (const std::size_t axis : {0, 1})
         traces_[n].source_m[axis] = traces_[n].receiver_m[axis] = midpoints_m_[n][axis];
+      traces_[n].source_m[0] -= traces_[n].offset_m / 2;
+      traces_[n].receiver_m[0] += traces_[n].offset_m / 2;
+    }
     return;
   }
   if (known_.midpoint)
     throw Error(
-        "found no coordinates of sources (bytes 73, 77) and receivers (81, 85), and offsets of traces "
-        "that have midpoints only have no direction; expected one of them");
-  if (known_.least_offset_m != known_.largest_offset_m) {
+        "found no coordinates of sources (bytes 73, 77) and receivers (81, 85), and one offset "
+        "for all traces, which has no direction at a midpoint; expected coordinates");
+  if (differ) {
     for (auto& trace : traces_) trace.receiver_m[0] = trace.offset_m;
     return;
   }
