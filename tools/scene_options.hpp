@@ -26,15 +26,14 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
               "line of receivers, or one at X,Z, m; repeatable; +X0:+X1:DX moves with the source; Z may be "
               "surface+D or floor-D; @FILE: a table; in 3-D also an area, X0:X1:DX,Y0:Y1:DY,Z");
   options.add("geometry", s.survey.geometry, "FILE",
-              "sources and receivers of a SEG-Y or SU file, a CSV table or SPS files (one option each)");
-  options.add("origin", s.survey.origin, "X,Y", "with --geometry: where x = 0 (in 3-D y = 0) is on its map");
+              "the survey of a SEG-Y, SU or CSV file, or of SPS files");
+  options.add("origin", s.survey.origin, "X,Y", "with --geometry: the model's origin on its map");
   options.add("azimuth", s.survey.azimuth_deg, "DEG",
-              "with --geometry: where the x axis points on its map, clockwise from north [90: along its x]");
+              "with --geometry: x axis on its map, clockwise from north [90]");
   options.add("source-depth", s.survey.source_depth, "Z",
-              "with --geometry: depth of all sources, as in --source, instead of those of the file");
+              "with --geometry: depth of sources instead of the file's");
   options.add("receiver-depth", s.survey.receiver_depth, "Z", "the same of all receivers");
-  options.add("blend", s.survey.blend, "FILE",
-              "table of shots that are fired into one record: record, shot, delay, amplitude");
+  options.add("blend", s.survey.blend, "FILE", "table of shots that are fired into one record");
   options.add("shots", s.survey.shots, "LIST", "only these shots of the survey, by number: 3,10:20");
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "base/error.hpp"
 
@@ -25,10 +24,6 @@ std::string place_text(double x, double y, bool with_y) {
 }  // namespace
 
 template <int D>
-Spreads<D>::Spreads(std::shared_ptr<const GivenSurvey> given, Ground<D> ground)
-    : given_(std::move(given)), ground_(std::move(ground)) {}
-
-template <int D>
 unsigned Spreads<D>::axes_from_source(const Place& place) const {
   unsigned axes = place.relative;
   for (std::size_t axis = 0; axis + 1 < D; ++axis)
@@ -39,11 +34,11 @@ unsigned Spreads<D>::axes_from_source(const Place& place) const {
 template <int D>
 double Spreads<D>::depth_of(const Place& place, const Point<D>& at, double given_m) const {
   if (place.depth_from == DepthFrom::datum) {
-    if (!(given_->rounding_m > 0)) return given_m;
+    if (!(given_.rounding_m > 0)) return given_m;
     // What was rounded to lie above the surface lies on it.
     const auto surface = ground_.surface_m(at), floor = ground_.floor_m(at);
     const double half_step_m = header_step_m / 2;
-    if (surface && *surface - given_m >= -half_step_m && *surface - given_m <= given_->rounding_m)
+    if (surface && *surface - given_m >= -half_step_m && *surface - given_m <= given_.rounding_m)
       return *surface;
     return floor && std::abs(*floor - given_m) <= half_step_m ? *floor : given_m;
   }
@@ -63,7 +58,7 @@ Point<D> Spreads<D>::point_of(const Place& place, const std::array<double, 3>& s
   const unsigned from_source = axes_from_source(place);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (from_source >> axis & 1U) map[axis] += source_m[axis];
-  const auto across = given_->frame.model_m(map[0], map[1]);
+  const auto across = given_.frame.model_m(map[0], map[1]);
   Point<D> point{};
   for (std::size_t axis = 0; axis + 1 < D; ++axis) point[axis] = across[axis];
   point[D - 1] = depth_of(place, point, map[2]);
@@ -72,7 +67,7 @@ Point<D> Spreads<D>::point_of(const Place& place, const std::array<double, 3>& s
 
 template <int D>
 Point<D> Spreads<D>::source_of(std::size_t shot, std::size_t which) const {
-  const auto& of_shot = given_->shots[shot - 1];
+  const auto& of_shot = given_.shots[shot - 1];
   const auto& source = of_shot.sources[which];
   try {
     return point_of(source.place, {});
@@ -84,7 +79,7 @@ Point<D> Spreads<D>::source_of(std::size_t shot, std::size_t which) const {
 /// The first source where receivers are counted from: on the map, its depth found.
 template <int D>
 std::array<double, 3> Spreads<D>::map_source_of(std::size_t shot) const {
-  auto map = given_->shots[shot - 1].sources.front().place.at_m;
+  auto map = given_.shots[shot - 1].sources.front().place.at_m;
   map[2] = source_of(shot, 0)[D - 1];
   return map;
 }
@@ -92,7 +87,7 @@ std::array<double, 3> Spreads<D>::map_source_of(std::size_t shot) const {
 template <int D>
 std::size_t Spreads<D>::count_of(std::size_t shot) const {
   std::size_t count = 0;
-  for (const auto& run : given_->runs_of(shot - 1)) count += run.count;
+  for (const auto& run : given_.runs_of(shot - 1)) count += run.count;
   return count;
 }
 
@@ -101,12 +96,12 @@ std::vector<Receiver<D>> Spreads<D>::receivers_of(std::size_t shot) const {
   std::vector<Receiver<D>> receivers;
   receivers.reserve(count_of(shot));
   const auto source = map_source_of(shot);
-  for (const auto& run : given_->runs_of(shot - 1))
+  for (const auto& run : given_.runs_of(shot - 1))
     for (std::uint32_t n = 0; n < run.count; ++n) {
-      const auto& place = given_->places[run.first_place + n];
+      const auto& place = given_.places[run.first_place + n];
       auto& receiver = receivers.emplace_back();
       receiver.channel = run.channel + std::int64_t(n) * run.channel_step;
-      if (run.first_bin >= 0) receiver.bin = given_->bins[std::size_t(run.first_bin) + n];
+      if (run.first_bin >= 0) receiver.bin = given_.bins[std::size_t(run.first_bin) + n];
       try {
         receiver.point_m = point_of(place, source);
       } catch (const PlacingError& error) {
@@ -123,16 +118,16 @@ std::vector<Receiver<D>> Spreads<D>::receivers_of(std::size_t shot) const {
 
 template <int D>
 void Spreads<D>::each_place(const std::function<void(const Point<D>&, std::size_t, std::size_t)>& see) const {
-  std::vector<bool> seen(given_->places.size());
-  for (std::size_t shot = 1; shot <= given_->shots.size(); ++shot) {
+  std::vector<bool> seen(given_.places.size());
+  for (std::size_t shot = 1; shot <= given_.shots.size(); ++shot) {
     std::size_t number = 0;
     std::optional<std::array<double, 3>> source;
-    for (const auto& run : given_->runs_of(shot - 1))
+    for (const auto& run : given_.runs_of(shot - 1))
       for (std::uint32_t n = 0; n < run.count; ++n) {
         ++number;
         const std::size_t at = run.first_place + n;
         if (seen[at]) continue;
-        const auto& place = given_->places[at];
+        const auto& place = given_.places[at];
         seen[at] = stands(place);
         if (!source) source = map_source_of(shot);
         try {
@@ -147,16 +142,16 @@ void Spreads<D>::each_place(const std::function<void(const Point<D>&, std::size_
 
 template <int D>
 std::string Spreads<D>::name_of_source(std::size_t shot, std::size_t which) const {
-  const auto& from = given_->shots[shot - 1].sources[which].from;
+  const auto& from = given_.shots[shot - 1].sources[which].from;
   return from.empty() ? "source " + std::to_string(shot) : from + ": the source";
 }
 
 template <int D>
 std::string Spreads<D>::remedy() const {
-  if (!given_->from_map) return "";
-  const auto fitting = fitting_frame(*given_, D);
-  const std::string doubt = given_->doubt.empty() ? "" : "; or " + given_->doubt;
-  if (fitting.origin_m == given_->frame.origin_m && fitting.azimuth_deg == given_->frame.azimuth_deg)
+  if (!given_.from_map) return "";
+  const auto fitting = fitting_frame(given_, D);
+  const std::string doubt = given_.doubt.empty() ? "" : "; or " + given_.doubt;
+  if (fitting.origin_m == given_.frame.origin_m && fitting.azimuth_deg == given_.frame.azimuth_deg)
     return doubt;
   return "; the survey would begin at the model's origin with --origin " + shown(fitting.origin_m[0]) + "," +
          shown(fitting.origin_m[1]) +
@@ -168,11 +163,11 @@ double Spreads<D>::moved_m() const {
   if (D == 3) return 0;
   double most = 0;
   const auto see = [&](const Place& place) {
-    most = std::max(most, std::abs(given_->frame.model_m(place.at_m[0], place.at_m[1])[1]));
+    most = std::max(most, std::abs(given_.frame.model_m(place.at_m[0], place.at_m[1])[1]));
   };
-  for (const auto& shot : given_->shots)
+  for (const auto& shot : given_.shots)
     for (const auto& source : shot.sources) see(source.place);
-  for (const auto& place : given_->places)
+  for (const auto& place : given_.places)
     if (axes_from_source(place) == 0) see(place);
   return most;
 }
@@ -181,15 +176,15 @@ template <int D>
 double Spreads<D>::offset_change_m() const {
   if (D == 3) return 0;
   double most = 0;
-  for (const auto& shot : given_->shots) {
+  for (const auto& shot : given_.shots) {
     const auto& source = shot.sources.front().place.at_m;
     for (std::size_t n = shot.first_run; n < shot.last_run; ++n)
-      for (std::uint32_t k = 0; k < given_->runs[n].count; ++k) {
-        const auto& place = given_->places[given_->runs[n].first_place + k];
+      for (std::uint32_t k = 0; k < given_.runs[n].count; ++k) {
+        const auto& place = given_.places[given_.runs[n].first_place + k];
         if (axes_from_source(place) != 0) continue;
         const double x = place.at_m[0] - source[0], y = place.at_m[1] - source[1];
-        const auto to = given_->frame.model_m(place.at_m[0], place.at_m[1]);
-        const auto from = given_->frame.model_m(source[0], source[1]);
+        const auto to = given_.frame.model_m(place.at_m[0], place.at_m[1]);
+        const auto from = given_.frame.model_m(source[0], source[1]);
         most = std::max(most, std::abs(std::hypot(x, y) - std::abs(to[0] - from[0])));
       }
   }

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -29,11 +28,11 @@ template <int D>
 class Spreads {
  public:
   Spreads() = default;
-  Spreads(std::shared_ptr<const GivenSurvey> given, Ground<D> ground);
+  explicit Spreads(GivenSurvey given) : given_(std::move(given)) {}
 
-  const GivenSurvey& given() const { return *given_; }
-  /// The same survey in a model of that ground.
-  Spreads placed_on(Ground<D> ground) const { return Spreads(given_, std::move(ground)); }
+  const GivenSurvey& given() const { return given_; }
+  /// The model it is in, before which nothing has a place.
+  void put_on(Ground<D> ground) { ground_ = std::move(ground); }
   /// Throws Error naming the receiver where its depth can not be found.
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
   std::size_t count_of(std::size_t shot) const;
@@ -59,7 +58,7 @@ class Spreads {
   Point<D> point_of(const Place& place, const std::array<double, 3>& source_m) const;
   double depth_of(const Place& place, const Point<D>& at, double given_m) const;
 
-  std::shared_ptr<const GivenSurvey> given_;
+  GivenSurvey given_;
   Ground<D> ground_;
 };
 

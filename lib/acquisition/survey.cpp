@@ -113,7 +113,8 @@ bool needs_ground(const Survey<D>& survey) {
 template <int D>
 void place(Survey<D>& survey, Ground<D> ground) {
   if (!survey.spreads) return;
-  auto spreads = std::make_shared<const Spreads<D>>(survey.spreads->placed_on(std::move(ground)));
+  survey.spreads->put_on(std::move(ground));
+  const auto* const spreads = &*survey.spreads;
   const auto* const given = &spreads->given();
   for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
     survey.sources[shot - 1].position_m = spreads->source_of(shot, 0);
@@ -126,14 +127,10 @@ void place(Survey<D>& survey, Ground<D> ground) {
   const bool alike = of_options && !given->numbered && !given->told_apart && given->frame.is_identity() &&
                      std::all_of(given->places.begin(), given->places.end(),
                                  [&](const Place& one) { return spreads->stands(one); });
-  survey.receivers_m.clear();
+  if (!alike) return;
+  if (!survey.sources.empty())
+    for (const auto& receiver : spreads->receivers_of(1)) survey.receivers_m.push_back(receiver.point_m);
   survey.spreads.reset();
-  if (!alike) {
-    survey.spreads = std::move(spreads);
-    return;
-  }
-  if (survey.sources.empty()) return;
-  for (const auto& receiver : spreads->receivers_of(1)) survey.receivers_m.push_back(receiver.point_m);
 }
 
 template <int D>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -61,8 +60,8 @@ struct Survey {
   std::vector<Point<D>> receivers_m;  // of every shot, where there are no spreads
   /// Further sources of a shot that are recorded with its first (a blended shot); empty: none of any.
   std::vector<std::vector<Source<D>>> blended = {};
-  /// Of shots with receivers, channels or numbers of their own; null: channels count from 1, shots too.
-  std::shared_ptr<const Spreads<D>> spreads = {};
+  /// Of shots with receivers, channels or numbers of their own; none: channels count from 1, shots too.
+  std::optional<Spreads<D>> spreads = {};
 
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
   std::size_t receiver_count(std::size_t shot) const {

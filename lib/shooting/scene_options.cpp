@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "base/error.hpp"
@@ -40,7 +39,7 @@ class Once {
 template <int D>
 Survey<D> make_survey(const SceneOptions& s) {
   Survey<D> survey;
-  auto given = std::make_shared<GivenSurvey>(s.survey.read(D));
+  auto given = s.survey.read(D);
   Once<Wavelet> wavelets;
   Once<Mechanism<D>> kinds;
   const auto source_of = [&](const GivenSource& source) {
@@ -55,15 +54,15 @@ Survey<D> make_survey(const SceneOptions& s) {
         {}, kind, wavelet, source.amplitude.value_or(s.amplitude) * source.factor, source.delay_s};
   };
   bool any_blended = false;
-  for (const auto& shot : given->shots) {
+  for (const auto& shot : given.shots) {
     survey.sources.push_back(source_of(shot.sources.front()));
     any_blended = any_blended || shot.sources.size() > 1;
   }
   if (any_blended) survey.blended.resize(survey.sources.size());
   for (std::size_t shot = 0; any_blended && shot < survey.sources.size(); ++shot)
-    for (std::size_t n = 1; n < given->shots[shot].sources.size(); ++n)
-      survey.blended[shot].push_back(source_of(given->shots[shot].sources[n]));
-  survey.spreads = std::make_shared<const Spreads<D>>(std::move(given), Ground<D>());
+    for (std::size_t n = 1; n < given.shots[shot].sources.size(); ++n)
+      survey.blended[shot].push_back(source_of(given.shots[shot].sources[n]));
+  survey.spreads.emplace(std::move(given));
   return survey;
 }
 
