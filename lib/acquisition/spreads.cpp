@@ -150,7 +150,7 @@ template <int D>
 std::string Spreads<D>::remedy() const {
   if (!given_.from_map) return "";
   const auto fitting = fitting_frame(given_, D);
-  const std::string doubt = given_.doubt.empty() ? "" : "; or " + given_.doubt;
+  std::string doubt = given_.doubt.empty() ? "" : "; or " + given_.doubt;
   if (fitting.origin_m == given_.frame.origin_m && fitting.azimuth_deg == given_.frame.azimuth_deg)
     return doubt;
   return "; the survey would begin at the model's origin with --origin " + shown(fitting.origin_m[0]) + "," +

@@ -41,7 +41,7 @@ class Record {
   std::string place() const { return file_ + ": line " + std::to_string(line_); }
   std::string_view text(const Columns& columns) const {
     const auto first = std::min(std::size_t(columns.first - 1), text_.size());
-    auto part = text_.substr(first, std::size_t(columns.last - columns.first + 1));
+    auto part = text_.substr(first, std::size_t(columns.last) - first);
     const auto begin = part.find_first_not_of(' ');
     if (begin == std::string_view::npos) return {};
     return part.substr(begin, part.find_last_not_of(" \r") - begin + 1);
