@@ -111,6 +111,23 @@ TEST_F(SurveyOfSea, ASurveyOnAMapIsTurnedIntoTheModel) {
             0);
 }
 
+TEST_F(SurveyOfSea, ShotsInTheGeometryOfFieldDataAreTakenFromThemTraceByTrace) {
+  write("map.csv",
+        "shot,channel,cdp,sx,sy,sdepth,gx,gy,gz\n"
+        "31,4,7,500100,90000,10,500300,90000,20\n"
+        "31,9,8,500100,90000,10,500400.5,90000,20\n"
+        "35,4,9,500200,90000,10,500400.5,90000,20\n");
+  const std::string record = "sw-shoot m.nc --time 0.2 --dt 0.002 --record p --origin 500000,90000 ";
+  done(record + "--wavelet ricker:20 --geometry map.csv -o field.sgy");
+  // As field data say: trid 1, seismic data.
+  done(
+      "for t in 0 1 2; do printf '\\0\\1' | dd of=field.sgy bs=1 conv=notrunc status=none "
+      "seek=$((3628 + 644 * t)); done");
+  done(record + "--wavelet ricker:25 --geometry field.sgy -o model.sgy");
+  done("sw-diff field.sgy model.sgy -o difference.sgy");
+  EXPECT_TRUE(has(info("difference.sgy"), "traces           3"));
+}
+
 TEST_F(SurveyOfSea, BlendedShotsAddUp) {
   const std::string line = source +
                            "--time-step 0.0015 --precision double --record p --source 100:300:100,10 "
