@@ -31,7 +31,10 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
     const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
     extent += separator + name + "=" + shown(depths[0]) + ".." + shown(depths[1]) + (bent ? " there" : "");
   }
-  throw Error(what + " at " + place + " lies outside the model, expected " + extent + remedy);
+  bool beside = false;
+  for (int axis = 0; axis < D - 1; ++axis)
+    beside = beside || !(point[axis] >= grid.origin_m[axis] && point[axis] <= grid.end(axis));
+  throw Error(what + " at " + place + " lies outside the model, expected " + extent + (beside ? remedy : ""));
 }
 
 }  // namespace

@@ -149,7 +149,13 @@ GeometryKind kind_of(const InputStart& start, std::optional<std::uint64_t> size)
   const std::vector<std::uint8_t> first(bytes.begin(), bytes.end());
   const std::string_view text(bytes.data(), bytes.size());
   if (looks_like_sps(text)) return GeometryKind::sps;
-  return segy::looks_like_segy(first, size) ? GeometryKind::traces : GeometryKind::table;
+  if (segy::looks_like_segy(first, size)) return GeometryKind::traces;
+  const auto is_control = [](std::uint8_t byte) {
+    return byte < ' ' && byte != '\t' && byte != '\r' && byte != '\n';
+  };
+  if (std::any_of(first.begin(), first.end(), is_control))
+    throw Error("expected traces in SEG-Y or SU, a CSV table or SPS, found none of them");
+  return GeometryKind::table;
 }
 
 }  // namespace
@@ -215,7 +221,7 @@ GivenSurvey SurveyOptions::read_geometry(int dimension) const {
     const InputStart start(path, 3600);
     std::optional<std::uint64_t> size;
     if (start.is_regular()) size = InputFile(path).size();
-    kind = kind_of(start, size);
+    kind = in_place(shown_input(path), [&] { return kind_of(start, size); });
     taken = start.taken();
     if (*kind != GeometryKind::sps && geometry.size() > 1)
       throw Error("--geometry: " + shown_input(path) +

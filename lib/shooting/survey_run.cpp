@@ -130,6 +130,7 @@ Progress SurveyRun<D>::progress_of(std::span<const std::size_t> some) {
     return messages_.progress("shot " + number(some.front()) +
                               (some.size() > 1 ? " to " + number(some.back()) : ""));
   if (!progress_) progress_ = messages_.progress(std::to_string(shots_to_do_) + " shots");
+  if (!progress_) return {};  // silent
   return [this, round](std::int64_t done, std::int64_t total) {
     progress_(round * total + done, std::int64_t(rounds_) * total);
   };

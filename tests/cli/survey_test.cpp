@@ -216,6 +216,8 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
           "t.csv: line 3: found channel 1 twice in a shot, first on line 2; expected it once");
   refused("record,shot\n1,4\n", "--source 1,1 --receivers 5,5 --blend t.csv", 1,
           "t.csv: line 2: column shot: found shot 4, which the survey does not have");
+  expect_refused("sw-shoot m.nc " + source + "--geometry m.nc", 1,
+                 "sw-shoot: m.nc: expected traces in SEG-Y or SU, a CSV table or SPS, found none of them");
   expect_refused("sw-shoot m.nc " + source + "--geometry t.csv --source 1,1", 2,
                  "sw-shoot: found --geometry and --source, expected one of them");
   expect_refused("sw-shoot m.nc " + source + "--source 1,1 --origin 1,1", 2,
