@@ -106,9 +106,9 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
 
 /// The user's scene; nothing of it is asked for where a built-in case is.
 Scene<2> make_scene(const Settings& s) {
-  for (const auto& [given, name] : {std::pair{!s.shot.sources.empty(), "--source"},
+  for (const auto& [given, name] : {std::pair{s.shot.survey.any_source(), "--source"},
                                     {!s.shot.wavelet.empty(), "--wavelet"},
-                                    {!s.shot.receivers.empty(), "--receivers"},
+                                    {s.shot.survey.any_receiver(), "--receivers"},
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
       throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);

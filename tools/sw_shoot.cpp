@@ -36,7 +36,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
               "wall-clock time between checkpoints, s [600]");
   options.add("keep-unstable", s.output.keep_unstable,
               "keep the output of an unstable run, in files unstable-NAME");
-  for (const char* name : {"source", "wavelet", "time"}) options.require(name);
+  options.require("time");
   options.add_threads();
   options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",

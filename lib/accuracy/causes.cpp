@@ -231,14 +231,14 @@ void ErrorSources::Shot::add_edge(const Scene<2>& scene, std::size_t shot, int a
   Edge edge{names[axis][side], double(zone_cells(scene, source)), {}};
   const auto& grid = scene.model.grid();
   const auto across = std::size_t(axis);
-  const auto& all = scene.survey.receivers_m;
+  const auto all = scene.survey.receivers_of(shot + 1);
   const auto count = energies.size();
   const std::size_t stride =
       std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   const auto from = grid.row_coordinates(source.position_m);
   const double place = side == 0 ? grid.origin_m[across] : grid.end(axis);
   for (std::size_t n = stride / 2; n < all.size() && edge.along_and_mean_m.size() < count; n += stride) {
-    const auto to = grid.row_coordinates(all[n]);
+    const auto to = grid.row_coordinates(all[n].point_m);
     edge.along_and_mean_m.push_back({std::abs(to[1 - across] - from[1 - across]),
                                      (std::abs(to[across] - place) + std::abs(from[across] - place)) / 2});
   }
@@ -399,7 +399,7 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
 
 ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
   const auto& sources = scene.survey.sources;
-  if (!scene.survey.receivers_m.empty()) {
+  if (scene.survey.any_receiver()) {
     const std::size_t stride =
         std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)

@@ -31,9 +31,10 @@ void serialize_gather(Archive& archive, Gather& gather) {
   archive.value(gather.axis.start_s);
   gather.traces.resize(archive.count(gather.traces.size(), 1));
   for (auto& [header, samples] : gather.traces) {
-    auto& [shot, channel, component, source_m, receiver_m, depth_source_m, depth_receiver_m] = header;
+    auto& [shot, channel, bin, component, source_m, receiver_m, depth_source_m, depth_receiver_m] = header;
     archive.value(shot);
     archive.value(channel);
+    archive.value(bin);
     archive.value(component);
     archive.value(source_m);
     archive.value(receiver_m);

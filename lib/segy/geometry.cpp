@@ -145,7 +145,8 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("fldr", header.shot);
   words.set("tracf", header.channel);
   words.set("ep", header.shot);
-  words.set("cdp", bin_of(mid_x, layout.bin_m));
+  const auto bin = header.bin != 0 ? header.bin : bin_of(mid_x, layout.bin_m);
+  words.set("cdp", bin);
   words.set("trid", code_of(header.component));
   words.set("nvs", 1);
   words.set("nhs", 1);
@@ -165,7 +166,7 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("cdpx", word(mid_x));
   words.set("cdpy", word(mid_y));
   words.set("iline", bin_of(mid_y, layout.bin_y_m));
-  words.set("xline", bin_of(mid_x, layout.bin_m));
+  words.set("xline", bin);
   words.set("sp", header.shot);
   words.set("spscal", 1);
   words.set("unit", unit_code(header.component));

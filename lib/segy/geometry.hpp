@@ -37,8 +37,8 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers);
 /// and -1 for -bin_m; there is no bin 0, which readers take for "unknown".
 std::int64_t bin_of(double midpoint_m, double bin_m);
 
-/// All words that follow from header and layout; counters, ns, dt and delrt stay 0.
-/// Throws Error naming a word that overflows.
+/// All words that follow from header and layout (a bin that is given goes first); counters, ns, dt and delrt
+/// stay 0. Throws Error naming a word that overflows.
 TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout);
 
 /// The inverse, for any file: scalars applied, feet made metres. Source z is its depth below the surface

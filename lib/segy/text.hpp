@@ -30,6 +30,12 @@ std::vector<std::uint8_t> encode_text(std::string_view text, TextEncoding encodi
 /// everything, the last of `lines` stays and a line "..." stands for what is left out.
 std::string lay_out_text(std::span<const std::string> lines, int revision);
 
+/// The same of two groups of lines, the second of which always stays as a whole: where 38 lines do not hold
+/// both, the longest of the first are cut, the later of them left out, and a few lines stay free for the
+/// commands of tools that come after.
+std::string lay_out_text(std::span<const std::string> lines, std::span<const std::string> always,
+                         int revision);
+
 /// `text` (3200 characters of another file) with one more entry after its last line in use, laid out as
 /// lay_out_text does. The other lines stay as they are; C39 and C40 are stamped where they are blank or hold
 /// a stamp. When there is no room, the entry takes the place of the last lines before C39, a line "..."

@@ -131,10 +131,8 @@ void write_gather(OutputFile& out, const Gather& gather, const FileFormat& forma
   info.format = format;
   info.axis = gather.axis;
   info.layout = layout_of(headers);
-  std::vector<std::string> all = entries;
-  const auto more = convention_entries(components_of(gather), info.axis, info.layout);
-  all.insert(all.end(), more.begin(), more.end());
-  info.text = lay_out_text(all, format.revision);
+  const auto conventions = convention_entries(components_of(gather), info.axis, info.layout);
+  info.text = lay_out_text(entries, conventions, format.revision);
   Writer writer(out, std::move(info));
   for (const slipwave::Trace& trace : gather.traces) writer.write(trace.header, trace.samples);
 }

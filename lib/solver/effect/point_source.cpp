@@ -11,7 +11,12 @@ namespace slipwave::solver {
 template <int D, class Real>
 PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
                                   const Source<D>& source, double unit, Ranks* ranks)
-    : state_(state), domain_(domain), medium_(scene.model.medium), wavelet_(source.wavelet), unit_(unit) {
+    : state_(state),
+      domain_(domain),
+      medium_(scene.model.medium),
+      wavelet_(source.wavelet),
+      delay_s_(source.delay_s),
+      unit_(unit) {
   if (domain.subdomain.owns(domain.model_grid, source.position_m)) weigh(source);
   if (ranks) share(*ranks);
   find_rows();
@@ -66,7 +71,7 @@ void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fi
   auto value = std::lower_bound(values_.begin(), values_.end(), fields.row,
                                 [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
   if (value == values_.end() || value->line != fields.row) return;
-  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
+  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_);
   const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
   const double before = counts ? energy_of(fields.row, cells) : 0;
   for (; value != values_.end() && value->line == fields.row; ++value) {
@@ -94,7 +99,7 @@ double PointSource<D, Real>::energy_of(std::int64_t line, const IndexRange& colu
 
 template <int D, class Real>
 void PointSource<D, Real>::report(ShotReport& report) const {
-  report.source_work = std::accumulate(work_.begin(), work_.end(), 0.);
+  report.source_work = std::accumulate(work_.begin(), work_.end(), report.source_work.value_or(0));
 }
 
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.

@@ -27,7 +27,9 @@ class PointSource : public Effect<D, Real> {
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> rows() const override { return rows_; }
-  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+  bool active(const StepTime& time) const override {
+    return time.end_s() - delay_s_ <= wavelet_.duration_s();
+  }
   bool injects(const StepTime& time, std::int64_t row) const override {
     return active(time) && row >= rows_.front() && row <= rows_.back();
   }
@@ -51,6 +53,7 @@ class PointSource : public Effect<D, Real> {
   const Domain<D>& domain_;
   const Medium<D>& medium_;
   Wavelet wavelet_;
+  double delay_s_;
   double unit_;
   Index<D> centre_{};  // the cell of the source, which may lie beyond this subdomain
   std::vector<ValueWeight> values_;
