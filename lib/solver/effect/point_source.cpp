@@ -32,7 +32,7 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    add_smooth(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
   }
@@ -44,13 +44,16 @@ void PointSource<D, Real>::share(Ranks& ranks) {
   const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
   const std::int64_t before = domain_.grid.first[D - 1];
   std::vector<Index<D>> centre;
+  std::vector<std::int64_t> reach;
   if (!values_.empty()) {
     centre.push_back(centre_);
     centre.back()[D - 1] += before;
+    reach.push_back(reach_);
   }
   for (auto& value : values_) value.line += before * lines_a_row;
   centre_ = allgather(&ranks, centre).at(0);
   centre_[D - 1] -= before;
+  reach_ = allgather(&ranks, reach).at(0);
   const auto all = allgather(&ranks, values_);
   values_.clear();
   for (auto value : all) {
@@ -100,9 +103,24 @@ void PointSource<D, Real>::report(ShotReport& report) const {
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
 template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
+  if (strength != 0)
+    add(source_weights(state_.layout, domain_, source.position_m, like), row - like, strength);
+}
+
+/// The same of a normal stress, smoothly where that is possible.
+template <int D, class Real>
+void PointSource<D, Real>::add_smooth(const Source<D>& source, int row, int like, double strength) {
   if (strength == 0) return;
-  for (auto value : source_weights(state_.layout, domain_, source.position_m, like)) {
-    value.place += (row - like) * state_.layout.row_pitch();
+  const auto smooth = smooth_source_weights(state_.layout, domain_, source.position_m, like);
+  if (smooth.empty()) return add(source, row, like, strength);
+  reach_ = widest_spread / 2;
+  add(smooth, row - like, strength);
+}
+
+template <int D, class Real>
+void PointSource<D, Real>::add(const std::vector<ValueWeight>& weights, int rows_on, double strength) {
+  for (auto value : weights) {
+    value.place += rows_on * state_.layout.row_pitch();
     value.weight *= strength;
     if (domain_.model_grid.rows) {
       auto cell = state_.layout.line_index(value.line);
@@ -117,12 +135,11 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
 /// two half sweeps a step, and which ones do must not depend on the place, or traces would change with it.
 template <int D, class Real>
 void PointSource<D, Real>::find_rows() {
-  constexpr std::int64_t reach = widest_stencil / 2;
   rows_ = lines_of(values_);
   for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
     const auto at = state_.layout.line_index(line);
     bool near = true;
-    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach;
+    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach_;
     if (near) rows_.push_back(line);
   }
   std::sort(rows_.begin(), rows_.end());
