@@ -16,18 +16,19 @@ constexpr double on_centre = 1e-9;
 
 /// What weights along an axis are fitted to. Wavenumbers are in radians per cell.
 struct Fit {
-  int widest;       // cells
-  double passband;  // waves up to here are reproduced
-  int moments,
-      moments_to_side;  // reproduced exactly; to_side: where the cells do not surround the point evenly
-  double stopband;      // waves from here on are suppressed,
-  double suppression;   // with this weight
+  int widest;                         // cells
+  double passband;                    // waves up to here are reproduced
+  int moments;                        // reproduced exactly
+  double stopband;                    // waves from here on are suppressed,
+  double suppression;                 // with this weight
+  int widest_beside, moments_beside;  // the same where cells do not surround the point evenly
 };
 /// A larger passband helps below six cells a wavelength and hurts above.
-constexpr Fit to_interpolate = {widest_stencil, 0.35 * std::numbers::pi, 4, 4, std::numbers::pi, 0};
+constexpr Fit to_interpolate = {
+    widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
 /// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
 /// cells a wavelength.
-constexpr Fit to_spread = {widest_spread, 1, 6, 4, 2.1, 0.1 * (std::numbers::pi - 2.1)};
+constexpr Fit to_spread = {widest_spread, 1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4};
 
 /// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
@@ -110,12 +111,13 @@ std::vector<CellWeight> weights_round(double position, const AxisCells& usable, 
   const std::int64_t reach = images_below && images_above ? fit.widest : length;
   const std::int64_t low = images_below ? usable.low - reach : usable.low;
   const std::int64_t high = images_above ? usable.high + reach : usable.high;
-  const int count = int(std::min<std::int64_t>(most_cells, high - low + 1));
-  const auto centred = std::int64_t(std::floor(position - 0.5 * (count - 2)));
-  const std::int64_t first = std::clamp(centred, low, high - count + 1);
+  const auto centred = [&](int count) { return std::int64_t(std::floor(position - 0.5 * (count - 2))); };
+  const bool around = centred(most_cells) >= low && centred(most_cells) + most_cells - 1 <= high;
+  const int most = around ? most_cells : std::min(most_cells, fit.widest_beside);
+  const int count = int(std::min<std::int64_t>(most, high - low + 1));
+  const std::int64_t first = std::clamp(centred(count), low, high - count + 1);
 
-  const bool around = first == centred && count == fit.widest;
-  const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_to_side, fit);
+  const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit);
   std::vector<CellWeight> found;
   for (int i = 0; i < count; ++i) {
     const auto weight = folded({first + i, weights[std::size_t(i)]}, usable);

@@ -33,7 +33,8 @@ struct PointWeight {
 
 /// Widest stencil along an axis.
 inline constexpr int widest_stencil = 8;
-/// Cells along an axis that a source is spread over where it is spread smoothly, and the fewest that do.
+/// Cells along an axis that a source is spread over smoothly, and those beside an interface, where it needs
+/// as many.
 inline constexpr int widest_spread = 14, narrowest_spread = 8;
 
 /// Weights for the value of a field at `position` from its values at cell centres, along one axis (theory.md
@@ -62,11 +63,11 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 
 /// Weights that spread a point source smoothly (theory.md (A8)): over up to widest_spread usable cells, on a
 /// cell's centre too. They suppress waves shorter than three cells, which sweeps cannot hold in balance, and
-/// reproduce polynomials up to the fifth degree, up to the third where the cells do not surround the point
-/// evenly. The largest error of a wave of unit amplitude, by cells per wavelength, and what is left of short
-/// ones (measured in the tests):
-///   cells per wavelength   24    15    12    10    8     6     | 2.8   2.4   2
-///   7 on both sides        4e-5  6e-4  2e-3  4e-3  5e-3  2e-2  | 5e-3  1e-2  1e-2
+/// reproduce polynomials up to the fifth degree. Where widest_spread cells do not surround the point evenly,
+/// it is narrowest_spread and the third degree. The largest error of a wave of unit amplitude, by cells per
+/// wavelength, and what is left of short ones (measured in the tests):
+///   cells per wavelength   24    15    12    10    8     6     | 3     2.8   2.4   2
+///   7 on both sides        5e-5  6e-4  2e-3  4e-3  6e-3  3e-2  | 4e-2  8e-3  7e-3  9e-3
 /// position and usable cells as for axis_weights(), narrowest_spread of them or more.
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable);
 

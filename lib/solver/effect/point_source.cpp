@@ -29,10 +29,11 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   const double rho = medium_.rho(domain_.model_cell(centre_));
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
+  const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    add_smooth(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    if (!spread) add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
   }
@@ -107,14 +108,16 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
     add(source_weights(state_.layout, domain_, source.position_m, like), row - like, strength);
 }
 
-/// The same of a normal stress, smoothly where that is possible.
+/// Spreads `strength` over all normal stresses, smoothly where that is possible.
 template <int D, class Real>
-void PointSource<D, Real>::add_smooth(const Source<D>& source, int row, int like, double strength) {
-  if (strength == 0) return;
-  const auto smooth = smooth_source_weights(state_.layout, domain_, source.position_m, like);
-  if (smooth.empty()) return add(source, row, like, strength);
+bool PointSource<D, Real>::add_smoothly(const Source<D>& source, double strength) {
+  using Rows = FieldRows<D>;
+  const int like = Rows::normal_stress(D - 1);
+  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like);
+  if (weights.empty()) return false;
   reach_ = widest_spread / 2;
-  add(smooth, row - like, strength);
+  for (int i = 0; i < D; ++i) add(weights, Rows::normal_stress(i) - like, strength);
+  return true;
 }
 
 template <int D, class Real>

@@ -45,7 +45,7 @@ class PointSource : public Effect<D, Real> {
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add(const Source<D>& source, int row, int like, double strength);
-  void add_smooth(const Source<D>& source, int row, int like, double strength);
+  bool add_smoothly(const Source<D>& source, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   double energy_of(std::int64_t row, const IndexRange& cells) const;

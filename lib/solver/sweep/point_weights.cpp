@@ -103,8 +103,8 @@ std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domai
       cells.below = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
     if (cells.high == domain.grid.shape[axis] - 1 && domain.edges[int(axis)][1] == EdgeLaw::mirror)
       cells.above = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
-    const bool images = cells.below != Beyond::unknown || cells.above != Beyond::unknown;
-    if ((cells.high - cells.low + 1) * (images ? 2 : 1) < narrowest_spread) return {};
+    const int images = (cells.below != Beyond::unknown) + (cells.above != Beyond::unknown);
+    if (images < 2 && (cells.high - cells.low + 1) * (1 + images) < narrowest_spread) return {};
   }
   return box;
 }
