@@ -23,11 +23,11 @@ struct Fit {
   double suppression;                 // with this weight
   int widest_beside, moments_beside;  // the same where cells do not surround the point evenly
 };
-/// A larger passband helps below six cells a wavelength and hurts above.
+/// A larger passband helps below six cells per wavelength and hurts above.
 constexpr Fit to_interpolate = {
     widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
 /// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
-/// cells a wavelength.
+/// cells per wavelength.
 constexpr Fit to_spread = {widest_spread, 1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4};
 
 /// Keeps the fit solvable; far below its errors.
