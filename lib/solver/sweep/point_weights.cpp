@@ -113,16 +113,27 @@ std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domai
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
+/// Whether an edge across z makes even or odd what is along and across it, but not what is along x and z: on
+/// bent rows the stresses of a solid and the velocity of a fluid.
+template <int D>
+bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row, bool fluid) {
+  if (!domain.bent(centre[D - 1])) return false;
+  return law == EdgeLaw::mirror || (law == EdgeLaw::free && (row < D) == fluid);
+}
+
 /// The cells round a point and the extension of the field beyond those at an edge of the grid.
 template <int D>
 std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
                                                      int field_row, bool fluid) {
   auto usable = usable_cells(domain, centre);
   for (std::size_t axis = 0; axis < D; ++axis) {
-    if (usable[axis].low == 0)
-      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
-    if (usable[axis].high == domain.grid.shape[axis] - 1)
-      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+    const auto beyond = [&](int side) {
+      const EdgeLaw law = domain.edges[int(axis)][side];
+      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
+      return beyond_edge<D>(law, int(axis), field_row, fluid);
+    };
+    if (usable[axis].low == 0) usable[axis].below = beyond(0);
+    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
   }
   return usable;
 }

@@ -25,7 +25,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
       shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
       metric_(domain),
-      bent_stencils_(domain, reach_) {
+      corrections_(state, domain, metric_),
+      bent_stencils_(domain, reach_, corrections_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -37,12 +38,14 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
       const auto wave = Wave(n % 2);
+      SlotBefore<D> slot_before;
+      if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
       const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
       stencils_[axis][wave] =
-          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected);
+          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected, slot_before);
     }
   });
 }
@@ -134,7 +137,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(
         order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down);
+        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down,
+        corrections_of(axis, p));
     prefetch.prefetch_one();
   }
 }
@@ -149,7 +153,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
-    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, outgoing);
+    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
@@ -161,7 +165,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
                                      pair.wave == wave_p ? material.zp : material.zs, material.b, scale,
                                      metric, outgoing.up(p), outgoing.down(p));
     stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, outgoing.up(p),
-                                       outgoing.down(p), &metric);
+                                       outgoing.down(p), corrections_of(axis, p), &metric);
   }
 }
 
@@ -281,6 +285,7 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (const int side : {0, 1})
     free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
+  if (axis == z_axis) corrections_.update_all(state_);
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -652,6 +657,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   };
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
+  corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

@@ -8,6 +8,7 @@
 #include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
@@ -68,10 +69,11 @@ class Sweeps {
   /// For a sweep along that axis of columns from `first` on, once the material is filled in.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
-  /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
-  /// free_surface_reach cells on all sides as they were before the sweep.
+  /// Whether free surfaces or interfaces of an axis are corrected: sweeps along it then need the velocities
+  /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
-    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
+    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
+           (axis == z_axis && !corrections_.empty());
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -165,6 +167,12 @@ class Sweeps {
   bool shear_;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
+  InterfaceCorrections<D, Real> corrections_;
+  /// Those of a pair of the sweep along an axis.
+  PairCorrections<Real> corrections_of(int axis, int pair) const {
+    if (axis != z_axis) return {nullptr, nullptr};
+    return {corrections_.velocity(pair), corrections_.traction(pair)};
+  }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed>, D> changed_;                   // [axis]
