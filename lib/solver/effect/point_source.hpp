@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "acquisition/interpolation.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/effect.hpp"
@@ -46,6 +47,8 @@ class PointSource : public Effect<D, Real> {
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add(const Source<D>& source, int row, int like, double strength);
+  bool add_smoothly(const Source<D>& source, double strength);
+  void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   double energy_of(std::int64_t row, const IndexRange& cells) const;
 
@@ -55,7 +58,8 @@ class PointSource : public Effect<D, Real> {
   Wavelet wavelet_;
   double delay_s_;
   double unit_;
-  Index<D> centre_{};  // the cell of the source, which may lie beyond this subdomain
+  Index<D> centre_{};                        // the cell of the source, which may lie beyond this subdomain
+  std::int64_t reach_ = widest_stencil / 2;  // of the weights of a source in that cell, in cells
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> rows_;
   unsigned writes_ = 0;
