@@ -45,28 +45,39 @@ std::array<double, most_unknowns> solve(std::array<Row, most_unknowns>& a, int n
   return x;
 }
 
-/// Weights on the cells `first` .. `first + count - 1` for the value at `position`: the least mean square of
-/// |sum w_j exp(i k (j - position)) - 1| over 0 <= k <= highest_wavenumber, moments 0 to 3 exact, by Lagrange
-/// multipliers.
-std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count) {
-  const auto mean_cosine = [](double x) {
-    const double phase = highest_wavenumber * x;
-    return std::abs(phase) < 1e-6 ? 1 : std::sin(phase) / phase;
-  };
+/// Mean of cos(k x), or of k sin(k x), over 0 <= k <= highest_wavenumber.
+double mean_cosine(double x) {
+  const double phase = highest_wavenumber * x;
+  return std::abs(phase) < 1e-6 ? 1 : std::sin(phase) / phase;
+}
+double mean_slope(double x) {
+  const double phase = highest_wavenumber * x;
+  // The closed form loses its digits where both terms are alike.
+  if (std::abs(phase) < 1e-2) return highest_wavenumber * phase * (1. / 3 - phase * phase / 30);
+  return highest_wavenumber * (std::sin(phase) / phase - std::cos(phase)) / phase;
+}
+
+enum class Wanted { value, slope };
+
+/// Weights on the cells `first` .. `first + count - 1` for the value, or the derivative per cell, at
+/// `position`: the least mean square of |sum w_j exp(i k (j - position)) - 1|, or - i k, over 0 <= k <=
+/// highest_wavenumber, moments 0 to 3 exact, by Lagrange multipliers.
+std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count,
+                                         Wanted wanted = Wanted::value) {
   const int moments = std::min(count, 4), unknowns = count + moments;
   std::array<Row, most_unknowns> a{};
   for (int i = 0; i < count; ++i) {
     const double x = double(first + i) - position;
     for (int j = 0; j < count; ++j) a[i][j] = mean_cosine(double(i - j));
     a[i][i] += ridge;
-    a[i][unknowns] = mean_cosine(x);
+    a[i][unknowns] = wanted == Wanted::value ? mean_cosine(x) : mean_slope(x);
     double power = 1;
     for (int m = 0; m < moments; ++m) {
       a[i][count + m] = a[count + m][i] = power;
       power *= x;
     }
   }
-  a[count][unknowns] = 1;
+  a[count + (wanted == Wanted::value ? 0 : 1)][unknowns] = 1;
   return solve(a, unknowns);
 }
 
@@ -80,28 +91,21 @@ CellWeight folded(CellWeight weight, const AxisCells& usable) {
   return weight;
 }
 
-}  // namespace
-
-std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, int most_cells) {
-  assert(usable.low <= usable.high && most_cells >= 2 && most_cells <= widest_stencil);
-  assert(position >= double(usable.low) - 0.5 - on_centre &&
-         position <= double(usable.high) + 0.5 + on_centre);
-  const double nearest = std::round(position);
-  if (std::abs(position - nearest) < on_centre && nearest >= double(usable.low) &&
-      nearest <= double(usable.high))
-    return {{std::int64_t(nearest), 1.}};
-
-  // The window of cells, images included, that may be taken: an image must be that of a usable cell.
+/// The window of cells, images included, that may be taken: an image must be that of a usable cell.
+std::array<std::int64_t, 2> window(const AxisCells& usable) {
   const std::int64_t length = usable.high - usable.low + 1;
   const bool images_below = usable.below != Beyond::unknown, images_above = usable.above != Beyond::unknown;
   const std::int64_t reach = images_below && images_above ? widest_stencil : length;
-  const std::int64_t low = images_below ? usable.low - reach : usable.low;
-  const std::int64_t high = images_above ? usable.high + reach : usable.high;
-  const int count = int(std::min<std::int64_t>(most_cells, high - low + 1));
-  const auto centred = std::int64_t(std::floor(position - 0.5 * (count - 2)));
-  const std::int64_t first = std::clamp(centred, low, high - count + 1);
+  return {images_below ? usable.low - reach : usable.low, images_above ? usable.high + reach : usable.high};
+}
 
-  const auto weights = fitted(position, first, count);
+/// The weights of `count` cells of the window in the middle of which the position lies, as far as it can,
+/// images put to their cells.
+std::vector<CellWeight> weights_in(const std::array<std::int64_t, 2>& cells, double position, int count,
+                                   const AxisCells& usable, Wanted wanted) {
+  const auto centred = std::int64_t(std::floor(position - 0.5 * (count - 2)));
+  const std::int64_t first = std::clamp(centred, cells[0], cells[1] - count + 1);
+  const auto weights = fitted(position, first, count, wanted);
   std::vector<CellWeight> found;
   for (int i = 0; i < count; ++i) {
     const auto weight = folded({first + i, weights[std::size_t(i)]}, usable);
@@ -113,6 +117,50 @@ std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, i
       same->weight += weight.weight;
   }
   return found;
+}
+
+/// Of the Lagrange polynomial i through `count` samples 0, 1, ..: its value at x.
+double lagrange(int i, int count, double x) {
+  double value = 1;
+  for (int j = 0; j < count; ++j)
+    if (j != i) value *= (x - j) / double(i - j);
+  return value;
+}
+
+/// The samples that interpolation at a position takes.
+TimeWeights samples_round(double position, std::int64_t low, std::int64_t high) {
+  assert(low <= high && position >= double(low) - on_centre && position <= double(high) + on_centre);
+  TimeWeights result;
+  result.count = int(std::min<std::int64_t>(8, high - low + 1));
+  result.first = std::clamp(std::int64_t(std::floor(position)) - 3, low, high - result.count + 1);
+  return result;
+}
+
+}  // namespace
+
+std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, int most_cells) {
+  assert(usable.low <= usable.high && most_cells >= 2 && most_cells <= widest_stencil);
+  assert(position >= double(usable.low) - 0.5 - on_centre &&
+         position <= double(usable.high) + 0.5 + on_centre);
+  const double nearest = std::round(position);
+  if (std::abs(position - nearest) < on_centre && nearest >= double(usable.low) &&
+      nearest <= double(usable.high))
+    return {{std::int64_t(nearest), 1.}};
+
+  const auto cells = window(usable);
+  const int count = int(std::min<std::int64_t>(most_cells, cells[1] - cells[0] + 1));
+  return weights_in(cells, position, count, usable, Wanted::value);
+}
+
+std::vector<CellWeight> axis_slopes(double position, const AxisCells& usable) {
+  assert(usable.low <= usable.high);
+  const auto cells = window(usable);
+  // Cells on the shorter side.
+  const double beside = std::max(0., std::min(std::ceil(position - on_centre) - double(cells[0]),
+                                              double(cells[1]) - std::floor(position + on_centre)));
+  const int wanted = std::clamp(int(2 * std::min(beside, 4.) + 4), 5, widest_stencil);
+  const int count = int(std::min<std::int64_t>(wanted, cells[1] - cells[0] + 1));
+  return count < 2 ? std::vector<CellWeight>{} : weights_in(cells, position, count, usable, Wanted::slope);
 }
 
 template <int D>
@@ -136,19 +184,43 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
 }
 
 TimeWeights time_weights(double position, std::int64_t low, std::int64_t high) {
-  assert(low <= high && position >= double(low) - on_centre && position <= double(high) + on_centre);
   const auto nearest = std::int64_t(std::round(position));
   if (std::abs(position - double(nearest)) < on_centre) return {nearest, 1, {1.}};
-  TimeWeights result;
-  result.count = int(std::min<std::int64_t>(8, high - low + 1));
-  result.first = std::clamp(std::int64_t(std::floor(position)) - 3, low, high - result.count + 1);
+  auto result = samples_round(position, low, high);
+  for (int i = 0; i < result.count; ++i)
+    result.weights[std::size_t(i)] = lagrange(i, result.count, position - double(result.first));
+  return result;
+}
+
+TimeWeights time_slopes(double position, std::int64_t low, std::int64_t high) {
+  auto result = samples_round(position, low, high);
   const double x = position - double(result.first);
   for (int i = 0; i < result.count; ++i) {
-    double weight = 1;
-    for (int j = 0; j < result.count; ++j)
-      if (j != i) weight *= (x - j) / double(i - j);
-    result.weights[std::size_t(i)] = weight;
+    double slope = 0;
+    for (int without = 0; without < result.count; ++without) {
+      if (without == i) continue;
+      double product = 1 / double(i - without);
+      for (int j = 0; j < result.count; ++j)
+        if (j != i && j != without) product *= (x - j) / double(i - j);
+      slope += product;
+    }
+    result.weights[std::size_t(i)] = slope;
   }
+  return result;
+}
+
+TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_t high) {
+  // Gauss's four points are exact for polynomials of degree seven.
+  constexpr std::array<double, 4> nodes = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                           0.8611363115940526};
+  constexpr std::array<double, 4> shares = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                            0.3478548451374538};
+  auto result = samples_round(from, low, high);
+  const double middle = (from + to) / 2 - double(result.first), half = (to - from) / 2;
+  for (int i = 0; i < result.count; ++i)
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      result.weights[std::size_t(i)] +=
+          half * shares[n] * lagrange(i, result.count, middle + half * nodes[n]);
   return result;
 }
 

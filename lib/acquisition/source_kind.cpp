@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "acquisition/direction.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 
@@ -82,16 +82,10 @@ Mechanism<D> parse_plane_wave(const std::string& text, const std::string& parame
     throw Error(
         "source kind '" + text + "': found an angle of " + shown(angle) + " degrees, expected -360 to 360",
         ErrorKind::usage);
-  // Multiples of 90 degrees travel along the grid exactly.
-  const auto exact_sine = [](double degrees) {
-    const double turned = std::remainder(degrees, 360.);
-    if (std::fmod(turned, 180.) == 0) return 0.;
-    return turned == 90 ? 1. : turned == -90 ? -1. : std::sin(turned * std::numbers::pi / 180);
-  };
   PlaneWave<D> wave;
   wave.angle_deg = angle;
-  wave.direction[0] = exact_sine(angle);
-  wave.direction[D - 1] = exact_sine(angle + 90);
+  wave.direction[0] = sine_of_degrees(angle);
+  wave.direction[D - 1] = cosine_of_degrees(angle);
   return wave;
 }
 

@@ -6,8 +6,6 @@
 
 namespace slipwave {
 
-namespace {
-
 template <int D>
 void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid) {
   const Point<D> at = grid.row_coordinates(point);
@@ -26,8 +24,6 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
   throw Error(what + " at " + place + " lies outside the model, expected " + extent);
 }
 
-}  // namespace
-
 template <int D>
 void check(const Survey<D>& survey, const Grid<D>& grid) {
   for (std::size_t n = 0; n < survey.sources.size(); ++n) {
@@ -42,6 +38,8 @@ void check(const Survey<D>& survey, const Grid<D>& grid) {
     check_inside<D>("receiver " + std::to_string(n + 1), survey.receivers_m[n], grid);
 }
 
+template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&);
+template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&);
 template void check<2>(const Survey<2>&, const Grid<2>&);
 template void check<3>(const Survey<3>&, const Grid<3>&);
 

@@ -82,6 +82,10 @@ Mechanism<D> parse_mechanism(const std::string& text);
 template <int D>
 const char* name_of(const Mechanism<D>& mechanism);
 
+/// Throws an Error "WHAT at x=.. lies outside the model, expected ..". The grid's faces belong to it.
+template <int D>
+void check_inside(const std::string& what, const Point<D>& point_m, const Grid<D>& grid);
+
 /// Throws an Error naming the first source or receiver that is not in the grid (its faces belong to it) or
 /// not finite. The position of a plane wave is only a point of reference and may lie anywhere.
 template <int D>
@@ -93,6 +97,8 @@ extern template Mechanism<2> parse_mechanism<2>(const std::string&);
 extern template Mechanism<3> parse_mechanism<3>(const std::string&);
 extern template const char* name_of<2>(const Mechanism<2>&);
 extern template const char* name_of<3>(const Mechanism<3>&);
+extern template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&);
+extern template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&);
 extern template void check<2>(const Survey<2>&, const Grid<2>&);
 extern template void check<3>(const Survey<3>&, const Grid<3>&);
 

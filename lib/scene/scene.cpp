@@ -144,8 +144,25 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
   check_beginning(scene, source, wave, *reference);
 }
 
+/// Both ends of the gauge must be in the model, and in rock or fluid.
 template <int D>
-void check_components(const std::vector<Component>& components) {
+void check_fibre(const Scene<D>& scene) {
+  const auto& fibre = scene.recording.fibre;
+  const auto grid = scene.subdomain.whole(scene.model.grid());
+  std::size_t number = 0;
+  for (const auto& receiver : scene.survey.receivers_m) {
+    const std::string who = "an end of the gauge of das at receiver " + std::to_string(++number) + " (" +
+                            shown(fibre->gauge_m) + " m)";
+    for (const auto& end : gauge_ends<D>(*fibre, receiver)) {
+      check_inside<D>(who, end, grid);
+      refuse_void(scene, end, who);
+    }
+  }
+}
+
+template <int D>
+void check_components(const Recording& recording) {
+  const auto& components = recording.components;
   for (const Component component : components) {
     if (std::count(components.begin(), components.end(), component) > 1)
       throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
@@ -154,6 +171,8 @@ void check_components(const std::vector<Component>& components) {
       throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
                       "-D, expected " + joined(component_names(D), " or "),
                   ErrorKind::usage);
+    if (component == Component::das && !recording.fibre)
+      throw Error("found das without a fibre, expected das:ANGLE:GAUGE", ErrorKind::usage);
   }
 }
 
@@ -221,7 +240,8 @@ void check(const Scene<D>& scene) {
                   ErrorKind::usage);
   }
   for (const auto& receiver : scene.survey.receivers_m) refuse_void(scene, receiver, "the receiver");
-  check_components<D>(scene.recording.components);
+  check_components<D>(scene.recording);
+  if (scene.recording.fibre) check_fibre(scene);
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
   check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");

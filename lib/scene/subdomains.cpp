@@ -80,7 +80,12 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
   }
   const auto zone_at = [&](int side) { return scene.edges[z][side] == EdgeLaw::absorbing ? zone : 0; };
   std::vector<std::int64_t> points;  // rows of receivers
-  for (const auto& receiver : scene.survey.receivers_m) points.push_back(cell_of(whole, receiver)[z]);
+  for (const auto& receiver : scene.survey.receivers_m) {
+    points.push_back(cell_of(whole, receiver)[z]);
+    if (scene.recording.fibre)
+      for (const auto& end : gauge_ends<D>(*scene.recording.fibre, receiver))
+        points.push_back(cell_of(whole, end)[z]);
+  }
   std::sort(points.begin(), points.end());
   const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
     const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);

@@ -29,6 +29,17 @@ Survey<D> make_survey(const SceneOptions& s) {
   return survey;
 }
 
+template <int D>
+void add_component(const std::string& name, Recording& recording) {
+  const bool fibre = name == "das" || name.starts_with("das:");
+  if (fibre && recording.fibre)
+    throw Error(
+        "found das more than once, expected one fibre: exx, ezz and exz give the strain rate along any",
+        ErrorKind::usage);
+  if (fibre) recording.fibre = parse_fibre<D>(name);
+  recording.components.push_back(fibre ? Component::das : component_named(name));
+}
+
 }  // namespace
 
 template <int D>
@@ -36,7 +47,7 @@ Scene<D> SceneOptions::without_model() const {
   Scene<D> scene;
   scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
-    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name); }));
+    in_place("--record", [&] { add_component<D>(name, scene.recording); });
   scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
   for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};

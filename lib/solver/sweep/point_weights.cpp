@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
 #include "solver/sweep/free_surface.hpp"
 
@@ -35,10 +34,20 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   return velocity == motionless ? Beyond::odd : Beyond::even;
 }
 
+/// Whether the scheme's stencils end between two cells of one kind.
+template <int D>
+bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const double z = domain.impedance(wave)(one), beyond = domain.impedance(wave)(other);
+    if (z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z) return true;
+  }
+  return false;
+}
+
 /// The largest box of cells of one kind round a cell, within reach of a stencil, grown one layer at
 /// a time on each side.
 template <int D>
-std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
   const auto kind = [&](const Index<D>& at) {
     return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
   };
@@ -52,6 +61,9 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
     at[axis] = layer;
     for (;;) {
       if (kind(at) != wanted) return false;
+      Index<D> inside = at;
+      inside[axis] += layer < centre[axis] ? 1 : -1;
+      if (reach == Reach::to_strong_interfaces && strong_interface(domain, at, inside)) return false;
       std::size_t other = 0;
       for (; other < D; ++other) {
         if (other == axis) continue;
@@ -72,20 +84,6 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 /// From here on stencils across an edge, in cells from the last centre, need nothing from beyond it.
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
-
-/// The cells round a point and the extension of the field beyond those at an edge of the grid.
-template <int D>
-std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
-                                                     int field_row, bool fluid) {
-  auto usable = usable_cells(domain, centre);
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    if (usable[axis].low == 0)
-      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
-    if (usable[axis].high == domain.grid.shape[axis] - 1)
-      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
-  }
-  return usable;
-}
 
 template <int D>
 std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
@@ -131,6 +129,19 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return lines;
+}
+
+template <int D>
+std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                     int field_row, bool fluid, Reach reach) {
+  auto usable = usable_cells(domain, centre, reach);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    if (usable[axis].low == 0)
+      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
+    if (usable[axis].high == domain.grid.shape[axis] - 1)
+      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+  }
+  return usable;
 }
 
 template <int D>
@@ -184,30 +195,15 @@ int row_of(const WaveField& field) {
   return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
-template <int D>
-std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                           const Point<D>& point_m, Component component) {
-  const auto terms = slipwave::row_of(component).terms_in(D);
-  std::vector<ValueWeight> all;
-  for (const auto& term : terms)
-    for (auto weight : row_weights(layout, domain, point_m, row_of<D>(term.field))) {
-      weight.weight /= term.sign * int(terms.size());
-      all.push_back(weight);
-    }
-  return all;
-}
-
 template Index<2> cell_at(const Domain<2>&, const Point<2>&);
 template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
-template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                    Component);
+template std::array<AxisCells, 2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
 template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
-template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                    Component);
+template std::array<AxisCells, 3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
 template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver
