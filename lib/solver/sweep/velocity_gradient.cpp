@@ -1,8 +1,7 @@
 #include "solver/sweep/velocity_gradient.hpp"
 
 #include <cmath>
-#include <map>
-#include <utility>
+#include <vector>
 
 #include "acquisition/interpolation.hpp"
 
@@ -77,79 +76,128 @@ std::array<std::vector<CellWeight>, std::size_t(D)> weights_along(
 }  // namespace
 
 template <int D>
+VelocityGradient<D>::Sum::Sum(const Cells& cells) : cells_(cells) {
+  std::int64_t count = D;
+  for (const auto& of_axis : cells) count *= of_axis.high - of_axis.low + 1;
+  weights_.assign(std::size_t(count), 0);
+}
+
+template <int D>
+std::vector<ValueWeight> VelocityGradient<D>::Sum::values(const Layout<D>& layout) const {
+  std::vector<ValueWeight> values;
+  Index<D> cell;
+  for (std::size_t axis = 0; axis < D; ++axis) cell[axis] = cells_[axis].low;
+  for (;;) {
+    for (int row = 0; row < D; ++row)
+      if (const double weight = weights_[place(cell, row)]; weight != 0)
+        values.push_back({layout.line_number(cell), cell[0] + row * layout.row_pitch(), weight});
+    std::size_t axis = 0;
+    while (axis < D && ++cell[axis] > cells_[axis].high) {
+      cell[axis] = cells_[axis].low;
+      ++axis;
+    }
+    if (axis == D) return values;
+  }
+}
+
+template <int D>
 VelocityGradient<D>::VelocityGradient(const Domain<D>& domain, const Point<D>& point_m)
     : domain_(domain),
       centre_(cell_at(domain, point_m)),
       fluid_(domain.impedance(wave_s)(centre_) == 0),
-      inner_(extended_cells(domain, centre_, 0, fluid_, Reach::to_strong_interfaces)) {
+      inner_(usable(0)) {
   const Point<D> place = domain.model_grid.row_coordinates(point_m);
-  for (int axis = 0; axis < D; ++axis) at_[std::size_t(axis)] = domain.grid.position(axis, place[axis]);
-  for (auto& cells : inner_) cells.below = cells.above = Beyond::unknown;
+  for (int axis = 0; axis < D; ++axis) {
+    auto& cells = inner_[std::size_t(axis)];
+    at_[std::size_t(axis)] = domain.grid.position(axis, place[std::size_t(axis)]);
+    cells.below = cells.above = Beyond::unknown;
+    const bool reached[] = {cells.low == 0, cells.high == domain.grid.shape[std::size_t(axis)] - 1};
+    for (const int side : {0, 1})
+      if (!fluid_ && reached[side] && domain.edges[axis][side] == EdgeLaw::free)
+        free_faces_.push_back({axis, side});
+  }
 }
 
 template <int D>
-bool VelocityGradient<D>::is_free(int axis, int side) const {
-  const auto& cells = inner_[std::size_t(axis)];
-  return !fluid_ && domain_.edges[axis][side] == EdgeLaw::free &&
-         (side ? cells.high == domain_.grid.shape[std::size_t(axis)] - 1 : cells.low == 0);
+auto VelocityGradient<D>::on_face(Place at, const Face& face) const -> Place {
+  const auto axis = std::size_t(face.axis);
+  at[axis] = face.side ? double(domain_.grid.shape[axis]) - 0.5 : -0.5;
+  return at;
 }
 
 template <int D>
-auto VelocityGradient<D>::product(const Cells& usable, const Place& at, int row, int along,
-                                  double factor) const -> Terms {
-  Terms terms;
-  for_products<D>(weights_along<D>(usable, at, along), [&](const Index<D>& cell, double weight) {
-    terms.push_back({cell, row, factor * weight});
-  });
-  return terms;
+double VelocityGradient<D>::distance(const Place& at, const Face& face) const {
+  const auto axis = std::size_t(face.axis);
+  return std::abs(at[axis] - on_face(at, face)[axis]);
 }
 
 template <int D>
-auto VelocityGradient<D>::slope_on_surface(int row, int axis, int side) const -> Terms {
-  Place at = at_;
-  at[std::size_t(axis)] = side ? double(domain_.grid.shape[std::size_t(axis)]) - 0.5 : -0.5;
+double VelocityGradient<D>::lacking(const std::vector<CellWeight>& weights, const Face& face,
+                                    double exact) const {
+  Place at{};
+  for (const auto& weight : weights) {
+    at[std::size_t(face.axis)] = double(weight.cell);
+    exact -= weight.weight * distance(at, face);
+  }
+  return std::abs(exact) < 1e-9 ? 0 : exact;
+}
+
+template <int D>
+void VelocityGradient<D>::add_product(const Cells& usable, const Place& at, int row, int along, double factor,
+                                      Sum& sum) const {
+  for_products<D>(weights_along<D>(usable, at, along),
+                  [&](const Index<D>& cell, double weight) { sum.add(cell, row, factor * weight); });
+}
+
+template <int D>
+void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Face& face, Values values,
+                                             double factor, Sum& sum) const {
   Index<D> cell = centre_;
-  cell[std::size_t(axis)] = side ? domain_.grid.shape[std::size_t(axis)] - 1 : 0;
+  cell[std::size_t(face.axis)] = face.side ? domain_.grid.shape[std::size_t(face.axis)] - 1 : 0;
   const double zp = domain_.impedance(wave_p)(cell), zs = domain_.impedance(wave_s)(cell);
   const double mu = zs * zs, lambda = zp * zp - 2 * mu;
   const auto gradients = row_gradients(at);
-  Terms terms;
-  for (int along = 0; along < D; ++along) {
-    if (along == axis) continue;
-    for (int moved = 0; moved < D; ++moved) {
-      const double change = forced_change<D>(gradients[std::size_t(axis)], gradients[std::size_t(along)],
-                                             std::size_t(moved), lambda, mu)[std::size_t(row)];
+  for (int along = 0; along < D; ++along)
+    for (int moved = 0; along != face.axis && moved < D; ++moved) {
+      double change = forced_change<D>(gradients[std::size_t(face.axis)], gradients[std::size_t(along)],
+                                       std::size_t(moved), lambda, mu)[std::size_t(row)];
       if (change == 0) continue;
-      const auto one = product(inner_, at, moved, along, side ? -change : change);
-      terms.insert(terms.end(), one.begin(), one.end());
+      change *= face.side ? -factor : factor;
+      if (values == Values::one_sided)
+        add_product(inner_, at, moved, along, change, sum);
+      else
+        add_slope_along(at, moved, along, change, sum);
     }
-  }
-  return terms;
 }
 
 template <int D>
-auto VelocityGradient<D>::slope(int row, int along) const -> Terms {
-  // Values are read on one side of a free surface, as slope_on_surface() does, so that traction on it
-  // vanishes to the last digit; what its images lack in the derivative across it is added.
-  auto usable = extended_cells(domain_, centre_, row, fluid_, Reach::to_strong_interfaces);
-  for (int axis = 0; axis < D; ++axis)
-    for (const int side : {0, 1})
-      if (axis != along && is_free(axis, side))
-        (side ? usable[std::size_t(axis)].above : usable[std::size_t(axis)].below) = Beyond::unknown;
-  auto terms = product(usable, at_, row, along, 1);
-  for (const int side : {0, 1}) {
-    if (!is_free(along, side)) continue;
-    const std::int64_t last = side ? domain_.grid.shape[std::size_t(along)] - 1 : 0;
-    double lacking = side ? -1 : 1;  // of a field that is the distance from the surface
-    for (const auto& weight : axis_slopes(at_[std::size_t(along)], usable[std::size_t(along)]))
-      lacking -= weight.weight * (double(std::abs(weight.cell - last)) + 0.5);
-    if (std::abs(lacking) < 1e-9) continue;
-    for (auto term : slope_on_surface(row, along, side)) {
-      term.weight *= lacking;
-      terms.push_back(term);
+void VelocityGradient<D>::add_slope_along(const Place& at, int row, int along, double factor,
+                                          Sum& sum) const {
+  const auto cells = usable(row);
+  add_product(cells, at, row, along, factor, sum);
+  for (const auto& face : free_faces_) {
+    const auto across = std::size_t(face.axis);
+    if (face.axis == along) continue;
+    const double missing = lacking(axis_weights(at[across], cells[across]), face, distance(at, face));
+    if (missing == 0) continue;
+    auto place = on_face(at, face);
+    for (const auto& weight : axis_slopes(at[std::size_t(along)], cells[std::size_t(along)])) {
+      place[std::size_t(along)] = double(weight.cell);
+      add_enforced_slope(place, row, face, Values::one_sided, factor * missing * weight.weight, sum);
     }
   }
-  return terms;
+}
+
+template <int D>
+void VelocityGradient<D>::add_slope(int row, int along, double factor, Sum& sum) const {
+  add_slope_along(at_, row, along, factor, sum);
+  const auto cells = usable(row)[std::size_t(along)];
+  for (const auto& face : free_faces_) {
+    if (face.axis != along) continue;
+    const double missing = lacking(axis_slopes(at_[std::size_t(along)], cells), face, face.side ? -1 : 1);
+    if (missing != 0)
+      add_enforced_slope(on_face(at_, face), row, face, Values::with_images, factor * missing, sum);
+  }
 }
 
 template <int D>
@@ -174,18 +222,11 @@ std::array<Point<D>, std::size_t(D)> VelocityGradient<D>::row_gradients(const Pl
 template <int D>
 std::vector<ValueWeight> VelocityGradient<D>::weights(const Layout<D>& layout, int axis, int along) const {
   const auto gradients = row_gradients(at_);
-  std::map<std::pair<std::int64_t, std::int64_t>, double> sums;  // by line, place
-  for (int coordinate = 0; coordinate < D; ++coordinate) {
-    const double part = gradients[std::size_t(coordinate)][std::size_t(along)];
-    if (part == 0) continue;
-    for (const auto& term : slope(FieldRows<D>::velocity(axis), coordinate))
-      sums[{layout.line_number(term.cell), term.cell[0] + term.row * layout.row_pitch()}] +=
-          part * term.weight;
-  }
-  std::vector<ValueWeight> weights;
-  weights.reserve(sums.size());
-  for (const auto& [at, weight] : sums) weights.push_back({at.first, at.second, weight});
-  return weights;
+  Sum sum(inner_);
+  for (int coordinate = 0; coordinate < D; ++coordinate)
+    if (const double part = gradients[std::size_t(coordinate)][std::size_t(along)]; part != 0)
+      add_slope(FieldRows<D>::velocity(axis), coordinate, part, sum);
+  return sum.values(layout);
 }
 
 template class VelocityGradient<2>;

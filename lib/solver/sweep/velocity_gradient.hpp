@@ -3,7 +3,6 @@
 #include <array>
 #include <vector>
 
-#include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/point_weights.hpp"
 
 namespace slipwave::solver {
@@ -20,24 +19,56 @@ class VelocityGradient {
   std::vector<ValueWeight> weights(const Layout<D>& layout, int axis, int along) const;
 
  private:
-  using Terms = std::vector<SurfaceTerm<D>>;
   using Cells = std::array<AxisCells, std::size_t(D)>;
   using Place = std::array<double, std::size_t(D)>;  // in cells of the computed grid
-  /// Of the velocity `row`: products of the weights along the axes, derivatives along one of them.
-  Terms product(const Cells& usable, const Place& at, int row, int along, double factor) const;
-  /// The derivative per cell at the point.
-  Terms slope(int row, int along) const;
-  /// The derivative per cell away from a free surface, on it.
-  Terms slope_on_surface(int row, int axis, int side) const;
+  /// Weights of the velocities of the cells that may be read.
+  class Sum {
+   public:
+    explicit Sum(const Cells& cells);
+    void add(const Index<D>& cell, int row, double weight) { weights_[place(cell, row)] += weight; }
+    std::vector<ValueWeight> values(const Layout<D>& layout) const;
+
+   private:
+    std::size_t place(const Index<D>& cell, int row) const {
+      std::int64_t n = row;
+      for (std::size_t axis = 0; axis < D; ++axis)
+        n = n * (cells_[axis].high - cells_[axis].low + 1) + cell[axis] - cells_[axis].low;
+      return std::size_t(n);
+    }
+    Cells cells_;
+    std::vector<double> weights_;
+  };
+  /// One side of an axis.
+  struct Face {
+    int axis, side;
+  };
+  Cells usable(int row) const {
+    return extended_cells(domain_, centre_, row, fluid_, Reach::to_strong_interfaces);
+  }
+  /// Adds the derivative per cell along an axis of the velocity `row` at a place, as products of weights.
+  void add_product(const Cells& usable, const Place& at, int row, int along, double factor, Sum& sum) const;
+  /// The same along a free surface, or where there is none.
+  void add_slope_along(const Place& at, int row, int along, double factor, Sum& sum) const;
+  /// The same at the point, across a free surface too.
+  void add_slope(int row, int along, double factor, Sum& sum) const;
+  /// The derivative per cell away from a free surface at a place on it, which those along it enforce.
+  enum class Values { one_sided, with_images };
+  void add_enforced_slope(const Place& at, int row, const Face& face, Values values, double factor,
+                          Sum& sum) const;
+  /// Of a field that is the distance from a face: what its mirror images lack of a sum with these weights
+  /// that should be `exact`.
+  double lacking(const std::vector<CellWeight>& weights, const Face& face, double exact) const;
+  Place on_face(Place at, const Face& face) const;
+  double distance(const Place& at, const Face& face) const;
   /// grad of each row coordinate, 1/m: in regular grids the unit vectors over h.
   std::array<Point<D>, std::size_t(D)> row_gradients(const Place& at) const;
-  bool is_free(int axis, int side) const;
 
   const Domain<D>& domain_;
   Index<D> centre_;
   bool fluid_;
   Place at_{};
-  Cells inner_;  // without images
+  Cells inner_;                   // without images
+  std::vector<Face> free_faces_;  // of a solid, that its cells reach
 };
 
 extern template class VelocityGradient<2>;
