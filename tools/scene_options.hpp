@@ -18,7 +18,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("source", s.sources, "X,Z",
               "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
   options.add("kind", s.kind, "KIND", source_kind_help());
-  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH[:TRACE]; F in Hz");
   options.add("amplitude", s.amplitude, "A", amplitude_help());
   options.add("receivers", s.receivers, "X0:X1:DX,Z",
               "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "

@@ -93,7 +93,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
                      std::size_t from) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  const double length = source.wavelet.duration_s() * medium.vp[from];
+  const double length = source.wavelet.duration_s() * wave.speed(medium.vp[from], medium.vs[from]);
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     double behind = 0;
@@ -141,6 +141,9 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
         check_uniform_edge(scene, axis, side,
                            "an oblique plane wave needs one solid or fluid along all absorbing boundaries",
                            reference);
+  if (wave.shear && !scene.model.medium.is_solid(*reference))
+    throw Error("a plane S wave needs rock along the boundary it enters by, found " +
+                described(scene.model.medium, *reference) + "; use --kind plane");
   check_beginning(scene, source, wave, *reference);
 }
 

@@ -4,6 +4,7 @@
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "scene/subdomains.hpp"
+#include "shooting/trace_wavelet.hpp"
 
 namespace slipwave {
 namespace {
@@ -18,7 +19,7 @@ EdgeLaw edge_law(const std::string& name) {
 template <int D>
 Survey<D> make_survey(const SceneOptions& s) {
   Survey<D> survey;
-  const auto wavelet = in_place("--wavelet", [&] { return parse_wavelet(s.wavelet); });
+  const auto wavelet = in_place("--wavelet", [&] { return wavelet_named(s.wavelet); });
   const auto mechanism = in_place("--kind", [&] { return parse_mechanism<D>(s.kind); });
   for (const auto& text : s.sources)
     survey.sources.push_back(

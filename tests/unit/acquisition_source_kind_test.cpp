@@ -27,7 +27,8 @@ void expect_rows_agree() {
   for (const auto& kind : source_kinds<D>()) {
     const auto source = source_of<D>(typed(kind));
     const auto& mechanism = source.mechanism;
-    EXPECT_STREQ(name_of<D>(mechanism), source_kinds<D>()[mechanism.index()].name);
+    const bool shear = std::string(kind.name) == "plane-s";
+    EXPECT_STREQ(name_of<D>(mechanism), shear ? kind.name : source_kinds<D>()[mechanism.index()].name);
     EXPECT_EQ(point_injection(source).has_value(), kind.inject != nullptr) << kind.name;
   }
 }
@@ -38,7 +39,9 @@ TEST(SourceKinds, AreReadAsTheyAreWritten) {
 }
 
 TEST(SourceKinds, SayTheirUnits) {
-  EXPECT_EQ(amplitude_help(), "explosion, moment: N m/s per m; force: N/m; plane: m/s; in 3-D N m/s and N");
+  EXPECT_EQ(
+      amplitude_help(),
+      "explosion, moment, double-couple: N m/s per m; force: N/m; plane, plane-s: m/s; in 3-D N m/s and N");
 }
 
 TEST(SourceKinds, AreIsotropicWhereAllDirectionsAreAlike) {
