@@ -9,6 +9,7 @@
 #include "grid/true_depth.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "plot/ticks.hpp"
 
 namespace slipwave::plot {
 namespace {
@@ -69,19 +70,13 @@ bool may_have_void(const NetcdfFile& file) {
   return !range || range->empty() || !(range->front() > 0);
 }
 
-/// "kg/m3" with its power raised.
-std::string typeset(std::string unit) {
-  if (const auto power = unit.find("m3"); power != std::string::npos) unit.replace(power, 2, "m\u00b3");
-  return unit;
-}
-
 }  // namespace
 
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice) {
   ModelSection section;
   section.property = property;
-  if (const auto row = find_property(property)) section.unit = typeset(row_of(*row).shown_unit);
+  if (const auto row = find_property(property)) section.unit = typeset_unit(row_of(*row).shown_unit);
   section.title = file.text_attribute("", "title").value_or("");
   Field<2> rho;
   if (dimension_of(file) == 3) {

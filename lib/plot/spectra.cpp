@@ -6,6 +6,7 @@
 #include "gather/fk_file.hpp"
 #include "gather/spectrum_file.hpp"
 #include "io/netcdf_file.hpp"
+#include "plot/ticks.hpp"
 
 namespace slipwave::plot {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 /// Units of spectra as they are written, and with fraction bars: "s-1 Hz-1" and "1/s/Hz".
 std::string with_fraction_bars(const std::string& unit) {
   for (const auto& row : component_rows()) {
-    const std::string recorded = row.unit;
+    const std::string recorded = typeset_unit(row.unit);
     const bool fraction = recorded.find('/') != std::string::npos;
     const auto squared = (fraction ? "(" + recorded + ")" : recorded) + "\u00b2 s/Hz";
     if (unit == spectrum_unit(row.component, false)) return recorded + "/Hz";

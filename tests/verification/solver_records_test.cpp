@@ -127,6 +127,75 @@ TEST(Records, OfAFullSpaceAreThoseOfTheClosedForm) {
   expect_closed_form(scene, 1);
 }
 
+/// Velocity of a moment tensor whose rate is the wavelet: minus the slope of what forces do, since the source
+/// moves the other way, per i omega.
+std::array<std::complex<double>, 2> moment_motion(const SymmetricTensor<2, double>& moment, double omega,
+                                                  double x, double z) {
+  const double step = 0.1;
+  std::array<std::complex<double>, 2> sum{};
+  for (int force = 0; force < 2; ++force)
+    for (int along = 0; along < 2; ++along) {
+      const double dx = along == 0 ? step : 0, dz = along == 0 ? 0 : step;
+      const auto low = force_motion(rock, omega, x - dx, z - dz, force),
+                 high = force_motion(rock, omega, x + dx, z + dz, force);
+      for (std::size_t n = 0; n < 2; ++n)
+        sum[n] -= moment(force, along) * (high[n] - low[n]) / (2 * step) / std::complex<double>(0, omega);
+    }
+  return sum;
+}
+
+TEST(Sources, OfADoubleCoupleMoveTheRockAsInTheClosedForm) {
+  auto scene = full_space(16, 560);
+  scene.survey.sources[0].mechanism = parse_mechanism<2>("double-couple:25");
+  scene.survey.receivers_m = {{153.3, 107.1}, {25.7, 201.9}, {-151.2, 131.4}};
+  scene.recording = {{vx, vz}, 0.36, interval_s};
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const auto moment = point_injection(scene.survey.sources[0])->moment_rate;
+  for (std::size_t receiver = 0; receiver < 3; ++receiver) {
+    const auto& at = scene.survey.receivers_m[receiver];
+    const auto exact = ricker_response(peak_hz, interval_s, gather.axis.count, [&](double omega) {
+      const auto v = moment_motion(moment, omega, at[0] - 1.7, at[1] + 0.9);
+      return Motion{v[0] * force_n, v[1] * force_n};
+    });
+    std::vector<double> found, wanted;
+    for (const std::size_t row : {0, 1}) {
+      const auto& samples = gather.traces[row * 3 + receiver].samples;
+      found.insert(found.end(), samples.begin(), samples.end());
+      wanted.insert(wanted.end(), exact[row].begin(), exact[row].end());
+    }
+    EXPECT_LT(100 * relative_error(found, wanted), 1) << receiver;
+  }
+}
+
+TEST(Sources, HaveTheFarFieldsOfTheTable) {
+  // docs/sources.md in frequency, 100 P wavelengths away: the near field is a thousandth.
+  const double omega = 2 * std::numbers::pi * peak_hz, r = 100 * rock.vp / peak_hz;
+  const Point<2> g = {std::sin(0.4), std::cos(0.4)};
+  const auto half = [&](double c) {
+    return std::sqrt(std::complex<double>(0, omega)) * std::polar(1., -omega * r / c) /
+           std::sqrt(8 * std::numbers::pi * c * r);
+  };
+  const auto p = half(rock.vp) / rock.vp, s = half(rock.vs) / rock.vs;
+  const auto expect_near = [](const auto& found, const std::array<std::complex<double>, 2>& wanted) {
+    for (std::size_t n = 0; n < 2; ++n)
+      EXPECT_LT(std::abs(found[n] - wanted[n]), 5e-3 * std::hypot(std::abs(wanted[0]), std::abs(wanted[1])));
+  };
+  const auto explosion = p / (rock.rho * rock.vp);
+  expect_near(explosion_motion(rock, omega, r * g[0], r * g[1]), {g[0] * explosion, g[1] * explosion});
+  expect_near(force_motion(rock, omega, r * g[0], r * g[1], 0),
+              {(g[0] * g[0] * p + (1 - g[0] * g[0]) * s) / rock.rho, g[1] * g[0] * (p - s) / rock.rho});
+  const auto moment =
+      point_injection<2>({{}, parse_mechanism<2>("double-couple:25"), parse_wavelet("ricker:20")})
+          ->moment_rate;
+  const Point<2> mg = {moment(0, 0) * g[0] + moment(0, 1) * g[1], moment(0, 1) * g[0] + moment(1, 1) * g[1]};
+  const double radial = mg[0] * g[0] + mg[1] * g[1];
+  const auto at = [&](std::size_t n) {
+    return (g[n] * radial * p / rock.vp + (mg[n] - g[n] * radial) * s / rock.vs) / rock.rho;
+  };
+  expect_near(moment_motion(moment, omega, r * g[0], r * g[1]), {at(0), at(1)});
+}
+
 /// The sum of the weighted velocities of a field that is given at places.
 double recorded_of(const Domain<2>& domain, const Point<2>& point, Component component,
                    const std::function<Point<2>(const Point<2>&)>& velocity) {
