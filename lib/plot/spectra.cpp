@@ -16,7 +16,7 @@ std::string with_fraction_bars(const std::string& unit) {
   for (const auto& row : component_rows()) {
     const std::string recorded = typeset_unit(row.unit);
     const bool fraction = recorded.find('/') != std::string::npos;
-    const auto squared = (fraction ? "(" + recorded + ")" : recorded) + "\u00b2 s/Hz";
+    auto squared = (fraction ? "(" + recorded + ")" : recorded) + "\u00b2 s/Hz";
     if (unit == spectrum_unit(row.component, false)) return recorded + "/Hz";
     if (unit == spectrum_unit(row.component, true)) return squared;
     if (unit == fk_unit(row.component, false)) return recorded + " m/Hz";

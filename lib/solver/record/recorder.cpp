@@ -188,7 +188,7 @@ void Recorder<D, Real>::add_to_sums(const TimeWeights& weights, double factor, s
   }
 }
 
-/// All samples whose eight steps are there. Integrals then go on to the next step: samples lie behind it.
+/// All samples whose eight steps are there. Integrals then advance to the next step: samples lie behind it.
 template <int D, class Real>
 void Recorder<D, Real>::interpolate(std::int64_t newest, double dt_s) {
   const std::int64_t oldest = newest - kept + 1, before = newest - kept / 2;
