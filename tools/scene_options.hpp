@@ -18,7 +18,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("source", s.sources, "X,Z",
               "position of the source, m; repeat for several shots; in 3-D X,Y,Z");
   options.add("kind", s.kind, "KIND", source_kind_help());
-  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH[:TRACE]; F in Hz");
+  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F, file:PATH[:TRACE]; Hz");
   options.add("amplitude", s.amplitude, "A", amplitude_help());
   options.add("receivers", s.receivers, "X0:X1:DX,Z",
               "line of receivers, or one at X,Z, m; repeatable; in 3-D also an area, "
@@ -26,7 +26,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",
-              "components: " + joined(component_names(2)) + "; in 3-D also " + joined(component_names(3, 2)));
+              "components: " + joined(component_names(2)) + ":ANGLE:GAUGE; in 3-D also those with y");
   options.add_choice("top", s.top, edges, "boundary at the surface, z = 0");
   options.add_choice("sides", s.sides, edges, "left and right boundaries, in 3-D all four");
   options.add_choice("bottom", s.bottom, edges, "boundary at the bottom");

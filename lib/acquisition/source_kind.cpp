@@ -139,7 +139,7 @@ constexpr SourceKind<D> kinds[] = {
     {"moment", D == 2 ? "MXX,MZZ,MXZ" : "MXX,MYY,MZZ,MXY,MXZ,MYZ", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_moment<D>, inject_moment<D>},
     {"plane", "ANGLE", "degrees, 0 is down", "m/s", parse_plane_wave<D>, nullptr},
-    {"double-couple", D == 2 ? "DIP" : "STRIKE,DIP,RAKE", "degrees", D == 2 ? "N m/s per m" : "N m/s",
+    {"double-couple", D == 2 ? "DIP" : "STRIKE,DIP,RAKE", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_double_couple<D>, inject_moment<D>},
     {"plane-s", "ANGLE", "SV", "m/s", parse_plane_s_wave<D>, nullptr},
 };
