@@ -26,7 +26,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",
-              "components: " + joined(component_names(2)) + ":ANGLE:GAUGE; in 3-D also those with y");
+              "components: " + joined(component_names(2)) + " (das:ANGLE:GAUGE); in 3-D also those with y");
   options.add_choice("top", s.top, edges, "boundary at the surface, z = 0");
   options.add_choice("sides", s.sides, edges, "left and right boundaries, in 3-D all four");
   options.add_choice("bottom", s.bottom, edges, "boundary at the bottom");
