@@ -6,6 +6,17 @@
 
 namespace slipwave {
 
+namespace {
+
+/// "explosion", "plane:20"
+template <int D>
+std::string kind_of(const Mechanism<D>& mechanism) {
+  const auto* wave = std::get_if<PlaneWave<D>>(&mechanism);
+  return name_of<D>(mechanism) + (wave ? ":" + shown(wave->angle_deg) : std::string());
+}
+
+}  // namespace
+
 template <int D>
 std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
                                            const std::string& version) {
@@ -13,9 +24,8 @@ std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::str
   const auto& n = scene.numerics;
   std::vector<std::string> entries = {
       version + ": synthetic seismograms",
-      "source: " + std::string(name_of<D>(source.mechanism)) + ", wavelet " + source.wavelet.text() +
-          ", amplitude " + shown(source.amplitude) + ", wavelet time zero at " +
-          shown(source.wavelet.delay_s()) + " s",
+      "source: " + kind_of<D>(source.mechanism) + ", wavelet " + source.wavelet.text() + ", amplitude " +
+          shown(source.amplitude) + ", wavelet time zero at " + shown(source.wavelet.delay_s()) + " s",
       "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
           shown(time_step_s(scene)) + " s, grid " + shown(scene.subdomain.whole(scene.model.grid())) +
           (scene.slips() || scene.subdomain.slips ? std::string(", slip: ") + name_of(n.correction)

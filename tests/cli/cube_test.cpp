@@ -84,12 +84,16 @@ TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {
   done("cmp <(grep -o 'base64,[^\"]*' a.svg) <(grep -o 'base64,[^\"]*' b.svg)");
   done("sw-plot m.nc --slice z=55 -o map.png && sw-plot slice.nc --over m.nc --movie -o film.png");
   EXPECT_TRUE(exists("film-0003.png"));
-  expect_refused("sw-plot m.nc -o no.png", 2,
-                 "sw-plot: m.nc: found a volume, expected --slice AXIS=AT, for example --slice y=60");
+  // Without a plane: three, on which the numbers are those of the sections alone.
+  done("sw-plot m.nc -o three.svg && sw-plot volume.nc --over m.nc --field vy -o wave.png");
+  EXPECT_EQ(done("grep -c '<image' three.svg"), "4\n");  // and the colour bar
+  expect_refused("sw-plot m.nc --x 0:50 -o no.png", 2,
+                 "sw-plot: --x: three sections are drawn; choose one by --slice, such as y=500");
   expect_refused("sw-plot m.nc --slice y=130 -o no.png", 2,
                  "sw-plot: m.nc: found y=130, expected it from 0 to 120");
-  expect_refused("sw-export m.nc --property vp -o no.sgy", 1,
-                 "sw-export: m.nc: found a model in 3-D, expected one in 2-D");
+  const auto cube = done("sw-export m.nc --property vp | sw-info -");
+  EXPECT_TRUE(has(cube, "traces           240\n")) << cube;
+  EXPECT_TRUE(has(cube, "receiver y       5 to 115 m\n")) << cube;
 }
 
 TEST_F(Cube, ShowsSlicesOfFittedGridsAtTrueDepths) {

@@ -85,6 +85,14 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
+/// Whether an edge across z makes even or odd what is along and across it, but not what is along x and z: on
+/// bent rows the stresses of a solid and the velocity of a fluid.
+template <int D>
+bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row, bool fluid) {
+  if (!domain.bent(centre[D - 1])) return false;
+  return law == EdgeLaw::mirror || (law == EdgeLaw::free && (row < D) == fluid);
+}
+
 template <int D>
 std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m,
@@ -136,10 +144,13 @@ std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, co
                                                      int field_row, bool fluid, Reach reach) {
   auto usable = usable_cells(domain, centre, reach);
   for (std::size_t axis = 0; axis < D; ++axis) {
-    if (usable[axis].low == 0)
-      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
-    if (usable[axis].high == domain.grid.shape[axis] - 1)
-      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+    const auto beyond = [&](int side) {
+      const EdgeLaw law = domain.edges[int(axis)][side];
+      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
+      return beyond_edge<D>(law, int(axis), field_row, fluid);
+    };
+    if (usable[axis].low == 0) usable[axis].below = beyond(0);
+    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
   }
   return usable;
 }
