@@ -4,6 +4,7 @@
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "segy/conversion.hpp"
+#include "segy/sniff.hpp"
 #include "traces/cube_numbers.hpp"
 
 using namespace slipwave;
@@ -63,7 +64,7 @@ segy::ReadOptions read_options(const Settings& settings) {
 segy::FileFormat wanted_format(const Settings& settings, const segy::Reader& reader) {
   segy::FileFormat format = segy::format_of(reader);
   const bool from_su = format.su;
-  format.su = settings.su;
+  format.su = settings.su || segy::names_su(settings.output);
   if (format.su) {
     format.code = 5;
     format.revision = 1;
@@ -80,8 +81,9 @@ segy::FileFormat wanted_format(const Settings& settings, const segy::Reader& rea
 }
 
 void refuse_with_su(const Settings& settings) {
-  const auto refuse = [](const std::string& option) {
-    throw Error("found --su and " + option + ", expected one of them: Seismic Unix has no such thing",
+  const auto refuse = [&](const std::string& option) {
+    throw Error("found " + (settings.su ? std::string("--su") : "-o " + settings.output) + " and " + option +
+                    ", expected one of them: Seismic Unix has no such thing",
                 ErrorKind::usage);
   };
   if (settings.revision != "same") refuse("--revision");
@@ -90,7 +92,7 @@ void refuse_with_su(const Settings& settings) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  if (settings.su) refuse_with_su(settings);
+  if (settings.su || segy::names_su(settings.output)) refuse_with_su(settings);
   const segy::ReadOptions options = read_options(settings);
   if (settings.format != "same") format_code("--format", settings.format);
   segy::Reader reader(settings.input, options);

@@ -95,7 +95,7 @@ void write_exported(NetcdfFile file, OutputFile& out, const Settings& settings, 
   for (const auto& command : split(commands, '\n'))
     if (!command.empty()) exported.facts.entries.emplace_back(command);
   in_place(shown_input(settings.input), [&] {
-    write_section(out, exported.values, exported.facts, settings.output_options.file_format());
+    write_section(out, exported.values, exported.facts, settings.output_options.file_format(settings.output));
   });
   out.commit();
   if (!fitted) return;
@@ -107,7 +107,7 @@ void write_exported(NetcdfFile file, OutputFile& out, const Settings& settings, 
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  settings.output_options.file_format();  // refused before anything is read
+  settings.output_options.file_format(settings.output);  // refused before anything is read
   expect_other_files(settings.output, {settings.input});
   auto file = NetcdfFile::open(settings.input);
   OutputFile out(settings.output, OutputFile::Content::binary);

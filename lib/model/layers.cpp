@@ -246,7 +246,7 @@ Material Layer::at_depth(double below_top_m) const {
           material.rho + gradient.rho * depth};
 }
 
-Layer parse_layer(std::string_view text) {
+Layer parse_layer(std::string_view text, const InputUnits& units) {
   const auto parts = split(text, ':');
   if (parts.size() != 4 && parts.size() != 5) {
     throw Error("found '" + std::string(text) + "', expected DEPTH:VP:VS:RHO[:DIP]", ErrorKind::usage);
@@ -254,7 +254,9 @@ Layer parse_layer(std::string_view text) {
   return in_place('\'' + std::string(text) + "'", [&] {
     const auto vp = parse_trend(parts[1]), vs = parse_trend(parts[2]), rho = parse_trend(parts[3]);
     const double dip_deg = parts.size() == 5 ? parse_number(parts[4]) : 0;
-    return Layer(Horizon::parse(parts[0], dip_deg), {vp.value, vs.value, rho.value},
+    return Layer(Horizon::parse(parts[0], dip_deg),
+                 {vp.value * units.factor(Property::vp), vs.value * units.factor(Property::vs),
+                  rho.value * units.factor(Property::rho)},
                  {vp.gradient, vs.gradient, rho.gradient});
   });
 }

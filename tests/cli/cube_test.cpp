@@ -63,13 +63,13 @@ TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
   EXPECT_TRUE(has(lines, "traces           9\n")) << lines;
   done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
   done("cmp a.sgy b.sgy");
-  const auto plan = done("sw-shoot m.nc " + shot + "--plan");
+  const auto plan = done("sw-shoot m.nc " + shot + "--plan -v");
   EXPECT_TRUE(has(plan, "slip, second order"));
   EXPECT_TRUE(has(plan, "% (cells that no wave has reached")) << plan;
   expect_refused("sw-shoot m.nc " + shot + "--error 0.01 --receivers 20,30,5 -o no.sgy", 2,
                  "sw-shoot: --error needs a model in 2-D, found one in 3-D");
   expect_refused("sw-shoot m.nc --source 95,85 --wavelet ricker:15 --time 0.1 --receivers 5,5,5 -o no.sgy", 2,
-                 "sw-shoot: --source: found '95,85', expected a point X,Y,Z");
+                 "sw-shoot: --source: found '95,85', expected points X0:X1:DX,Y,Z or X,Y,Z");
 }
 
 TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {

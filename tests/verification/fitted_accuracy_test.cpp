@@ -165,7 +165,7 @@ const DippingStack stacks[] = {
      2.9,
      2},
     // A tenth of its S wavelength: two rows on either grid.
-    {"ThinBed", {hard, soft, hard}, {0, 8}, 0, false, "explosion", both_sides, -200, 1.5, -1},
+    {"ThinBed", {hard, soft, hard}, {0, 8}, 0, false, "explosion", both_sides, -200, 0.45, -1.2},
 };
 
 class Stack : public testing::TestWithParam<DippingStack> {};

@@ -10,6 +10,8 @@
 #include "shared_out.hpp"
 #include "solver/record/component_weights.hpp"
 #include "solver/simulation.hpp"
+#include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/point_weights.hpp"
 #include "unit/bent_grid.hpp"
 
 // What is recorded beside velocity and stress: displacement, acceleration, strain rates, div, curl, DAS.
@@ -196,6 +198,13 @@ TEST(Sources, HaveTheFarFieldsOfTheTable) {
   expect_near(moment_motion(moment, omega, r * g[0], r * g[1]), {at(0), at(1)});
 }
 
+/// The velocity of a field that is given at places, in a cell of the computed grid.
+double velocity_in(const Domain<2>& domain, Index<2> cell, int row,
+                   const std::function<Point<2>(const Point<2>&)>& velocity) {
+  for (std::size_t axis = 0; axis < 2; ++axis) cell[axis] -= domain.low_zone[axis];
+  return velocity({domain.model_grid.centre(0, cell[0]), domain.model_grid.depth(cell)})[std::size_t(row)];
+}
+
 /// The sum of the weighted velocities of a field that is given at places.
 double recorded_of(const Domain<2>& domain, const Point<2>& point, Component component,
                    const std::function<Point<2>(const Point<2>&)>& velocity) {
@@ -203,11 +212,8 @@ double recorded_of(const Domain<2>& domain, const Point<2>& point, Component com
   double sum = 0;
   for (const auto& weight : component_weights<2>(layout, domain, point, component)) {
     const auto at = layout.line_index(weight.line);
-    const auto row = std::size_t(weight.place / layout.row_pitch());
-    Index<2> cell = {layout.column(weight.place), at[1]};
-    for (std::size_t axis = 0; axis < 2; ++axis) cell[axis] -= domain.low_zone[axis];
-    sum +=
-        weight.weight * velocity({domain.model_grid.centre(0, cell[0]), domain.model_grid.depth(cell)})[row];
+    const auto row = int(weight.place / layout.row_pitch());
+    sum += weight.weight * velocity_in(domain, {layout.column(weight.place), at[1]}, row, velocity);
   }
   return sum;
 }
@@ -236,21 +242,49 @@ TEST(Records, OfLinearVelocitiesAreExactInAnyGrid) {
   }
 }
 
+/// Rock under a free surface that falls towards +x, in cells of 5 m.
+Domain<2> under_a_free_surface(double slope) {
+  const auto flat = uniform_medium(60, 50, 5, rock);
+  const auto grid =
+      slope == 0 ? flat.grid()
+                 : bent<2>(flat.grid(), [=](double x, double, double zeta) { return zeta + 20 + slope * x; });
+  const Medium<2> medium{Field<2>(grid, float(rock.vp)), Field<2>(grid, float(rock.vs)),
+                         Field<2>(grid, float(rock.rho))};
+  auto edges = edges_all(EdgeLaw::absorbing);
+  edges[1][0] = EdgeLaw::free;
+  return make_domain(medium, edges, 20);
+}
+
+TEST(Records, OnAFreeSurfaceHaveTheSlopesWithWhichSweepsContinueIt) {
+  // Both are exact for linear fields, whatever traction these would leave.
+  const auto linear = [](const Point<2>& at) {
+    return Point<2>{3 + 2 * at[0] - 5 * at[1], 1 + 7 * at[0] + 4 * at[1]};
+  };
+  for (const double slope : {0., 0.3}) {
+    const auto domain = under_a_free_surface(slope);
+    const Point<2> at = {152.5, slope == 0 ? 0 : 20 + slope * 152.5};
+    const auto recorded = [&](Component component) { return recorded_of(domain, at, component, linear); };
+    const auto continued = [&](int row) {
+      double sum = 0;
+      const auto terms = surface_slope(domain, cell_at(domain, at), 1, 0, row);
+      for (const auto& term : terms) sum += term.weight * velocity_in(domain, term.cell, term.row, linear);
+      return sum;
+    };
+    // Per cell of 5 m, upwards.
+    EXPECT_NEAR(continued(FieldRows<2>::velocity(0)), -5 * (recorded(exz) + recorded(Component::curl) / 2),
+                1e-6);
+    EXPECT_NEAR(continued(FieldRows<2>::velocity(1)), -5 * recorded(ezz), 1e-6);
+    EXPECT_GT(std::abs(recorded(ezz)), 0.5);
+  }
+}
+
 TEST(Records, OnAFreeSurfaceOfAnySlopeHaveNoTraction) {
   // A field of arbitrary curvature: on the surface the solver's own strain rates leave it without traction.
   const auto wave = [](const Point<2>& at) {
     return Point<2>{std::sin(at[0] / 30 + at[1] / 50), std::cos(at[0] / 45 - at[1] / 35)};
   };
   for (const double slope : {0., 0.3}) {
-    const auto flat = uniform_medium(60, 50, 5, rock);
-    const auto grid = slope == 0 ? flat.grid() : bent<2>(flat.grid(), [=](double x, double, double zeta) {
-      return zeta + 20 + slope * x;
-    });
-    const Medium<2> medium{Field<2>(grid, float(rock.vp)), Field<2>(grid, float(rock.vs)),
-                           Field<2>(grid, float(rock.rho))};
-    auto edges = edges_all(EdgeLaw::absorbing);
-    edges[1][0] = EdgeLaw::free;
-    const auto domain = make_domain(medium, edges, 20);
+    const auto domain = under_a_free_surface(slope);
     for (const double x : {152.5, 163.1}) {
       const Point<2> at = {x, slope == 0 ? 0 : 20 + slope * x};
       const double xx = recorded_of(domain, at, exx, wave), zz = recorded_of(domain, at, ezz, wave),

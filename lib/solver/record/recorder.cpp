@@ -37,8 +37,8 @@ template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                             std::size_t shot, double unit, Ranks* ranks)
     : ranks_(ranks), gather_(empty_gather(scene, shot, ranks)), unit_(unit) {
-  const auto weights = all_weights(layout, domain, scene);
-  find_spans(scene);
+  const auto weights = all_weights(layout, domain, scene, shot);
+  find_spans(scene, shot);
   history_.assign(std::size_t(kept) * series(), 0);
   sums_.resize(series());
   read_all(layout, weights);
@@ -48,8 +48,10 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
 template <int D, class Real>
 std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layout<D>& layout,
                                                                      const Domain<D>& domain,
-                                                                     const Scene<D>& scene) {
+                                                                     const Scene<D>& scene,
+                                                                     std::size_t shot) {
   std::vector<std::vector<ValueWeight>> firsts, seconds;
+  const auto receivers = scene.survey.receivers_of(shot);
   const auto owned = [&](const Point<D>& point) { return domain.subdomain.owns(domain.model_grid, point); };
   // The mean strain rate is the difference of the velocities at both ends, along the fibre, over its length.
   const auto end_weights = [&](const Point<D>& end, double sign) {
@@ -58,16 +60,17 @@ std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layou
     return owned(end) ? velocity_along<D>(layout, domain, end, vector) : std::vector<ValueWeight>{};
   };
   for (const Component component : scene.recording.components)
-    for (const auto& receiver : scene.survey.receivers_m) {
+    for (const auto& receiver : receivers) {
+      const auto& point_m = receiver.point_m;
       if (component == Component::das) {
-        const auto ends = gauge_ends<D>(*scene.recording.fibre, receiver);
+        const auto ends = gauge_ends<D>(*scene.recording.fibre, point_m);
         second_ends_.push_back({firsts.size(), {}});
         second_ends_.back().samples.reserve(std::size_t(gather_.axis.count));
         seconds.push_back(end_weights(ends[0], -1));
         firsts.push_back(end_weights(ends[1], 1));
       } else {
         firsts.emplace_back();
-        if (owned(receiver)) firsts.back() = component_weights<D>(layout, domain, receiver, component);
+        if (owned(point_m)) firsts.back() = component_weights<D>(layout, domain, point_m, component);
       }
     }
   firsts.insert(firsts.end(), seconds.begin(), seconds.end());
@@ -75,8 +78,8 @@ std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layou
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::find_spans(const Scene<D>& scene) {
-  const auto receivers = scene.survey.receivers_m.size();
+void Recorder<D, Real>::find_spans(const Scene<D>& scene, std::size_t shot) {
+  const auto receivers = scene.survey.receiver_count(shot);
   for (const Component component : scene.recording.components) {
     const auto what = row_of(component).in_time;
     if (spans_.empty() || spans_.back().what != what)

@@ -14,7 +14,7 @@ namespace slipwave::solver {
 
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
 /// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)); integrals and
-/// derivatives in time are those of the same polynomials (A10).
+/// derivatives in time are those of the same polynomials (A9).
 template <int D, class Real>
 class Recorder : public Record<D, Real> {
  public:
@@ -45,8 +45,8 @@ class Recorder : public Record<D, Real> {
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
   /// Weights of the first series of each trace, and of further ones where a trace is the sum of two.
   std::vector<std::vector<ValueWeight>> all_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                                    const Scene<D>& scene);
-  void find_spans(const Scene<D>& scene);
+                                                    const Scene<D>& scene, std::size_t shot);
+  void find_spans(const Scene<D>& scene, std::size_t shot);
   void read_all(const Layout<D>& layout, const std::vector<std::vector<ValueWeight>>& of_traces);
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
   /// Whether any sample is interpolated from the end of that step.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "grid/locate.hpp"
 #include "solver/sweep/free_surface.hpp"
@@ -44,26 +46,22 @@ bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<
   return false;
 }
 
-/// The largest box of cells of one kind round a cell, within reach of a stencil, grown one layer at
-/// a time on each side.
-template <int D>
-std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
-  const auto kind = [&](const Index<D>& at) {
-    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
-  };
+/// The largest box round a cell of cells that are `alike(cell, the next one towards the centre)`, grown one
+/// layer at a time on each side, by `rings` at most and, where `longest` is given, until it is that long.
+template <int D, class Alike>
+std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings,
+                                   std::int64_t longest, Alike&& alike) {
   std::array<AxisCells, D> box;
   for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
-  const int wanted = kind(centre);
   const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
     if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
     Index<D> at;
     for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
     at[axis] = layer;
     for (;;) {
-      if (kind(at) != wanted) return false;
       Index<D> inside = at;
       inside[axis] += layer < centre[axis] ? 1 : -1;
-      if (reach == Reach::to_strong_interfaces && strong_interface(domain, at, inside)) return false;
+      if (!alike(at, inside)) return false;
       std::size_t other = 0;
       for (; other < D; ++other) {
         if (other == axis) continue;
@@ -73,11 +71,55 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
       if (other == D) return true;
     }
   };
-  for (int ring = 0; ring < widest_stencil; ++ring)
+  for (int ring = 0; ring < rings; ++ring)
     for (std::size_t axis = 0; axis < D; ++axis) {
-      if (box[axis].low == centre[axis] - ring && layer_fits(axis, box[axis].low - 1)) --box[axis].low;
-      if (box[axis].high == centre[axis] + ring && layer_fits(axis, box[axis].high + 1)) ++box[axis].high;
+      auto& cells = box[axis];
+      if (cells.high - cells.low + 1 >= longest) continue;
+      if (cells.low == centre[axis] - ring && layer_fits(axis, cells.low - 1)) --cells.low;
+      if (cells.high == centre[axis] + ring && layer_fits(axis, cells.high + 1)) ++cells.high;
     }
+  return box;
+}
+
+/// Cells of one kind (solid or fluid) round a cell, within reach of a stencil.
+template <int D>
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
+  const auto kind = [&](const Index<D>& at) {
+    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
+  };
+  const int wanted = kind(centre);
+  return box_round(domain, centre, widest_stencil, std::numeric_limits<std::int64_t>::max(),
+                   [&](const Index<D>& at, const Index<D>& inside) {
+                     return kind(at) == wanted &&
+                            (reach == Reach::over_one_kind || !strong_interface(domain, at, inside));
+                   });
+}
+
+/// Impedances that differ by less than this factor are those of one rock.
+constexpr double one_rock = 1.05;
+
+/// Cells of the rock round a cell over which a source can be spread smoothly; nothing where there are too
+/// few. Beyond a plane of symmetry lies the image of the source.
+template <int D>
+std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domain, const Index<D>& centre,
+                                                          int field_row) {
+  const auto alike = [&](const Index<D>& at, const Index<D>&) {
+    for (const Wave wave : {wave_p, wave_s}) {
+      const double one = domain.impedance(wave)(centre), other = domain.impedance(wave)(at);
+      if (other > one_rock * one || one > one_rock * other) return false;
+    }
+    return true;
+  };
+  auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    auto& cells = box[axis];
+    if (cells.low == 0 && domain.edges[int(axis)][0] == EdgeLaw::mirror)
+      cells.below = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
+    if (cells.high == domain.grid.shape[axis] - 1 && domain.edges[int(axis)][1] == EdgeLaw::mirror)
+      cells.above = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
+    const int images = (cells.below != Beyond::unknown) + (cells.above != Beyond::unknown);
+    if (images < 2 && (cells.high - cells.low + 1) * (1 + images) < narrowest_spread) return {};
+  }
   return box;
 }
 
@@ -94,14 +136,20 @@ bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row
 }
 
 template <int D>
-std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
-                                        const Point<D>& point_m,
-                                        const std::array<AxisCells, std::size_t(D)>& usable, int field_row) {
+std::vector<ValueWeight> value_weights(const Layout<D>& layout, const std::vector<PointWeight<D>>& points,
+                                       int field_row) {
   std::vector<ValueWeight> weights;
-  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
+  for (const auto& point : points)
     weights.push_back(
         {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
   return weights;
+}
+
+template <int D>
+std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Point<D>& point_m,
+                                        const std::array<AxisCells, std::size_t(D)>& usable, int field_row) {
+  return value_weights(layout, point_weights<D>(domain.grid, point_m, usable), field_row);
 }
 
 /// The correction of velocity of the images beyond a free surface of a solid, as weights.
@@ -198,6 +246,17 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
 }
 
 template <int D>
+std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                               const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  if (domain.impedance(wave_s)(centre) == 0) return {};
+  const auto usable = cells_of_the_rock(domain, centre, field_row);
+  if (!usable) return {};
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  return value_weights(layout, spread_point_weights<D>(domain.grid, place, *usable), field_row);
+}
+
+template <int D>
 int row_of(const WaveField& field) {
   using Rows = FieldRows<D>;
   const auto axis = [](int of_3d) { return std::min(of_3d, D - 1); };  // 2-D: x and z
@@ -210,11 +269,15 @@ template Index<2> cell_at(const Domain<2>&, const Point<2>&);
 template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::array<AxisCells, 2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
+template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
+                                                        int);
 template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::array<AxisCells, 3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
+template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
+                                                        int);
 template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver

@@ -31,6 +31,12 @@ template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row);
 
+/// The same for a normal stress in a solid, smoothly spread over cells of the rock that the source is in
+/// (theory.md (A8)). Empty in fluid, and where that rock is too thin.
+template <int D>
+std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                               const Point<D>& point_m, int field_row);
+
 /// What ends the cells that are read: another kind of cell (solid, fluid, void), or strong interfaces, too.
 enum class Reach { over_one_kind, to_strong_interfaces };
 /// The cells round a cell that may be read along each axis, and the extension of a field row beyond those at

@@ -7,7 +7,7 @@
 
 namespace slipwave::solver {
 
-/// Derivatives of velocity at a point as weighted sums of velocities round it (theory.md (A8), (A9)),
+/// Derivatives of velocity at a point as weighted sums of velocities round it (theory.md (A10), (A11)),
 /// whatever the rock does with its strain: slip and opening count. Read are cells of the kind of the point's
 /// own, up to the nearest strong interface along each axis. On a free surface of a solid its traction
 /// vanishes exactly; in fitted grids derivatives are along true x, y and z.
