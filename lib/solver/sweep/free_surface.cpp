@@ -8,14 +8,6 @@
 namespace slipwave::solver {
 namespace {
 
-/// Offsets and weights of the slope along the edge: the mean of the central differences over two and over
-/// four cells, which damps what alternates from cell to cell.
-constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
-constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
-/// Cells without a strong interface or an edge needed across the edge: no stencil that reads beyond it may
-/// reach another extension.
-constexpr auto fewest_across = std::int64_t(2) * max_reach;
-
 /// The component along an axis.
 template <int D>
 double& component(RowVector<D, double>& vector, int axis) {
@@ -63,10 +55,10 @@ template <int D>
 bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
                     std::vector<SurfaceTerm<D>>& terms) {
   const std::int64_t n = domain.grid.shape[std::size_t(along)];
-  for (std::size_t k = 0; k < offsets.size(); ++k) {
-    SurfaceTerm<D> term{at, row, factor * weights[k]};
+  for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+    SurfaceTerm<D> term{at, row, factor * weights_along[k]};
     auto& place = term.cell[std::size_t(along)];
-    place += offsets[k];
+    place += offsets_along[k];
     if (const bool below = place < 0; below || place >= n) {
       const EdgeLaw law = domain.edges[along][below ? 0 : 1];
       if (law == EdgeLaw::free) return false;
@@ -80,17 +72,6 @@ bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int 
     terms.push_back(term);
   }
   return true;
-}
-
-/// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
-/// free.
-template <int D>
-bool thin(const Domain<D>& domain, int along) {
-  return domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size());
-}
-template <int D>
-bool ends_free(const Domain<D>& domain, int along) {
-  return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
 }
 
 /// The same of a bent row at an end of z: all velocities of the neighbours take part.

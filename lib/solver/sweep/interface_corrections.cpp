@@ -10,17 +10,12 @@
 namespace slipwave::solver {
 namespace {
 
-/// As along free surfaces (free_surface.cpp).
-constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
-constexpr std::array<double, 4> difference_weights = {-0.125, -0.25, 0.25, 0.125};
 /// Of what half a sweep along the interface of fluid and solid leaves on it, the share that is taken out:
 /// with one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
 constexpr double traction_share = 0.5;
 /// Ratio of P impedances from which a fluid is too light to hold a wave at the interface: over gas the energy
 /// of thousands of steps would rise by a few millionths of what is left.
 constexpr double gas_ratio = 100;
-/// Cells of one medium needed on either side: no stencil may reach another extension as well.
-constexpr auto fewest_across = std::int64_t(2) * max_reach;
 /// Cells of the interface needed to both sides along each axis: a shorter one holds no wave.
 constexpr int fewest_along = 8;
 
@@ -31,12 +26,6 @@ bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) 
     if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
   }
   return true;
-}
-
-/// Whether a slice is too thin for a difference along this axis: it then has no slope (free_surface.cpp).
-template <int D>
-bool thin(const Domain<D>& domain, int axis) {
-  return domain.grid.shape[std::size_t(axis)] <= std::int64_t(offsets.size());
 }
 
 /// Whether enough cells like this one lie behind it along z (`step` 1 or -1) and beside it.
@@ -54,12 +43,11 @@ bool extends_far(const Domain<D>& domain, const Index<D>& from, int step) {
   for (int axis = 0; axis < z; ++axis) {
     const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
     if (thin(domain, axis)) {
-      for (const int side : {0, 1})
-        if (domain.edges[axis][side] == EdgeLaw::free) return false;
+      if (ends_free(domain, axis)) return false;
       continue;
     }
     const auto place = from[std::size_t(axis)];
-    if (place + offsets.front() < 0 || place + offsets.back() > last) return false;
+    if (place + offsets_along.front() < 0 || place + offsets_along.back() > last) return false;
     for (auto n = std::max<std::int64_t>(0, place - fewest_along); n <= std::min(last, place + fewest_along);
          ++n) {
       Index<D> beside = from;
@@ -140,10 +128,10 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         cell[z] += side - 1;
         auto& to = slot.sides[std::size_t(side)];
         for (int axis = 0; axis < z; ++axis)
-          for (std::size_t k = 0; k < offsets.size(); ++k) {
+          for (std::size_t k = 0; k < offsets_along.size(); ++k) {
             Index<D> beside = cell;
-            if (!thin(domain, axis)) beside[axis] += offsets[k];
-            to.cells[std::size_t(axis) * offsets.size() + k] = state.layout.cell(beside);
+            if (!thin(domain, axis)) beside[axis] += offsets_along[k];
+            to.cells[std::size_t(axis) * offsets_along.size() + k] = state.layout.cell(beside);
           }
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
@@ -215,10 +203,11 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
     // Differences along x and y of the velocities.
     std::array<Vector, std::size_t(D - 1)> along{};
     for (std::size_t axis = 0; axis < D - 1; ++axis)
-      for (std::size_t k = 0; k < offsets.size(); ++k)
-        along[axis] = along[axis] +
-                      Real(difference_weights[k]) *
-                          row_velocity<D>(state.fields.data() + side.cells[axis * offsets.size() + k], pitch);
+      for (std::size_t k = 0; k < offsets_along.size(); ++k)
+        along[axis] =
+            along[axis] +
+            Real(weights_along[k]) *
+                row_velocity<D>(state.fields.data() + side.cells[axis * offsets_along.size() + k], pitch);
     // Moduli times dt/h.
     const Real p = zp * zp * b, mu = zs * zs * b;
     const Vector t = traction_of_motion_along<D>(normal, p, mu, along);

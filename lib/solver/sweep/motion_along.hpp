@@ -3,8 +3,28 @@
 #include <array>
 
 #include "solver/kernels/bent_formulas.hpp"
+#include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
+
+/// Offsets and weights of the difference along a surface or an interface: the mean of the central differences
+/// over two and over four cells, which damps what alternates from cell to cell.
+inline constexpr std::array<int, 4> offsets_along = {-2, -1, 1, 2};
+inline constexpr std::array<double, 4> weights_along = {-0.125, -0.25, 0.25, 0.125};
+/// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it may reach
+/// another extension.
+inline constexpr auto fewest_across = std::int64_t(2) * max_reach;
+
+/// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
+/// free.
+template <int D>
+bool thin(const Domain<D>& domain, int along) {
+  return domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets_along.size());
+}
+template <int D>
+bool ends_free(const Domain<D>& domain, int along) {
+  return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
+}
 
 /// The rate of the traction on a face with the vector N (its z is 1) of the stresses that motion along the
 /// face alone builds up: N . C : (e (x) dv/dx), with the differences dv/dx of velocity over a cell along x,
