@@ -12,6 +12,7 @@
 #include "model/import_fit.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/relations.hpp"
 #include "model/resample.hpp"
 #include "segy/reader.hpp"
 #include "segy/sniff.hpp"
@@ -25,7 +26,7 @@ struct Settings {
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
-  std::string crop, vs_from, rho_from;
+  std::string crop, vs_from, rho_from, q_from;
   std::string surface, floor;
   double fluid_vp = 1500;
   bool no_average = false;
@@ -46,6 +47,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
                      "rho = 310 vp^0.25 in solids, 1000 in fluid");
+  options.add("q-from-vs", settings.q_from, "RULE",
+              "qp and qs of solids: vs/N (qs = vs/N), olsen (0.02 vs, 0.1 vs from 1500 m/s on) or brocher (a "
+              "polynomial in vs); qp = 1.5 to 2 qs");
   options.add("resample", settings.resample_m, "H",
               "new cell size: averages in larger cells, interpolates for smaller ones; kinds are not mixed");
   options.add("no-average", settings.no_average, "interpolate also for larger cells");
@@ -74,6 +78,10 @@ void check_choices(const Settings& settings) {
   };
   one_of(settings.file(Property::vs), settings.vs_from, "vs");
   one_of(settings.file(Property::rho), settings.rho_from, "rho");
+  for (const auto property : {Property::qp, Property::qs})
+    if (!settings.q_from.empty() && !settings.file(property).empty())
+      throw Error("found both --q-from-vs and --" + row_of(property).name + ", expected one of them",
+                  ErrorKind::usage);
   if (!settings.shape.empty() && !settings.step_m)
     throw Error("--step is missing; raw files need it", ErrorKind::usage);
   if (settings.step_m && !(*settings.step_m > 0)) {
@@ -131,6 +139,18 @@ Field<2> read_property(const Settings& settings, Property property, std::string&
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
 }
 
+/// Where an optional property is given as a number, and not by a file of that name.
+std::optional<double> number_of(const std::string& given) {
+  std::error_code failed;
+  if (given.empty() || std::filesystem::exists(given, failed)) return {};
+  if (given == "inf") return PropertyRow::infinite;
+  try {
+    return parse_number(given);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 /// With the history of the file of vp.
 Medium<2> read_medium(const Settings& settings, std::string& history) {
   std::string other;
@@ -143,8 +163,13 @@ Medium<2> read_medium(const Settings& settings, std::string& history) {
   auto medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
   for (const Property property : all_properties()) {
     if (!row_of(property).if_absent) continue;
+    if (const auto value = number_of(settings.file(property))) {
+      add_constant(medium, property, *value);
+      continue;
+    }
     if (auto field = read_given(property)) add_property(medium, property, std::move(*field));
   }
+  if (!settings.q_from.empty()) in_place("--q-from-vs", [&] { add_q_from_vs(medium, settings.q_from); });
   return medium;
 }
 

@@ -177,6 +177,25 @@ bool Scene<D>::slips() const {
 }
 
 template <int D>
+bool Scene<D>::attenuates() const {
+  return attenuation && attenuating_cells(model.medium) > 0;
+}
+
+template <int D>
+std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice) {
+  double peak_hz = 0;
+  for (const auto& source : scene.survey.sources) peak_hz = std::max(peak_hz, source.wavelet.nominal_hz());
+  if (!(peak_hz > 0) || attenuating_cells(scene.model.medium) == 0) return {};
+  const double reference_hz = choice.reference_hz.value_or(peak_hz);
+  if (!(reference_hz > 0) || !std::isfinite(reference_hz))
+    throw Error("--q-frequency: found " + shown(reference_hz) + " Hz, expected it above 0", ErrorKind::usage);
+  const auto [low_hz, high_hz] = choice.band_hz.value_or(std::array{peak_hz / 5, 2.5 * peak_hz});
+  scene.attenuation.emplace(Attenuation{Mechanisms(choice.mechanisms, low_hz, high_hz), reference_hz});
+  const auto lowered = unrelax(scene.model.medium, *scene.attenuation);
+  return lowered.empty() ? std::vector<std::string>{} : std::vector{lowered};
+}
+
+template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
   return scene.model.grid().spacing_m /
          std::max(scene.subdomain.fastest_across_cells, fastest_across_cells(scene.model.medium));
@@ -276,6 +295,7 @@ double highest_frequency_hz(const Survey<D>& survey) {
 }
 
 template struct Scene<2>;
+template std::vector<std::string> set_attenuation(Scene<2>&, const AttenuationChoice&);
 template double stable_time_step_s(const Scene<2>&);
 template double time_step_s(const Scene<2>&);
 template int zone_cells(const Scene<2>&, const Source<2>&);
@@ -283,6 +303,7 @@ template void check(const Scene<2>&);
 template SlowestWave slowest_wave(const Medium<2>&);
 template double highest_frequency_hz(const Survey<2>&);
 template struct Scene<3>;
+template std::vector<std::string> set_attenuation(Scene<3>&, const AttenuationChoice&);
 template double stable_time_step_s(const Scene<3>&);
 template double time_step_s(const Scene<3>&);
 template int zone_cells(const Scene<3>&, const Source<3>&);

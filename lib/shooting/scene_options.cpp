@@ -51,15 +51,15 @@ Scene<D> SceneOptions::without_model() const {
   scene.numerics.double_precision = precision == "double";
   scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);
-  for (const auto effect : effects_without()) scene.with_slip &= effect != SlipEffect::slip;
+  for (const auto effect : effects_without()) scene.with_slip &= effect != ModelEffect::slip;
   return scene;
 }
 
-std::vector<SlipEffect> SceneOptions::effects_without() const {
-  std::vector<SlipEffect> effects;
+std::vector<ModelEffect> SceneOptions::effects_without() const {
+  std::vector<ModelEffect> effects;
   if (without.empty()) return effects;
   for (const auto& name : split(without, ','))
-    effects.push_back(in_place("--without", [&] { return slip_effect_named(name); }));
+    effects.push_back(in_place("--without", [&] { return model_effect_named(name); }));
   return effects;
 }
 
@@ -71,15 +71,39 @@ void SceneOptions::check_model(Model<D>& read) const {
   if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
 }
 
+AttenuationChoice SceneOptions::attenuation() const {
+  AttenuationChoice choice;
+  choice.mechanisms = q_mechanisms;
+  choice.reference_hz = q_frequency_hz;
+  if (!q_band.empty()) {
+    const auto band = in_place("--q-band", [&] { return parse_numbers(q_band, ','); });
+    if (band.size() != 2)
+      throw Error("--q-band: found '" + q_band + "', expected F1,F2 in Hz", ErrorKind::usage);
+    choice.band_hz = {band[0], band[1]};
+  }
+  return choice;
+}
+
+/// Checks the model and lets it attenuate.
 template <int D>
-void SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
-  scene.model = read_model<D>(file);
+std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   check_model(scene.model);
-  check(scene);
+  const auto choice = attenuation();
+  return in_place(model == "-" ? "standard input" : model, [&] { return set_attenuation(scene, choice); });
 }
 
 template <int D>
-void SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const {
+std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
+  scene.model = read_model<D>(file);
+  auto warnings = prepare_model(scene);
+  check(scene);
+  return warnings;
+}
+
+template <int D>
+std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
+                                                      Ranks* group) const {
+  std::vector<std::string> warnings;
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
@@ -90,17 +114,20 @@ void SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks
     } else {
       scene.model = read_model<D>(file);
     }
-    check_model(scene.model);
+    warnings = prepare_model(scene);
   });
   if (group) join(scene, *group);
   collective_try(&all, [&] { check(scene); });
+  return warnings;
 }
 
 template Scene<2> SceneOptions::without_model() const;
 template Scene<3> SceneOptions::without_model() const;
-template void SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&, Ranks*) const;
-template void SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&, Ranks*) const;
-template void SceneOptions::read_model_into(Scene<2>&, const NetcdfFile&) const;
-template void SceneOptions::read_model_into(Scene<3>&, const NetcdfFile&) const;
+template std::vector<std::string> SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&,
+                                                               Ranks*) const;
+template std::vector<std::string> SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&,
+                                                               Ranks*) const;
+template std::vector<std::string> SceneOptions::read_model_into(Scene<2>&, const NetcdfFile&) const;
+template std::vector<std::string> SceneOptions::read_model_into(Scene<3>&, const NetcdfFile&) const;
 
 }  // namespace slipwave

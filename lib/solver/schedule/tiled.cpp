@@ -98,6 +98,7 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
       const int axis = step_.sweeps()[n].axis;
       const auto kind = axis == 0 ? Stage::along_x : axis == D - 1 ? Stage::along_z : Stage::along_y;
       all.push_back({kind, Real(step_.sweeps()[n].fraction), {step, step_.dt_s()}});
+      all.back().sweep = n;
     }
     all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
   }
@@ -365,6 +366,14 @@ void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& co
   if (!everywhere_) active_.mark(line, columns);
 }
 
+/// Effects just before or after a sweep along the last axis.
+template <int D, class Real>
+void TiledExecutor<D, Real>::apply_beside(const Stage& stage, int side, std::int64_t line,
+                                          const IndexRange& columns) {
+  if (!step_.acts_beside(stage.sweep, side)) return;
+  step_.apply_beside(stage.sweep, side, stage.time, state_.row_fields(line), columns);
+}
+
 /// A sweep along z, of these columns or, in 3-D, lines.
 template <int D, class Real>
 void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
@@ -379,8 +388,10 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
+    if (step < rows_) apply_beside(stage, 0, line_of(step, at[D - 2]), across);
     sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
     if (done < 0 || done >= rows_) return;
+    apply_beside(stage, 1, line_of(done, at[D - 2]), across);
     mark_active(line_of(done, at[D - 2]), across);
     worker.swept += across.count();
   };

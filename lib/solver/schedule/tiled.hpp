@@ -57,6 +57,7 @@ class TiledExecutor : public Executor {
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
     int end = 0;              // the same of the ends of steps
+    std::size_t sweep = 0;    // which of the step's sweeps it is, of one along the last axis
     Box needed{};             // what it does elsewhere affects no record
   };
   struct TileInProgress {
@@ -89,6 +90,7 @@ class TiledExecutor : public Executor {
                Worker& worker, bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& tile,
                Worker& worker);
+  void apply_beside(const Stage& stage, int side, std::int64_t line, const IndexRange& columns);
   void refresh(const IndexRange& rows);
   bool is_zero(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
   void mark_active(std::int64_t line, const IndexRange& columns);
