@@ -28,12 +28,15 @@ std::complex<double> relaxed(double hz, double rate) {
   return 1. / std::complex<double>(1, 2 * std::numbers::pi * hz / rate);
 }
 
+/// The P modulus is the bulk modulus and this many times the shear modulus.
+template <int D>
+constexpr double of_shear = D == 2 ? 1. : 4. / 3;
+
 /// Largest qp of a cell: shear loss alone (Q6).
 template <int D>
 double most_qp(double vp, double vs, double qs) {
   if (vs == 0 || std::isinf(qs)) return infinite;
-  constexpr double of_shear = D == 2 ? 1. : 4. / 3;
-  return qs * vp * vp / (of_shear * vs * vs);
+  return qs * vp * vp / (of_shear<D> * vs * vs);
 }
 
 struct Qualities {
@@ -208,13 +211,21 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
 }
 
 template <int D>
-CellShares shares_of_cell(const Medium<D>& medium, std::size_t cell, const Mechanisms& mechanisms) {
-  constexpr double of_shear = D == 2 ? 1. : 4. / 3;
-  const auto [qp, qs] = qualities(medium, cell);
-  CellShares shares;
-  shares.shear = mechanisms.shares(qs);
-  shares.bulk = mechanisms.shares(qp);
-  const double vp = medium.vp[cell], vs = medium.vs[cell], p = vp * vp, s = of_shear * vs * vs;
+StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms,
+                                          double interval_s)
+    : medium_(&medium), mechanisms_(mechanisms), interval_s_(interval_s) {
+  for (int l = 0; l < mechanisms.count(); ++l) {
+    const double half = mechanisms.rate(l) * interval_s / 2;
+    parts_[std::size_t(l)] = half > 0 ? std::tanh(half) / half : 1;
+  }
+}
+
+/// Those of a medium that relaxes all the time.
+template <int D>
+CellShares StepwiseRelaxation<D>::continuous(std::size_t cell) const {
+  const auto [qp, qs] = qualities(*medium_, cell);
+  CellShares shares{mechanisms_.shares(qp), mechanisms_.shares(qs)};
+  const double vp = medium_->vp[cell], vs = medium_->vs[cell], p = vp * vp, s = of_shear<D> * vs * vs;
   if (vs == 0) return shares;
   // Least squares for two Q differ a little in shape: no mechanism may give energy.
   for (std::size_t l = 0; l < shares.bulk.size(); ++l)
@@ -222,13 +233,49 @@ CellShares shares_of_cell(const Medium<D>& medium, std::size_t cell, const Mecha
   return shares;
 }
 
+/// The modulus that is left of an unrelaxed one.
+template <int D>
+double StepwiseRelaxation<D>::kept(const RelaxedShares& shares) const {
+  double kept = 1;
+  for (std::size_t l = 0; l < shares.size(); ++l) kept -= shares[l] * (1 - parts_[l]);
+  return kept;
+}
+
+template <int D>
+CellShares StepwiseRelaxation<D>::shares(std::size_t cell) const {
+  auto shares = continuous(cell);
+  for (auto* of : {&shares.bulk, &shares.shear}) {
+    const double left = kept(*of);
+    for (std::size_t l = 0; l < of->size(); ++l) (*of)[l] *= parts_[l] / left;
+  }
+  return shares;
+}
+
+template <int D>
+Medium<D> StepwiseRelaxation<D>::medium() const {
+  auto medium = *medium_;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (!attenuates(medium, cell)) continue;
+    const auto shares = continuous(cell);
+    const double vp = medium.vp[cell], vs = medium.vs[cell], s = of_shear<D> * vs * vs;
+    medium.vp[cell] = float(std::sqrt((vp * vp - s) * kept(shares.bulk) + s * kept(shares.shear)));
+    medium.vs[cell] = float(vs * std::sqrt(kept(shares.shear)));
+  }
+  return medium;
+}
+
+template <int D>
+double StepwiseRelaxation<D>::decay(int l) const {
+  return -std::expm1(-mechanisms_.rate(l) * interval_s_);
+}
+
+template class StepwiseRelaxation<2>;
+template class StepwiseRelaxation<3>;
 template bool attenuates(const Medium<2>&, std::size_t);
 template bool attenuates(const Medium<3>&, std::size_t);
 template std::int64_t attenuating_cells(const Medium<2>&);
 template std::int64_t attenuating_cells(const Medium<3>&);
 template std::string unrelax(Medium<2>&, const Attenuation&);
 template std::string unrelax(Medium<3>&, const Attenuation&);
-template CellShares shares_of_cell(const Medium<2>&, std::size_t, const Mechanisms&);
-template CellShares shares_of_cell(const Medium<3>&, std::size_t, const Mechanisms&);
 
 }  // namespace slipwave

@@ -73,12 +73,35 @@ std::int64_t attenuating_cells(const Medium<D>& medium);
 template <int D>
 std::string unrelax(Medium<D>& medium, const Attenuation& attenuation);
 
-/// What of the bulk and of the shear modulus of a cell of an unrelaxed medium relaxes (Q5). In 2-D the bulk
-/// modulus is that of plane strain, lambda + mu.
+/// What of the bulk and of the shear modulus of a cell relaxes (Q5). In 2-D the bulk modulus is that of plane
+/// strain, lambda + mu.
 struct CellShares {
   RelaxedShares bulk{}, shear{};
 };
+
+/// An unrelaxed medium whose stress relaxes at one moment of every `interval_s`, for all of that time: its
+/// speeds and shares are such that waves have the moduli of a medium that relaxes all the time (Q8). With an
+/// interval of 0 it is that medium.
 template <int D>
-CellShares shares_of_cell(const Medium<D>& medium, std::size_t cell, const Mechanisms& mechanisms);
+class StepwiseRelaxation {
+ public:
+  /// Keeps a reference.
+  StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
+  /// Its own shares.
+  CellShares shares(std::size_t cell) const;
+  /// The medium with its own speeds.
+  Medium<D> medium() const;
+  /// 1 - exp(-rate interval): how far mechanism l comes in an interval.
+  double decay(int l) const;
+
+ private:
+  CellShares continuous(std::size_t cell) const;
+  double kept(const RelaxedShares& shares) const;
+
+  const Medium<D>* medium_;
+  Mechanisms mechanisms_;
+  double interval_s_;
+  std::array<double, most_mechanisms> parts_{};  // of the shares, that relax by steps
+};
 
 }  // namespace slipwave

@@ -23,22 +23,16 @@ bool absorbs(const Scene<D>& scene, const Source<D>& source) {
   return any && zone_cells(scene, source) > 0;
 }
 
-/// The sweeps of a step and what acts between them, symmetric about the middle of the step: before and after
-/// its one sweep along the last axis. Where there are several, after the first and before the last, which is
-/// nearest to where two halves of a step stand best, at 0.21 and 0.79 of it (theory.md (Q8)).
+/// The sweeps of a step and, after the middle one of those along the last axis, what acts between sweeps.
 template <int D, class Real>
 void add_sweeps(const std::vector<SweepFraction>& sweeps, const std::vector<Effect<D, Real>*>& filters,
                 const std::vector<Entry<D, Real>>& between, std::vector<Entry<D, Real>>& step) {
   std::vector<std::size_t> along_last;
   for (std::size_t n = 0; n < sweeps.size(); ++n)
     if (sweeps[n].axis == D - 1) along_last.push_back(n);
-  const auto add = [&](bool here) {
-    if (here) step.insert(step.end(), between.begin(), between.end());
-  };
   for (std::size_t n = 0; n < sweeps.size(); ++n) {
-    add(n == along_last.back());
     step.push_back(Sweep<D, Real>{sweeps[n].axis, sweeps[n].fraction, filters});
-    add(n == along_last.front());
+    if (n == along_last[(along_last.size() - 1) / 2]) step.insert(step.end(), between.begin(), between.end());
   }
 }
 

@@ -27,12 +27,13 @@ RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>
                                         const PointSource<D, Real>* source)
     : layout_(layout),
       source_(source),
+      every_(relaxation_steps(scene.numerics)),
       mechanisms_(scene.attenuation->mechanisms.count()),
       parts_(relaxing_parts(D, has_shear(domain))),
       moduli_(has_shear(domain) ? 2 : 1),
       relax_(relaxation_kernel<Real>(D, has_shear(domain), mechanisms_)) {
   find_segments(domain, scene.model.medium);
-  fill(domain, scene.model.medium, scene.attenuation->mechanisms, dt_s);
+  fill(domain, relaxation_by_steps(scene, dt_s));
 }
 
 template <int D, class Real>
@@ -45,7 +46,8 @@ std::size_t RelaxingStress<D, Real>::model_cell(const Domain<D>& domain, std::in
 
 template <int D, class Real>
 void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Medium<D>& medium) {
-  constexpr auto block = Layout<D>::block;
+  constexpr auto block = relaxation_block;
+  static_assert(block == Layout<D>::block, "columns end between two blocks");
   const std::int64_t nx = layout_.shape()[0];
   for (std::int64_t line = 0; line < layout_.lines(); ++line) {
     starts_.push_back(segments_.size());
@@ -66,9 +68,8 @@ void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Mediu
 }
 
 template <int D, class Real>
-void RelaxingStress<D, Real>::fill(const Domain<D>& domain, const Medium<D>& medium,
-                                   const Mechanisms& mechanisms, double dt_s) {
-  for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(-std::expm1(-mechanisms.rate(l) * dt_s / 2));
+void RelaxingStress<D, Real>::fill(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation) {
+  for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(relaxation.decay(l));
   memory_ = Buffer<Real>(stored_ * mechanisms_ * parts_);
   shares_ = Buffer<Real>(stored_ * mechanisms_ * moduli_);
   clear(memory_);
@@ -76,15 +77,15 @@ void RelaxingStress<D, Real>::fill(const Domain<D>& domain, const Medium<D>& med
   parallel_for(layout_.lines(), 16, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto line = begin; line < end; ++line)
       for (const auto& segment : segments(line)) {
-        const auto pitch = segment.last - segment.first;
-        Real* const bulk = shares_.data() + segment.place * mechanisms_ * moduli_;
         for (auto x = segment.first; x < std::min(segment.last, layout_.shape()[0]); ++x) {
-          const auto of = shares_of_cell(medium, model_cell(domain, line, x), mechanisms);
+          const auto of = relaxation.shares(model_cell(domain, line, x));
           for (int l = 0; l < mechanisms_; ++l) {
-            const double decay = -std::expm1(-mechanisms.rate(l) * dt_s / 2);
-            Real* const share = bulk + l * pitch + (x - segment.first);
+            const double decay = relaxation.decay(l);
+            const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;
+            Real* const share =
+                shares_.data() + (place - lane) * mechanisms_ * moduli_ + l * relaxation_block + lane;
             *share = Real(decay * of.bulk[std::size_t(l)]);
-            if (moduli_ == 2) share[mechanisms_ * pitch] = Real(decay * of.shear[std::size_t(l)]);
+            if (moduli_ == 2) share[mechanisms_ * relaxation_block] = Real(decay * of.shear[std::size_t(l)]);
           }
         }
       }
@@ -96,7 +97,7 @@ template <int D, class Real>
 void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowFields<Real>& fields,
                                             const IndexRange& columns) {
   const auto of_row = segments(fields.row);
-  if (of_row.empty()) return;
+  if (of_row.empty() || time.step % every_ != every_ - 1) return;
   const bool injected = source_ && source_->add_stress_before(time.step, fields, columns, -1);
   const std::int64_t end = columns.last == layout_.shape()[0] ? layout_.padded_nx() : columns.last;
   for (const auto& segment : of_row) {
@@ -105,9 +106,9 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
     auto rows = rows_;
     rows.stress = fields.field(FieldRows<D>::normal_stress(0)) + first;
     rows.pitch = fields.pitch;
-    rows.stored_pitch = segment.last - segment.first;
-    rows.memory = memory_.data() + segment.place * mechanisms_ * parts_ + (first - segment.first);
-    rows.shares = shares_.data() + segment.place * mechanisms_ * moduli_ + (first - segment.first);
+    const auto place = segment.place + (first - segment.first);
+    rows.memory = memory_.data() + place * mechanisms_ * parts_;
+    rows.shares = shares_.data() + place * mechanisms_ * moduli_;
     relax_(last - first, rows);
   }
   if (injected) source_->add_stress_before(time.step, fields, columns, 1);

@@ -11,14 +11,23 @@
 
 namespace slipwave::solver {
 
-/// Relaxation of stress in cells with a finite qp or qs (theory.md (Q1)-(Q7)): half of the step before and
-/// half after a sweep along the last axis, at the strain of that moment. It keeps what each mechanism has
-/// relaxed so far; cells outside the model relax as the nearest one of the model. Keeps references.
+/// Every so many steps stress relaxes: in steps of second order every other one, which keeps it cheap, in
+/// those of fourth order, which are long, in each.
+inline int relaxation_steps(const Numerics& numerics) { return numerics.time_order == 2 ? 2 : 1; }
+/// Of a scene that attenuates; it keeps a reference to its medium.
+template <int D>
+StepwiseRelaxation<D> relaxation_by_steps(const Scene<D>& scene, double dt_s) {
+  return {scene.model.medium, scene.attenuation->mechanisms, relaxation_steps(scene.numerics) * dt_s};
+}
+
+/// Relaxation of stress in cells with a finite qp or qs (theory.md (Q1)-(Q8)), at the strain of one moment
+/// inside the step. It keeps what each mechanism has relaxed so far; cells outside the model relax as the
+/// nearest one of the model. Keeps references.
 template <int D, class Real>
 class RelaxingStress : public Effect<D, Real> {
  public:
-  /// The medium of the scene must be unrelaxed (unrelax()). What `source` (may be null) puts into the stress
-  /// is no strain and does not relax; that takes as many steps as the run has at most.
+  /// The medium of the scene must be unrelaxed (unrelax()), that of the domain StepwiseRelaxation::medium().
+  /// What `source` (may be null) puts into the stress is no strain and does not relax.
   RelaxingStress(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
                  const PointSource<D, Real>* source);
 
@@ -46,16 +55,16 @@ class RelaxingStress : public Effect<D, Real> {
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
   void find_segments(const Domain<D>& domain, const Medium<D>& medium);
-  void fill(const Domain<D>& domain, const Medium<D>& medium, const Mechanisms& mechanisms, double dt_s);
+  void fill(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation);
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
 
   const Layout<D>& layout_;
   const PointSource<D, Real>* source_;
-  int mechanisms_, parts_, moduli_;
+  int every_, mechanisms_, parts_, moduli_;
   std::int64_t cells_ = 0, stored_ = 0;
   std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
-  Buffer<Real> memory_, shares_;     // [segment][mechanism, part][cell], [segment][modulus, mechanism][cell]
+  Buffer<Real> memory_, shares_;     // [block][mechanism, part][cell], [block][modulus, mechanism][cell]
   RelaxationRows<Real> rows_{};      // what all cells have in common
   RelaxationKernel<Real> relax_;
 };

@@ -42,7 +42,7 @@ struct EffectDeclaration {
   bool filters_sweeps = false;  // changes what sweeps add to the fields
   unsigned reads = 0, writes = 0;
   bool retains = false;         // has memory from one step to the next
-  bool between_sweeps = false;  // acts half a step at a time inside the step, too (apply_between())
+  bool between_sweeps = false;  // acts inside the step (apply_between())
 };
 template <int D>
 constexpr unsigned all_velocities = (1U << D) - 1;
@@ -100,7 +100,7 @@ class Effect {
   /// Acts on them after recording: the next step begins with this.
   virtual void apply_after_record(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
 
-  /// Acts on them over half of the step, beside a sweep along the last axis, twice in a step.
+  /// Acts on them inside the step, after a sweep along the last axis.
   virtual void apply_between(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
 
   // What it does within sweeps, where it declares so.

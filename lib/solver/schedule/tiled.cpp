@@ -366,14 +366,6 @@ void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& co
   if (!everywhere_) active_.mark(line, columns);
 }
 
-/// Effects just before or after a sweep along the last axis.
-template <int D, class Real>
-void TiledExecutor<D, Real>::apply_beside(const Stage& stage, int side, std::int64_t line,
-                                          const IndexRange& columns) {
-  if (!step_.acts_beside(stage.sweep, side)) return;
-  step_.apply_beside(stage.sweep, side, stage.time, state_.row_fields(line), columns);
-}
-
 /// A sweep along z, of these columns or, in 3-D, lines.
 template <int D, class Real>
 void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
@@ -388,11 +380,12 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
-    if (step < rows_) apply_beside(stage, 0, line_of(step, at[D - 2]), across);
     sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
     if (done < 0 || done >= rows_) return;
-    apply_beside(stage, 1, line_of(done, at[D - 2]), across);
-    mark_active(line_of(done, at[D - 2]), across);
+    const auto line = line_of(done, at[D - 2]);
+    if (step_.acts_after_sweep(stage.sweep))
+      step_.apply_after_sweep(stage.sweep, stage.time, state_.row_fields(line), across);
+    mark_active(line, across);
     worker.swept += across.count();
   };
   if constexpr (D == 2) {

@@ -90,7 +90,6 @@ class TiledExecutor : public Executor {
                Worker& worker, bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& tile,
                Worker& worker);
-  void apply_beside(const Stage& stage, int side, std::int64_t line, const IndexRange& columns);
   void refresh(const IndexRange& rows);
   bool is_zero(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
   void mark_active(std::int64_t line, const IndexRange& columns);

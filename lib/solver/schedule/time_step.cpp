@@ -18,8 +18,12 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
       all_needed_(all_needed),
       steps_(steps) {
   for (const auto& entry : entries_) {
-    if (const auto* sweep = std::get_if<Sweep<D, Real>>(&entry))
+    if (const auto* sweep = std::get_if<Sweep<D, Real>>(&entry)) {
       sweeps_.push_back({sweep->axis, sweep->fraction});
+      between_.emplace_back();
+    }
+    if (const auto* between = std::get_if<Between<D, Real>>(&entry))
+      between_.back().push_back(between->effect);
     if (const auto* read = std::get_if<Read<D, Real>>(&entry)) records_.push_back(read->record);
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry); apply && !apply->after_record)
       effects_.push_back(apply->effect);
@@ -29,23 +33,6 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
       for (const auto cells : {Cells::split, Cells::merged, Cells::patch})
         if (acts_on(apply->effect->declaration().acts_on, cells))
           acting_[apply->after_record][std::size_t(cells)].push_back(apply->effect);
-  find_between();
-}
-
-/// Which sweep along the last axis each effect inside the step is beside: the one before it, else the next.
-template <int D, class Real>
-void TimeStep<D, Real>::find_between() {
-  for (auto& of_side : beside_) of_side.resize(sweeps_.size());
-  std::size_t next = 0;
-  for (const auto& entry : entries_) {
-    next += std::holds_alternative<Sweep<D, Real>>(entry);
-    const auto* between = std::get_if<Between<D, Real>>(&entry);
-    if (!between) continue;
-    const bool after = sweeps_.at(next - 1).axis == D - 1;
-    beside_[after][after ? next - 1 : next].push_back(between->effect);
-    if (std::find(effects_.begin(), effects_.end(), between->effect) == effects_.end())
-      effects_.push_back(between->effect);
-  }
 }
 
 template <int D, class Real>
@@ -66,8 +53,7 @@ std::vector<std::string> TimeStep<D, Real>::text() const {
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry))
       lines.push_back(apply->effect->name() + (apply->after_record ? ", after recording" : ""));
     if (std::holds_alternative<Read<D, Real>>(entry)) lines.emplace_back("record");
-    if (const auto* between = std::get_if<Between<D, Real>>(&entry))
-      lines.push_back(between->effect->name() + ", 0.5");
+    if (const auto* between = std::get_if<Between<D, Real>>(&entry)) lines.push_back(between->effect->name());
   }
   return lines;
 }

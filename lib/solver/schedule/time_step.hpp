@@ -31,7 +31,7 @@ template <int D, class Real>
 struct Read {
   Record<D, Real>* record;
 };
-/// An effect over half of the step, just before or after a sweep along the last axis.
+/// An effect inside the step, after a sweep along the last axis.
 template <int D, class Real>
 struct Between {
   Effect<D, Real>* effect;
@@ -77,12 +77,12 @@ class TimeStep {
   void apply(const StepTime& time, Cells of, const RowFields<Real>& fields, const IndexRange& cells) const {
     for (auto* effect : acting_[0][std::size_t(of)]) effect->apply(time, fields, cells);
   }
-  /// Whether an effect acts just before (0) or after (1) that sweep, one of sweeps().
-  bool acts_beside(std::size_t sweep, int side) const { return !beside_[side][sweep].empty(); }
-  /// Those effects over half of the step.
-  void apply_beside(std::size_t sweep, int side, const StepTime& time, const RowFields<Real>& fields,
-                    const IndexRange& cells) const {
-    for (auto* effect : beside_[side][sweep]) effect->apply_between(time, fields, cells);
+  /// Whether an effect acts between that sweep, one of sweeps(), and the next.
+  bool acts_after_sweep(std::size_t sweep) const { return !between_[sweep].empty(); }
+  /// Those effects.
+  void apply_after_sweep(std::size_t sweep, const StepTime& time, const RowFields<Real>& fields,
+                         const IndexRange& cells) const {
+    for (auto* effect : between_[sweep]) effect->apply_between(time, fields, cells);
   }
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) const;
   /// The effects after the records.
@@ -106,15 +106,14 @@ class TimeStep {
  private:
   static constexpr std::int64_t most_in_progress = Effect<D, Real>::most_steps_in_progress;
   static bool acts_on(ActsOn where, Cells cells);
-  void find_between();
 
   std::int64_t rows_;
   Index<D> shape_;
   double dt_s_;
   std::vector<Entry<D, Real>> entries_;
   std::vector<SweepFraction> sweeps_;
-  std::array<std::vector<std::vector<Effect<D, Real>*>>, 2> beside_;  // [before, after][sweep]
-  std::vector<Effect<D, Real>*> effects_;                             // that act at the end of a step
+  std::vector<std::vector<Effect<D, Real>*>> between_;  // [sweep before them]
+  std::vector<Effect<D, Real>*> effects_;               // that act at the end of a step
   std::vector<Record<D, Real>*> records_;
   Patches<D> patches_;
   bool all_needed_;
