@@ -64,7 +64,8 @@ Mechanisms::Mechanisms(int count, double low_hz, double high_hz)
                 ErrorKind::usage);
   // By how much of the band's half width the outer rates are off its middle: the best of these.
   double best = infinite, width = 0;
-  for (double part = 0.4; part < 2; part += 0.02) {
+  for (int n = 20; n < 100; ++n) {
+    const double part = 0.02 * n;
     spread(part);
     const double error = largest_error(weak_quality);
     if (error < best) best = error, width = part;
