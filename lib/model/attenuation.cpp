@@ -46,8 +46,11 @@ struct Qualities {
 template <int D>
 Qualities qualities(const Medium<D>& medium, std::size_t cell) {
   if (medium.is_void(cell)) return {};
-  return {medium.value(Property::qp, cell),
-          medium.is_fluid(cell) ? infinite : medium.value(Property::qs, cell)};
+  const auto of = [&](Property property) {
+    const double q = medium.value(property, cell);
+    return q < double(elastic_quality) ? q : infinite;
+  };
+  return {of(Property::qp), medium.is_fluid(cell) ? infinite : of(Property::qs)};
 }
 
 }  // namespace

@@ -59,6 +59,9 @@ struct Attenuation {
   double reference_hz;
 };
 
+/// What stands for an infinite Q in files whose values are finite: from here on a cell is elastic.
+inline constexpr float elastic_quality = 1e9F;
+
 /// Whether a cell has a finite qp or qs.
 template <int D>
 bool attenuates(const Medium<D>& medium, std::size_t cell);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/attenuation.hpp"
 #include "model/model.hpp"
 #include "model/prestress.hpp"
 
@@ -93,7 +94,7 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
                ", expected both 0 in void or a density");
   }
   if (vp == 0) refuse(medium.grid(), cell, "vp", "is 0, expected a speed above zero outside void");
-  if (vs == 0 && medium.has(Property::qs) && std::isfinite(medium[Property::qs][cell]))
+  if (vs == 0 && medium.has(Property::qs) && medium[Property::qs][cell] < elastic_quality)
     refuse(medium.grid(), cell, "qs",
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");

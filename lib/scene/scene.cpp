@@ -190,9 +190,12 @@ std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoic
   if (!(reference_hz > 0) || !std::isfinite(reference_hz))
     throw Error("--q-frequency: found " + shown(reference_hz) + " Hz, expected it above 0", ErrorKind::usage);
   const auto [low_hz, high_hz] = choice.band_hz.value_or(std::array{peak_hz / 5, 2.5 * peak_hz});
-  scene.attenuation.emplace(Attenuation{Mechanisms(choice.mechanisms, low_hz, high_hz), reference_hz});
-  // What has relaxed is twice as much memory as the fields: longer tiles bring it through the caches less often.
-  // Processes that share a shot have chosen how much they exchange before.
+  scene.attenuation.emplace(Attenuation{
+      in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms",
+               [&, low = low_hz, high = high_hz] { return Mechanisms(choice.mechanisms, low, high); }),
+      reference_hz});
+  // What has relaxed is twice as much memory as the fields: longer tiles bring it through the caches less
+  // often. Processes that share a shot have chosen how much they exchange before.
   auto& tiling = scene.numerics.tiling;
   if (D == 2 && tiling.steps == 0 && scene.subdomain.is_whole()) tiling.steps = 6;
   const auto lowered = unrelax(scene.model.medium, *scene.attenuation);

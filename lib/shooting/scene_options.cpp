@@ -89,7 +89,12 @@ template <int D>
 std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   check_model(scene.model);
   const auto choice = attenuation();
-  return in_place(model == "-" ? "standard input" : model, [&] { return set_attenuation(scene, choice); });
+  try {
+    return set_attenuation(scene, choice);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::usage) throw;
+    throw error.within(model == "-" ? "standard input" : model);
+  }
 }
 
 template <int D>
