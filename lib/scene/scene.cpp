@@ -115,6 +115,10 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
 /// are followed there. An oblique one is known only where all absorbing edges lie in one medium.
 template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
+  if (scene.attenuates())
+    throw Error(
+        "found a plane wave in a model that attenuates, expected a point source or --without attenuation",
+        ErrorKind::usage);
   constexpr int z = D - 1;
   const double across = wave.direction[0], down = wave.direction[z];
   const auto& rows = scene.model.grid().rows;
@@ -241,10 +245,6 @@ void check(const Scene<D>& scene) {
       check_plane_wave(scene, source, *wave);
     else
       refuse_void(scene, source.position_m, "the source");
-    if (wave && scene.attenuates())
-      throw Error(
-          "found a plane wave in a model that attenuates, expected a point source or --without attenuation",
-          ErrorKind::usage);
     check_moment_in_fluid(scene, source);
     if (!std::isfinite(source.amplitude) || source.amplitude == 0)
       throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",

@@ -12,25 +12,31 @@ namespace slipwave::solver {
 
 using Complex = std::complex<double>;
 
-/// A modulus over that of the reference frequency's phase speed, by frequency in Hz.
-using ModulusOf = std::function<Complex(double hz)>;
+/// A modulus over that of the reference frequency's phase speed, by frequency in Hz, which may be complex.
+using ModulusOf = std::function<Complex(Complex hz)>;
 
 /// The model of constant Q at all frequencies: M ~ (i f)^(2 g), g = atan(1/Q)/pi, with the phase speed c at
 /// reference_hz (Kjartansson 1979, eqs. 21, 28): M/(rho c^2) = cos^2(pi g/2) (i f/f0)^(2 g).
 inline ModulusOf constant_q(double q, double reference_hz) {
-  if (std::isinf(q)) return [](double) { return Complex(1); };
-  return [q, reference_hz](double hz) {
+  if (std::isinf(q)) return [](Complex) { return Complex(1); };
+  return [q, reference_hz](Complex hz) {
     const double gamma = std::atan(1 / q) / std::numbers::pi;
     const double cosine = std::cos(std::numbers::pi * gamma / 2);
-    return cosine * cosine * std::pow(Complex(0, hz / reference_hz), 2 * gamma);
+    return cosine * cosine * std::pow(Complex(0, 1) * hz / reference_hz, 2 * gamma);
   };
 }
 
-/// The modulus of a generalised standard linear solid that the solver has, brought to the phase speed.
+/// The modulus of a generalised standard linear solid (theory.md (Q1)), brought to the phase speed.
 inline ModulusOf standard_linear(const Mechanisms& mechanisms, double q, double reference_hz) {
   const auto shares = mechanisms.shares(q);
-  const double slow = std::pow(mechanisms.modulus(shares, reference_hz), -0.5).real();
-  return [mechanisms, shares, slow](double hz) { return slow * slow * mechanisms.modulus(shares, hz); };
+  const auto modulus = [mechanisms, shares](Complex hz) {
+    Complex sum = 1;
+    for (int l = 0; l < mechanisms.count(); ++l)
+      sum -= shares[std::size_t(l)] / (1. + Complex(0, 2 * std::numbers::pi) * hz / mechanisms.rate(l));
+    return sum;
+  };
+  const double slow = std::pow(modulus(reference_hz), -0.5).real();
+  return [modulus, slow](Complex hz) { return slow * slow * modulus(hz); };
 }
 
 /// A rock at one frequency: complex speeds, m/s.
