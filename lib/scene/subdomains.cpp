@@ -18,7 +18,7 @@ constexpr std::int64_t beside_points = widest_stencil;
 
 /// Rows beyond those refreshed whose material decides how sweeps treat these: whether an interface is
 /// corrected, whether rows are level. Every rank must decide alike.
-constexpr std::int64_t beside_refreshed = 2 * max_reach;
+constexpr std::int64_t beside_refreshed = std::int64_t(2) * max_reach;
 
 template <int D>
 bool has_shear(const Medium<D>& medium) {

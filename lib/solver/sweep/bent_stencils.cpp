@@ -45,7 +45,7 @@ template <int D>
 BentStencil::Side side_of(const Column<D>& z, EdgeLaw edge, int reach, bool& inside) {
   BentStencil::Side side;
   for (; side.cells < reach; ++side.cells) {
-    const int own = side.cells, next = own + 1;
+    const int own{side.cells}, next{own + 1};
     if (z.leaves_grid(next)) {
       side.p = extension_of(edge, wave_p), side.s = extension_of(edge, wave_s);
       return side;
@@ -138,7 +138,10 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
                   Real zp, Real zs, const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   std::array<Motion<D, Real>, 2 * reach + 1> at;
-  for (int k = -reach; k <= reach; ++k) at[std::size_t(k + reach)] = extended<D>(stencil, fields, metric, k);
+  for (int k = -reach; k <= reach; ++k) {
+    const int position = k + reach;
+    at[std::size_t(position)] = extended<D>(stencil, fields, metric, k);
+  }
   const auto own = row_normal<D>(metric.n_cell, metric.pitch);
   const Real sign = scale < 0 ? -1 : 1;
   const Real courant = sign * scale * b * Real(__builtin_sqrt(dot(own, own))) / metric.j[0];
