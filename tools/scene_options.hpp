@@ -31,13 +31,13 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add_choice("sides", s.sides, edges, "left and right boundaries, in 3-D all four");
   options.add_choice("bottom", s.bottom, edges, "boundary at the bottom");
   options.add("edge-width", s.edge_width, "CELLS",
-              "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
+              "width of the absorbing zones; 0: 20, or 40 for plane waves");
   options.add("without", s.without, "LIST",
               "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress, attenuation");
   options.add("q-frequency", s.q_frequency_hz, "F",
-              "where qp and qs attenuate: frequency of the speeds of the model, Hz [peak of the wavelet]");
+              "with qp, qs: frequency of the model's speeds, Hz [that of the wavelet]");
   options.add("q-band", s.q_band, "F1,F2",
-              "band of constant qp and qs, Hz [a fifth to 2.5 times the peak of the wavelet]");
+              "band of constant qp and qs, Hz [1/5 to 2.5 times that of the wavelet]");
   options.add("q-mechanisms", s.q_mechanisms, "N", "relaxation mechanisms, 2 to 5");
   options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");
   options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");

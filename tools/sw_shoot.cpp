@@ -30,7 +30,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("keep-unstable", s.output.keep_unstable,
               "keep the output of an unstable run, in files unstable-NAME");
   options.add("error", s.wanted_error, "SHARE",
-              "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
+              "choose order, cells and time step for this expected error (0.01: 1 %)");
   options.add("plan", s.plan, "print grid, cost and expected error, and stop");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");

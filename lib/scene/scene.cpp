@@ -189,15 +189,16 @@ template <int D>
 std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice) {
   double peak_hz = 0;
   for (const auto& source : scene.survey.sources) peak_hz = std::max(peak_hz, source.wavelet.nominal_hz());
-  if (!(peak_hz > 0) || attenuating_cells(scene.model.medium) == 0) return {};
+  if (!(peak_hz > 0)) return {};
   const double reference_hz = choice.reference_hz.value_or(peak_hz);
   if (!(reference_hz > 0) || !std::isfinite(reference_hz))
     throw Error("--q-frequency: found " + shown(reference_hz) + " Hz, expected it above 0", ErrorKind::usage);
-  const auto [low_hz, high_hz] = choice.band_hz.value_or(std::array{peak_hz / 5, 2.5 * peak_hz});
-  scene.attenuation.emplace(Attenuation{
-      in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms",
-               [&, low = low_hz, high = high_hz] { return Mechanisms(choice.mechanisms, low, high); }),
-      reference_hz});
+  const auto band_hz = choice.band_hz.value_or(std::array{peak_hz / 5, 2.5 * peak_hz});
+  const Mechanisms mechanisms = in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms", [&] {
+    return Mechanisms(choice.mechanisms, band_hz[0], band_hz[1]);
+  });
+  if (attenuating_cells(scene.model.medium) == 0) return {};
+  scene.attenuation.emplace(Attenuation{mechanisms, reference_hz});
   // What has relaxed is twice as much memory as the fields: longer tiles bring it through the caches less
   // often. Processes that share a shot have chosen how much they exchange before.
   auto& tiling = scene.numerics.tiling;

@@ -79,9 +79,9 @@ struct AttenuationChoice {
   std::optional<std::array<double, 2>> band_hz;  // where Q is constant; else a fifth to 2.5 times the peak
 };
 
-/// Lets a scene attenuate whose medium has a finite qp or qs anywhere: chooses mechanisms for its wavelets
-/// and makes its medium unrelaxed. Returns warnings. Throws Error as Mechanisms and unrelax(). The survey is
-/// there already; of several processes each does it with its part of the model.
+/// Lets a scene attenuate whose medium has a finite qp or qs anywhere, else only checks the choice: chooses
+/// mechanisms for its wavelets and makes its medium unrelaxed. Returns warnings. Throws Error as Mechanisms
+/// and unrelax(). The survey is there already; of several processes each does it with its part of the model.
 template <int D>
 std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice = {});
 
