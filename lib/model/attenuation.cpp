@@ -188,7 +188,8 @@ void check_fit(const Medium<D>& medium, std::size_t cell, const Mechanisms& mech
 template <int D>
 std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
   if (attenuating_cells(medium) == 0) return {};
-  const auto& [mechanisms, reference_hz] = attenuation;
+  const auto& mechanisms = attenuation.mechanisms;
+  const double reference_hz = attenuation.reference_hz;
   for (const auto property : {Property::qp, Property::qs})
     if (!medium.has(property)) medium[property] = Field<D>(medium.grid(), float(infinite));
   std::int64_t lowered = 0;

@@ -146,8 +146,7 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
     if (all) {
       parts.erase(parts.begin() + std::ptrdiff_t(n));
     } else {
-      const auto number = words.front();
-      parts[n++] = number;
+      parts[n++] = words.front();
     }
   }
   return named;

@@ -33,7 +33,7 @@ RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>
       moduli_(has_shear(domain) ? 2 : 1),
       relax_(relaxation_kernel<Real>(D, has_shear(domain), mechanisms_)) {
   find_segments(domain, scene.model.medium);
-  fill(domain, relaxation_by_steps(scene, dt_s));
+  fill_shares(domain, relaxation_by_steps(scene, dt_s));
 }
 
 template <int D, class Real>
@@ -68,7 +68,7 @@ void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Mediu
 }
 
 template <int D, class Real>
-void RelaxingStress<D, Real>::fill(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation) {
+void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation) {
   for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(relaxation.decay(l));
   memory_ = Buffer<Real>(stored_ * mechanisms_ * parts_);
   shares_ = Buffer<Real>(stored_ * mechanisms_ * moduli_);

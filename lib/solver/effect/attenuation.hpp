@@ -55,7 +55,7 @@ class RelaxingStress : public Effect<D, Real> {
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
   void find_segments(const Domain<D>& domain, const Medium<D>& medium);
-  void fill(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation);
+  void fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation);
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
 
   const Layout<D>& layout_;
