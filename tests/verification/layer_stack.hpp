@@ -18,15 +18,15 @@ namespace slipwave::solver {
 /// equations for all of them. Nothing is shared with the solver.
 struct LayerStack {
   std::vector<Rock> layers;  // by increasing b; fluid where vs = 0
-  /// Of P and S waves of each layer, which makes the speeds above those of the reference frequency; empty:
-  /// none loses anything.
-  std::vector<std::array<ModulusOf, 2>> losses;
   /// b of the interfaces: before layer n + 1, or with a free surface before layer n.
   std::vector<double> faces_m;
   bool free_surface = false;
   double source_m = 0;            // b of the source, in no face; its a is 0
   bool explosion = true;          // of unit moment rate; else
   std::array<double, 2> force{};  // N/m along a and b
+  /// Of P and S waves of each layer, which makes the speeds above those of the reference frequency; empty:
+  /// none loses anything.
+  std::vector<std::array<ModulusOf, 2>> losses = {};
 
   /// A place whose motion is wanted.
   struct Receiver {
