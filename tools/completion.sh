@@ -1,16 +1,20 @@
 #!/bin/sh
-# completion.sh TOOL OUTPUT [EMULATOR...]: writes the bash completion of a tool, made from what its --help says.
+# completion.sh TOOL FOLDER [EMULATOR...]: writes the completions of a tool for bash (bash/TOOL), zsh (zsh/_TOOL) and fish
+# (fish/TOOL.fish), all made from one table of what its --help-all says:
 #   a|b|c                 one of them
 #   NAME                  one of those that the text ends in, "...: a, b, c"
 #   LIST                  several of those that the text ends in, "...: a, b, c" or "of a, b, c"
 #   FILE, MODEL, ..., -o  file names; every other value is the user's own
 set -eu
 program=$1
-output=$2
+folder=$2
 shift 2
 tool=$(basename "$program")
-help=$("$@" "$program" --help)
-printf '%s\n' "$help" | awk -v tool="$tool" '
+help=$("$@" "$program" --help-all)
+mkdir -p "$folder/bash" "$folder/zsh" "$folder/fish"
+
+# A line of each option, with tabs between: names with blanks between, switch|one|list|file|own, choices, text.
+table=$(printf '%s\n' "$help" | awk '
   # "a, b, c" behind a word of the text, up to the end of the clause; nothing where the list ends with "...".
   function names_in(text) {
     sub(/[;\[(].*/, "", text)
@@ -19,22 +23,25 @@ printf '%s\n' "$help" | awk -v tool="$tool" '
     gsub(/^ +| +$/, "", text)
     return text
   }
-  function done(    choices) {
-    if (names == "" || value == "") return
+  function done(    kind, choices, end) {
+    if (names == "") return
+    kind = value == "" ? "switch" : "own"
+    choices = ""
     if (value ~ /^[a-z0-9][a-z0-9-]*([|][a-z0-9][a-z0-9-]*)*$/) {
-      gsub(/[|]/, " ", value)
-      words = words "    " names ") choices=\"" value "\" ;;\n"
+      kind = "one"
+      choices = value
+      gsub(/[|]/, " ", choices)
     } else if (value == "LIST" || value == "NAME") {
-      sub(/^.*: /, "", text)
-      sub(/^(.* )?of /, "", text)
-      choices = names_in(text)
-      if (choices != "")
-        words = words "    " names ") choices=\"" choices "\"" (value == "LIST" ? " list=yes" : "") " ;;\n"
+      end = text
+      sub(/^.*: /, "", end)
+      sub(/^(.* )?of /, "", end)
+      choices = names_in(end)
+      if (choices != "") kind = value == "LIST" ? "list" : "one"
     } else if (value ~ /^(FILE|GATHER|MODEL|TABLE|M|F)$/ || names ~ /--(output|config)$/) {
-      files = files (files == "" ? "" : " | ") names
-      return
+      kind = "file"
     }
-    valued = valued (valued == "" ? "" : " | ") names
+    gsub(/\t/, " ", text)
+    print names "\t" kind "\t" choices "\t" text
   }
   # "  -o, --output FILE   text": names, and what stands for the value.
   /^  (-., )?--[a-z]/ {
@@ -48,27 +55,42 @@ printf '%s\n' "$help" | awk -v tool="$tool" '
     names = value = ""
     for (i = 1; i <= count; ++i) {
       sub(/,$/, "", word[i])
-      if (word[i] ~ /^-/) {
-        names = names (names == "" ? "" : " | ") word[i]
-        if (word[i] ~ /^--/) all = all (all == "" ? "" : " ") word[i]
-      } else {
+      if (word[i] ~ /^-/)
+        names = names (names == "" ? "" : " ") word[i]
+      else
         value = word[i]
-      }
     }
     next
   }
-  /^   / { sub(/^ +/, ""); text = text " " $0; next }
+  /^   / { sub(/^ +/, ""); text = text (text == "" ? "" : " ") $0; next }
   { done(); names = "" }
+  END { done() }')
+[ -n "$table" ] || { echo "$tool: --help-all shows no options" >&2; exit 1; }
+
+# written FILE AWK...: what awk makes of the table becomes that file at once.
+written() {
+  file=$1
+  shift
+  printf '%s\n' "$table" | awk -F '\t' -v tool="$tool" -v quote="'" "$@" > "$file.part"
+  mv "$file.part" "$file"
+}
+
+written "$folder/bash/$tool" '
+  {
+    cases = $1
+    gsub(/ /, " | ", cases)
+    count = split($1, name, " ")
+    for (i = 1; i <= count; ++i) if (name[i] ~ /^--/) all = all (all == "" ? "" : " ") name[i]
+    if ($2 == "one" || $2 == "list")
+      words = words "    " cases ") choices=\"" $3 "\"" ($2 == "list" ? " list=yes" : "") " ;;\n"
+    if ($2 == "file") files = files (files == "" ? "" : " | ") cases
+    if ($2 != "file" && $2 != "switch") valued = valued (valued == "" ? "" : " | ") cases
+  }
   END {
-    done()
-    if (all == "") {
-      print tool ": --help shows no options" > "/dev/stderr"
-      exit 1
-    }
-    name = tool
-    gsub(/-/, "_", name)
-    print "# bash completion of " tool ", made from its --help."
-    print "_" name "() {"
+    function_name = tool
+    gsub(/-/, "_", function_name)
+    print "# bash completion of " tool ", made from its --help-all."
+    print "_" function_name "() {"
     print "  local word=$2 before=$3 choices=\"\" list=\"\" begun=\"\""
     print "  COMPREPLY=()"
     print "  # --name=value comes in three words."
@@ -97,6 +119,51 @@ printf '%s\n' "$help" | awk -v tool="$tool" '
     print "    mapfile -t COMPREPLY < <(compgen -W \"" all "\" -- \"$word\")"
     print "  fi"
     print "}"
-    print "complete -o default -F _" name " " tool
-  }' > "$output.part"
-mv "$output.part" "$output"
+    print "complete -o default -F _" function_name " " tool
+  }'
+
+# In zsh and fish every option has its text; without quotes.
+written "$folder/zsh/_$tool" '
+  BEGIN {
+    print "#compdef " tool
+    print "# zsh completion of " tool ", made from its --help-all."
+    print "_arguments -s -S \\"
+  }
+  {
+    text = $4
+    gsub(quote, "", text)
+    gsub(/[][\\:]/, "\\\\&", text)
+    action = ""
+    if ($2 == "own") action = ":value:"
+    if ($2 == "file") action = ":file:_files"
+    if ($2 == "list") action = ":list:_values -s , name " $3
+    if ($2 == "one") action = ":value:(" $3 ")"
+    count = split($1, name, " ")
+    for (i = 1; i <= count; ++i)
+      print "  " quote "*" name[i] (action != "" && name[i] ~ /^--/ ? "=" : "") "[" text "]" action quote " \\"
+  }
+  END { print "  " quote "*:file:_files" quote }'
+
+written "$folder/fish/$tool.fish" '
+  BEGIN { print "# fish completion of " tool ", made from its --help-all." }
+  {
+    text = $4
+    gsub(/\\/, "", text)
+    gsub(quote, "", text)
+    count = split($1, name, " ")
+    option = ""
+    for (i = 1; i <= count; ++i) {
+      word = name[i]
+      option = option (sub(/^--/, "", word) ? " -l " : " -s ")
+      sub(/^-/, "", word)
+      option = option word
+    }
+    values = $2 == "switch" ? "" : $2 == "file" ? " -r -F" : " -x"
+    if ($2 == "one") values = values " -a " quote $3 quote
+    # Of a list fish offers what is typed so far, and each name behind it.
+    if ($2 == "list")
+      values = values " -a " quote "(string replace -r -- \"[^,]*\\z\" \"\" (commandline -ct | string replace -r -- \"^--[a-z-]*=\" \"\"))" \
+               "{" joined($3) "}" quote
+    print "complete -c " tool option values " -d " quote text quote
+  }
+  function joined(names) { gsub(/ /, ",", names); return names }'

@@ -31,6 +31,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
 # Pictures are written in this typeface.
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS fonts-dejavu-core)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_RECOMMENDS make)
+set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS ffmpeg) # movies of sw-plot
 set(CPACK_COMPONENT_TOOLS_DESCRIPTION "Seismic survey modelling for fractured media
  Tools that build models of rock, water and air, put clusters of slipping
  fractures into them, shoot them, and hand the traces on as SEG-Y.")

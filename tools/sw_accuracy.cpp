@@ -21,6 +21,7 @@ struct Settings {
                         reference;
   std::optional<double> wanted;
   std::string output;
+  bool json = false;
 };
 
 void declare(cli::Options& options, Settings& s) {
@@ -36,7 +37,11 @@ void declare(cli::Options& options, Settings& s) {
               "reference solution [7,0.4 and the finest of --steps]");
   options.add("error", s.wanted, "SHARE", "mark the cheapest setting with at most this error (0.01: 1 %)");
   options.add("output,o", s.output, "FILE", "also write the table here, as netCDF");
+  options.add("json", s.json, "print the table as one JSON object");
   options.add_threads();
+  options.headings({{"case", "What is varied"}});
+  options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "case", "steps",
+                  "orders", "cfls", "reference", "error", "output", "json"});
   // A configuration of sw-shoot says what is shot; how is varied here.
   options.pass_over(
       {"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields", "slice"});
@@ -101,9 +106,9 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
 
 /// The user's scene; nothing of it is asked for where a built-in case is.
 Scene<2> make_scene(const Settings& s, const cli::Context& context) {
-  for (const auto& [given, name] : {std::pair{!s.shot.sources.empty(), "--source"},
+  for (const auto& [given, name] : {std::pair{s.shot.survey.any_source(), "--source"},
                                     {!s.shot.wavelet.empty(), "--wavelet"},
-                                    {!s.shot.receivers.empty(), "--receivers"},
+                                    {s.shot.survey.any_receiver(), "--receivers"},
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
       throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);
@@ -152,7 +157,7 @@ void run(const Settings& s, const cli::Context& context) {
   }
   if (s.wanted) table.chosen = cheapest(table.rows, *s.wanted);
   OutputFile text("-", OutputFile::Content::text);
-  const auto lines = text_of(table);
+  const auto lines = s.json ? report_of(table).json() + "\n" : text_of(table);
   text.write(lines.data(), lines.size());
   text.commit();
   if (out) write_accuracy_table(*out, table, context.version);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/error.hpp"
+#include "base/report.hpp"
 #include "cli/tool.hpp"
 #include "gather/comparison.hpp"
 #include "io/output_file.hpp"
@@ -16,15 +17,17 @@ struct Settings {
   TracePair inputs;
   std::string output = "-";
   std::optional<double> tolerance;
-  bool summary = false;
+  bool summary = false, json = false;
 };
 
 void declare(cli::Options& options, Settings& settings) {
   settings.inputs.declare(options);
   options.add("output,o", settings.output, "FILE", "output file of the table; - is standard output");
   options.add("tolerance", settings.tolerance, "L2",
-              "exit with status 1 if |A - B|/|B| of all traces exceeds this");
-  options.add("summary", settings.summary, "print only the totals of each component and of all traces");
+              "exit with status 1 if |A - B|/|B| of a component exceeds this");
+  options.add("summary", settings.summary, "print only the total of each component");
+  options.add("json", settings.json,
+              "print the totals as one JSON object, without --summary also each trace");
   settings.inputs.input_options.declare(options);
 }
 
@@ -44,23 +47,86 @@ std::string place_of(std::int64_t trace, const TraceHeader& header) {
   return place;
 }
 
+void add(Report& report, const Misfit& misfit) {
+  report.number("nrms", misfit.nrms_percent, "%");
+  report.number("relative l2", misfit.relative_l2, "");
+  report.number("peak ratio", misfit.peak_ratio, "");
+  report.number("lag", misfit.lag_s, "s");
+}
+
+/// What is printed, as lines or as JSON.
+class Table {
+ public:
+  Table(const Settings& settings, bool quiet)
+      : settings_(settings), quiet_(quiet), out_(settings.output, OutputFile::Content::text) {
+    if (!settings_.json)
+      print("#  trace comp    shot  chan       NRMS_%    relative_L2   peak_ratio          lag_s\n");
+  }
+  void add_trace(std::int64_t number, const TraceHeader& header, const Misfit& misfit) {
+    if (settings_.summary) return;
+    if (!settings_.json) return print(row(place_of(number, header), misfit));
+    auto& trace = traces_.emplace_back();
+    trace.count("trace", number);
+    trace.text("component", name_of(header.component));
+    trace.count("shot", header.shot);
+    trace.count("channel", header.channel);
+    add(trace, misfit);
+  }
+  void add_total(Component component, const Misfit& misfit) {
+    if (!settings_.json) return print(row("     all " + std::string(name_of(component)), misfit));
+    auto& total = totals_.emplace_back();
+    total.text("component", name_of(component));
+    add(total, misfit);
+  }
+  void commit() {
+    if (settings_.json) {
+      Report whole;
+      whole.text("a", settings_.inputs.a);
+      whole.text("b", settings_.inputs.b);
+      whole.list("components", totals_);
+      if (!settings_.summary) whole.list("traces", traces_);
+      print(whole.json() + "\n");
+    }
+    out_.commit();
+  }
+
+ private:
+  void print(const std::string& line) {
+    if (!quiet_) out_.write(line.data(), line.size());
+  }
+
+  const Settings& settings_;
+  bool quiet_;
+  OutputFile out_;
+  std::vector<Report> totals_, traces_;
+};
+
+/// Components have units of their own: each is judged alone.
+void check_tolerance(const Settings& settings, const OpenPair& pair, Component component,
+                     const Misfit& misfit) {
+  if (!settings.tolerance || misfit.relative_l2 <= *settings.tolerance) return;
+  throw Error(pair.a.name() + ": relative L2 difference to " + pair.b.name() + " is " +
+              shown(misfit.relative_l2) + " in " + name_of(component) + ", expected at most " +
+              shown(*settings.tolerance));
+}
+
+/// By component, in the order in which they come.
+using Comparisons = std::vector<std::pair<Component, Comparison>>;
+
+Comparison& comparison_of(Comparisons& all, Component component, const SampleAxis& axis) {
+  for (auto& [known, comparison] : all)
+    if (known == component) return comparison;
+  return all.emplace_back(component, Comparison(axis)).second;
+}
+
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.tolerance && !(*settings.tolerance >= 0))
     throw Error("--tolerance: found " + shown(*settings.tolerance) + ", expected it not below 0",
                 ErrorKind::usage);
   OpenPair pair(settings.inputs);
   const segy::Reader& a = pair.a;
-  std::vector<std::pair<Component, Comparison>> components;  // in the order in which they come
-  const auto comparison_of = [&](Component component) -> Comparison& {
-    for (auto& [known, comparison] : components)
-      if (known == component) return comparison;
-    return components.emplace_back(component, Comparison(a.axis_with_interval())).second;
-  };
-  OutputFile out(settings.output, OutputFile::Content::text);
-  const auto print = [&](const std::string& line) {
-    if (!context.quiet) out.write(line.data(), line.size());
-  };
-  print("#  trace comp    shot  chan       NRMS_%    relative_L2   peak_ratio          lag_s\n");
+  Comparisons components;
+  Table table(settings, context.quiet);
   segy::Trace trace_a;
   segy::Trace trace_b;
   while (pair.both.next(trace_a, trace_b)) {
@@ -71,22 +137,13 @@ void run(const Settings& settings, const cli::Context& context) {
     check(a, trace_a);
     check(pair.b, trace_b);
     const TraceHeader header = a.si_header(trace_a);
-    const Misfit misfit = comparison_of(header.component).add(trace_a.samples, trace_b.samples);
-    if (!settings.summary) print(row(place_of(a.delivered(), header), misfit));
+    auto& comparison = comparison_of(components, header.component, a.axis_with_interval());
+    table.add_trace(a.delivered(), header, comparison.add(trace_a.samples, trace_b.samples));
   }
-  // Together they mix units: whichever component has the largest numbers decides.
-  Comparison together(a.axis_with_interval());
-  for (auto& [component, comparison] : components) {
-    together.include(comparison);
-    if (components.size() > 1)
-      print(row("     all " + std::string(name_of(component)), comparison.overall()));
-  }
-  const Misfit all = together.overall();
-  print(row("     all", all));
-  out.commit();
-  if (settings.tolerance && !(all.relative_l2 <= *settings.tolerance))
-    throw Error(a.name() + ": relative L2 difference to " + pair.b.name() + " is " + shown(all.relative_l2) +
-                ", expected at most " + shown(*settings.tolerance));
+  for (auto& [component, comparison] : components) table.add_total(component, comparison.overall());
+  table.commit();
+  for (auto& [component, comparison] : components)
+    check_tolerance(settings, pair, component, comparison.overall());
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "segy/conversion.hpp"
+#include "segy/sniff.hpp"
+#include "traces/cube_numbers.hpp"
 
 using namespace slipwave;
 
@@ -17,6 +19,7 @@ struct Settings {
   std::string endian = "same";
   std::string text = "same";
   bool su = false;
+  bool cube = false;
   std::string input_format = "auto";
   std::string input_endian = "auto";
   bool input_su = false;
@@ -32,6 +35,8 @@ void declare(cli::Options& options, Settings& settings) {
   options.add_choice("text", settings.text, {"same", "ebcdic", "ascii"}, "code of the textual headers");
   options.add("su", settings.su,
               "write Seismic Unix: IEEE floats in the machine's byte order, no reel headers");
+  options.add("cube", settings.cube,
+              "number in-lines by shot and cross-lines by channel, for programs that expect a cube");
   options.add("input-format", settings.input_format, "NAME",
               "sample format of the input, overriding its header");
   options.add_choice("input-endian", settings.input_endian, {"auto", "big", "little"},
@@ -59,7 +64,7 @@ segy::ReadOptions read_options(const Settings& settings) {
 segy::FileFormat wanted_format(const Settings& settings, const segy::Reader& reader) {
   segy::FileFormat format = segy::format_of(reader);
   const bool from_su = format.su;
-  format.su = settings.su;
+  format.su = settings.su || segy::names_su(settings.output);
   if (format.su) {
     format.code = 5;
     format.revision = 1;
@@ -76,16 +81,18 @@ segy::FileFormat wanted_format(const Settings& settings, const segy::Reader& rea
 }
 
 void refuse_with_su(const Settings& settings) {
-  const auto refuse = [](const std::string& option) {
-    throw Error("found --su and " + option + ", expected one of them: Seismic Unix has no such thing",
+  const auto refuse = [&](const std::string& option) {
+    throw Error("found " + (settings.su ? std::string("--su") : "-o " + settings.output) + " and " + option +
+                    ", expected one of them: Seismic Unix has no such thing",
                 ErrorKind::usage);
   };
   if (settings.revision != "same") refuse("--revision");
   if (settings.text != "same") refuse("--text");
+  if (settings.cube) refuse("--cube");
 }
 
 void run(const Settings& settings, const cli::Context& context) {
-  if (settings.su) refuse_with_su(settings);
+  if (settings.su || segy::names_su(settings.output)) refuse_with_su(settings);
   const segy::ReadOptions options = read_options(settings);
   if (settings.format != "same") format_code("--format", settings.format);
   segy::Reader reader(settings.input, options);
@@ -97,9 +104,13 @@ void run(const Settings& settings, const cli::Context& context) {
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   segy::Writer writer(out, info);
   const Progress progress = context.progress("converting");
+  CubeNumbers cube;
   const auto copy = [&](auto trace) {
     while (reader.next(trace)) {
-      in_place(reader.name(), [&] { writer.write(trace, header.su); });
+      in_place(reader.name(), [&] {
+        if (settings.cube) cube.number(trace.words);
+        writer.write(trace, header.su);
+      });
       if (progress && reader.size())
         progress(static_cast<std::int64_t>(reader.position()), static_cast<std::int64_t>(*reader.size()));
     }
@@ -108,6 +119,7 @@ void run(const Settings& settings, const cli::Context& context) {
     copy(segy::RawTrace());
   else
     copy(segy::Trace());
+  in_place(reader.name(), [&] { cube.finish(); });
   out.commit();
 }
 

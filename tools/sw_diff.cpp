@@ -53,7 +53,7 @@ void subtract_numbers(OpenPair& pair, segy::Writer& writer, const std::function<
 void run(const Settings& settings, const cli::Context& context) {
   OpenPair pair(settings.inputs);
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const segy::FileInfo info = segy::info_like(pair.a, context.command_line);
+  const segy::FileInfo info = segy::info_like(pair.a, context.command_line, settings.output);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("subtracting");

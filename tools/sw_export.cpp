@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "grid/true_depth.hpp"
 #include "io/input_bytes.hpp"
@@ -46,16 +47,18 @@ void declare(cli::Options& options, Settings& settings) {
   settings.output_options.declare(options);
 }
 
+template <int D>
 struct Exported {
-  Field<2> values;
+  Field<D> values;
   SectionFacts facts;
   DepthTake take = DepthTake::nearest;  // where rows follow horizons
 };
 
-Exported of_model(const NetcdfFile& file, const Settings& settings) {
+template <int D>
+Exported<D> of_model(const NetcdfFile& file, const Settings& settings) {
   if (settings.time_s)
     throw Error("--time: " + file.shown_name() + " is a model, expected snapshots", ErrorKind::usage);
-  const auto model = read_model<2>(file);
+  const auto model = read_model<D>(file);
   const auto& name = settings.property;
   if (const auto property = find_property(name)) {
     if (!model.medium.has(*property))
@@ -69,13 +72,14 @@ Exported of_model(const NetcdfFile& file, const Settings& settings) {
     throw Error("--property: " + file.shown_name() + " is a model: found '" + name + "', expected " +
                     names_of_model(),
                 ErrorKind::usage);
-  Field<2> codes(model.grid());
+  Field<D> codes(model.grid());
   for (std::size_t n = 0; n < model.fracture.size(); ++n) codes[n] = static_cast<float>(model.fracture[n]);
   return {std::move(codes), {name, "", {}}};
 }
 
-Exported of_snapshots(NetcdfFile file, const Settings& settings) {
-  const SnapshotReader<2> reader(std::move(file));
+template <int D>
+Exported<D> of_snapshots(NetcdfFile file, const Settings& settings) {
+  const SnapshotReader<D> reader(std::move(file));
   const auto time = settings.time_s ? reader.nearest(*settings.time_s) : reader.times_s().size() - 1;
   auto values = reader.read(settings.property, time);
   auto unit = reader.unit(settings.property);
@@ -85,25 +89,20 @@ Exported of_snapshots(NetcdfFile file, const Settings& settings) {
           DepthTake::linear};
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  const auto format = settings.output_options.file_format();
-  expect_other_files(settings.output, {settings.input});
-  auto file = NetcdfFile::open(settings.input);
-  const std::string history = file.text_attribute("", "history").value_or("");
+template <int D>
+void write_exported(NetcdfFile file, OutputFile& out, const Settings& settings, const cli::Context& context) {
+  std::string commands = file.text_attribute("", "history").value_or("");
+  append_history(commands, context.command_line);
   const bool is_model = kind_of(file) == "model";
-  OutputFile out(settings.output, OutputFile::Content::binary);
-  auto exported = is_model ? of_model(file, settings) : of_snapshots(std::move(file), settings);
+  auto exported = is_model ? of_model<D>(file, settings) : of_snapshots<D>(std::move(file), settings);
   const bool fitted = exported.values.grid().rows != nullptr;
   exported.values = in_regular_depth(exported.values, exported.take);
   exported.facts.entries.push_back(context.version);
-  std::string commands = history;
-  append_history(commands, context.command_line);
-  for (std::size_t begin = 0; begin < commands.size();) {
-    const auto end = std::min(commands.find('\n', begin), commands.size());
-    if (end > begin) exported.facts.entries.push_back(commands.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  in_place(shown_input(settings.input), [&] { write_section(out, exported.values, exported.facts, format); });
+  for (const auto& command : split(commands, '\n'))
+    if (!command.empty()) exported.facts.entries.emplace_back(command);
+  in_place(shown_input(settings.input), [&] {
+    write_section(out, exported.values, exported.facts, settings.output_options.file_format(settings.output));
+  });
   out.commit();
   if (!fitted) return;
   const bool linear = exported.take == DepthTake::linear;
@@ -111,6 +110,17 @@ void run(const Settings& settings, const cli::Context& context) {
               shown(exported.values.grid()) + " in regular depth, " +
               (linear ? "linearly between cells" : "each takes the cell its centre lies in") +
               "; 0 above the surface");
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  settings.output_options.file_format(settings.output);  // refused before anything is read
+  expect_other_files(settings.output, {settings.input});
+  auto file = NetcdfFile::open(settings.input);
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  if (dimension_of(file) == 3)
+    write_exported<3>(std::move(file), out, settings, context);
+  else
+    write_exported<2>(std::move(file), out, settings, context);
 }
 
 }  // namespace

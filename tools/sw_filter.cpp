@@ -69,7 +69,7 @@ void run(const Settings& settings, const cli::Context& context) {
   const SampleAxis& axis = reader.axis_with_interval();
   TraceFilter filter(axis, steps_of(settings, axis));
   OutputFile out(settings.output, OutputFile::Content::binary);
-  segy::FileInfo info = segy::info_like(reader, context.command_line);
+  segy::FileInfo info = segy::info_like(reader, context.command_line, settings.output);
   info.axis = filter.axis();
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);

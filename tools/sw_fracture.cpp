@@ -64,6 +64,8 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"friction", "viscosity"}) options.require(name);
+  options.common({"box", "polygon", "slab", "dip", "normal", "friction", "viscosity", "strength", "prestress",
+                  "name", "output"});
 }
 
 /// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".
@@ -169,7 +171,7 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
                " m are too large for slip weakening: friction falls to the dynamic one at once where the "
                "prestress presses most, at " +
                place_of(model.grid(), cell) + ". Use cells below " + shown(length_m, 3) +
-               " m or a longer slip distance");
+               " m (--step of the model) or a longer slip distance (--law)");
 }
 
 template <int D>
@@ -190,14 +192,15 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
       settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
-  in_place(input, [&] { check(model, {.allow_auxetic = true}); });
+  in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
   const auto count = add_fractures<D>(model, set, region.contains);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
-  check(model, {.allow_auxetic = true});
+  check(model, {.allow_auxetic = true, .allow_slow = true});
   warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
-                 std::to_string(count.marked) + " cells are fractured");
+                 std::to_string(count.marked) +
+                 " cells are fractured; a region within rock (--box, --polygon) has none");
   }
   context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
                std::to_string(count.taken) + " of them from earlier sets");

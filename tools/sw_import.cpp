@@ -10,8 +10,10 @@
 #include "io/output_file.hpp"
 #include "model/import.hpp"
 #include "model/import_fit.hpp"
+#include "model/input_units.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/raw_shape.hpp"
 #include "model/relations.hpp"
 #include "model/resample.hpp"
 #include "segy/reader.hpp"
@@ -28,8 +30,9 @@ struct Settings {
   std::optional<double> extrude_m;
   std::string crop, vs_from, rho_from, q_from;
   std::string surface, floor;
+  std::string units;
   double fluid_vp = 1500;
-  bool no_average = false;
+  bool no_average = false, allow_rough = false;
   MediumLimits limits;
   std::string title = "imported model";
   std::string output = "-";
@@ -43,6 +46,10 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
   options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
   options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");
+  options.add("units", settings.units, "LIST",
+              "units of numbers that name none (raw, SEG-Y, constants) instead of m/s and kg/m3: km/s,g/cm3");
+  options.add("allow-rough", settings.allow_rough,
+              "take --shape though columns then do not continue each other");
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 in solids");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
@@ -64,9 +71,13 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("extrude", settings.extrude_m, "LY",
               "finally extend the model to 3-D, uniform over LY m along y");
   options.add("title", settings.title, "TEXT", "title of the model file");
+  options.add("allow-slow", settings.limits.allow_slow,
+              "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   options.require(row_of(Property::vp).name);
+  options.common({"vp", "vs", "rho", "shape", "order", "step", "units", "vs-from-vp", "rho-from-vp",
+                  "resample", "crop", "output"});
 }
 
 void check_choices(const Settings& settings) {
@@ -102,7 +113,10 @@ Field<2> read_raw(const Settings& settings, const std::string& path) {
   const auto most = is_regular_input(path) ? 0 : std::size_t(grid.size()) * sizeof(float);
   const auto bytes = read_all(path, {}, most);
   const auto fast = settings.order == "z-fast" ? FastAxis::z : FastAxis::x;
-  return in_place(shown_input(path), [&] { return field_from_raw(bytes, grid, fast); });
+  auto field = in_place(shown_input(path), [&] { return field_from_raw(bytes, grid, fast); });
+  if (!settings.allow_rough)
+    in_place("--shape: " + shown_input(path), [&] { check_raw_shape(bytes, grid, fast); });
+  return field;
 }
 
 Field<2> read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken) {
@@ -115,10 +129,21 @@ Field<2> read_segy(const Settings& settings, const std::string& path, const std:
   return in_place(shown_input(path), [&] { return field_from_columns(columns, *settings.step_m); });
 }
 
-/// A property from a file of any kind; `history` is what a netCDF file says of its own.
-Field<2> read_property(const Settings& settings, Property property, std::string& history) {
+InputUnits units_of(const Settings& settings) {
+  if (settings.units.empty()) return {};
+  return in_place("--units", [&] { return InputUnits::parse(settings.units); });
+}
+
+/// A property from a file of any kind; `history` is what a netCDF file says of its own. Only netCDF is in SI
+/// for sure.
+Field<2> read_file(const Settings& settings, Property property, double unit, std::string& history) {
   const auto& given = settings.file(property);
-  if (!settings.shape.empty()) return read_raw(settings, given);
+  const auto in_si = [unit](Field<2> field) {
+    for (auto& value : field)
+      if (unit != 1) value = float(double(value) * unit);
+    return field;
+  };
+  if (!settings.shape.empty()) return in_si(read_raw(settings, given));
   std::string path = given, variable;
   std::error_code failed;
   if (const auto colon = given.rfind(':');
@@ -132,42 +157,67 @@ Field<2> read_property(const Settings& settings, Property property, std::string&
     const auto file = start.is_regular() ? NetcdfFile::open(path)
                                          : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
     history = file.text_attribute("", "history").value_or("");
-    return field_from_netcdf(file, row_of(property), variable, settings.step_m);
+    return field_from_netcdf(file, row_of(property), variable, settings.step_m, unit);
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
-  if (segy::looks_like_segy(bytes)) return read_segy(settings, path, start.taken());
+  if (segy::looks_like_segy(bytes)) return in_si(read_segy(settings, path, start.taken()));
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
 }
 
-/// Where an optional property is given as a number, and not by a file of that name.
-std::optional<double> number_of(const std::string& given) {
-  std::error_code failed;
-  if (given.empty() || std::filesystem::exists(given, failed)) return {};
-  if (given == "inf") return PropertyRow::infinite;
+/// The number that stands in place of a file, in SI.
+std::optional<double> constant_of(const Settings& settings, Property property) {
+  const auto& given = settings.file(property);
+  if (row_of(property).if_absent && given == "inf") return PropertyRow::infinite;
   try {
-    return parse_number(given);
+    return parse_number(given) * units_of(settings).factor(property);
   } catch (const Error&) {
     return {};
   }
 }
 
-/// With the history of the file of vp.
-Medium<2> read_medium(const Settings& settings, std::string& history) {
-  std::string other;
-  auto vp = read_property(settings, Property::vp, history);
-  const auto read_given = [&](Property property) -> std::optional<Field<2>> {
-    if (settings.file(property).empty()) return {};
-    return read_property(settings, property, other);
-  };
-  auto vs = read_given(Property::vs), rho = read_given(Property::rho);
-  auto medium = medium_of<2>(std::move(vp), std::move(vs), std::move(rho), settings.fluid_vp);
+/// What is given of each property; constants that every model has, on the grid of the first file. `history`
+/// is that of the file.
+std::vector<std::optional<Field<2>>> read_given(const Settings& settings, std::string& history) {
+  const auto units = units_of(settings);
+  std::vector<std::optional<Field<2>>> fields(all_properties().size());
+  std::optional<Grid<2>> grid;
   for (const Property property : all_properties()) {
-    if (!row_of(property).if_absent) continue;
-    if (const auto value = number_of(settings.file(property))) {
+    if (settings.file(property).empty() || constant_of(settings, property)) continue;
+    std::string other;
+    fields[std::size_t(property)] =
+        read_file(settings, property, units.factor(property), grid ? other : history);
+    if (!grid) grid = fields[std::size_t(property)]->grid();
+  }
+  if (!grid) throw Error("found constants only, expected a file of at least one property", ErrorKind::usage);
+  for (const Property property : all_properties()) {
+    if (row_of(property).if_absent || settings.file(property).empty()) continue;
+    if (!fields[std::size_t(property)])
+      fields[std::size_t(property)] = Field<2>(*grid, float(*constant_of(settings, property)));
+  }
+  return fields;
+}
+
+/// Speeds are 0 in void (rho 0); a constant can not say so.
+void clear_void(Medium<2>& medium, const Settings& settings) {
+  for (const Property property : {Property::vp, Property::vs}) {
+    if (!constant_of(settings, property)) continue;
+    for (std::size_t cell = 0; cell < std::size_t(medium.grid().size()); ++cell)
+      if (medium.is_void(cell)) medium[property][cell] = 0;
+  }
+}
+
+Medium<2> read_medium(const Settings& settings, std::string& history) {
+  auto fields = read_given(settings, history);
+  const auto taken = [&](Property property) { return std::move(fields[std::size_t(property)]); };
+  auto medium =
+      medium_of<2>(*taken(Property::vp), taken(Property::vs), taken(Property::rho), settings.fluid_vp);
+  clear_void(medium, settings);
+  for (const Property property : all_properties()) {
+    if (!row_of(property).if_absent || settings.file(property).empty()) continue;
+    if (const auto value = constant_of(settings, property))
       add_constant(medium, property, *value);
-      continue;
-    }
-    if (auto field = read_given(property)) add_property(medium, property, std::move(*field));
+    else
+      add_property(medium, property, *taken(property));
   }
   if (!settings.q_from.empty()) in_place("--q-from-vs", [&] { add_q_from_vs(medium, settings.q_from); });
   return medium;
@@ -185,7 +235,8 @@ void fit(Model<2>& model, const Settings& settings, double sampled_m, const cli:
     horizons.floor = in_place("--floor", [&] { return parse_imported_horizon(settings.floor); });
   auto fitted = in_place(settings.floor.empty() ? "--surface" : "--floor",
                          [&] { return fit_imported(model, horizons); });
-  for (const auto& sentence : fitted.warnings) context.warn(sentence);
+  for (const auto& sentence : fitted.warnings)
+    context.warn(sentence + "; --floor found takes the floor of the cells");
   context.say(fitted.summary.empty() ? "nothing to fit: surface and floor lie on faces of cells"
                                      : fitted.summary);
   model = std::move(fitted.model);

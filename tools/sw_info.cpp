@@ -1,4 +1,3 @@
-#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "io/output_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
+#include "planning/plan.hpp"
 #include "segy/describe.hpp"
 #include "segy/gather_report.hpp"
 #include "segy/sniff.hpp"
@@ -50,40 +50,10 @@ bool holds_accuracy(const NetcdfFile& file) {
   return file.has_variable("error") && file.dimension_length("setting");
 }
 
-/// Percent of a relative error; a reference has none.
-void report_error(Report& report, const std::string& name, double error) {
-  if (!std::isnan(error)) report.number(name, 100 * error, "%");
-}
-
-Report report_of(const AccuracyRow& row) {
-  Report report;
-  report.count("order", row.order);
-  report.count("time order", row.time_order);
-  report.number("courant", row.courant, "");
-  report.number("step", row.spacing_m, "m");
-  if (row.slip_order > 0) report.count("slip order", row.slip_order);
-  report.count("cells", row.cells);
-  report.count("steps", row.steps);
-  report_error(report, "error", row.error);
-  report_error(report, "late error", row.late_error);
-  report_error(report, "predicted error", row.predicted_error);
-  report.number("time", row.seconds, "s");
-  report.number("predicted time", row.predicted_seconds, "s");
-  report.number("memory", row.memory_bytes / (1 << 20), "MiB");
-  return report;
-}
-
 Finding look_at_accuracy(const NetcdfFile& file) {
   const auto table = read_accuracy_table(file);
-  Finding finding{"accuracy", {}, ""};
+  Finding finding{"accuracy", report_of(table), ""};
   Report& report = finding.report;
-  report.text("title", table.title);
-  report.text("reference", table.reference);
-  std::vector<Report> settings;
-  for (const auto& row : table.rows) settings.push_back(report_of(row));
-  report.list("setting", settings);
-  if (table.wanted_error) report_error(report, "wanted error", *table.wanted_error);
-  if (table.chosen) report.list("chosen", {settings[*table.chosen]});
   if (const auto source = file.text_attribute("", "source")) report.text("source", *source);
   report.text("history", table.history);
   return finding;
@@ -91,10 +61,13 @@ Finding look_at_accuracy(const NetcdfFile& file) {
 
 template <int D>
 Finding look_at_model(const NetcdfFile& file) {
-  const auto model = read_model<D>(file);
-  Finding finding{"model", report_of(model), ""};
+  Scene<D> scene;
+  scene.model = read_model<D>(file);
+  Finding finding{"model", report_of(scene.model), ""};
   try {
-    check(model, {.allow_auxetic = true});
+    check(scene.model, {.allow_auxetic = true, .allow_slow = true});
+    scene.survey.sources.push_back({{}, Explosion{}, parse_wavelet("ricker:1")});
+    finding.report.text("to shoot", cost_of_a_second(scene));
   } catch (const Error& error) {
     finding.damage = file.shown_name() + ": " + error.what();
   }
@@ -120,7 +93,8 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   std::optional<std::uint64_t> size;
   if (start.is_regular()) size = std::filesystem::file_size(path);
-  if (options.su || options.endian || options.format || segy::looks_like_segy(bytes, size))
+  if (options.su || segy::names_su(path) || options.endian || options.format ||
+      segy::looks_like_segy(bytes, size))
     return look_at_traces(path, options, start.taken());
   throw Error(shown_input(path) + ": is " +
               (first.empty() ? "empty" : "not a netCDF, SEG-Y or Seismic Unix file") +

@@ -13,7 +13,7 @@ struct Settings {
   std::string size;
   double step_m = 0;
   std::vector<std::string> layers;
-  std::string fit;
+  std::string fit, units;
   bool no_average = false;
   MediumLimits limits;
   std::string title = "layered model";
@@ -34,9 +34,13 @@ void declare(cli::Options& options, Settings& settings) {
   options.add(
       "fit", settings.fit, "surface,floor|all|none",
       "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");
+  options.add("units", settings.units, "LIST",
+              "units of VP, VS and RHO instead of m/s and kg/m3, as km/s,g/cm3; K stays per second (kg/m4)");
   options.add("no-average", settings.no_average,
               "cells cut by a top take the material at their centre, not the average of their parts");
   options.add("title", settings.title, "TEXT", "title of the model file");
+  options.add("allow-slow", settings.limits.allow_slow,
+              "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"size", "step", "layer"}) options.require(name);
@@ -46,9 +50,12 @@ template <int D>
 void build(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
   const auto grid = in_place("--size, --step", [&] { return grid_of_size<D>(size, settings.step_m); });
+  const auto units = settings.units.empty()
+                         ? InputUnits()
+                         : in_place("--units", [&] { return InputUnits::parse(settings.units); });
   std::vector<Layer> layers;
   for (const auto& text : settings.layers) {
-    layers.push_back(in_place("--layer", [&] { return parse_layer(text); }));
+    layers.push_back(in_place("--layer", [&] { return parse_layer(text, units); }));
   }
   const auto choice =
       settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });
@@ -59,8 +66,9 @@ void build(const Settings& settings, const cli::Context& context) {
       in_place("--layer", [&] { return layered_medium(fit.grid, layers, !settings.no_average, fit.rows); });
   check(model, settings.limits);
   if (!fit.summary.empty()) context.say(fit.summary);
-  for (const auto& sentence : fit.left_out) context.warn(sentence);
-  for (const auto& sentence : cut_off_layers(grid, layers)) context.warn(sentence);
+  for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit says what to follow");
+  for (const auto& sentence : cut_off_layers(grid, layers))
+    context.warn(sentence + "; if that is not meant, change the --layer");
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;

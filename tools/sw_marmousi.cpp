@@ -56,7 +56,7 @@ void run(const Settings& settings, const cli::Context& context) {
   model.medium = marmousi_medium(fit.grid, geology, !settings.no_average);
   check(model);
   if (!fit.summary.empty()) context.say(fit.summary);
-  for (const auto& sentence : fit.left_out) context.warn(sentence);
+  for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit none follows nothing");
   model.title = settings.title;
   model.source = context.version;
   model.history = context.command_line;

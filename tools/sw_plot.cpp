@@ -1,9 +1,11 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "model/property.hpp"
+#include "plot/derived_property.hpp"
 #include "plot/file_picture.hpp"
 #include "trace_input.hpp"
 
@@ -24,7 +26,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("size", settings.page.size, "SIZE", "size of the picture, 16x10cm or 1200x800px");
   options.add("dpi", settings.page.dpi, "N", "pixels per inch");
   options.add("title", settings.page.title, "TEXT", "title above the picture");
-  options.add("map", texts.map, "NAME", "colours: uniform, grey, white-black, blue-red, red-blue");
+  options.add("map", texts.map, "NAME", "colours: " + joined(plot::ColourMap::names()));
   options.add("clip", settings.look.clip_percent, "PERCENT",
               "colours saturate at this percentile of absolute amplitude");
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
@@ -32,23 +34,30 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
   options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
   options.add("shot", settings.shot, "N", "gather: this shot only");
-  options.add_choice("axis", texts.axis, {"auto", "x", "midpoint", "offset", "depth", "trace"},
-                     "gather: position of the traces");
+  options.add_choice("axis", texts.axis, plot::trace_axis_names(), "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
   options.add("gain-power", settings.gather.gain_power, "P", "gather: samples times time to this power");
   auto drawn = property_names();
+  for (const auto& derived : plot::derived_properties()) drawn.emplace_back(derived.name);
   drawn.push_back("fractures");
   options.add_choice("property", settings.property, drawn, "model: property to draw");
-  options.add("slice", texts.slice, "AXIS=AT", "model, snapshot in 3-D: the section on this plane, y=500");
+  options.add("slice", texts.slice, "AXIS=AT",
+              "model, snapshot in 3-D: the section on this plane, y=500, or three through X,Y,Z");
   options.add("survey", settings.survey, "GATHER",
               "model, snapshot: mark sources and receivers of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie, "snapshot: draw all, to FILE-0001.png and so on");
+  options.add("movie", settings.movie,
+              "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
+  options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
-  options.add("overlay", settings.overlay, "errors: several files in one panel");
+  options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
+  options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
+  options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
+  options.add("interpolate", settings.look.interpolate,
+              "linearly between traces and cells wider than pixels");
   texts.traces.declare(options);
 }
 
@@ -63,17 +72,28 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   limits("--range", texts.range, settings.look.colours);
   limits("--x", texts.x, settings.look.x);
   limits("--y", texts.y, settings.look.y);
-  if (!texts.slice.empty()) settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
+  if (texts.slice.find(',') != std::string::npos)
+    settings.through = in_place("--slice", [&] { return parse_point<3>(texts.slice); });
+  else if (!texts.slice.empty())
+    settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
   if (!texts.component.empty())
     settings.component = in_place("--component", [&] { return component_named(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
   settings.gather.axis = plot::trace_axis_named(texts.axis);
+  if (settings.overlay && texts.style == "both")
+    throw Error("--overlay: draws lines, which --style both does not go with", ErrorKind::usage);
+  if (settings.gather.difference_gain == 0)
+    throw Error("--difference-gain: found 0, expected a number other than 0", ErrorKind::usage);
   settings.gather.density = texts.style != "wiggle";
   settings.gather.wiggle = texts.style != "density";
   settings.page.history = context.command_line;
   settings.traces = texts.traces;
-  if (settings.movie) return plot::draw_movie(settings, context.progress("frames"));
+  if (settings.movie) {
+    plot::take_movie_name(settings);
+    for (const auto& note : plot::draw_movie(settings, context.progress("frames"))) context.warn(note);
+    return;
+  }
 
   const auto page = plot::page_of(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);

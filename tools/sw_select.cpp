@@ -50,9 +50,9 @@ SelectionCounts counts_of(const Settings& settings, const Expression& condition)
 }
 
 segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context,
-                       const std::optional<SelectionCounts>& counts,
+                       const segy::FileFormat& format, const std::optional<SelectionCounts>& counts,
                        const std::optional<TimeWindow>& window) {
-  segy::FileInfo info = segy::info_as(reader, context.command_line, segy::format_of(reader));
+  segy::FileInfo info = segy::info_as(reader, context.command_line, format);
   if (window && reader.axis_with_interval().count > 0) info.axis = window->cut(info.axis);
   info.axis.count =
       std::max<std::int64_t>(info.axis.count, 1);  // none: the first trace will be refused by name
@@ -72,7 +72,8 @@ void run(const Settings& settings, const cli::Context& context) {
   if (condition) counts = counts_of(settings, *condition);
   segy::Reader reader(settings.input, settings.input_options.read_options());
   OutputFile out(settings.output, OutputFile::Content::binary);
-  const segy::FileInfo info = info_of(reader, context, counts, window);
+  const segy::FileInfo info = info_of(
+      reader, context, segy::format_named_by(settings.output, segy::format_of(reader)), counts, window);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   const Progress progress = context.progress("selecting");

@@ -12,6 +12,13 @@ namespace {
 void declare(cli::Options& options, ShootingOptions& s) {
   declare_scene(options, s.scene);
   declare_numerics(options, s.scene);
+  options.add("error", s.wanted_error, "SHARE",
+              "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
+  options.add("plan", s.plan, "print expected error, time and memory, and stop; with -v all details");
+  options.add("json", s.json, "with --plan: print all of it as one JSON object");
+  options.add("output,o", s.output.traces, "GATHER",
+              "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
+              "traces; - is standard output");
   options.add("snapshots", s.output.snapshots, "FILE",
               "write snapshots of the wave field to this netCDF file");
   options.add("every", s.snapshot_every_s, "S", "time between snapshots, s");
@@ -29,16 +36,15 @@ void declare(cli::Options& options, ShootingOptions& s) {
               "wall-clock time between checkpoints, s [600]");
   options.add("keep-unstable", s.output.keep_unstable,
               "keep the output of an unstable run, in files unstable-NAME");
-  options.add("error", s.wanted_error, "SHARE",
-              "choose order, cells and time step for this expected error (0.01: 1 %)");
-  options.add("plan", s.plan, "print grid, cost and expected error, and stop");
-  options.add("output,o", s.output.traces, "GATHER",
-              "SEG-Y; {component} and {shot} in the name split the traces; - is standard output");
-  for (const char* name : {"source", "wavelet", "time"}) options.require(name);
+  options.require("time");
   options.add_threads();
+  options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
+  options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",
+                  "plan", "output", "snapshots", "every", "threads"});
 }
 
-void run(const ShootingOptions& settings, const cli::Context& context) {
+void run(ShootingOptions& settings, const cli::Context& context) {
+  settings.details = context.verbose;
   const Provenance provenance = {context.version, context.command_line};
   const auto ranks = started_ranks();
   if (!ranks) return shoot_survey(settings, provenance, context.messages());

@@ -34,9 +34,9 @@ void declare(cli::Options& options, Settings& settings) {
 }
 
 /// The file header of the sorted traces.
-segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context, const SortKey& first,
-                       const TraceSorter& sorter) {
-  segy::FileInfo info = segy::info_as(reader, context.command_line, segy::format_of(reader));
+segy::FileInfo info_of(const segy::Reader& reader, const cli::Context& context,
+                       const segy::FileFormat& format, const SortKey& first, const TraceSorter& sorter) {
+  segy::FileInfo info = segy::info_as(reader, context.command_line, format);
   info.layout.traces = sorter.records().count();
   info.layout.traces_per_shot = sorter.largest_ensemble();
   if (info.carried) {
@@ -87,7 +87,8 @@ void run(const Settings& settings, const cli::Context& context) {
     add_all(next, sorter, context.progress("reading " + names[n]));
   }
   note_needs(sorter.records(), directory, context);
-  const segy::FileInfo info = info_of(reader, context, keys.front(), sorter);
+  const segy::FileInfo info = info_of(
+      reader, context, segy::format_named_by(settings.output, segy::format_of(reader)), keys.front(), sorter);
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   sorter.deliver([&](const segy::RawTrace& sorted) { writer.write(sorted, reader.header().su); });

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "cli/tool.hpp"
 #include "segy/sample_format.hpp"
+#include "segy/sniff.hpp"
 #include "segy/writer.hpp"
 
 namespace slipwave {
@@ -21,7 +22,9 @@ struct TraceOutput {
     options.add("su", su, "write Seismic Unix: the machine's byte order, no reel headers");
   }
 
-  segy::FileFormat file_format() const {
+  /// Of a file of that name: one that ends in .su is Seismic Unix.
+  segy::FileFormat file_format(const std::string& path) const {
+    if (segy::names_su(path)) return segy::format_named_by(path);
     segy::FileFormat wanted;
     wanted.code = in_place("--format", [&] { return segy::format_named(format).code; });
     wanted.revision = su ? 1 : revision[0] - '0';

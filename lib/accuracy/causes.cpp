@@ -33,8 +33,8 @@ constexpr double drag_of_stairs = 1.5;
 /// Of an interface known to lie beside its face, the share of the way that counts.
 constexpr double share_of_offset = 0.6;
 /// Error at a distance of one cell from the source at Courant number 0.9; it falls with the fourth power of
-/// the distance, and is larger with shorter steps.
-constexpr double near_share = 50, near_of_order_3 = 5;
+/// the distance, and is larger with shorter steps and for an explosion in rock.
+constexpr double near_share = 50, near_of_order_3 = 5, near_of_explosion = 4;
 /// What comes back along a fitted surface that dips from where it becomes level beyond the sides.
 constexpr double bent_surface = 0.008;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, at 24 cells
@@ -126,10 +126,14 @@ double grazing_share(double along_m, double mean_m, double wavelength_m, double 
   return std::min(0.5, 0.19 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
 }
 
-/// Error of what arrives straight above a shallow source in rock under a free surface, hardly less in smaller
+/// Error of what arrives straight above a shallow force in rock under a free surface, hardly less in smaller
 /// cells: a source `depth_m` deep, receivers between it and the surface, `aside_m` from it.
 double shallow_error(double depth_m, double aside_m, double wavelength_m) {
   return 0.7 * std::exp(-7 * depth_m / wavelength_m - 1.3 * aside_m / std::max(depth_m, 0.01 * wavelength_m));
+}
+/// The same of an explosion, as many cells deep and aside.
+double shallow_explosion(double depth, double aside) {
+  return 0.27 * std::pow(std::max(depth, 0.5), -1.4) * std::exp(-0.5 * aside / std::max(depth, 0.5));
 }
 
 /// The error of the waves that slipping fractures send out, and their share of all: first estimates, from the
@@ -190,7 +194,11 @@ struct ErrorSources::Shot {
   double slip(const Discretisation& cells) const;
   /// Of waves bound to an interface, where source and receivers are near it.
   double bound_wave(std::size_t face, const Discretisation& cells) const;
-  double shallow_source() const;
+  double shallow_source(const Discretisation& cells) const;
+  bool explodes_in_rock() const {
+    const auto& places = stack.places;
+    return places.force[0] == 0 && places.force[1] == 0 && places.layers[places.source_layer()].vs > 0;
+  }
   /// How far an interface is from the face that stands for it.
   double offset_m(std::size_t face, const Discretisation& cells) const {
     const auto& interface = stack.interfaces[face];
@@ -231,14 +239,14 @@ void ErrorSources::Shot::add_edge(const Scene<2>& scene, std::size_t shot, int a
   Edge edge{names[axis][side], double(zone_cells(scene, source)), {}};
   const auto& grid = scene.model.grid();
   const auto across = std::size_t(axis);
-  const auto& all = scene.survey.receivers_m;
+  const auto all = scene.survey.receivers_of(shot + 1);
   const auto count = energies.size();
   const std::size_t stride =
       std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   const auto from = grid.row_coordinates(source.position_m);
   const double place = side == 0 ? grid.origin_m[across] : grid.end(axis);
   for (std::size_t n = stride / 2; n < all.size() && edge.along_and_mean_m.size() < count; n += stride) {
-    const auto to = grid.row_coordinates(all[n]);
+    const auto to = grid.row_coordinates(all[n].point_m);
     edge.along_and_mean_m.push_back({std::abs(to[1 - across] - from[1 - across]),
                                      (std::abs(to[across] - place) + std::abs(from[across] - place)) / 2});
   }
@@ -269,8 +277,9 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   double sum = 0;
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double share =
-      near_share * std::clamp(0.9 / courant, 1., 2.) * (cells.order == 3 ? near_of_order_3 : 1);
+  const double share = near_share * std::clamp(0.9 / courant, 1., 2.) *
+                       (cells.order == 3 ? near_of_order_3 : 1) *
+                       (explodes_in_rock() ? near_of_explosion : 1);
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = stack.places.receivers[r];
     const double way = std::max(std::hypot(at.a_m, at.b_m) / cells.spacing_m, 1.);
@@ -304,14 +313,17 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   return sum;
 }
 
-double ErrorSources::Shot::shallow_source() const {
+double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
   const auto& places = stack.places;
   if (!places.free_surface || !(places.layers[0].vs > 0) || places.source_layer() > 0) return 0;
   const double depth = std::abs(places.faces_m[0]), wavelength = places.layers[0].vs / nominal_hz;
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
-    if (at.b_m < 0) sum += std::pow(shallow_error(depth, std::abs(at.a_m), wavelength), 2) * energies[r];
+    const double aside = std::abs(at.a_m), h = cells.spacing_m;
+    const double error = explodes_in_rock() ? shallow_explosion(depth / h, aside / h)
+                                            : shallow_error(depth, aside, wavelength);
+    if (at.b_m < 0) sum += error * error * energies[r];
   }
   return sum;
 }
@@ -399,7 +411,7 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
 
 ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
   const auto& sources = scene.survey.sources;
-  if (!scene.survey.receivers_m.empty()) {
+  if (scene.survey.any_receiver()) {
     const std::size_t stride =
         std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)
@@ -489,7 +501,8 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
       if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
         add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
             bent_surface * bent_surface * shot->energy);
-    add({"waves straight up from a shallow source", "", 0, false}, shot->shallow_source());
+    add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
+        shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},

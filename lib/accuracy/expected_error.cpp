@@ -181,11 +181,12 @@ Trains direct_waves(const Scene<2>& scene) {
   every_few(survey.sources.size(), shots_followed, [&](std::size_t shot) {
     const auto& source = survey.sources[shot];
     const auto* plane = std::get_if<PlaneWave<2>>(&source.mechanism);
-    every_few(survey.receivers_m.size(), receivers_followed, [&](std::size_t n) {
+    const auto receivers = survey.receivers_of(shot + 1);
+    every_few(receivers.size(), receivers_followed, [&](std::size_t n) {
       if (plane)
-        add_plane_wave(scene, source, *plane, survey.receivers_m[n], trains);
+        add_plane_wave(scene, source, *plane, receivers[n].point_m, trains);
       else
-        add_point_source(scene, source, survey.receivers_m[n], trains);
+        add_point_source(scene, source, receivers[n].point_m, trains);
     });
   });
   return trains;

@@ -327,12 +327,13 @@ class Tracker {
       : scene_(scene),
         columns_(scene.model.medium),
         source_(scene.survey.sources[shot]),
+        receivers_(scene.survey.receivers_of(shot + 1)),
         column_(columns_.at(source_.position_m[0])),
         tops_(tops_in_history(scene.model.history)) {
     low_ = high_ = column_;
-    for (const auto& receiver : scene.survey.receivers_m) {
-      low_ = std::min(low_, columns_.at(receiver[0]));
-      high_ = std::max(high_, columns_.at(receiver[0]));
+    for (const auto& receiver : receivers_) {
+      low_ = std::min(low_, columns_.at(receiver.point_m[0]));
+      high_ = std::max(high_, columns_.at(receiver.point_m[0]));
     }
     low_ = std::max<std::int64_t>(low_ - 12, 0);
     high_ = std::min(high_ + 12, columns_.count() - 1);
@@ -343,9 +344,9 @@ class Tracker {
     flatten();
   }
   void add_receivers(std::size_t most) {
-    const auto& all = scene_.survey.receivers_m;
+    const auto& all = receivers_;
     const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
-    for (std::size_t n = stride / 2; n < all.size(); n += stride) add_receiver(all[n]);
+    for (std::size_t n = stride / 2; n < all.size(); n += stride) add_receiver(all[n].point_m);
   }
   LocalStack take() { return std::move(stack_); }
 
@@ -470,6 +471,7 @@ class Tracker {
   const Scene<2>& scene_;
   Columns columns_;
   const Source<2>& source_;
+  std::vector<Receiver<2>> receivers_;
   std::int64_t column_, low_ = 0, high_ = 0;
   std::vector<double> tops_;
   std::vector<Segment> segments_;

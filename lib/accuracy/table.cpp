@@ -15,7 +15,42 @@ std::string figure(double value) {
 
 std::string percent(double share) { return figure(100 * share); }
 
+/// Percent of a relative error; a reference has none.
+void report_error(Report& report, const std::string& name, double error) {
+  if (!std::isnan(error)) report.number(name, 100 * error, "%");
+}
+
+Report report_of(const AccuracyRow& row) {
+  Report report;
+  report.count("order", row.order);
+  report.count("time order", row.time_order);
+  report.number("courant", row.courant, "");
+  report.number("step", row.spacing_m, "m");
+  if (row.slip_order > 0) report.count("slip order", row.slip_order);
+  report.count("cells", row.cells);
+  report.count("steps", row.steps);
+  report_error(report, "error", row.error);
+  report_error(report, "late error", row.late_error);
+  report_error(report, "predicted error", row.predicted_error);
+  report.number("time", row.seconds, "s");
+  report.number("predicted time", row.predicted_seconds, "s");
+  report.number("memory", row.memory_bytes / (1 << 20), "MiB");
+  return report;
+}
+
 }  // namespace
+
+Report report_of(const AccuracyTable& table) {
+  Report report;
+  report.text("title", table.title);
+  report.text("reference", table.reference);
+  std::vector<Report> settings;
+  for (const auto& row : table.rows) settings.push_back(report_of(row));
+  report.list("setting", settings);
+  if (table.wanted_error) report_error(report, "wanted error", *table.wanted_error);
+  if (table.chosen) report.list("chosen", {settings[*table.chosen]});
+  return report;
+}
 
 std::optional<std::size_t> cheapest(const std::vector<AccuracyRow>& rows, double wanted) {
   std::optional<std::size_t> best;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/report.hpp"
 #include "io/output_file.hpp"
 
 namespace slipwave {
@@ -43,6 +44,9 @@ std::optional<std::size_t> cheapest(const std::vector<AccuracyRow>& rows, double
 
 /// Columns for people, a line a row; lines that begin with # say what they are.
 std::string text_of(const AccuracyTable& table);
+
+/// What --json and sw-info say of it, but for its history.
+Report report_of(const AccuracyTable& table);
 
 /// netCDF: one variable along the dimension `setting` for each column, docs/formats.md. `version` is that of
 /// the tool that writes.

@@ -14,14 +14,26 @@ namespace {
 /// Nearer than this to a cell's centre (in cells) counts as on it: coordinates carry rounding of that size.
 constexpr double on_centre = 1e-9;
 
-/// Waves up to this many radians a cell enter the least-squares fit. Larger values help below six cells a
-/// wavelength and hurt above.
-constexpr double highest_wavenumber = 0.35 * std::numbers::pi;
+/// What weights along an axis are fitted to. Wavenumbers are in radians per cell.
+struct Fit {
+  int widest;                         // cells
+  double passband;                    // waves up to here are reproduced
+  int moments;                        // reproduced exactly
+  double stopband;                    // waves from here on are suppressed,
+  double suppression;                 // with this weight
+  int widest_beside, moments_beside;  // the same where cells do not surround the point evenly
+};
+/// A larger passband helps below six cells per wavelength and hurts above.
+constexpr Fit to_interpolate = {
+    widest_stencil, 0.35 * std::numbers::pi, 4, std::numbers::pi, 0, widest_stencil, 4};
+/// A stopband from lower wavenumbers on, or a smaller passband, helps near the source and hurts below ten
+/// cells per wavelength.
+constexpr Fit to_spread = {widest_spread, 1, 6, 2.1, 0.1 * (std::numbers::pi - 2.1), narrowest_spread, 4};
 
 /// Keeps the fit solvable; far below its errors.
 constexpr double ridge = 1e-13;
 
-constexpr int most_unknowns = widest_stencil + 4;
+constexpr int most_unknowns = to_spread.widest + to_spread.moments;
 using Row = std::array<double, most_unknowns + 1>;
 
 /// Solves the first `n` equations, right-hand sides in column n, by elimination with pivoting.
@@ -45,21 +57,28 @@ std::array<double, most_unknowns> solve(std::array<Row, most_unknowns>& a, int n
   return x;
 }
 
+/// Mean of cos(k x) over from <= k <= to.
+double mean_cosine(double from, double to, double x) {
+  if (from == 0) return std::abs(to * x) < 1e-6 ? 1 : std::sin(to * x) / (to * x);
+  return std::abs(x) < 1e-6 ? 1 : (std::sin(to * x) - std::sin(from * x)) / ((to - from) * x);
+}
+
 /// Weights on the cells `first` .. `first + count - 1` for the value at `position`: the least mean square of
-/// |sum w_j exp(i k (j - position)) - 1| over 0 <= k <= highest_wavenumber, moments 0 to 3 exact, by Lagrange
-/// multipliers.
-std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count) {
-  const auto mean_cosine = [](double x) {
-    const double phase = highest_wavenumber * x;
-    return std::abs(phase) < 1e-6 ? 1 : std::sin(phase) / phase;
-  };
-  const int moments = std::min(count, 4), unknowns = count + moments;
+/// |sum w_j exp(i k (j - position)) - 1| over the passband, and of the sum alone over the stopband, `moments`
+/// exact, by Lagrange multipliers.
+std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count, int most_moments,
+                                         const Fit& fit) {
+  const int moments = std::min(count, most_moments), unknowns = count + moments;
   std::array<Row, most_unknowns> a{};
   for (int i = 0; i < count; ++i) {
     const double x = double(first + i) - position;
-    for (int j = 0; j < count; ++j) a[i][j] = mean_cosine(double(i - j));
+    for (int j = 0; j < count; ++j) {
+      a[i][j] = mean_cosine(0, fit.passband, double(i - j));
+      if (fit.suppression > 0)
+        a[i][j] += fit.suppression * mean_cosine(fit.stopband, std::numbers::pi, double(i - j));
+    }
     a[i][i] += ridge;
-    a[i][unknowns] = mean_cosine(x);
+    a[i][unknowns] = mean_cosine(0, fit.passband, x);
     double power = 1;
     for (int m = 0; m < moments; ++m) {
       a[i][count + m] = a[count + m][i] = power;
@@ -80,28 +99,25 @@ CellWeight folded(CellWeight weight, const AxisCells& usable) {
   return weight;
 }
 
-}  // namespace
-
-std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, int most_cells) {
-  assert(usable.low <= usable.high && most_cells >= 2 && most_cells <= widest_stencil);
+/// Weights of up to `most_cells` usable cells round `position`.
+std::vector<CellWeight> weights_round(double position, const AxisCells& usable, int most_cells,
+                                      const Fit& fit) {
+  assert(usable.low <= usable.high);
   assert(position >= double(usable.low) - 0.5 - on_centre &&
          position <= double(usable.high) + 0.5 + on_centre);
-  const double nearest = std::round(position);
-  if (std::abs(position - nearest) < on_centre && nearest >= double(usable.low) &&
-      nearest <= double(usable.high))
-    return {{std::int64_t(nearest), 1.}};
-
   // The window of cells, images included, that may be taken: an image must be that of a usable cell.
   const std::int64_t length = usable.high - usable.low + 1;
   const bool images_below = usable.below != Beyond::unknown, images_above = usable.above != Beyond::unknown;
-  const std::int64_t reach = images_below && images_above ? widest_stencil : length;
+  const std::int64_t reach = images_below && images_above ? fit.widest : length;
   const std::int64_t low = images_below ? usable.low - reach : usable.low;
   const std::int64_t high = images_above ? usable.high + reach : usable.high;
-  const int count = int(std::min<std::int64_t>(most_cells, high - low + 1));
-  const auto centred = std::int64_t(std::floor(position - 0.5 * (count - 2)));
-  const std::int64_t first = std::clamp(centred, low, high - count + 1);
+  const auto centred = [&](int count) { return std::int64_t(std::floor(position - 0.5 * (count - 2))); };
+  const bool around = centred(most_cells) >= low && centred(most_cells) + most_cells - 1 <= high;
+  const int most = around ? most_cells : std::min(most_cells, fit.widest_beside);
+  const int count = int(std::min<std::int64_t>(most, high - low + 1));
+  const std::int64_t first = std::clamp(centred(count), low, high - count + 1);
 
-  const auto weights = fitted(position, first, count);
+  const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit);
   std::vector<CellWeight> found;
   for (int i = 0; i < count; ++i) {
     const auto weight = folded({first + i, weights[std::size_t(i)]}, usable);
@@ -115,14 +131,13 @@ std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, i
   return found;
 }
 
-template <int D>
-std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
-                                          const std::array<AxisCells, std::size_t(D)>& usable,
-                                          int most_cells) {
+/// Products of the weights of the axes, by axis_weights(axis, position).
+template <int D, class AxisWeights>
+std::vector<PointWeight<D>> products(const Grid<D>& grid, const Point<D>& point_m,
+                                     AxisWeights&& axis_weights) {
   std::vector<PointWeight<D>> product{{{}, 1.}};
   for (int axis = 0; axis < D; ++axis) {
-    const double position = grid.position(axis, point_m[axis]);
-    const auto along = axis_weights(position, usable[axis], most_cells);
+    const auto along = axis_weights(axis, grid.position(axis, point_m[axis]));
     std::vector<PointWeight<D>> wider;
     for (const auto& weight : along)
       for (auto partial : product) {
@@ -133,6 +148,38 @@ std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& p
     product = std::move(wider);
   }
   return product;
+}
+
+}  // namespace
+
+std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, int most_cells) {
+  assert(most_cells >= 2 && most_cells <= widest_stencil);
+  const double nearest = std::round(position);
+  if (std::abs(position - nearest) < on_centre && nearest >= double(usable.low) &&
+      nearest <= double(usable.high))
+    return {{std::int64_t(nearest), 1.}};
+  return weights_round(position, usable, most_cells, to_interpolate);
+}
+
+std::vector<CellWeight> spread_weights(double position, const AxisCells& usable) {
+  return weights_round(position, usable, widest_spread, to_spread);
+}
+
+template <int D>
+std::vector<PointWeight<D>> point_weights(const Grid<D>& grid, const Point<D>& point_m,
+                                          const std::array<AxisCells, std::size_t(D)>& usable,
+                                          int most_cells) {
+  return products<D>(grid, point_m, [&](int axis, double position) {
+    return axis_weights(position, usable[std::size_t(axis)], most_cells);
+  });
+}
+
+template <int D>
+std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Point<D>& point_m,
+                                                 const std::array<AxisCells, std::size_t(D)>& usable) {
+  return products<D>(grid, point_m, [&](int axis, double position) {
+    return spread_weights(position, usable[std::size_t(axis)]);
+  });
 }
 
 TimeWeights time_weights(double position, std::int64_t low, std::int64_t high) {
@@ -156,5 +203,10 @@ template std::vector<PointWeight<2>> point_weights<2>(const Grid<2>&, const Poin
                                                       const std::array<AxisCells, 2>&, int);
 template std::vector<PointWeight<3>> point_weights<3>(const Grid<3>&, const Point<3>&,
                                                       const std::array<AxisCells, 3>&, int);
+
+template std::vector<PointWeight<2>> spread_point_weights<2>(const Grid<2>&, const Point<2>&,
+                                                             const std::array<AxisCells, 2>&);
+template std::vector<PointWeight<3>> spread_point_weights<3>(const Grid<3>&, const Point<3>&,
+                                                             const std::array<AxisCells, 3>&);
 
 }  // namespace slipwave

@@ -1,6 +1,8 @@
 #include "acquisition/survey.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 
@@ -9,12 +11,18 @@ namespace slipwave {
 namespace {
 
 template <int D>
-void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid) {
+bool is_inside(const Point<D>& point, const Grid<D>& grid) {
   const Point<D> at = grid.row_coordinates(point);
   bool inside = true;
   for (int axis = 0; axis < D; ++axis)
     inside = inside && at[axis] >= grid.origin_m[axis] && at[axis] <= grid.end(axis);
-  if (inside) return;
+  return inside;
+}
+
+template <int D>
+void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid,
+                  const std::string& remedy) {
+  if (is_inside<D>(point, grid)) return;
   std::string place, extent;
   for (int axis = 0; axis < D; ++axis) {
     const std::string name(1, axis_names<D>()[axis]), separator = axis == 0 ? "" : " ";
@@ -23,25 +31,145 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
     const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
     extent += separator + name + "=" + shown(depths[0]) + ".." + shown(depths[1]) + (bent ? " there" : "");
   }
-  throw Error(what + " at " + place + " lies outside the model, expected " + extent);
+  bool beside = false;
+  for (int axis = 0; axis < D - 1; ++axis)
+    beside = beside || !(point[axis] >= grid.origin_m[axis] && point[axis] <= grid.end(axis));
+  throw Error(what + " at " + place + " lies outside the model, expected " + extent + (beside ? remedy : ""));
 }
 
 }  // namespace
 
 template <int D>
-void check(const Survey<D>& survey, const Grid<D>& grid) {
-  for (std::size_t n = 0; n < survey.sources.size(); ++n) {
-    const auto& source = survey.sources[n];
-    if (!std::isfinite(source.amplitude))
-      throw Error("source " + std::to_string(n + 1) +
-                  ": found an amplitude that is not finite, expected a number");
-    if (!std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      check_inside<D>("source " + std::to_string(n + 1), source.position_m, grid);
+std::vector<Receiver<D>> Survey<D>::receivers_of(std::size_t shot) const {
+  if (spreads) return spreads->receivers_of(shot);
+  std::vector<Receiver<D>> receivers;
+  receivers.reserve(receivers_m.size());
+  for (const auto& point : receivers_m) {
+    auto& receiver = receivers.emplace_back();
+    receiver.point_m = point;
+    receiver.channel = std::int64_t(receivers.size());
+    receiver.map_m = {point[0], D == 3 ? point[D - 2] : 0, point[D - 1]};
   }
-  for (std::size_t n = 0; n < survey.receivers_m.size(); ++n)
-    check_inside<D>("receiver " + std::to_string(n + 1), survey.receivers_m[n], grid);
+  return receivers;
 }
 
+template <int D>
+bool Survey<D>::any_receiver() const {
+  return spreads ? !spreads->given().places.empty() : !receivers_m.empty();
+}
+
+template <int D>
+std::int64_t Survey<D>::number_of(std::size_t shot) const {
+  return spreads && spreads->given().numbered ? spreads->given().shots[shot - 1].number : std::int64_t(shot);
+}
+
+template <int D>
+std::int64_t Survey<D>::label_of(std::size_t shot) const {
+  return spreads && spreads->given().distinct ? number_of(shot) : std::int64_t(shot);
+}
+
+template <int D>
+std::string Survey<D>::name_of_source(std::size_t shot, std::size_t which) const {
+  if (spreads) return spreads->name_of_source(shot, which);
+  return "source " + std::to_string(shot) +
+         (which == 0 ? "" : " (blended, " + std::to_string(which + 1) + ")");
+}
+
+template <int D>
+std::vector<const Source<D>*> Survey<D>::sources_of(std::size_t shot) const {
+  std::vector<const Source<D>*> all = {&sources[shot - 1]};
+  if (!blended.empty())
+    for (const auto& source : blended[shot - 1]) all.push_back(&source);
+  return all;
+}
+
+template <int D>
+void each_receiver(const Survey<D>& survey,
+                   const std::function<void(const Point<D>&, std::size_t, std::size_t)>& see) {
+  if (survey.spreads) return survey.spreads->each_place(see);
+  for (std::size_t n = 0; n < survey.receivers_m.size(); ++n) see(survey.receivers_m[n], 1, n + 1);
+}
+
+template <int D>
+std::string name_of_receiver(const Survey<D>& survey, std::size_t shot, std::size_t number) {
+  std::string name = "receiver " + std::to_string(number);
+  if (!survey.spreads) return name;
+  const auto receiver = survey.spreads->receivers_of(shot)[number - 1];
+  if (receiver.channel != std::int64_t(number)) name += " (channel " + std::to_string(receiver.channel) + ")";
+  if (!survey.spreads->given().frame.is_identity())
+    name += ", on the map at " + shown(receiver.map_m[0]) + "," + shown(receiver.map_m[1]) + ",";
+  return "shot " + std::to_string(survey.label_of(shot)) + ": " + name;
+}
+
+template <int D>
+bool needs_ground(const Survey<D>& survey) {
+  if (!survey.spreads) return false;
+  const auto& given = survey.spreads->given();
+  const auto from_ground = [](const Place& place) { return place.depth_from != DepthFrom::datum; };
+  return given.rounding_m > 0 || std::any_of(given.places.begin(), given.places.end(), from_ground) ||
+         std::any_of(given.shots.begin(), given.shots.end(), [&](const GivenShot& shot) {
+           return std::any_of(shot.sources.begin(), shot.sources.end(),
+                              [&](const GivenSource& source) { return from_ground(source.place); });
+         });
+}
+
+template <int D>
+void place(Survey<D>& survey, Ground<D> ground) {
+  if (!survey.spreads) return;
+  survey.spreads->put_on(std::move(ground));
+  const auto* const spreads = &*survey.spreads;
+  const auto* const given = &spreads->given();
+  for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
+    survey.sources[shot - 1].position_m = spreads->source_of(shot, 0);
+    for (std::size_t n = 1; n < given->shots[shot - 1].sources.size(); ++n)
+      survey.blended[shot - 1][n - 1].position_m = spreads->source_of(shot, n);
+  }
+  const bool of_options = std::all_of(given->shots.begin(), given->shots.end(), [](const GivenShot& shot) {
+    return shot.sources.front().from.empty();
+  });
+  const bool alike = of_options && !given->numbered && !given->told_apart && given->frame.is_identity() &&
+                     std::all_of(given->places.begin(), given->places.end(),
+                                 [&](const Place& one) { return spreads->stands(one); });
+  if (!alike) return;
+  if (!survey.sources.empty())
+    for (const auto& receiver : spreads->receivers_of(1)) survey.receivers_m.push_back(receiver.point_m);
+  survey.spreads.reset();
+}
+
+template <int D>
+void check(const Survey<D>& survey, const Grid<D>& grid) {
+  const auto check_source = [&](const Source<D>& source, std::size_t shot, std::size_t which) {
+    if (std::isfinite(source.amplitude) &&
+        (std::holds_alternative<PlaneWave<D>>(source.mechanism) || is_inside<D>(source.position_m, grid)))
+      return;
+    const auto who = survey.name_of_source(shot, which);
+    if (!std::isfinite(source.amplitude))
+      throw Error(who + ": found an amplitude that is not finite, expected a number");
+    check_inside<D>(who, source.position_m, grid, survey.spreads ? survey.spreads->remedy() : "");
+  };
+  for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
+    const auto of_shot = survey.sources_of(shot);
+    for (std::size_t n = 0; n < of_shot.size(); ++n) check_source(*of_shot[n], shot, n);
+  }
+  each_receiver<D>(survey, [&](const Point<D>& point, std::size_t shot, std::size_t number) {
+    if (!is_inside<D>(point, grid))
+      check_inside<D>(name_of_receiver(survey, shot, number), point, grid,
+                      survey.spreads ? survey.spreads->remedy() : "");
+  });
+}
+
+template struct Survey<2>;
+template struct Survey<3>;
+template void each_receiver(const Survey<2>&,
+                            const std::function<void(const Point<2>&, std::size_t, std::size_t)>&);
+template void each_receiver(const Survey<3>&,
+                            const std::function<void(const Point<3>&, std::size_t, std::size_t)>&);
+template std::string name_of_receiver(const Survey<2>&, std::size_t, std::size_t);
+template std::string name_of_receiver(const Survey<3>&, std::size_t, std::size_t);
+template void place(Survey<2>&, Ground<2>);
+template void place(Survey<3>&, Ground<3>);
+template bool needs_ground(const Survey<2>&);
+template bool needs_ground(const Survey<3>&);
 template void check<2>(const Survey<2>&, const Grid<2>&);
 template void check<3>(const Survey<3>&, const Grid<3>&);
 

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "acquisition/spreads.hpp"
 #include "acquisition/wavelet.hpp"
 #include "grid/grid.hpp"
 #include "grid/tensor.hpp"
@@ -48,14 +50,53 @@ struct Source {
   Mechanism<D> mechanism;
   Wavelet wavelet;
   double amplitude = 1;
+  double delay_s = 0;  // of its wavelet after the begin of the record, 0 or more
 };
 
-/// Shots, one source each, into the same receivers.
+/// Shots into receivers. Shots count from 1.
 template <int D>
 struct Survey {
-  std::vector<Source<D>> sources;
-  std::vector<Point<D>> receivers_m;
+  std::vector<Source<D>> sources;     // one of each shot
+  std::vector<Point<D>> receivers_m;  // of every shot, where there are no spreads
+  /// Further sources of a shot that are recorded with its first (a blended shot); empty: none of any.
+  std::vector<std::vector<Source<D>>> blended = {};
+  /// Of shots with receivers, channels or numbers of their own; none: channels count from 1, shots too.
+  std::optional<Spreads<D>> spreads = {};
+
+  std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
+  std::size_t receiver_count(std::size_t shot) const {
+    return spreads ? spreads->count_of(shot) : receivers_m.size();
+  }
+  /// Whether any shot has one.
+  bool any_receiver() const;
+  /// Number of the field record of a shot.
+  std::int64_t number_of(std::size_t shot) const;
+  /// What messages and names of files call a shot: its number where no other has it, else its place in order.
+  std::int64_t label_of(std::size_t shot) const;
+  /// "source 3", or where it was given.
+  std::string name_of_source(std::size_t shot, std::size_t which) const;
+  /// The first source of a shot and those that are blended with it.
+  std::vector<const Source<D>*> sources_of(std::size_t shot) const;
 };
+
+/// Calls `see` with every place where a receiver stands, and a shot (from 1) and number (from 1) that it has
+/// there; a place where one stands in many shots is seen once.
+template <int D>
+void each_receiver(const Survey<D>& survey,
+                   const std::function<void(const Point<D>&, std::size_t shot, std::size_t number)>& see);
+/// "receiver 3", or "shot 12: receiver 3 (channel 7)", and where it is on the map if it came from one.
+template <int D>
+std::string name_of_receiver(const Survey<D>& survey, std::size_t shot, std::size_t number);
+
+/// Puts the places of a survey that options gave (its spreads) into a model of that ground: sources get their
+/// positions, receivers are found or, where all shots have the same and channels from 1, listed. Throws an
+/// Error naming what can not be placed.
+template <int D>
+void place(Survey<D>& survey, Ground<D> ground);
+
+/// Whether depths can be told only by a look at the model's cells.
+template <int D>
+bool needs_ground(const Survey<D>& survey);
 
 /// What a point source does, per unit of its wavelet and before it is spread over cells of volume V = h^D:
 ///   v_i' += force_i w/(rho V),   s_ij' -= moment_ij w/V   (tension positive: M > 0 pushes outward)
@@ -93,6 +134,12 @@ extern template Mechanism<2> parse_mechanism<2>(const std::string&);
 extern template Mechanism<3> parse_mechanism<3>(const std::string&);
 extern template const char* name_of<2>(const Mechanism<2>&);
 extern template const char* name_of<3>(const Mechanism<3>&);
+extern template struct Survey<2>;
+extern template struct Survey<3>;
+extern template void place(Survey<2>&, Ground<2>);
+extern template void place(Survey<3>&, Ground<3>);
+extern template bool needs_ground(const Survey<2>&);
+extern template bool needs_ground(const Survey<3>&);
 extern template void check<2>(const Survey<2>&, const Grid<2>&);
 extern template void check<3>(const Survey<3>&, const Grid<3>&);
 

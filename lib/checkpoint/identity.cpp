@@ -99,11 +99,27 @@ class Digest {
   }
   template <int D>
   void add(const Source<D>& source) {
-    const auto& [position_m, mechanism, wavelet, amplitude] = source;
+    const auto& [position_m, mechanism, wavelet, amplitude, delay_s] = source;
     add(position_m);
     add<D>(mechanism);
     add(wavelet);
     add(amplitude);
+    if (delay_s != 0) add(delay_s);
+  }
+  /// Places in the model, and all that headers of traces hold.
+  template <int D>
+  void add(const Receiver<D>& receiver) {
+    const auto& [point_m, channel, bin, map_m] = receiver;
+    add(point_m), add(map_m);
+    add(channel), add(bin);
+  }
+  template <int D>
+  void add(const Spreads<D>& spreads) {
+    for (std::size_t shot = 1; shot <= spreads.given().shots.size(); ++shot) {
+      add(spreads.given().shots[shot - 1].number);
+      add(spreads.map_source_of(shot));
+      add(spreads.receivers_of(shot));
+    }
   }
   std::string text() const { return std::to_string(sum_.sum()); }
 
@@ -152,7 +168,7 @@ Identity identity_of(const Scene<D>& scene) {
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, tiling] = numerics;
   const auto& [components, duration_s, interval_s] = recording;
-  const auto& [sources, receivers_m] = survey;
+  const auto& [sources, receivers_m, blended, spreads] = survey;
   static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);  // changes no result
   const double step_s = given_step_s ? *given_step_s : time_step_s(scene);
   std::string recorded;
@@ -174,7 +190,7 @@ Identity identity_of(const Scene<D>& scene) {
       {"components", recorded},
       {"time between snapshots", snapshot_every_s ? shown(*snapshot_every_s) + " s" : "none"},
       {"number of sources", std::to_string(sources.size())},
-      {"number of receivers", std::to_string(receivers_m.size())},
+      {"number of receivers", std::to_string(spreads ? spreads->count_of(1) : receivers_m.size())},
   };
   if (attenuation) identity.push_back({"attenuation", shown_attenuation(*attenuation)});
   for (int axis = 0; axis < D; ++axis)
@@ -184,7 +200,8 @@ Identity identity_of(const Scene<D>& scene) {
            name_of(edges[axis][side])});
   identity.push_back({"model", digest_of(model), false});
   identity.push_back({"source or wavelet", digest_of(sources), false});
-  identity.push_back({"set of receivers", digest_of(receivers_m), false});
+  if (!blended.empty()) identity.push_back({"blended source", digest_of(blended), false});
+  identity.push_back({"set of receivers", spreads ? digest_of(*spreads) : digest_of(receivers_m), false});
   return identity;
 }
 

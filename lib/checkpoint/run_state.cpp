@@ -31,9 +31,10 @@ void serialize_gather(Archive& archive, Gather& gather) {
   archive.value(gather.axis.start_s);
   gather.traces.resize(archive.count(gather.traces.size(), 1));
   for (auto& [header, samples] : gather.traces) {
-    auto& [shot, channel, component, source_m, receiver_m, depth_source_m, depth_receiver_m] = header;
+    auto& [shot, channel, bin, component, source_m, receiver_m, depth_source_m, depth_receiver_m] = header;
     archive.value(shot);
     archive.value(channel);
+    archive.value(bin);
     archive.value(component);
     archive.value(source_m);
     archive.value(receiver_m);
@@ -234,7 +235,7 @@ void RunState::write_checkpoint() {
     if (ends_ != 0) settings_.say(ended + "; " + settings_.path + " holds " + description());
   } catch (const Error& error) {
     settings_.warn(ended + (ended.empty() ? "" : "; ") + error.what() +
-                   "; the checkpoint was not written, an older one stays as it was");
+                   "; the checkpoint was not written, an older one stays as it was; --checkpoint names a file elsewhere");
   }
   due_ = (Clock::now() + in_ticks(settings_.every_s)).time_since_epoch().count();
   ++written_;

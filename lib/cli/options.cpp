@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "base/error.hpp"
@@ -105,6 +106,20 @@ void Options::add_choice(const std::string& name, std::string& to, std::vector<s
     }
     to = values.back();
   };
+}
+
+Options::Option& Options::declared(const std::string& name) {
+  for (auto& option : options_)
+    if (option.name == name) return option;
+  throw std::logic_error("there is no option --" + name);
+}
+
+void Options::headings(const std::vector<std::pair<std::string, std::string>>& first_and_title) {
+  for (const auto& [name, title] : first_and_title) declared(name).heading = title;
+}
+
+void Options::common(const std::vector<std::string>& names) {
+  for (const auto& name : names) declared(name).common = true;
 }
 
 void Options::require(const std::string& name) {

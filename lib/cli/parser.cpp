@@ -20,11 +20,36 @@ const std::set<std::string> without_effect = {
     "output",           "threads",           "quiet",          "verbose",       "checkpoint",
     "checkpoint-every", "shots-in-parallel", "ranks-per-shot", "keep-unstable", "executor"};
 // Only sensible on the command line.
-const std::set<std::string> not_in_config = {"help", "version", "config"};
+const std::set<std::string> not_in_config = {"help", "help-all", "version", "config"};
 
 constexpr int most_threads = 4096;
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
+
+// Of --help.
+constexpr std::size_t help_width = 80, help_column = 24;
+
+/// A text broken at blanks into lines of at most help_width columns (the first with `indent` blanks that it
+/// has already, the others behind `hanging` ones); a longer word stands alone.
+std::string wrapped(const std::string& text, std::size_t indent, std::size_t hanging) {
+  constexpr std::size_t continuation = 2;  // " \\" may follow
+  const std::size_t room = help_width - continuation;
+  std::string lines(indent, ' ');
+  std::size_t used = indent;
+  for (const auto& word : split(std::string_view(text).substr(indent), ' ')) {
+    const bool first = used == indent && lines.size() == indent;
+    if (!first && used + 1 + word.size() > room) {
+      lines += '\n' + std::string(hanging, ' ');
+      used = hanging;
+    } else if (!first) {
+      lines += ' ';
+      ++used;
+    }
+    lines += word;
+    used += word.size();
+  }
+  return lines + '\n';
+}
 
 std::string without_dashes(const std::string& name) {
   const auto start = name.find_first_not_of('-');
@@ -47,11 +72,17 @@ void Parser::declare_common() {
       };
     }
   }
+  const bool has_more = this->has_more();
   options_.add("config", common_.config, "FILE", "read further options from this INI file");
   options_.add("quiet,q", common_.quiet, "suppress warnings and progress");
   options_.add("verbose,v", common_.verbose, "print more");
-  options_.add("help,h", common_.help, "show this help");
+  options_.add("help,h", common_.help, has_more ? "show the common options" : "show this help");
+  if (has_more) options_.add("help-all", common_.help_all, "show all options, as the man page does");
   options_.add("version", common_.version, "show the version");
+  if (has_more) options_.common({"config", "help-all"});
+  const auto has_heading = [](const auto& option) { return !option.heading.empty(); };
+  if (std::any_of(options_.options_.begin(), options_.options_.end(), has_heading))
+    options_.headings({{is_declared("--threads") ? "threads" : "config", "General"}});
 }
 
 void Parser::parse(int argc, const char* const* argv) {
@@ -59,8 +90,9 @@ void Parser::parse(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
     common_.help = common_.help || word == "--help" || word == "-h";
+    common_.help_all = common_.help_all || word == "--help-all";
   }
-  if (common_.help) return;
+  if (common_.help || common_.help_all) return;
   read_command_line(argc, argv);
   for (const auto& option : options_.options_) {
     if (option.name == "version" || option.name == "config") {
@@ -96,7 +128,8 @@ void Parser::read_command_line(int argc, const char* const* argv) {
     name = name.substr(0, name.find('='));
     const std::string meant = nearest(without_dashes(name), false);
     refuse("unknown option " + name +
-           (meant.empty() ? "; --help lists them all" : "; did you mean --" + meant + "?"));
+           (meant.empty() ? std::string("; --help") + (has_more() ? "-all" : "") + " lists them all"
+                          : "; did you mean --" + meant + "?"));
   } catch (const po::error_with_option_name& error) {
     const std::string name = without_dashes(error.get_option_name());
     refuse_without_value(name);
@@ -215,31 +248,38 @@ std::string Parser::nearest(const std::string& name, bool config) const {
   return nearest_of(names, name);
 }
 
+/// Are there options that --help does not show?
+bool Parser::has_more() const {
+  return std::any_of(options_.options_.begin(), options_.options_.end(),
+                     [](const auto& option) { return option.common; });
+}
+
 std::string Parser::help() const {
-  constexpr std::size_t width = 100, column = 30;
-  std::string text = "Usage: " + info_.name + " " + info_.synopsis + "\n" + info_.summary + "\n\n";
+  const bool all = common_.help_all || !has_more();
+  std::string text =
+      wrapped("Usage: " + info_.name + " " + info_.synopsis, 0, 7) + wrapped(info_.summary, 0, 0) + "\n";
+  std::string heading, shown_heading;
   for (const auto& option : options_.options_) {
-    if (option.help == hidden) continue;
+    if (!option.heading.empty()) heading = option.heading;
+    if (option.help == hidden || !(all || option.common)) continue;
+    if (heading != shown_heading) text += (shown_heading.empty() ? "" : "\n") + heading + ":\n";
+    shown_heading = heading;
     std::string line = option.short_name.empty() ? "  --" : "  -" + option.short_name + ", --";
     line += option.name + (option.placeholder.empty() ? "" : " " + option.placeholder);
-    line.resize(std::max(column, line.size() + 2), ' ');
+    if (line.size() + 2 > help_column)
+      line += '\n' + std::string(help_column, ' ');
+    else
+      line.resize(help_column, ' ');
     std::string help = option.help;
     if (option.required) help += " (required)";
     if (!option.required && !option.shown_default.empty()) help += " [" + option.shown_default + "]";
-    std::size_t used = line.size();
-    for (const auto& word : split(help, ' ')) {
-      if (used + word.size() > width) {
-        line.pop_back();
-        line += "\n" + std::string(column, ' ');
-        used = column;
-      }
-      line += word + ' ';
-      used += word.size() + 1;
-    }
-    line.pop_back();
-    text += line + "\n";
+    const std::string lines = wrapped(std::string(help_column, ' ') + help, help_column, help_column);
+    text += line + lines.substr(help_column);
   }
-  return text + "\nExample:\n  " + info_.example + "\n";
+  std::string example = wrapped("  " + info_.example, 2, 4);
+  for (std::size_t at = 0; (at = example.find('\n', at)) + 1 < example.size(); at += 3)
+    example.replace(at, 1, " \\\n");
+  return text + "\nExample:\n" + example;
 }
 
 }  // namespace slipwave::cli

@@ -16,6 +16,8 @@ struct Options::Option {
   std::string placeholder;  // empty: a switch
   std::string help;
   std::string shown_default;
+  std::string heading;  // above it in --help
+  bool common = false;  // shown by --help where not all are
   bool many = false;
   bool required = false;
   std::function<void(const std::vector<std::string>&)> store;  // throws Error "found .., expected .."
@@ -31,7 +33,7 @@ struct Options::Positional {
 
 /// What every tool understands beside its own options.
 struct CommonSettings {
-  bool quiet = false, verbose = false, help = false, version = false;
+  bool quiet = false, verbose = false, help = false, help_all = false, version = false;
   int threads = 0;
   std::string config;
 };
@@ -48,7 +50,7 @@ class Parser {
   const CommonSettings& common() const { return common_; }
   /// As Context::command_line. After parse().
   const std::string& command_line() const { return command_line_; }
-  /// The text of --help.
+  /// The text of --help or --help-all.
   std::string help() const;
 
  private:
@@ -58,6 +60,7 @@ class Parser {
   void read_config();
   void store();
   bool is_declared(const std::string& word) const;
+  bool has_more() const;
   [[noreturn]] void refuse_without_value(const std::string& name) const;
   std::string nearest(const std::string& name, bool config) const;
 

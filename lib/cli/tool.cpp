@@ -71,7 +71,7 @@ int run_tool(int argc, char** argv, const ToolInfo& info, const std::function<vo
     declare(parser.options());
     parser.declare_common();
     parser.parse(argc, argv);
-    if (parser.common().help) {
+    if (parser.common().help || parser.common().help_all) {
       print(parser.help());
       return 0;
     }

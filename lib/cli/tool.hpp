@@ -3,6 +3,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/messages.hpp"
@@ -44,6 +45,11 @@ class Options {
   /// Must be given: its absence is a usage error. `name` of an option without its short form, or the
   /// placeholder of a positional argument. Options of which one must be given are the tool's own business.
   void require(const std::string& name);
+  /// Headings of --help: each stands above the option named with it; those declared after that one are under
+  /// it, too.
+  void headings(const std::vector<std::pair<std::string, std::string>>& first_and_title);
+  /// Those that --help shows; the others, --help-all. Without it --help shows all of them.
+  void common(const std::vector<std::string>& names);
   /// Positional arguments, in order; the last may be a vector that takes all the rest.
   void positional(std::string& to, const std::string& placeholder);
   void positional(std::vector<std::string>& to, const std::string& placeholder);
@@ -59,6 +65,7 @@ class Options {
   Options();
   ~Options();
   Option& declare(const std::string& name, const std::string& placeholder, const std::string& help);
+  Option& declared(const std::string& name);
 
   std::vector<Option> options_;
   std::vector<Positional> positionals_;

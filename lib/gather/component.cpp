@@ -96,11 +96,11 @@ const char* name_of(Component component) { return row_of(component).name; }
 
 const char* unit_of(Component component) { return row_of(component).unit; }
 
-Component component_named(const std::string& name) {
+Component component_named(const std::string& name, int dimension) {
   std::vector<std::string> known;
   for (const auto& one : rows) {
     if (name == one.name) return one.component;
-    known.emplace_back(one.name);
+    if (dimension == 0 || one.in(dimension)) known.emplace_back(one.name);
   }
   throw Error("component \"" + name + "\", expected one of " + joined(known), ErrorKind::usage);
 }

@@ -50,8 +50,9 @@ const ComponentRow& row_of(Component component);
 
 /// "vx" .. "syz", "other".
 const char* name_of(Component component);
-/// The component of that name; throws Error listing the names otherwise.
-Component component_named(const std::string& name);
+/// The component of that name; throws Error listing the names otherwise. With a dimension it lists
+/// only those that are recorded there.
+Component component_named(const std::string& name, int dimension = 0);
 /// "m/s", "Pa" or "" (other).
 const char* unit_of(Component component);
 /// As CF conventions write it: "m s-1" for "m/s".

@@ -22,6 +22,7 @@ struct SampleAxis {
 struct TraceHeader {
   std::int64_t shot = 1;     // field record, 1-based
   std::int64_t channel = 1;  // receiver number within its component, 1-based
+  std::int64_t bin = 0;      // midpoint bin (cdp); 0: by the midpoint
   Component component = Component::other;
   std::array<double, 3> source_m{};    // x, y, z
   std::array<double, 3> receiver_m{};  // x, y, z

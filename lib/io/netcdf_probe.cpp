@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "io/children_heard.hpp"
 
 namespace slipwave {
 namespace {
@@ -118,22 +119,6 @@ void limit(decltype(RLIMIT_CPU) what, rlim_t most) {
   }
   _exit(0);
 }
-
-/// While it lives, the end of a child is told, also to a process that was started to ignore such news.
-class ChildrenHeard {
- public:
-  ChildrenHeard() {
-    struct sigaction standard {};
-    standard.sa_handler = SIG_DFL;
-    sigaction(SIGCHLD, &standard, &before_);
-  }
-  ChildrenHeard(const ChildrenHeard&) = delete;
-  ChildrenHeard& operator=(const ChildrenHeard&) = delete;
-  ~ChildrenHeard() { sigaction(SIGCHLD, &before_, nullptr); }
-
- private:
-  struct sigaction before_ {};
-};
 
 }  // namespace
 

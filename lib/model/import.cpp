@@ -12,12 +12,6 @@
 namespace slipwave {
 namespace {
 
-float little_endian_float(const char* from) {
-  std::uint32_t bits = 0;
-  for (int i = 3; i >= 0; --i) bits = bits << 8 | std::uint32_t(static_cast<unsigned char>(from[i]));
-  return std::bit_cast<float>(bits);
-}
-
 template <int D>
 void check_grid(const Field<D>& field, const std::string& name, const Grid<D>& grid) {
   if (field.grid() == grid) return;
@@ -38,6 +32,13 @@ void fit_extruded(const Grid<2>& flat, Grid<3>& grid) {
 
 }  // namespace
 
+float raw_value(const std::vector<char>& bytes, std::int64_t at) {
+  const char* from = bytes.data() + at * 4;
+  std::uint32_t bits = 0;
+  for (int i = 3; i >= 0; --i) bits = bits << 8 | std::uint32_t(static_cast<unsigned char>(from[i]));
+  return std::bit_cast<float>(bits);
+}
+
 template <int D>
 Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast) {
   const std::size_t expected = std::size_t(grid.size()) * 4;
@@ -53,7 +54,7 @@ Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, Fas
       from = 0;
       for (std::size_t axis = 0; axis < D; ++axis) from = from * grid.shape[axis] + at[axis];
     }
-    field[std::size_t(n)] = little_endian_float(bytes.data() + from * 4);
+    field[std::size_t(n)] = raw_value(bytes, from);
   }
   return field;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,9 @@ class NetcdfFile;
 /// Which axis of a raw file runs fastest.
 enum class FastAxis { z, x };
 
+/// Value number `at` of a raw file.
+float raw_value(const std::vector<char>& bytes, std::int64_t at);
+
 /// A field from raw little-endian float32 values, `grid` saying how many; z-fast: columns of depth one after
 /// the other, y before x in 3-D; x-fast: rows, top first. Throws Error when the number of bytes is another.
 template <int D>
@@ -25,10 +29,10 @@ Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, dou
 /// A section from a netCDF variable of two dimensions. `name` "" takes the variable called as the row, else
 /// the only one of two dimensions. Depth is the dimension named z or depth or whose coordinate has axis "Z"
 /// or a `positive` attribute, else the first one. Coordinates give the step (or must agree with `spacing_m`),
-/// in m or km; values in the units of the row (speeds in m/s or km/s, densities in kg/m3 or g/cm3); ascending
-/// depth may run up or down. Throws Error naming file and variable.
+/// in m or km; values in the units of the row (speeds in m/s or km/s, densities in kg/m3 or g/cm3), where
+/// they name none `unnamed` in SI; ascending depth may run up or down. Throws Error naming file and variable.
 Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
-                           std::optional<double> spacing_m);
+                           std::optional<double> spacing_m, double unnamed = 1);
 
 /// The medium of imported fields. Without vs: Castagna's line, fluid where vp is at most `fluid_vp`; without
 /// rho: Gardner's relation (model/relations.hpp). Throws Error when the grids differ.

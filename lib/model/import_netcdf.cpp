@@ -56,7 +56,7 @@ double tidy(double step) {
 }  // namespace
 
 Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
-                           std::optional<double> spacing_m) {
+                           std::optional<double> spacing_m, double unnamed) {
   const auto variable = file.variable(chosen_variable(file, row.name, name));
   if (variable.shape.size() != 2 || variable.shape[0] == 0 || variable.shape[1] == 0) {
     throw Error(file.shown_name() + ": " + variable.name + ": found " +
@@ -84,7 +84,8 @@ Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const
   }
   if (step == 0)
     throw Error(file.shown_name() + ": " + variable.name + ": found no coordinates, expected --step");
-  const double factor = unit_factor(file, variable.name, row.si, row.thousand);
+  const bool names_unit = !file.text_attribute(variable.name, "units").value_or("").empty();
+  const double factor = names_unit ? unit_factor(file, variable.name, row.si, row.thousand) : unnamed;
   const auto values = file.get_physical(variable.name);
   Grid<2> grid;
   grid.shape = {std::int64_t(nx), std::int64_t(nz)};

@@ -300,7 +300,7 @@ double Layer::value(Property property) const {
   return row_of(property).if_absent.value();
 }
 
-Layer parse_layer(std::string_view text) {
+Layer parse_layer(std::string_view text, const InputUnits& units) {
   auto parts = split(text, ':');
   const auto named = take_named(parts);
   if (parts.size() != 4 && parts.size() != 5) {
@@ -310,7 +310,9 @@ Layer parse_layer(std::string_view text) {
   auto layer = in_place('\'' + std::string(text) + "'", [&] {
     const auto vp = parse_trend(parts[1]), vs = parse_trend(parts[2]), rho = parse_trend(parts[3]);
     const double dip_deg = parts.size() == 5 ? parse_number(parts[4]) : 0;
-    return Layer(Horizon::parse(parts[0], dip_deg), {vp.value, vs.value, rho.value},
+    return Layer(Horizon::parse(parts[0], dip_deg),
+                 {vp.value * units.factor(Property::vp), vs.value * units.factor(Property::vs),
+                  rho.value * units.factor(Property::rho)},
                  {vp.gradient, vs.gradient, rho.gradient});
   });
   in_place('\'' + std::string(text) + "'", [&] { set_others(layer, named); });

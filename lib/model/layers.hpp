@@ -7,6 +7,7 @@
 #include "model/averaging.hpp"
 #include "model/fit.hpp"
 #include "model/horizon.hpp"
+#include "model/input_units.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
@@ -34,8 +35,8 @@ struct Layer {
 /// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". DEPTH and DIP as Horizon::parse(); VP, VS and RHO are numbers,
 /// or "A+K" and "A-K" for A at the top and K more or less with every metre below it. Behind them, after ':'
 /// or blanks, other properties as NAME=VALUE ("qp=80 qs=40"), each once; VALUE may be inf. Throws a usage
-/// Error, or one that names a horizon's file.
-Layer parse_layer(std::string_view text);
+/// Error, or one that names a horizon's file. A is in `units`, K in SI whatever they are.
+Layer parse_layer(std::string_view text, const InputUnits& units = {});
 
 /// The grid of `size_m` in cells of `spacing_m`, its low corner at the origin. Throws a usage Error when a
 /// side is no whole number of steps (to 1e-6 of a step) or the model would not fit this machine's memory.

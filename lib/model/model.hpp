@@ -48,14 +48,15 @@ struct Model {
 /// What `check` lets through beyond the usual.
 struct MediumLimits {
   bool allow_auxetic = false;  // vs > vp/sqrt(2), that is lambda < 0
+  bool allow_slow = false;     // speeds and densities that no rock, soil or fluid has
 };
 
 /// Throws an Error naming the first cell that is not physical: NaN, infinite or negative values or others
 /// that the row of a property does not let through (of an optional one outside void), rho = 0 with vp or vs
-/// set, vp = 0 outside void, vs > vp/sqrt(2) (with allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D, where
-/// the bulk modulus vanishes), a fracture code without its set, a fracture in fluid or void, a slip normal
-/// that is no unit vector, negative or non-finite slip constants, a prestress that is not finite or under
-/// which planes slip or part by themselves.
+/// set, vp = 0 outside void, speeds and densities that look like km/s, ft/s or g/cm3, vs > vp/sqrt(2) (with
+/// allow_auxetic: vs >= vp sqrt(3)/2 in 2-D and 3-D, where the bulk modulus vanishes), a fracture code
+/// without its set, a fracture in fluid or void, a slip normal that is no unit vector, negative or non-finite
+/// slip constants, a prestress that is not finite or under which planes slip or part by themselves.
 template <int D>
 void check(const Model<D>& model, const MediumLimits& limits = {});
 

@@ -84,6 +84,30 @@ void check_rows(const Grid<D>& grid) {
   }
 }
 
+// Dry sand and mud are slower than anything else in the Earth; only gases are as light as that, and they are
+// slow.
+constexpr double slowest_vp = 50, slowest_vs = 5, fastest = 15000;
+constexpr double lightest = 30, heaviest = 30000, fastest_gas = 1000;
+
+/// Speeds and densities in other units than those of the model.
+template <int D>
+void check_plausible(const Medium<D>& medium, std::size_t cell) {
+  const auto unlikely = [&](const char* name, double value, const char* unit, const char* meant) {
+    refuse(medium.grid(), cell, name,
+           "is " + shown_float(value) + " " + unit + ", which no rock or fluid has; if the numbers are in " +
+               meant + ", build the model with --units " + meant + ", if it is meant so, use --allow-slow");
+  };
+  const double vp = double(medium.vp[cell]), vs = double(medium.vs[cell]), rho = double(medium.rho[cell]);
+  if (vp < slowest_vp) unlikely("vp", vp, "m/s", rho < lightest ? "km/s,g/cm3" : "km/s");
+  if (vp > fastest) unlikely("vp", vp, "m/s", "ft/s");
+  if (vs > 0 && vs < slowest_vs) unlikely("vs", vs, "m/s", "km/s");
+  if (rho < lightest && (vs > 0 || vp > fastest_gas)) unlikely("rho", rho, "kg/m3", "g/cm3");
+  if (rho > heaviest)
+    refuse(
+        medium.grid(), cell, "rho",
+        "is " + shown_float(rho) + " kg/m3, which no rock or fluid has; if it is meant so, use --allow-slow");
+}
+
 template <int D>
 void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& limits) {
   const double vp = double(medium.vp[cell]), vs = double(medium.vs[cell]);
@@ -98,6 +122,7 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
     refuse(medium.grid(), cell, "qs",
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");
+  if (!limits.allow_slow) check_plausible(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {
     const double limit = vp * std::sqrt(0.75);

@@ -8,7 +8,7 @@ std::vector<PropertyRow> property_rows() {
                                  g_cm3 = {"g cm-3", "g/cm3", "g/cc", "g/cm^3", "g cm^-3"};
   return {{.name = "vp",
            .long_name = "P-wave speed",
-           .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE)",
+           .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE), or a number",
            .units = "m s-1",
            .shown_unit = "m/s",
            .si = m_s,

@@ -8,6 +8,7 @@
 #include "accuracy/dispersion.hpp"
 #include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "base/processor_time.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
@@ -119,21 +120,94 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
 
 namespace {
 
+/// Causes that make less of the whole are left out.
+constexpr double least_cause = 0.1;
+
+std::vector<ErrorCause> causes_of(const ExpectedError& error) {
+  std::vector<ErrorCause> causes;
+  if (error.promise)
+    for (const auto& cause : error.promise->causes)
+      if (cause.error > least_cause * error.promise->error) causes.push_back(cause);
+  return causes;
+}
+
+/// "up to 5.6 % of all traces together; not counted: ...".
+std::string error_text(const ExpectedError& error, double duration_s) {
+  std::string text;
+  if (error.promise) {
+    text = "up to " + shown(100 * error.promise->error, 2) + " % of all traces together";
+  } else {
+    text = "after " + shown(duration_s, 3) + " s: P " + shown(100 * error.p, 2) + " %" +
+           (error.s ? ", S " + shown(100 * *error.s, 2) + " %" : "");
+  }
+  if (!error.not_covered.empty()) text += "; not counted: " + joined(error.not_covered, "; ");
+  return text;
+}
+
+template <int D>
+std::string cells_text(const Plan<D>& plan) {
+  return "P " + shown(plan.cells_of_shortest_p, 3) +
+         (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : "");
+}
+
+/// Two digits, which is more than they are good for.
+void report_percent(Report& report, const std::string& key, double share) {
+  report.number(key, std::stod(shown(100 * share, 2)), "%");
+}
+
 /// What is promised of all traces together, and why it is not less.
 void report_promise(const ExpectedError& error, Report& report) {
-  /// Causes that make less of the whole are left out.
-  constexpr double least = 0.1;
-  if (error.promise) {
-    report.text("error", "up to " + shown(100 * error.promise->error, 2) + " % of all traces together");
-    std::vector<std::string> causes;
-    for (const auto& cause : error.promise->causes)
-      if (cause.error > least * error.promise->error) causes.push_back(sentence_of(cause));
-    if (!causes.empty()) report.texts("by", causes);
+  if (error.promise) report_percent(report, "promised error", error.promise->error);
+  std::vector<Report> causes;
+  for (const auto& cause : causes_of(error)) {
+    auto& one = causes.emplace_back();
+    report_percent(one, "error", cause.error);
+    one.text("name", cause.name);
+    if (!cause.remedy.empty()) one.text("remedy", cause.remedy);
   }
+  if (!causes.empty()) report.list("cause", causes);
   if (!error.not_covered.empty()) report.texts("not counted", error.not_covered);
 }
 
 }  // namespace
+
+template <int D>
+std::string cost_of_a_second(const Scene<D>& scene) {
+  // Of one thread, docs/performance.md.
+  constexpr double cells_per_s = D == 2 ? 200e6 : 45e6;
+  const auto zone = 2 * zone_cells(scene, scene.survey.sources.front());
+  double cells = 1;
+  for (const auto n : scene.model.grid().shape) cells *= double(n + zone);
+  const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
+  const auto slowest = slowest_wave(scene.model.medium);
+  return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
+         shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
+         " MiB; waves up to " + shown(slowest.speed / (fewest_cells * scene.model.grid().spacing_m), 2) +
+         " Hz";
+}
+
+template <int D>
+Report summary_of(const Plan<D>& plan) {
+  Report report;
+  if (D == 3) {
+    report.text("error", "not estimated in 3-D; cells per shortest wavelength: " + cells_text(plan));
+    report.text("mostly from", "loss of the slowest wave: " + shown(100 * plan.loss_per_wavelength, 2) +
+                                   " % of its amplitude per wavelength");
+  } else {
+    report.text("error", error_text(plan.error, plan.duration_s));
+    const auto causes = causes_of(plan.error);
+    std::string text;
+    for (std::size_t n = 0; n < std::min<std::size_t>(causes.size(), 2); ++n)
+      text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
+    if (!text.empty()) report.text("mostly from", text);
+  }
+  const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
+                                                     std::to_string(plan.threads) + " threads"
+                                               : "";
+  report.text("time", shown(plan.seconds, 2) + " s of processor time" + threads);
+  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB a shot");
+  return report;
+}
 
 template <int D>
 Report report_of(const Plan<D>& plan) {
@@ -144,31 +218,28 @@ Report report_of(const Plan<D>& plan) {
   report.number("Courant number", plan.courant, "");
   report.number("slowest wave", plan.slowest.speed, "m/s");
   report.number("highest frequency", plan.highest_hz, "Hz");
-  report.text("cells per shortest wavelength",
-              "P " + shown(plan.cells_of_shortest_p, 3) +
-                  (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : ""));
+  report.text("cells per shortest wavelength", cells_text(plan));
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
   if (D == 2) report_promise(plan.error, report);
-  if (D == 3) report.text("error", "not estimated in 3-D");
-  if (D == 2 && plan.error.direct)
-    report.text("expected error", shown(100 * *plan.error.direct, 2) + " % in direct arrivals");
-  if (D == 2)
-    report.text("error after " + shown(plan.duration_s, 3) + " s",
-                "P " + shown(100 * plan.error.p, 2) + " %" +
-                    (plan.error.s ? ", S " + shown(100 * *plan.error.s, 2) + " %" : ""));
+  if (D == 2) {
+    if (plan.error.direct) report_percent(report, "error in direct arrivals", *plan.error.direct);
+    report_percent(report, "late error P", plan.error.p);
+    if (plan.error.s) report_percent(report, "late error S", *plan.error.s);
+  }
   report.count("cells at interfaces", plan.interface_cells);
   report.text(
       "active cells",
       shown(100 * plan.computed_share, 2) +
           " % (cells that no wave has reached, or that can no longer affect a receiver, are skipped)");
-  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB");
-  report.text("expected time", shown(plan.seconds, 2) + " s of processor time, " +
-                                   shown(plan.seconds / plan.threads, 2) + " s on " +
-                                   std::to_string(plan.threads) + " threads");
+  report.number("memory of a shot", double(plan.memory_bytes) / (1 << 20), "MiB");
+  report.number("processor time", plan.seconds, "s");
+  report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
+  std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
-    report.text("part of step", entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");
+    entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");
+  report.texts("part of step", entries);
   return report;
 }
 
@@ -190,10 +261,14 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
 
 template Plan<2> plan(const Scene<2>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
+template std::string cost_of_a_second(const Scene<2>&);
+template Report summary_of(const Plan<2>&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
 template Plan<3> plan(const Scene<3>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
+template std::string cost_of_a_second(const Scene<3>&);
+template Report summary_of(const Plan<3>&);
 template Report report_of(const Plan<3>&);
 template std::vector<std::string> warnings(const Scene<3>&);
 

@@ -39,6 +39,17 @@ Plan<D> plan(const Scene<D>& scene);
 template <int D>
 std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
 
+/// What a second of traces costs in the cells that a model has, in one line: steps, cells, processor time by
+/// the usual rate, memory, and the highest frequency that cells can hold. Any source
+/// will do.
+template <int D>
+std::string cost_of_a_second(const Scene<D>& scene);
+
+/// What a user decides by: error, what it comes from, time, memory. A line each.
+template <int D>
+Report summary_of(const Plan<D>& plan);
+
+/// All the rest, and in numbers what the summary says in words.
 template <int D>
 Report report_of(const Plan<D>& plan);
 

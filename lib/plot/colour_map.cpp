@@ -6,6 +6,7 @@
 #include <span>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 
 namespace slipwave::plot {
 namespace {
@@ -36,6 +37,11 @@ Colour colour_of(const Lab& lab) {
   return {companded(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
           companded(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           companded(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
+}
+
+/// Part `t` of the way from b to c, smooth with what is before and after (Catmull and Rom).
+double smooth(double a, double b, double c, double d, double t) {
+  return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
 }
 
 /// A path through colours, 0 to 1, smooth through the points given; walked at equal speed by `even`.
@@ -72,12 +78,9 @@ class Path {
     const Shade& from = points_[n];
     const Shade& to = points_[n + 1];
     const Shade& after = points_[std::min(n + 2, points_.size() - 1)];
-    const auto smooth = [&](double a, double b, double c, double d) {  // Catmull-Rom
-      return b + 0.5 * t * (c - a + t * (2 * a - 5 * b + 4 * c - d + t * (3 * (b - c) + d - a)));
-    };
-    return {smooth(before.lightness, from.lightness, to.lightness, after.lightness),
-            smooth(before.chroma, from.chroma, to.chroma, after.chroma),
-            smooth(before.hue_deg, from.hue_deg, to.hue_deg, after.hue_deg)};
+    return {smooth(before.lightness, from.lightness, to.lightness, after.lightness, t),
+            smooth(before.chroma, from.chroma, to.chroma, after.chroma, t),
+            smooth(before.hue_deg, from.hue_deg, to.hue_deg, after.hue_deg, t)};
   }
 
   std::vector<Shade> points_;
@@ -90,32 +93,97 @@ constexpr Shade blue[] = {{1.0, 0.0, 255}, {0.80, 0.105, 250}, {0.56, 0.165, 258
 constexpr Shade red[] = {{1.0, 0.0, 30}, {0.80, 0.115, 35}, {0.56, 0.19, 27}, {0.36, 0.135, 25}};
 constexpr Shade grey[] = {{0.0, 0, 0}, {1.0, 0, 0}};
 
+constexpr Colour of_hex(std::uint32_t rgb) {
+  return {double(rgb >> 16 & 0xff) / 255, double(rgb >> 8 & 0xff) / 255, double(rgb & 0xff) / 255};
+}
+
+/// Colours at equal distances that others have published, as screens take them, and a way through them.
+struct Published {
+  std::span<const std::uint32_t> hex;
+  bool curved;  // else straight from one to the next
+  Colour at(double part) const {
+    const double scaled = part * double(hex.size() - 1);
+    const auto n = std::min(std::size_t(scaled), hex.size() - 2);
+    const Colour before = of_hex(hex[n == 0 ? 0 : n - 1]), from = of_hex(hex[n]), to = of_hex(hex[n + 1]);
+    const Colour after = of_hex(hex[std::min(n + 2, hex.size() - 1)]);
+    const double t = scaled - double(n);
+    if (!curved) return blend(from, to, t);
+    return {smooth(before.red, from.red, to.red, after.red, t),
+            smooth(before.green, from.green, to.green, after.green, t),
+            smooth(before.blue, from.blue, to.blue, after.blue, t)};
+  }
+};
+
+// Smith and van der Walt 2015, at tenths.
+constexpr std::uint32_t viridis[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
+                                     0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
+constexpr std::uint32_t seismic[] = {0x00004d, 0x0000ff, 0xffffff, 0xff0000, 0x800000};
+
+/// A map by its name; `colour(part)` of one without a middle, else of (-1 .. 1).
+struct MapRow {
+  const char* name;
+  bool diverging;
+  Colour (*colour)(double part);
+};
+
+template <const auto& shades>
+Colour along(double part) {
+  static const Path path(shades);
+  return path.even(part);
+}
+
+template <const auto& below, const auto& above>
+Colour from_middle(double part) {
+  return part < 0 ? along<below>(-part) : along<above>(part);
+}
+
+constexpr MapRow maps[] = {
+    {"uniform", false, along<uniform>},
+    {"viridis", false,
+     [](double part) {
+       return Published{viridis, true}.at(part);
+     }},
+    {"grey", false, along<grey>},
+    {"white-black", false, [](double part) { return along<grey>(1 - part); }},
+    {"blue-red", true, from_middle<blue, red>},
+    {"red-blue", true, from_middle<red, blue>},
+    {"seismic", true,
+     [](double part) {
+       return Published{seismic, false}.at((1 + part) / 2);
+     }},
+};
+
+const MapRow& row_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (const auto& row : maps) {
+    if (name == row.name) return row;
+    known.emplace_back(row.name);
+  }
+  for (const char* uneven : {"jet", "rainbow", "hsv"})
+    if (name == uneven)
+      throw Error("the map '" + name +
+                      "' is refused: its lightness rises and falls, which draws edges that are not in the "
+                      "data and hides others; use viridis or uniform, for waves seismic or blue-red",
+                  ErrorKind::usage);
+  throw Error("found the map '" + name + "', expected one of " + joined(known), ErrorKind::usage);
+}
+
 }  // namespace
 
 std::vector<std::string> ColourMap::names() {
-  return {"uniform", "grey", "white-black", "blue-red", "red-blue"};
+  std::vector<std::string> all;
+  for (const auto& row : maps) all.emplace_back(row.name);
+  return all;
 }
 
 ColourMap::ColourMap(const std::string& name) {
-  const auto known = names();
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
-    std::string list;
-    for (const auto& one : known) list += (list.empty() ? "" : ", ") + one;
-    throw Error("found the map '" + name + "', expected one of " + list, ErrorKind::usage);
-  }
-  diverging_ = name == "blue-red" || name == "red-blue";
-  const std::span<const Shade> cold(blue), warm(red), even(uniform), plain(grey);
-  const Path low(diverging_ ? (name == "blue-red" ? cold : warm) : (name == "uniform" ? even : plain));
-  const Path high(name == "blue-red" ? warm : cold);
+  const auto& row = row_named(name);
+  diverging_ = row.diverging;
   for (int n = 0; n < steps; ++n) {
     const double part = double(n) / (steps - 1);
-    if (!diverging_) {
-      colours_[std::size_t(n)] = low.even(name == "white-black" ? 1 - part : part);
-    } else {
-      // The two colours beside the middle are white both, so that zero is.
-      const double off = std::max(0.0, (std::abs(2 * part - 1) * (steps - 1) - 1) / (steps - 2));
-      colours_[std::size_t(n)] = part < 0.5 ? low.even(off) : high.even(off);
-    }
+    // The two colours beside the middle are white both, so that zero is.
+    const double off = std::max(0.0, (std::abs(2 * part - 1) * (steps - 1) - 1) / (steps - 2));
+    colours_[std::size_t(n)] = row.colour(!diverging_ ? part : part < 0.5 ? -off : off);
   }
 }
 

@@ -15,9 +15,9 @@ class ColourMap {
   /// "uniform", "blue-red", ...: all names, for options.
   static std::vector<std::string> names();
   /// uniform: dark blue over green to yellow. grey: black to white. blue-red: blue, white in the middle, red;
-  /// red-blue the other way round. white-black. Equal steps of a number are equal distances of colour as the
-  /// eye sees them (Oklab), on each side of the middle where there is one. Throws a usage Error that lists
-  /// the names.
+  /// red-blue the other way round. white-black. Of these, equal steps of a number are equal distances of
+  /// colour as the eye sees them (Oklab), on each side of the middle where there is one. viridis and seismic
+  /// are as matplotlib has them. Throws a usage Error that lists the names, or says what is wrong with jet.
   explicit ColourMap(const std::string& name);
 
   /// Numbers outside 0 .. 1 take the end's colour; NaN is no_data.

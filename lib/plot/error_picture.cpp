@@ -210,12 +210,7 @@ Picture draw_error(const std::vector<AccuracyTable>& tables, bool overlay, const
     legend_pt = below->height() + 5;
   }
   double title_pt = 0;
-  if (!alone && !page.title.empty()) {
-    const double size_pt = 1.3 * page.text_pt();
-    title_pt = 1.6 * size_pt;
-    canvas.text({page.width_pt / 2, 5}, shortened(page.title, page.width_pt - 10, size_pt, true),
-                {.size_pt = size_pt, .bold = true, .across = Across::middle, .down = Down::top});
-  }
+  if (!alone && !page.title.empty()) title_pt = draw_title(canvas, page.title);
   for (std::size_t n = 0; n < drawing.panels.size(); ++n) {
     spec.title = alone && !page.title.empty() ? page.title : drawing.panels[n].title;
     const double width = page.width_pt / count;

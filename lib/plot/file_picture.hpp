@@ -29,8 +29,10 @@ struct PlotOptions {
   // models and snapshots
   std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
-  std::optional<Slice> slice;  // of what is in 3-D
+  std::optional<Slice> slice;       // of what is in 3-D
+  std::optional<Point<3>> through;  // or three of them
   bool movie = false;
+  double frames_per_s = 10;
   // spectra and errors
   bool log = false, overlay = false;
 };
@@ -42,8 +44,12 @@ Page page_of(const PlotOptions& options);
 /// can be drawn, a usage Error for several files of a kind that is drawn one at a time.
 Picture picture_of(const PlotOptions& options, const Page& page);
 
-/// Draws all times of a snapshot file on one scale, each into a file of its own: NAME-0001.png for -o
-/// NAME.png.
-void draw_movie(const PlotOptions& options, const Progress& progress);
+/// Of the files named, the one that ends as movies do becomes the output. Throws a usage Error where there is
+/// one already.
+void take_movie_name(PlotOptions& options);
+
+/// Draws all times of a snapshot file on one scale: into one movie for -o NAME.mp4 (or .gif), each into a
+/// file of its own, NAME-0001.png, for -o NAME.png or where there is no ffmpeg; sentences say the latter.
+std::vector<std::string> draw_movie(const PlotOptions& options, const Progress& progress);
 
 }  // namespace slipwave::plot

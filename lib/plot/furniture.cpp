@@ -55,8 +55,36 @@ void Legend::draw(Canvas& canvas, const Spot& top_left) const {
   }
 }
 
-void draw_colour_bar(Canvas& canvas, const ColourBar& bar, const AxisMarks& marks, const Rect& rect,
+double draw_title(Canvas& canvas, const std::string& title) {
+  const auto& page = canvas.page();
+  const double size_pt = 1.3 * page.text_pt();
+  canvas.text({page.width_pt / 2, 5}, shortened(title, page.width_pt - 10, size_pt, true),
+              {.size_pt = size_pt, .bold = true, .across = Across::middle, .down = Down::top});
+  return 1.6 * size_pt;
+}
+
+void ColourBar::point_beyond(double low, double high) {
+  const double slack = 1e-6 * (axis.high - axis.low);  // rounding is not beyond
+  below = low < axis.low - slack;
+  above = high > axis.high + slack;
+}
+
+Rect ColourBar::body(const Rect& rect) const {
+  const double arrow = std::min(1.1 * rect.width, 0.1 * rect.height);
+  const double top = above ? arrow : 0, bottom = below ? arrow : 0;
+  return {rect.x, rect.y + top, rect.width, rect.height - top - bottom};
+}
+
+void draw_colour_bar(Canvas& canvas, const ColourBar& bar, const AxisMarks& marks, const Rect& whole,
                      double text_pt) {
+  const Rect rect = bar.body(whole);
+  const auto arrow = [&](double base, double tip, double end) {
+    const Spot left{rect.x, base}, point{rect.x + rect.width / 2, tip}, right{rect.right(), base};
+    canvas.polygon({left, point, right}, bar.map.at(end));
+    canvas.polyline({left, point, right}, {black, frame_pt});
+  };
+  if (bar.above) arrow(rect.y, whole.y, 1);
+  if (bar.below) arrow(rect.bottom(), whole.bottom(), 0);
   const int rows = std::max(1, int(std::lround(rect.height * canvas.page().scale())));
   Image image(1, rows);
   for (int row = 0; row < rows; ++row) image.at(0, row) = bar.map.pixel(1 - (row + 0.5) / rows);

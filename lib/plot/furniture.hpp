@@ -10,10 +10,17 @@
 
 namespace slipwave::plot {
 
-/// Which colours stand for which numbers: `axis.low` and `axis.high` are the ends of the map.
+/// Which colours stand for which numbers: `axis.low` and `axis.high` are the ends of the map. An arrow points
+/// where numbers lie beyond an end.
 struct ColourBar {
   ColourMap map;
   Axis axis;
+  bool below = false, above = false;
+
+  /// Sets the arrows for numbers from `low` to `high`.
+  void point_beyond(double low, double high);
+  /// The part of the bar's rectangle that its arrows leave to the map.
+  Rect body(const Rect& rect) const;
 };
 
 /// What a line, marker or area means.
@@ -46,9 +53,12 @@ class Legend {
   std::size_t columns_ = 1, rows_ = 0;
 };
 
-/// Draws the bar into `rect`, ticks and labels to the right of it.
+/// Draws the bar and its arrows into `rect`, ticks and labels to the right of it.
 void draw_colour_bar(Canvas& canvas, const ColourBar& bar, const AxisMarks& marks, const Rect& rect,
                      double text_pt);
+
+/// Draws the title above several panels and gives the height it takes.
+double draw_title(Canvas& canvas, const std::string& title);
 
 /// Sizes that panels share, in parts of the text or points.
 inline constexpr double tick_pt = 3, minor_tick_pt = 1.7, frame_pt = 0.7, pad_pt = 2.5;

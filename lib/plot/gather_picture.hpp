@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "plot/gather_section.hpp"
 #include "plot/look.hpp"
 #include "plot/page.hpp"
@@ -12,11 +15,29 @@ struct GatherStyle {
   bool wiggle = false;
   TraceAxis axis = TraceAxis::automatic;
   double gain_power = 0;
+  // of several gathers
+  bool overlay = false;        // lines in one panel, a colour each
+  bool difference = false;     // of two: a panel more with the first less the second
+  double difference_gain = 1;  // which is multiplied by this
+};
+
+/// A gather and what it is called beside others: its file.
+struct NamedGather {
+  std::string name;
+  GatherSection section;
 };
 
 /// Time down, traces side by side: as colours, as lines whose excursions to the right (positive) are filled,
 /// or both. Colours and lines are full at the clip (Look); where a pixel has several samples it shows the one
-/// farthest from zero, and where lines would touch each other only some are drawn.
+/// farthest from zero, and where lines would touch each other only some are drawn. Shots, and lines of
+/// receivers of a single shot, are separated and labelled where traces stand by number.
+///
+/// Several gathers of one component stand side by side on one scale, each under its name. Throws Error when
+/// components differ or, for a difference, sampling or geometry, a usage Error for the difference of any
+/// number but two.
+Picture draw_gathers(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look, Page page);
+
+/// The same of one gather.
 Picture draw_gather(GatherSection section, const GatherStyle& style, const Look& look, Page page);
 
 }  // namespace slipwave::plot

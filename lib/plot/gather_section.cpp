@@ -5,8 +5,11 @@
 #include <cmath>
 #include <numeric>
 #include <set>
+#include <tuple>
+#include <utility>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "gather/difference.hpp"
 #include "segy/reader.hpp"
 
@@ -17,21 +20,30 @@ struct AxisName {
   TraceAxis axis;
   const char* name;
 };
-constexpr std::array<AxisName, 6> axis_names = {{{TraceAxis::automatic, "auto"},
+constexpr std::array<AxisName, 7> axis_names = {{{TraceAxis::automatic, "auto"},
                                                  {TraceAxis::x, "x"},
+                                                 {TraceAxis::y, "y"},
                                                  {TraceAxis::midpoint, "midpoint"},
                                                  {TraceAxis::offset, "offset"},
                                                  {TraceAxis::depth, "depth"},
                                                  {TraceAxis::number, "trace"}}};
 
+double offset_of(const TraceHeader& header) {
+  const double dx = header.receiver_m[0] - header.source_m[0], dy = header.receiver_m[1] - header.source_m[1];
+  if (dy == 0) return dx;
+  return std::copysign(std::hypot(dx, dy), dx != 0 ? dx : dy);
+}
+
 double place_of(const TraceHeader& header, TraceAxis axis, std::size_t number) {
   switch (axis) {
     case TraceAxis::x:
       return header.receiver_m[0];
+    case TraceAxis::y:
+      return header.receiver_m[1];
     case TraceAxis::midpoint:
       return (header.receiver_m[0] + header.source_m[0]) / 2;
     case TraceAxis::offset:
-      return header.receiver_m[0] - header.source_m[0];
+      return offset_of(header);
     case TraceAxis::depth:
       return header.receiver_m[2];
     default:
@@ -49,8 +61,51 @@ bool all_differ(const GatherSection& section, TraceAxis axis) {
 
 TraceAxis automatic_axis(const GatherSection& section) {
   if (section.shots != 1 || section.traces() < 2) return TraceAxis::number;
-  if (all_differ(section, TraceAxis::x)) return TraceAxis::x;
+  for (const auto axis : {TraceAxis::x, TraceAxis::y})
+    if (all_differ(section, axis)) return axis;
   return all_differ(section, TraceAxis::depth) ? TraceAxis::depth : TraceAxis::number;
+}
+
+/// Runs of equal numbers from trace `first` on, `count` in all.
+template <class Key>
+std::vector<TraceRun> runs_of(std::size_t first, std::size_t count, const Key& key) {
+  std::vector<TraceRun> runs;
+  for (std::size_t n = first; n < first + count; ++n) {
+    if (n == first || key(n) != key(n - 1)) runs.push_back({n, 0, shown(key(n))});
+    ++runs.back().count;
+  }
+  return runs;
+}
+
+/// Lines of receivers: the coordinate that is the same along each, in the order y, x, depth, and has another
+/// value in the next. Nothing where there are not two lines of two traces.
+std::pair<std::string, std::vector<TraceRun>> lines_of(const GatherSection& section, std::size_t first,
+                                                       std::size_t count) {
+  const std::pair<std::size_t, const char*> axes[] = {{1, "y (m)"}, {0, "x (m)"}, {2, "depth (m)"}};
+  for (const auto& [axis, name] : axes) {
+    auto runs =
+        runs_of(first, count, [&, at = axis](std::size_t n) { return section.headers[n].receiver_m[at]; });
+    std::set<std::string> different;
+    bool lines = runs.size() > 1;
+    for (const auto& run : runs) lines = lines && run.count > 1 && different.insert(run.label).second;
+    if (lines) return {name, std::move(runs)};
+  }
+  return {};
+}
+
+void find_runs(const GatherSection& section, TracePlaces& places) {
+  auto shots = runs_of(0, section.traces(), [&](std::size_t n) { return section.headers[n].shot; });
+  if (shots.size() == 1) {
+    std::tie(places.run_name, places.runs) = lines_of(section, 0, section.traces());
+    return;
+  }
+  if (2 * shots.size() > section.traces()) return;  // near-offset sections, gathers of a midpoint
+  places.run_name = "shot";
+  for (const auto& shot : shots) {
+    for (const auto& line : lines_of(section, shot.first, shot.count).second)
+      if (line.first != shot.first) places.line_starts.push_back(line.first);
+  }
+  places.runs = std::move(shots);
 }
 
 [[noreturn]] void refuse_choice(const segy::Reader& reader, const TraceChoice& choice,
@@ -68,12 +123,16 @@ TraceAxis automatic_axis(const GatherSection& section) {
 }  // namespace
 
 TraceAxis trace_axis_named(const std::string& name) {
-  std::string list;
-  for (const auto& row : axis_names) {
+  for (const auto& row : axis_names)
     if (name == row.name) return row.axis;
-    list += (list.empty() ? "" : ", ") + std::string(row.name);
-  }
-  throw Error("found the axis '" + name + "', expected one of " + list, ErrorKind::usage);
+  throw Error("found the axis '" + name + "', expected one of " + joined(trace_axis_names()),
+              ErrorKind::usage);
+}
+
+std::vector<std::string> trace_axis_names() {
+  std::vector<std::string> names;
+  for (const auto& row : axis_names) names.emplace_back(row.name);
+  return names;
 }
 
 GatherSection read_section(segy::Reader& reader, const TraceChoice& choice) {
@@ -102,7 +161,7 @@ GatherSection read_section(segy::Reader& reader, const TraceChoice& choice) {
   }
   if (section.headers.empty()) refuse_choice(reader, choice, components, shots);
   section.component = *component;
-  section.other_components = components.size() > 1;
+  section.others_unasked = components.size() > 1 && !choice.component;
   section.first_shot = section.headers.front().shot;
   return section;
 }
@@ -134,6 +193,7 @@ TracePlaces order_traces(GatherSection& section, TraceAxis axis) {
                   ErrorKind::usage);
   }
   for (const auto n : order) result.places.push_back(places[n]);
+  if (result.axis == TraceAxis::number) find_runs(section, result);
   if (std::is_sorted(order.begin(), order.end())) return result;
   std::vector<TraceHeader> headers;
   std::vector<float> samples;

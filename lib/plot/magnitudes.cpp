@@ -21,6 +21,8 @@ void Magnitudes::add(std::span<const float> values) {
     ++counts_[bits >> shift];
     ++count_;
     largest_ = std::max(largest_, std::fabs(value));
+    lowest_ = std::min(lowest_, value);
+    highest_ = std::max(highest_, value);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,11 +17,15 @@ class Magnitudes {
   /// when nothing was added. 0 < percent <= 100.
   double percentile(double percent) const;
   double largest() const { return largest_; }
+  /// With their signs; 0 when nothing was added.
+  double lowest() const { return count_ > 0 ? double(lowest_) : 0; }
+  double highest() const { return count_ > 0 ? double(highest_) : 0; }
 
  private:
   std::vector<std::int64_t> counts_;  // by exponent and first 8 bits of the fraction
   std::int64_t count_ = 0;
   float largest_ = 0;
+  float lowest_ = std::numeric_limits<float>::max(), highest_ = std::numeric_limits<float>::lowest();
 };
 
 }  // namespace slipwave::plot

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "plot/look.hpp"
 #include "plot/picture.hpp"
 #include "plot/section.hpp"
@@ -13,5 +15,9 @@ namespace slipwave::plot {
 /// the section is too long for that.
 Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks& marks, const Look& look,
                    Page page);
+
+/// A volume on three planes (three_planes), each with its marks.
+Picture draw_model_volume(const std::vector<ModelSection>& sections, const std::vector<Slice>& planes,
+                          bool as_sets, const std::vector<SurveyMarks>& marks, const Look& look, Page page);
 
 }  // namespace slipwave::plot

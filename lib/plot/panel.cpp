@@ -82,6 +82,7 @@ Panel::Margins Panel::margins() const {
   if (!x_marks_.caption.empty()) free.bottom += line_height * text_pt_;
   free.top = edge_pt + half_text;
   if (!title_.empty()) free.top += double(title_.size()) * line_height * title_pt(text_pt_) + 0.4 * text_pt_;
+  if (!spec_.bands.labels.empty()) free.top += line_height * text_pt_;
   free.right = edge_pt;
   if (spec_.bar) {
     free.right += (bar_gap_part + bar_part) * text_pt_ + tick_pt + pad_pt + bar_marks_.widest_pt;
@@ -93,6 +94,7 @@ Panel::Margins Panel::margins() const {
     else
       free.bottom += legend_->height() + 0.5 * text_pt_;
   }
+  free.top = std::max(free.top, spec_.least_top_pt);
   free.left = std::max(free.left, spec_.least_left_pt);
   free.right = std::max(free.right, spec_.least_right_pt);
   // Labels of x stand out to the sides.
@@ -121,7 +123,10 @@ void Panel::lay_out(const Rect& room) {
     if (pass == 3) break;
     x_marks_ = marks_of(spec_.x, width, text_pt_, true);
     y_marks_ = marks_of(spec_.y, height, text_pt_, false);
-    if (spec_.bar) bar_marks_ = marks_of(spec_.bar->axis, height, text_pt_, false);
+    if (spec_.bar) {
+      const Rect body = spec_.bar->body({0, 0, bar_part * text_pt_, height});
+      bar_marks_ = marks_of(spec_.bar->axis, body.height, text_pt_, false);
+    }
     title_ = title_lines(room.width - 2 * edge_pt);
     const auto free = margins();
     const double left = snapped(room.x + free.left), right = snapped(room.right() - free.right);
@@ -175,7 +180,41 @@ void Panel::draw_axes(Canvas& canvas) const {
       beside, {.size_pt = text_pt_, .across = Across::middle, .down = Down::bottom, .upwards = true});
 }
 
+/// Lines between bands that stand apart, and the names of as many as have room, each n-th.
+void Panel::draw_bands(Canvas& canvas) const {
+  const auto& bands = spec_.bands;
+  if (bands.labels.empty()) return;
+  constexpr double least_apart_pt = 4;
+  const auto lines = [&](const std::vector<double>& values, const Stroke& stroke) {
+    double last = plot_.x;
+    for (const double value : values) {
+      const double at = x(value);
+      if (at - last < least_apart_pt || plot_.right() - at < least_apart_pt) continue;
+      canvas.line({at, plot_.y}, {at, plot_.bottom()}, stroke);
+      last = at;
+    }
+  };
+  lines(bands.minor, {{0.45, 0.45, 0.45}, 0.4});
+  lines(bands.edges, {black, 0.8});
+  double widest = 0, narrowest = plot_.width;
+  for (std::size_t n = 0; n < bands.labels.size(); ++n) {
+    widest = std::max(widest, text_width(bands.labels[n], text_pt_) + 0.8 * text_pt_);
+    narrowest = std::min(narrowest, x(bands.edges[n + 1]) - x(bands.edges[n]));
+  }
+  const auto every = std::size_t(std::max(1.0, std::ceil(widest / std::max(narrowest, 0.01))));
+  const double line = plot_.y - 0.65 * text_pt_;  // clear of the labels of y
+  for (std::size_t n = 0; n < bands.labels.size(); n += every) {
+    const double from = std::max(x(bands.edges[n]), plot_.x);
+    const double to = std::min(x(bands.edges[n + 1]), plot_.right()), middle = (from + to) / 2;
+    const double half = text_width(bands.labels[n], text_pt_) / 2;
+    if (to <= from || middle - half < plot_.x - 2 || middle + half > plot_.right() + edge_pt) continue;
+    canvas.text({middle, line}, bands.labels[n], {.size_pt = text_pt_, .across = Across::middle});
+  }
+  canvas.text({plot_.x - tick_pt - pad_pt, line}, bands.name, {.size_pt = text_pt_, .across = Across::end});
+}
+
 void Panel::draw(Canvas& canvas) const {
+  draw_bands(canvas);
   canvas.frame(plot_, {black, frame_pt});
   draw_axes(canvas);
   double line = room_.y + edge_pt;

@@ -8,6 +8,14 @@
 
 namespace slipwave::plot {
 
+/// Groups of neighbours along x, separated by lines through the data and named above them.
+struct Bands {
+  std::string name;                 // of what they are, "shot"
+  std::vector<double> edges;        // ascending, one more than there are bands
+  std::vector<std::string> labels;  // of the bands; those that find room
+  std::vector<double> minor;        // further lines, fainter
+};
+
 /// What a panel shows round its data.
 struct PanelSpec {
   std::string title;
@@ -15,6 +23,8 @@ struct PanelSpec {
   std::optional<ColourBar> bar = {};
   std::vector<LegendEntry> legend = {};
   double least_left_pt = 0, least_right_pt = 0;  // beside the data, to align panels above each other
+  double least_top_pt = 0;                       // above them, likewise
+  Bands bands = {};
 };
 
 /// A rectangle of data with axes, title, colour bar and legend round it, laid out so that everything stands
@@ -53,6 +63,7 @@ class Panel {
   std::vector<std::string> title_lines(double width_pt) const;
   bool legend_right(const Rect& room) const;
   void draw_axes(Canvas& canvas) const;
+  void draw_bands(Canvas& canvas) const;
 
   PanelSpec spec_;
   Rect room_;

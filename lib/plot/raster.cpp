@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace slipwave::plot {
 namespace {
@@ -35,10 +36,15 @@ std::vector<double> edges_between(const std::vector<double>& places) {
   return edges;
 }
 
-std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
-                                   const std::vector<double>& edges) {
+std::vector<double> middles_of(const std::vector<double>& edges) {
   std::vector<double> middles(edges.size() - 1);
   for (std::size_t n = 0; n < middles.size(); ++n) middles[n] = (edges[n] + edges[n + 1]) / 2;
+  return middles;
+}
+
+std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
+                                   const std::vector<double>& edges) {
+  const auto middles = middles_of(edges);
   const auto first_from = [&](double value) {
     return std::lower_bound(middles.begin(), middles.end(), value) - middles.begin();
   };
@@ -56,6 +62,52 @@ std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double e
     cells = {above - 1, above};
   }
   return found;
+}
+
+std::vector<Mix> mixes_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
+                                 const std::vector<double>& edges, const std::vector<double>& middles) {
+  std::vector<Mix> found;
+  const double pixel = (end_pt - begin_pt) / pixels;
+  for (const auto& cells : cells_of_pixels(scale, begin_pt, end_pt, pixels, edges)) {
+    const double at = scale.value(begin_pt + (double(found.size()) + 0.5) * pixel);
+    found.push_back({cells, {}});
+    if (cells.last - cells.first != 1) continue;
+    const auto first = at < middles[std::size_t(cells.first)] ? cells.first - 1 : cells.first;
+    if (first < 0 || first + 1 >= std::int64_t(middles.size())) continue;  // outside the outermost middles
+    const double low = middles[std::size_t(first)], high = middles[std::size_t(first) + 1];
+    found.back() = {{first, first + 2}, (at - low) / (high - low)};
+  }
+  return found;
+}
+
+float mixed(const std::function<float(std::int64_t)>& value, const Mix& mix, Take take) {
+  if (mix.share) {
+    const float first = value(mix.cells.first), second = value(mix.cells.first + 1);
+    if (std::isnan(first) || std::isnan(second)) return *mix.share < 0.5 ? first : second;
+    return float(double(first) + *mix.share * (double(second) - double(first)));
+  }
+  Reduction reduction(take);
+  for (auto n = mix.cells.first; n < mix.cells.last; ++n) reduction.add(value(n));
+  return reduction.value();
+}
+
+Raster interpolated(const std::function<const float*(std::int64_t)>& row, const std::vector<Mix>& columns,
+                    const std::vector<Mix>& rows, Take take) {
+  Raster raster{int(columns.size()), int(rows.size()), {}};
+  raster.values.reserve(columns.size() * rows.size());
+  std::map<std::int64_t, std::vector<float>> lines;  // by row, each as wide as the raster
+  for (const auto& mix : rows) {
+    lines.erase(lines.begin(), lines.lower_bound(mix.cells.first));
+    for (auto k = mix.cells.first; k < mix.cells.last; ++k) {
+      auto& line = lines[k];
+      if (!line.empty()) continue;
+      const auto at = [values = row(k)](std::int64_t n) { return values[n]; };
+      for (const auto& column : columns) line.push_back(mixed(at, column, take));
+    }
+    for (std::size_t column = 0; column < columns.size(); ++column)
+      raster.values.push_back(mixed([&](std::int64_t k) { return lines.at(k)[column]; }, mix, take));
+  }
+  return raster;
 }
 
 void Reduction::add(float value) {

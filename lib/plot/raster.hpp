@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "plot/axis.hpp"
@@ -19,6 +20,18 @@ struct Cells {
 /// else the one its own middle lies in. Cell n runs from edges[n] to edges[n + 1]; edges ascend.
 std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
                                    const std::vector<double>& edges);
+
+/// What a pixel takes where values between cells are wanted: some cells, as above, or, where these are wider
+/// than pixels, of two neighbours the second with this share.
+struct Mix {
+  Cells cells;
+  std::optional<double> share = {};
+};
+/// The same for cells whose values stand at `middles`.
+std::vector<Mix> mixes_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
+                                 const std::vector<double>& edges, const std::vector<double>& middles);
+/// Middles of cells between these edges.
+std::vector<double> middles_of(const std::vector<double>& edges);
 
 /// count + 1 edges of equal cells.
 std::vector<double> even_edges(double low, double step, std::int64_t count);
@@ -58,6 +71,13 @@ struct Raster {
 template <class Value>
 Raster reduced(const std::function<const Value*(std::int64_t)>& row, const std::vector<Cells>& columns,
                const std::vector<Cells>& rows, Take take);
+
+/// What a pixel takes of values: its mix of two, where the nearer one decides whether there is a value, else
+/// `take` of its cells.
+float mixed(const std::function<float(std::int64_t)>& value, const Mix& mix, Take take);
+/// Rows of values interpolated to pixels, linearly in both directions.
+Raster interpolated(const std::function<const float*(std::int64_t)>& row, const std::vector<Mix>& columns,
+                    const std::vector<Mix>& rows, Take take);
 
 /// Pixels along a length on the page; 1 at least.
 int pixels_along(double length_pt, const Page& page);

@@ -9,12 +9,13 @@
 #include "grid/true_depth.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "plot/derived_property.hpp"
 
 namespace slipwave::plot {
 namespace {
 
 template <int D>
-Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
+Field<D> read_stored(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
   if (!file.has_variable(name)) {
     const auto property = find_property(name);
     const bool optional = property && row_of(*property).if_absent;
@@ -27,6 +28,24 @@ Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::s
   const auto values = file.get_physical(name);
   Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
+  return field;
+}
+
+template <int D>
+Field<D> read_property(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
+  const auto derived = find_derived_property(name);
+  if (!derived) return read_stored(file, grid, name);
+  const auto part = [&](bool of_it, const char* stored) {
+    return of_it ? read_stored(file, grid, stored) : Field<D>();
+  };
+  const auto vp = part(derived->of_vp, "vp"), vs = part(derived->of_vs, "vs");
+  const auto rho = part(derived->of_rho, "rho");
+  const auto at = [](const Field<D>& field, std::size_t cell) {
+    return field.empty() ? 0.0 : double(field[cell]);
+  };
+  Field<D> field(grid);
+  for (std::size_t cell = 0; cell < field.size(); ++cell)
+    field[cell] = float(derived->value({at(vp, cell), at(vs, cell), at(rho, cell)}));
   return field;
 }
 
@@ -75,43 +94,115 @@ std::string typeset(std::string unit) {
   return unit;
 }
 
-}  // namespace
-
-ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
-                                const std::optional<Slice>& slice) {
+/// Without its values.
+ModelSection begun_section(const NetcdfFile& file, const std::string& property) {
   ModelSection section;
   section.property = property;
   if (const auto row = find_property(property)) section.unit = typeset(row_of(*row).shown_unit);
+  if (const auto derived = find_derived_property(property)) {
+    section.property = derived->label;
+    section.unit = derived->unit;
+  }
   section.title = file.text_attribute("", "title").value_or("");
-  Field<2> rho;
+  return section;
+}
+
+/// Where rho is 0 there is no rock.
+void take_void_out(ModelSection& section, const Field<2>& rho) {
+  for (std::size_t cell = 0; cell < rho.size(); ++cell)
+    if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
+}
+
+std::vector<ModelSection> sections_of(const NetcdfFile& file, const Grid<3>& grid,
+                                      const std::string& property, const std::vector<CellLayer>& layers) {
+  std::vector<ModelSection> sections(layers.size(), begun_section(file, property));
+  {
+    const auto values = read_property(file, grid, property);
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      sections[n].axes = section_axes(layers[n].axis);
+      sections[n].values = section_of(values, layers[n]);
+    }
+  }
+  if (may_have_void(file)) {
+    const auto rho = read_stored(file, grid, "rho");
+    for (std::size_t n = 0; n < layers.size(); ++n) take_void_out(sections[n], section_of(rho, layers[n]));
+  }
+  if (file.has_variable("fracture")) {
+    const auto sets = read_fracture_sets<3>(file);
+    const auto codes = read_codes(file, grid, sets.size());
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      sections[n].sets = seen_in_section(sets, layers[n].axis);
+      sections[n].fracture = section_of(codes, layers[n]);
+    }
+  }
+  return sections;
+}
+
+}  // namespace
+
+std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
+                                              std::span<const Slice> planes) {
+  const auto grid = read_grid<3>(file);
+  std::vector<CellLayer> layers;
+  for (const auto& plane : planes)
+    layers.push_back(in_place(file.shown_name(), [&] { return layer_on(grid, plane); }));
+  return sections_of(file, grid, property, layers);
+}
+
+std::vector<Slice> planes_of(const Grid<3>& grid, const WantedPlanes& wanted) {
+  const bool thin = std::any_of(grid.shape.begin(), grid.shape.end(), [](auto cells) { return cells == 1; });
+  if (wanted.slice || thin) return {plane_of(grid, layer_to_show(grid, wanted.slice))};
+  std::vector<Slice> planes;
+  for (const int axis : {0, 1, 2}) {
+    const auto along = std::size_t(axis);
+    const auto [low, high] =
+        axis == 2 ? depth_extent(grid) : std::array{grid.origin_m[along], grid.end(axis)};
+    double at_m = (low + high) / 2;
+    if (wanted.through)
+      at_m = (*wanted.through)[along];
+    else if (const auto& source = wanted.source;
+             source && axis != 2 && (*source)[along] >= low && (*source)[along] <= high)
+      at_m = (*source)[along];
+    planes.push_back(plane_of(grid, layer_on(grid, {axis, at_m})));
+  }
+  return planes;
+}
+
+ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
+                                const std::optional<Slice>& slice) {
   if (dimension_of(file) == 3) {
     const auto grid = read_grid<3>(file);
     const auto layer = in_place(file.shown_name(), [&] { return layer_to_show(grid, slice); });
-    section.axes = section_axes(layer.axis);
-    section.values = section_of(read_property(file, grid, property), layer);
-    if (may_have_void(file)) rho = section_of(read_property(file, grid, "rho"), layer);
-    if (file.has_variable("fracture")) {
-      const auto sets = read_fracture_sets<3>(file);
-      section.sets = seen_in_section(sets, layer.axis);
-      section.fracture = section_of(read_codes(file, grid, sets.size()), layer);
-    }
-  } else {
-    if (slice)
-      throw Error(file.shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
-                  ErrorKind::usage);
-    const auto grid = read_grid<2>(file);
-    section.values = read_property(file, grid, property);
-    if (may_have_void(file)) rho = read_property(file, grid, "rho");
-    if (file.has_variable("fracture")) {
-      section.sets = read_fracture_sets<2>(file);
-      section.fracture = read_codes(file, grid, section.sets.size());
-    }
+    return std::move(sections_of(file, grid, property, {layer}).front());
   }
-  for (std::size_t cell = 0; cell < rho.size(); ++cell) {
-    if (rho[cell] == 0) section.values[cell] = std::numeric_limits<float>::quiet_NaN();
+  if (slice)
+    throw Error(file.shown_name() + ": found a model in 2-D, expected one in 3-D with --slice",
+                ErrorKind::usage);
+  auto section = begun_section(file, property);
+  const auto grid = read_grid<2>(file);
+  section.values = read_property(file, grid, property);
+  if (may_have_void(file)) take_void_out(section, read_stored(file, grid, "rho"));
+  if (file.has_variable("fracture")) {
+    section.sets = read_fracture_sets<2>(file);
+    section.fracture = read_codes(file, grid, section.sets.size());
   }
   return section;
 }
+
+namespace {
+
+/// Depths of the faces of a column of a fitted grid at a place on x within it.
+std::vector<double> faces_at(const Grid<2>& grid, std::int64_t column, double x_m) {
+  const double share = std::clamp((x_m - grid.origin_m[0]) / grid.spacing_m - double(column), 0., 1.);
+  std::vector<double> faces(std::size_t(grid.shape[1]) + 1);
+  for (std::size_t k = 0; k < faces.size(); ++k) {
+    const double left = grid.rows->corner({column, std::int64_t(k)});
+    faces[k] = left + share * (grid.rows->corner({column + 1, std::int64_t(k)}) - left);
+  }
+  return faces;
+}
+
+}  // namespace
 
 GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid) {
   const Rect& plot = panel.plot();
@@ -129,15 +220,55 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid) 
   const double pixel_pt = plot.width / width;
   pixels.bent_rows = [=, x = panel.x_scale(), y = panel.y_scale()](std::size_t pixel, std::int64_t column) {
     const double middle_m = x.value(plot.x + (double(pixel) + 0.5) * pixel_pt);
-    const double share = std::clamp((middle_m - grid.origin_m[0]) / grid.spacing_m - double(column), 0., 1.);
-    std::vector<double> faces(std::size_t(grid.shape[1]) + 1);
-    for (std::size_t k = 0; k < faces.size(); ++k) {
-      const double left = grid.rows->corner({column, std::int64_t(k)});
-      faces[k] = left + share * (grid.rows->corner({column + 1, std::int64_t(k)}) - left);
-    }
-    return cells_of_pixels(y, plot.y, plot.bottom(), height, faces);
+    return cells_of_pixels(y, plot.y, plot.bottom(), height, faces_at(grid, column, middle_m));
   };
   return pixels;
+}
+
+namespace {
+
+/// Columns of a fitted grid interpolated along their rows, and each column of pixels between its rows.
+Raster interpolated_bent(const Field<2>& field, const Panel& panel, const std::vector<Mix>& columns,
+                         int height, Take take) {
+  const auto& grid = field.grid();
+  const Rect& plot = panel.plot();
+  Raster raster{int(columns.size()), height, {}};
+  raster.values.assign(columns.size() * std::size_t(height), std::numeric_limits<float>::quiet_NaN());
+  for (std::size_t pixel = 0; pixel < columns.size(); ++pixel) {
+    if (columns[pixel].cells.first == columns[pixel].cells.last) continue;
+    const double at_m =
+        panel.x_scale().value(plot.x + (double(pixel) + 0.5) * plot.width / double(columns.size()));
+    const auto column = std::clamp(std::int64_t(std::floor((at_m - grid.origin_m[0]) / grid.spacing_m)),
+                                   std::int64_t(0), grid.shape[0] - 1);
+    const auto faces = faces_at(grid, column, at_m);
+    std::vector<float> line(faces.size() - 1);
+    for (std::size_t k = 0; k < line.size(); ++k)
+      line[k] = mixed([&](std::int64_t i) { return field({i, std::int64_t(k)}); }, columns[pixel], take);
+    const auto rows =
+        mixes_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height, faces, middles_of(faces));
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      raster.values[n * columns.size() + pixel] =
+          mixed([&](std::int64_t k) { return line[std::size_t(k)]; }, rows[n], take);
+  }
+  return raster;
+}
+
+}  // namespace
+
+Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page, Take take,
+                    const Look& look) {
+  const auto& grid = field.grid();
+  if (!look.interpolate) return reduced(field, pixels_of(panel, page, grid), take);
+  const Rect& plot = panel.plot();
+  const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
+  const auto mixes = [&](const Scale& scale, double begin, double end, int pixels, std::size_t axis) {
+    const auto edges = even_edges(grid.origin_m[axis], grid.spacing_m, grid.shape[axis]);
+    return mixes_of_pixels(scale, begin, end, pixels, edges, middles_of(edges));
+  };
+  const auto columns = mixes(panel.x_scale(), plot.x, plot.right(), width, 0);
+  if (grid.rows) return interpolated_bent(field, panel, columns, height, take);
+  const auto rows = mixes(panel.y_scale(), plot.y, plot.bottom(), height, 1);
+  return interpolated([&](std::int64_t k) { return field.line(k).data(); }, columns, rows, take);
 }
 
 template <class Value>

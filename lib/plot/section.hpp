@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,20 @@ struct ModelSection {
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,
                                 const std::optional<Slice>& slice = std::nullopt);
 
+/// The same of a model in 3-D on several planes, read once.
+std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
+                                              std::span<const Slice> planes);
+
+/// The planes that a volume is shown on.
+struct WantedPlanes {
+  std::optional<Slice> slice = {};       // this one alone
+  std::optional<Point<3>> through = {};  // three, across x, y and z, through this point,
+  std::optional<Point<3>> source = {};   // or the upright ones through this one, if it is within
+};
+/// One plane, or three where none is wanted: through the middle, if nothing else is said. Of a grid one cell
+/// thick that layer. Throws a usage Error when a wanted one misses the grid.
+std::vector<Slice> planes_of(const Grid<3>& grid, const WantedPlanes& wanted);
+
 /// The pixels of a panel, and the cells of a grid that each shows.
 struct GridPixels {
   std::vector<Cells> columns, rows;
@@ -56,6 +71,9 @@ GridPixels pixels_of(const Panel& panel, const Page& page, const Grid<2>& grid);
 /// A field reduced to these pixels.
 template <class Value>
 Raster reduced(const Field<2, Value>& field, const GridPixels& pixels, Take take);
+
+/// The same as `look` asks for: interpolated between cells, or not.
+Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page, Take take, const Look& look);
 
 /// The x and true depth axes of a grid, or of what `look` shows of it, in one unit; and the height of a panel
 /// over its width that gives them one scale.

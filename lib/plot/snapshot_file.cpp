@@ -14,17 +14,18 @@ SnapshotFile::Reader SnapshotFile::open(NetcdfFile file) {
   return SnapshotReader<2>(std::move(file));
 }
 
-SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const std::optional<Slice>& slice)
+SnapshotFile::SnapshotFile(NetcdfFile file, const std::string& minus, const WantedPlanes& wanted)
     : of_(open(std::move(file))) {
   if (const auto* deep = std::get_if<SnapshotReader<3>>(&of_)) {
-    layer_ = in_place(deep->name(), [&] { return layer_to_show(deep->grid(), slice); });
-    grid_ = section_grid(deep->grid(), *layer_);
+    const auto planes = in_place(deep->name(), [&] { return planes_of(deep->grid(), wanted); });
+    for (const auto& plane : planes) layers_.push_back(layer_on(deep->grid(), plane));
+    for (const auto& layer : layers_) grids_.push_back(section_grid(deep->grid(), layer));
   } else {
     const auto& flat = std::get<SnapshotReader<2>>(of_);
-    if (slice)
+    if (wanted.slice || wanted.through)
       throw Error(flat.name() + ": found snapshots in 2-D, expected them in 3-D with --slice",
                   ErrorKind::usage);
-    grid_ = flat.grid();
+    grids_ = {flat.grid()};
   }
   if (minus.empty()) return;
   minus_.emplace(open(NetcdfFile::open(minus)));
@@ -56,18 +57,25 @@ std::size_t SnapshotFile::nearest(double time_s) const {
   return std::visit([&](const auto& reader) { return reader.nearest(time_s); }, of_);
 }
 
-Field<2> SnapshotFile::values(const Reader& reader, const std::string& field, std::size_t time) const {
-  if (const auto* deep = std::get_if<SnapshotReader<3>>(&reader))
-    return section_of(deep->read(field, time), *layer_);
-  return std::get<SnapshotReader<2>>(reader).read(field, time);
+std::vector<Field<2>> SnapshotFile::values(const Reader& reader, const std::string& field,
+                                           std::size_t time) const {
+  const auto* deep = std::get_if<SnapshotReader<3>>(&reader);
+  if (!deep) return {std::get<SnapshotReader<2>>(reader).read(field, time)};
+  const auto volume = deep->read(field, time);
+  std::vector<Field<2>> sections;
+  for (const auto& layer : layers_) sections.push_back(section_of(volume, layer));
+  return sections;
 }
 
-Snapshot SnapshotFile::read(const std::string& field, std::size_t time) const {
+std::vector<Snapshot> SnapshotFile::read(const std::string& field, std::size_t time) const {
   const double time_s = times_s()[time];
   const auto unit = std::visit([&](const auto& reader) { return reader.unit(field); }, of_);
-  Snapshot snapshot{field, shown_unit(unit), time_s, values(of_, field, time), {"x", "depth"}};
-  if (layer_) snapshot.axes = section_axes(layer_->axis);
-  if (!minus_) return snapshot;
+  std::vector<Snapshot> snapshots;
+  for (auto& section : values(of_, field, time)) {
+    snapshots.push_back({field, shown_unit(unit), time_s, std::move(section), {"x", "depth"}});
+    if (!layers_.empty()) snapshots.back().axes = section_axes(layers_[snapshots.size() - 1].axis);
+  }
+  if (!minus_) return snapshots;
   const auto other = std::visit(
       [&](const auto& reader) {
         const auto nearest = reader.nearest(time_s);
@@ -78,14 +86,16 @@ Snapshot SnapshotFile::read(const std::string& field, std::size_t time) const {
       },
       *minus_);
   const auto subtrahend = values(*minus_, field, other);
-  for (std::size_t n = 0; n < subtrahend.size(); ++n) snapshot.values[n] -= subtrahend[n];
-  return snapshot;
+  for (std::size_t section = 0; section < snapshots.size(); ++section)
+    for (std::size_t n = 0; n < subtrahend[section].size(); ++n)
+      snapshots[section].values[n] -= subtrahend[section][n];
+  return snapshots;
 }
 
-std::optional<Slice> SnapshotFile::slice() const {
+std::optional<Slice> SnapshotFile::plane(std::size_t section) const {
   const auto* deep = std::get_if<SnapshotReader<3>>(&of_);
   if (!deep) return std::nullopt;
-  return plane_of(deep->grid(), *layer_);
+  return plane_of(deep->grid(), layers_[section]);
 }
 
 }  // namespace slipwave::plot

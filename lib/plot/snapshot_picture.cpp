@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "plot/three_slices.hpp"
+
 namespace slipwave::plot {
 namespace {
 
@@ -13,8 +15,8 @@ Colour ground_colour(double number) {
   return {light, light, light};
 }
 
-Image ground_of(const ModelSection& model, const Panel& panel, const Page& page) {
-  const auto raster = reduced(model.values, pixels_of(panel, page, model.grid()), Take::mean);
+Image ground_of(const ModelSection& model, const Panel& panel, const Page& page, const Look& look) {
+  const auto raster = shown_values(model.values, panel, page, Take::mean, look);
   double low = INFINITY, high = -INFINITY;
   for (const float value : raster.values) {
     if (std::isnan(value)) continue;
@@ -52,6 +54,33 @@ std::string title_of(const Snapshot& snapshot, const std::string& title) {
   return title.empty() ? time : title + ", " + time;
 }
 
+ColourBar bar_of(const Snapshot& snapshot, double full, const Look& look) {
+  const Limits limits = look.colours.value_or(Limits{-full, full});
+  ColourBar bar{map_of(look, "blue-red"), {snapshot.name, snapshot.unit, limits.low, limits.high}};
+  bar.point_beyond(snapshot.extent.low, snapshot.extent.high);
+  return bar;
+}
+
+/// The data of a panel.
+void draw_field(Canvas& canvas, const Panel& panel, const ColourBar& bar, const Snapshot& snapshot,
+                const ModelSection* model, const Look& look) {
+  const auto& page = canvas.page();
+  const auto pixels = pixels_of(panel, page, snapshot.values.grid());
+  const auto raster = shown_values(snapshot.values, panel, page, Take::extreme, look);
+  Image image = model ? ground_of(*model, panel, page, look) : Image(raster.width, raster.height);
+  const double low = bar.axis.low, span = bar.axis.high - bar.axis.low;
+  for (std::size_t n = 0; n < image.pixels.size(); ++n) {
+    const double value = double(raster.values[n]);
+    if (std::isnan(value)) {
+      if (!model && pixels.within(n)) image.pixels[n] = pixel_of(no_data);  // no cells in this depth
+      continue;
+    }
+    image.pixels[n] = model ? over(image.pixels[n], value, bar) : bar.map.pixel((value - low) / span);
+  }
+  canvas.image(image, panel.plot());
+  if (model) draw_fractures(canvas, panel, *model, pixels_of(panel, page, model->grid()), image, false);
+}
+
 }  // namespace
 
 std::string shown_unit(const std::string& file_unit) {
@@ -61,33 +90,34 @@ std::string shown_unit(const std::string& file_unit) {
 
 Picture draw_snapshot(const Snapshot& snapshot, double full, const std::optional<ModelSection>& model,
                       const SurveyMarks& marks, const Look& look, Page page) {
-  const auto& grid = snapshot.values.grid();
-  const auto axes = axes_of(grid, look, snapshot.axes);
-  const Limits limits = look.colours.value_or(Limits{-full, full});
-  PanelSpec spec{title_of(snapshot, page.title), axes.x, axes.depth,
-                 ColourBar{map_of(look, "blue-red"), {snapshot.name, snapshot.unit, limits.low, limits.high}},
-                 legend_of(marks)};
+  const auto axes = axes_of(snapshot.values.grid(), look, snapshot.axes);
+  const PanelSpec spec{title_of(snapshot, page.title), axes.x, axes.depth, bar_of(snapshot, full, look),
+                       legend_of(marks)};
   if (page.height_pt == 0) Panel::fit_page(page, spec, height_per_width(spec.x, spec.y));
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
-
-  const auto pixels = pixels_of(panel, page, grid);
-  const auto raster = reduced(snapshot.values, pixels, Take::extreme);
-  Image image = model ? ground_of(*model, panel, page) : Image(raster.width, raster.height);
-  for (std::size_t n = 0; n < image.pixels.size(); ++n) {
-    const double value = double(raster.values[n]);
-    if (std::isnan(value)) {
-      if (!model && pixels.within(n)) image.pixels[n] = pixel_of(no_data);  // no cells in this depth
-      continue;
-    }
-    image.pixels[n] = model ? over(image.pixels[n], value, *spec.bar)
-                            : spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
-  }
   Canvas canvas(page);
-  canvas.image(image, panel.plot());
-  if (model) draw_fractures(canvas, panel, *model, pixels_of(panel, page, model->grid()), image, false);
+  draw_field(canvas, panel, *spec.bar, snapshot, model ? &*model : nullptr, look);
   panel.draw(canvas);
   draw_survey(canvas, panel, marks);
   return {canvas.finish(), canvas.words()};
+}
+
+Picture draw_snapshot_volume(const SnapshotVolume& volume, double full,
+                             const std::vector<ModelSection>& models, const std::vector<SurveyMarks>& marks,
+                             const Look& look, Page page) {
+  const auto bar = bar_of(volume.snapshots.front(), full, look);
+  std::array<SlicePanel, 3> slices;
+  for (std::size_t n = 0; n < slices.size(); ++n) {
+    const auto& snapshot = volume.snapshots[n];
+    const auto axes = axes_of(snapshot.values.grid(), look, snapshot.axes);
+    slices[n] = {
+        volume.planes[n], {"", axes.x, axes.depth, bar, {}}, [&, n](Canvas& canvas, const Panel& panel) {
+          draw_field(canvas, panel, bar, volume.snapshots[n], models.empty() ? nullptr : &models[n], look);
+          draw_survey(canvas, panel, marks[n]);
+        }};
+  }
+  page.title = title_of(volume.snapshots.front(), page.title);
+  return draw_three_slices(std::move(slices), legend_of(marks.front()), std::move(page));
 }
 
 }  // namespace slipwave::plot

@@ -181,6 +181,9 @@ Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page)
                  frequency_axis({spectra}, false, look.y, "--y"),
                  ColourBar{map_of(look, "uniform"), shown.quantity},
                  {}};
+  Magnitudes magnitudes;
+  for (const auto& trace : traces) magnitudes.add(trace);
+  spec.bar->point_beyond(magnitudes.lowest(), magnitudes.highest());
   narrow(spec.x, look.x, "--x");
   if (page.height_pt == 0) page.height_pt = 10 * points_per_cm;
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "grid/grid.hpp"
@@ -14,12 +15,20 @@ namespace slipwave::plot {
 /// Where a survey shot and listened, each place once.
 struct SurveyMarks {
   std::vector<Point<2>> sources, receivers;  // across and down
+  /// The sources are points that plane waves pass at time zero.
+  bool plane_wave = false;
+  std::optional<double> plane_angle_deg = {};  // from straight down towards +x, where the file tells it
 };
 
 /// Of all traces of a file, as a section across this axis shows them.
 SurveyMarks read_survey(segy::Reader& reader, int axis = 1);
 
-/// Stars for sources, triangles for receivers; of marks that would hide each other only some are drawn.
+/// x, y, z of the source of the first trace.
+Point<3> first_source(segy::Reader& reader);
+
+/// Stars for sources, smaller where they stand close, triangles for receivers, of which only some are drawn
+/// where they would hide each other. Of a plane wave no star, but its front and an arrow along its way, where
+/// that is known.
 void draw_survey(Canvas& canvas, const Panel& panel, const SurveyMarks& marks);
 
 /// What the marks mean.

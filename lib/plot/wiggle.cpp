@@ -52,7 +52,7 @@ std::vector<Spot> lobes_of(const std::vector<Spot>& line, double x) {
 }  // namespace
 
 std::size_t draw_wiggles(Canvas& canvas, const Panel& panel, const GatherSection& section,
-                         const std::vector<double>& places, double full, bool fill) {
+                         const std::vector<double>& places, const WiggleStyle& style) {
   std::vector<double> heights(std::size_t(section.axis.count));
   for (std::size_t n = 0; n < heights.size(); ++n)
     heights[n] = panel.y(section.axis.start_s + double(n) * section.axis.interval_s);
@@ -65,11 +65,11 @@ std::size_t draw_wiggles(Canvas& canvas, const Panel& panel, const GatherSection
   for (std::size_t n = 0; n < places.size(); n += every) {
     const double x = panel.x(places[n]);
     if (x < panel.plot().x - reach || x > panel.plot().right() + reach) continue;
-    auto line = line_of(section.trace(n), section.axis.count, heights, pixel_pt, reach / full, reach);
+    auto line = line_of(section.trace(n), section.axis.count, heights, pixel_pt, reach / style.full, reach);
     if (line.empty()) continue;
-    if (fill) canvas.polygon(lobes_of(line, x), black);
+    if (style.fill) canvas.polygon(lobes_of(line, x), style.colour);
     for (auto& spot : line) spot.x += x;
-    canvas.polyline(line, {black, std::clamp(spacing * double(every) / 12, 0.25, 0.6)});
+    canvas.polyline(line, {style.colour, std::clamp(spacing * double(every) / 12, 0.25, 0.6)});
   }
   return every;
 }

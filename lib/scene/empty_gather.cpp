@@ -60,19 +60,21 @@ Gather empty_gather(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   Gather gather;
   gather.axis = {scene.recording.samples(), scene.recording.interval_s, 0};
   TraceHeader header;
-  header.shot = std::int64_t(shot);
-  header.source_m = in_space<D>(source.position_m);
+  header.shot = scene.survey.number_of(shot);
+  header.source_m =
+      scene.survey.spreads ? scene.survey.spreads->map_source_of(shot) : in_space<D>(source.position_m);
+  const auto receivers = scene.survey.receivers_of(shot);
   std::vector<Point<D>> points = {source.position_m};
-  points.insert(points.end(), scene.survey.receivers_m.begin(), scene.survey.receivers_m.end());
+  for (const auto& receiver : receivers) points.push_back(receiver.point_m);
   const auto depths = water_depths_m(scene.model.medium, scene.subdomain, points, ranks);
   header.water_depth_source_m = depths.front();
   for (const Component component : scene.recording.components) {
     header.component = component;
-    header.channel = 0;
-    for (const auto& receiver : scene.survey.receivers_m) {
-      ++header.channel;
-      header.receiver_m = in_space<D>(receiver);
-      header.water_depth_receiver_m = depths[std::size_t(header.channel)];
+    for (std::size_t n = 0; n < receivers.size(); ++n) {
+      header.channel = receivers[n].channel;
+      header.bin = receivers[n].bin;
+      header.receiver_m = receivers[n].map_m;
+      header.water_depth_receiver_m = depths[n + 1];
       gather.traces.push_back({header, {}});
       gather.traces.back().samples.reserve(std::size_t(gather.axis.count));
     }

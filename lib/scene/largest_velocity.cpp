@@ -41,7 +41,6 @@ Strength strength_of(const Wavelet& wavelet, double duration_s, double dt_s) {
 
 template <int D>
 double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
-  const auto& source = scene.survey.sources[shot - 1];
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
   const double dt_s = time_step_s(scene), cube = std::pow(grid.spacing_m, D);
@@ -55,24 +54,27 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   heaviest = largest_of(ranks, heaviest);
   // Velocities that all energy of a kind would give to a cell of the lightest material; they add up at most.
   double sum = 0;
-  const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
-  if (const auto injection = point_injection(source)) {
-    if (scene.subdomain.owns(grid, source.position_m)) {
-      const auto at = cell_of(grid, source.position_m);
-      const auto cell = std::size_t(grid.flat(at));
-      const double volume = cube * (grid.height(at) / grid.spacing_m);
-      const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
-      const double in_cell =
-          strength.integral_s / volume *
-          (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
-      sum += in_cell * std::sqrt(rho / lightest);
+  for (const auto* each : scene.survey.sources_of(shot)) {
+    const auto& source = *each;
+    const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
+    if (const auto injection = point_injection(source)) {
+      if (scene.subdomain.owns(grid, source.position_m)) {
+        const auto at = cell_of(grid, source.position_m);
+        const auto cell = std::size_t(grid.flat(at));
+        const double volume = cube * (grid.height(at) / grid.spacing_m);
+        const double rho = medium.rho[cell], c = medium.is_solid(cell) ? medium.vs[cell] : medium.vp[cell];
+        const double in_cell =
+            strength.integral_s / volume *
+            (length<D>(injection->force) / rho + length<D>(injection->moment_rate) / (rho * c));
+        sum += in_cell * std::sqrt(rho / lightest);
+      }
+    } else {
+      double cells = double(grid.size()), through_edges = 0;
+      for (const auto n : grid.shape) through_edges += 2 * cells / double(n);
+      const double steps = scene.recording.duration_s / dt_s;
+      sum += std::abs(source.amplitude) * strength.largest *
+             std::sqrt(2 * heaviest / lightest * (cells + steps * through_edges));
     }
-  } else {
-    double cells = double(grid.size()), through_edges = 0;
-    for (const auto n : grid.shape) through_edges += 2 * cells / double(n);
-    const double steps = scene.recording.duration_s / dt_s;
-    sum += std::abs(source.amplitude) * strength.largest *
-           std::sqrt(2 * heaviest / lightest * (cells + steps * through_edges));
   }
   double energy_over_volume = 0;
   if (scene.slips() && !scene.model.prestress_pa.empty())

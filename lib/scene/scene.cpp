@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <span>
 #include <type_traits>
@@ -11,6 +12,7 @@
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
+#include "scene/model_ground.hpp"
 
 namespace slipwave {
 namespace {
@@ -23,13 +25,27 @@ std::string alternatives(std::span<const int> numbers) {
   return text;
 }
 
+/// Depth of the first cell in the column of a point that is not void, where there is one.
 template <int D>
-void refuse_void(const Scene<D>& scene, const std::type_identity_t<Point<D>>& point, const std::string& who) {
+std::optional<double> surface_there(const Scene<D>& scene, const Point<D>& point) {
+  Ground<D> ground(scene.subdomain.whole(scene.model.grid()));
+  see(ground, scene.model.medium);
+  return ground.surface_m(point);
+}
+
+/// `who` names what stands at the point.
+template <int D, class Who>
+void refuse_void(const Scene<D>& scene, const Point<D>& point, const Who& who) {
   if (!scene.subdomain.owns(scene.model.grid(), point)) return;
   const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), point)));
   if (!scene.model.medium.is_void(cell)) return;
-  throw Error(who + " at " + place_of(scene.model.grid(), std::int64_t(cell)) +
-              " is in void, expected rock or fluid");
+  std::string place;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    place += std::string(axis == 0 ? "" : " ") + axis_names<D>()[axis] + "=" + shown(point[axis]);
+  const auto surface = surface_there(scene, point);
+  const bool above = surface && *surface >= point[D - 1];
+  throw Error(who() + " at " + place + " is in void, expected rock or fluid" +
+              (above ? ": the surface there is at z=" + shown(*surface) : ""));
 }
 
 /// Fluid carries the same normal stress in all directions: any other moment would stay in it for good.
@@ -149,6 +165,37 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
 }
 
 template <int D>
+void check_source(const Scene<D>& scene, const Source<D>& source, const std::function<std::string()>& who) {
+  const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
+  if (wave && D == 3)
+    throw Error("found a plane wave in 3-D, expected it in 2-D or a point source", ErrorKind::usage);
+  if (wave && source.delay_s != 0)
+    throw Error(who() + ": found a delay of " + shown(source.delay_s) +
+                " s of a plane wave, expected none; move its --source back instead");
+  if (!(source.delay_s >= 0 && std::isfinite(source.delay_s)))
+    throw Error(who() + ": found a delay of " + shown(source.delay_s) + " s, expected 0 or more");
+  if (wave)
+    check_plane_wave(scene, source, *wave);
+  else
+    refuse_void<D>(scene, source.position_m, who);
+  check_moment_in_fluid(scene, source);
+  if (!std::isfinite(source.amplitude) || source.amplitude == 0)
+    throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",
+                ErrorKind::usage);
+}
+
+template <int D>
+void check_sources(const Scene<D>& scene, std::size_t shot) {
+  const auto sources = scene.survey.sources_of(shot);
+  for (std::size_t n = 0; n < sources.size(); ++n) {
+    const auto who = [&] { return scene.survey.name_of_source(shot, n); };
+    check_source(scene, *sources[n], who);
+    if (sources.size() > 1 && std::holds_alternative<PlaneWave<D>>(sources[n]->mechanism))
+      throw Error(who() + ": found a plane wave in a blended shot, expected point sources");
+  }
+}
+
+template <int D>
 void check_components(const std::vector<Component>& components) {
   for (const Component component : components) {
     if (std::count(components.begin(), components.end(), component) > 1)
@@ -188,7 +235,9 @@ bool Scene<D>::attenuates() const {
 template <int D>
 std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice) {
   double peak_hz = 0;
-  for (const auto& source : scene.survey.sources) peak_hz = std::max(peak_hz, source.wavelet.nominal_hz());
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    for (const auto* source : scene.survey.sources_of(shot))
+      peak_hz = std::max(peak_hz, source->wavelet.nominal_hz());
   if (!(peak_hz > 0)) return {};
   const double reference_hz = choice.reference_hz.value_or(peak_hz);
   if (!(reference_hz > 0) || !std::isfinite(reference_hz))
@@ -238,20 +287,10 @@ void check(const Scene<D>& scene) {
     throw Error(std::string("found no source, expected --source ") + (D == 2 ? "X,Z" : "X,Y,Z"),
                 ErrorKind::usage);
   check(scene.survey, scene.subdomain.whole(scene.model.grid()));
-  for (const auto& source : scene.survey.sources) {
-    const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
-    if (wave && D == 3)
-      throw Error("found a plane wave in 3-D, expected it in 2-D or a point source", ErrorKind::usage);
-    if (wave)
-      check_plane_wave(scene, source, *wave);
-    else
-      refuse_void(scene, source.position_m, "the source");
-    check_moment_in_fluid(scene, source);
-    if (!std::isfinite(source.amplitude) || source.amplitude == 0)
-      throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",
-                  ErrorKind::usage);
-  }
-  for (const auto& receiver : scene.survey.receivers_m) refuse_void(scene, receiver, "the receiver");
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) check_sources(scene, shot);
+  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
+    refuse_void<D>(scene, receiver, [&] { return name_of_receiver(scene.survey, shot, number); });
+  });
   check_components<D>(scene.recording.components);
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");

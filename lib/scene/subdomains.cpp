@@ -80,7 +80,9 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
   }
   const auto zone_at = [&](int side) { return scene.edges[z][side] == EdgeLaw::absorbing ? zone : 0; };
   std::vector<std::int64_t> points;  // rows of receivers
-  for (const auto& receiver : scene.survey.receivers_m) points.push_back(cell_of(whole, receiver)[z]);
+  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t, std::size_t) {
+    points.push_back(cell_of(whole, receiver)[z]);
+  });
   std::sort(points.begin(), points.end());
   const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
     const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);
@@ -119,7 +121,9 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
 }
 
 std::pair<std::int64_t, std::int64_t> rows_held(const Subdomain& part) {
-  const auto beside = std::max(part.exchanged + beside_refreshed, beside_points);
+  // The material round a source decides what it is spread over.
+  const auto beside =
+      std::max({part.exchanged + beside_refreshed, beside_points, std::int64_t(widest_spread)});
   return {std::max<std::int64_t>(0, part.first - beside), std::min(part.rows, part.last + beside)};
 }
 

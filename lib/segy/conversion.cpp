@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gather/difference.hpp"
+#include "segy/sniff.hpp"
 
 namespace slipwave::segy {
 namespace {
@@ -32,6 +33,8 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
   FileInfo info;
   info.format = format;
   info.axis = reader.axis();
+  info.raw_format = header.format;
+  info.raw_endian = header.endian;
   info.lengths_vary = reader.lengths_by_trace() && (!header.su || format.su);
   if (header.su) {
     info.text = lay_out_text(std::vector<std::string>{entry}, format.revision);
@@ -52,7 +55,8 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
   return info;
 }
 
-FileInfo info_like(const Reader& reader, const std::string& entry) {
+FileInfo info_like(const Reader& reader, const std::string& entry, const std::string& output) {
+  if (names_su(output)) return info_as(reader, entry, format_named_by(output));
   FileFormat format = format_of(reader);
   const SampleFormat& samples = *reader.header().format;
   format.code = samples.code == 6 || samples.bytes == 8 ? 6 : 5;
@@ -85,15 +89,15 @@ std::string record_difference(const Reader& found, const Reader& expected) {
 std::vector<std::string> losses_of(const Reader& reader, const FileFormat& format) {
   const FileHeader& header = reader.header();
   std::vector<std::string> losses;
-  const auto lose = [&](std::int64_t count, const std::string& what) {
-    if (count != 0) losses.push_back(reader.name() + ": " + what + " left out");
+  const auto lose = [&](std::int64_t count, const std::string& what, const std::string& cure) {
+    if (count != 0) losses.push_back(reader.name() + ": " + what + " left out; " + cure);
   };
   if (!holds_extended_text(format))
-    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are");
-  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are");
-  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are");
+    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are", "--revision 1 keeps them");
+  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are", "--revision 2 in the same byte order keeps them");
+  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are", "only a copy of the file keeps them");
   if (header.feet && format.su)
-    losses.push_back(reader.name() + ": lengths are in feet, which SU does not say");
+    losses.push_back(reader.name() + ": lengths are in feet, which SU does not say; SEG-Y (no --su) does");
   return losses;
 }
 

@@ -29,6 +29,9 @@ class SquareSum {
       sum_ += sum * ratio * ratio;
     }
   }
+  void add(const SquareSum& other) {
+    if (other.count_ > 0) add(other.sum_, other.largest_, other.count_);
+  }
   double rms() const { return count_ == 0 ? 0 : largest_ * std::sqrt(sum_ / static_cast<double>(count_)); }
 
  private:
@@ -57,26 +60,34 @@ struct Lanes {
 };
 
 void see_header(Description& facts, const TraceHeader& header) {
-  ++facts.components[header.component];
+  ++facts.components[header.component].traces;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     facts.source_m[axis].see(header.source_m[axis]);
     facts.receiver_m[axis].see(header.receiver_m[axis]);
   }
-  facts.offset_m.see(header.receiver_m[0] - header.source_m[0]);
+  const double x = header.receiver_m[0] - header.source_m[0], y = header.receiver_m[1] - header.source_m[1];
+  facts.offset_m.see(y == 0 ? x : std::copysign(std::hypot(x, y), x != 0 ? x : y));
 }
 
-void see_each(Description& facts, SquareSum& squares, const std::vector<double>& samples) {
+/// What has been seen of the samples of a component.
+struct Seen {
+  Range sample;
+  SquareSum squares;
+  std::int64_t not_finite = 0;
+};
+
+void see_each(Seen& seen, const std::vector<double>& samples) {
   for (const double sample : samples) {
     if (!std::isfinite(sample)) {
-      ++facts.not_finite;
+      ++seen.not_finite;
       continue;
     }
-    facts.sample.see(sample);
-    squares.add(1, std::fabs(sample), 1);
+    seen.sample.see(sample);
+    seen.squares.add(1, std::fabs(sample), 1);
   }
 }
 
-void see_samples(Description& facts, SquareSum& squares, const std::vector<double>& samples) {
+void see_samples(Seen& seen, const std::vector<double>& samples) {
   Lanes lanes;
   std::size_t i = 0;
   for (; i + Lanes::count <= samples.size(); i += Lanes::count)
@@ -88,11 +99,11 @@ void see_samples(Description& facts, SquareSum& squares, const std::vector<doubl
   const double magnitude = std::max(std::fabs(lowest), std::fabs(highest));
   // A sum in this range holds no NaN, no infinity, no overflow and no underflow that matters.
   const bool plain = (sum > 1e-250 && sum < 1e300) || (sum == 0 && magnitude == 0);
-  if (!plain) return see_each(facts, squares, samples);
-  facts.sample.see(lowest);
-  facts.sample.see(highest);
-  squares.add(sum == 0 ? 0 : sum / (magnitude * magnitude), magnitude,
-              static_cast<std::int64_t>(samples.size()));
+  if (!plain) return see_each(seen, samples);
+  seen.sample.see(lowest);
+  seen.sample.see(highest);
+  seen.squares.add(sum == 0 ? 0 : sum / (magnitude * magnitude), magnitude,
+                   static_cast<std::int64_t>(samples.size()));
 }
 
 }  // namespace
@@ -103,7 +114,8 @@ Description describe(const std::string& path, const ReadOptions& options,
   Description facts;
   facts.header = reader.header();
   facts.axis = reader.axis();
-  SquareSum squares;
+  facts.positions = reader.positions();
+  std::map<Component, Seen> seen;
   Trace trace;
   std::optional<std::int64_t> shot;
   std::unordered_set<std::int64_t> shots;
@@ -114,14 +126,26 @@ Description describe(const std::string& path, const ReadOptions& options,
       shot = header.shot;
       facts.lengths_vary = facts.lengths_vary || !(reader.axis_of(trace) == facts.axis);
       see_header(facts, header);
-      see_samples(facts, squares, trace.samples);
+      see_samples(seen[header.component], trace.samples);
     }
   } catch (const Error& error) {
     facts.damage = error.what();
   }
   facts.traces = reader.delivered();
   facts.shots = static_cast<std::int64_t>(shots.size());
-  facts.rms = squares.rms();
+  SquareSum all;
+  for (const auto& [component, of_it] : seen) {
+    auto& said = facts.components[component];
+    said.sample = of_it.sample;
+    said.rms = of_it.squares.rms();
+    facts.not_finite += of_it.not_finite;
+    if (!of_it.sample.empty()) {
+      facts.sample.see(of_it.sample.lowest);
+      facts.sample.see(of_it.sample.highest);
+    }
+    all.add(of_it.squares);
+  }
+  facts.rms = all.rms();
   return facts;
 }
 

@@ -9,6 +9,7 @@
 
 #include "gather/trace.hpp"
 #include "segy/file_header.hpp"
+#include "segy/geometry.hpp"
 
 namespace slipwave::segy {
 
@@ -23,6 +24,13 @@ struct Range {
   bool empty() const { return lowest > highest; }
 };
 
+/// The traces of a component. Each has a unit of its own.
+struct ComponentSamples {
+  std::int64_t traces = 0;
+  Range sample;  // finite ones
+  double rms = 0;
+};
+
 /// What is in a file of traces. Samples are plain numbers, before any trace weighting.
 struct Description {
   FileHeader header;
@@ -30,11 +38,12 @@ struct Description {
   bool lengths_vary = false;  // traces have other numbers of samples, or start at other times
   std::int64_t traces = 0;    // whole ones
   std::int64_t shots = 0;     // different field records
-  std::map<Component, std::int64_t> components;
+  std::map<Component, ComponentSamples> components;
   Range source_m[3];  // x, y, z
   Range receiver_m[3];
-  Range offset_m;  // receiver x - source x
-  Range sample;    // finite samples
+  PositionsGiven positions;
+  Range offset_m;  // receiver minus source, with the sign of its first part that is not 0
+  Range sample;    // finite samples of all components, whatever their units
   double rms = 0;
   std::int64_t not_finite = 0;
   std::optional<std::string> damage;  // what stopped the reading before the end ("ends within trace 4: ...")

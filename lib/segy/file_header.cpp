@@ -55,11 +55,15 @@ void read_revision_2(FileHeader& header) {
     header.traces = binary.get("ntraces");
 }
 
-bool ends_stanzas(const std::string& text) {
-  std::string dense;
-  std::copy_if(text.begin(), text.end(), std::back_inserter(dense),
-               [](char c) { return c != ' ' && c != '\r' && c != '\n'; });
-  return dense.find("((SEG:EndText))") != std::string::npos;
+/// Whether a text holds the stanza ((SEG: EndText)), in letters of any case, blanks anywhere, in either code.
+bool ends_stanzas(std::span<const std::uint8_t> block) {
+  for (const TextEncoding encoding : {TextEncoding::ebcdic, TextEncoding::ascii}) {
+    std::string dense;
+    for (const char c : decode_text(block, encoding))
+      if (c > ' ' && c <= '~') dense += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+    if (dense.find("((seg:endtext))") != std::string::npos) return true;
+  }
+  return false;
 }
 
 /// A count of extended headers, or -1: up to the stanza that ends them.
@@ -79,7 +83,7 @@ void read_extended(ByteSource& source, FileHeader& header) {
     const TextEncoding encoding = encoding_of(block);
     header.extended.push_back({decode_text(block, encoding), encoding});
     const auto read = static_cast<std::int64_t>(header.extended.size());
-    more = count < 0 ? !ends_stanzas(header.extended.back().text) : read < count;
+    more = count < 0 ? !ends_stanzas(block) : read < count;
     if (more && read == most_extended)
       throw Error("no stanza ((SEG: EndText)) in " + number + " extended textual headers");
   }
@@ -142,7 +146,8 @@ FileHeader read_file_header(ByteSource& source, const ReadOptions& options) {
   if (first.empty()) throw Error("is empty, expected SEG-Y or Seismic Unix traces");
   if (options.su) return read_su(source, options);
   const FileKind kind = kind_of(first, source.size());
-  if (kind == FileKind::su) return read_su(source, options);
+  if (kind == FileKind::su || (kind == FileKind::unknown && names_su(source.name())))
+    return read_su(source, options);
   // a user who says byte order or format knows it is SEG-Y
   if (kind == FileKind::unknown && first.size() >= header_bytes && !options.endian && !options.format)
     throw Error(

@@ -36,9 +36,15 @@ void report_sampling(Report& report, const Description& facts) {
 }
 
 void report_positions(Report& report, const Description& facts) {
+  const auto report_end = [&](const std::string& end, const Range& range, std::size_t axis, bool given) {
+    if (given || axis == 2)
+      report_range(report, end + " " + "xyz"[axis], range, "m");
+    else if (axis == 0)
+      report.text(end, "no coordinates in the file; placed by its offsets and midpoints");
+  };
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    report_range(report, std::string("source ") + "xyz"[axis], facts.source_m[axis], "m");
-    report_range(report, std::string("receiver ") + "xyz"[axis], facts.receiver_m[axis], "m");
+    report_end("source", facts.source_m[axis], axis, facts.positions.source);
+    report_end("receiver", facts.receiver_m[axis], axis, facts.positions.receiver);
   }
   report_range(report, "offset", facts.offset_m, "m");
 }
@@ -50,15 +56,15 @@ Report report_of(const Description& facts) {
   report_file(report, facts.header);
   report_sampling(report, facts);
   std::vector<Report> components;
-  for (const auto& [component, traces] : facts.components) {
-    components.emplace_back();
-    components.back().text("name", name_of(component));
-    components.back().count("traces", traces);
+  for (const auto& [component, found] : facts.components) {
+    auto& said = components.emplace_back();
+    said.text("name", name_of(component));
+    said.count("traces", found.traces);
+    report_range(said, "amplitude", found.sample, unit_of(component));
+    said.number("rms", found.rms, unit_of(component));
   }
   report.list("component", components);
   report_positions(report, facts);
-  report_range(report, "amplitude", facts.sample, "");
-  report.number("rms", facts.rms, "");
   if (facts.not_finite != 0) report.count("samples not finite", facts.not_finite);
   if (!facts.header.su) report.texts("text", shown_lines(facts.header.text));
   return report;

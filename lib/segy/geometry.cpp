@@ -145,7 +145,8 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("fldr", header.shot);
   words.set("tracf", header.channel);
   words.set("ep", header.shot);
-  words.set("cdp", bin_of(mid_x, layout.bin_m));
+  const auto bin = header.bin != 0 ? header.bin : bin_of(mid_x, layout.bin_m);
+  words.set("cdp", bin);
   words.set("trid", code_of(header.component));
   words.set("nvs", 1);
   words.set("nhs", 1);
@@ -165,7 +166,7 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("cdpx", word(mid_x));
   words.set("cdpy", word(mid_y));
   words.set("iline", bin_of(mid_y, layout.bin_y_m));
-  words.set("xline", bin_of(mid_x, layout.bin_m));
+  words.set("xline", bin);
   words.set("sp", header.shot);
   words.set("spscal", 1);
   words.set("unit", unit_code(header.component));
@@ -202,6 +203,44 @@ TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
   header.water_depth_source_m = height("swdep", "xswdep");
   header.water_depth_receiver_m = height("gwdep", "xgwdep");
   return header;
+}
+
+PlaceWords place_words(const TraceWords& words, const FileHeader& file,
+                       const std::optional<ExtensionWords>& extension) {
+  PlaceWords place;
+  place.unit_m = file.feet ? foot_m : 1;
+  place.offset_m = place.unit_m * real_or(extension, "xoffset", static_cast<double>(words.get("offset")));
+  if (file.su || file.major < 1) return place;
+  const double length_m = words.get("counit") <= 1 ? place.unit_m : 1;
+  place.midpoint_m = {length_m * scaled(words.get("cdpx"), words.get("scalco")),
+                      length_m * scaled(words.get("cdpy"), words.get("scalco"))};
+  return place;
+}
+
+PositionsGiven positions_given(const TraceHeader& header, const PlaceWords& place) {
+  const auto at_0 = [](const auto& point) { return point[0] == 0 && point[1] == 0; };
+  const bool no_source = at_0(header.source_m), no_receiver = at_0(header.receiver_m);
+  const double apart = distance(header.source_m, header.receiver_m), said = std::fabs(place.offset_m);
+  if (no_source && no_receiver && !at_0(place.midpoint_m)) return {false, false};
+  // Byte 37 is rounded, or cut, to whole units.
+  if (apart == 0 ? said == 0 : std::fabs(apart - said) < place.unit_m) return {};
+  return {!no_source || said == 0, !no_receiver};
+}
+
+void place_missing(TraceHeader& header, const PositionsGiven& given, const PlaceWords& place) {
+  auto &source = header.source_m, &receiver = header.receiver_m;
+  const auto& midpoint = place.midpoint_m;
+  if (!given.source && !given.receiver && (midpoint[0] != 0 || midpoint[1] != 0)) {
+    source[0] = midpoint[0] - place.offset_m / 2;
+    source[1] = midpoint[1];
+  }
+  if (!given.receiver) {
+    receiver[0] = source[0] + place.offset_m;
+    receiver[1] = source[1];
+  } else if (!given.source) {
+    source[0] = receiver[0] - place.offset_m;
+    source[1] = receiver[1];
+  }
 }
 
 double start_s(const TraceWords& words, const FileHeader& file) {

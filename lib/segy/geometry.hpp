@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -36,8 +37,8 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers);
 /// and -1 for -bin_m; there is no bin 0, which readers take for "unknown".
 std::int64_t bin_of(double midpoint_m, double bin_m);
 
-/// All words that follow from header and layout; counters, ns, dt and delrt stay 0.
-/// Throws Error naming a word that overflows.
+/// All words that follow from header and layout (a bin that is given goes first); counters, ns, dt and delrt
+/// stay 0. Throws Error naming a word that overflows.
 TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout);
 
 /// The inverse, for any file: scalars applied, feet made metres. Source z is its depth below the surface
@@ -45,6 +46,28 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout);
 /// 4) stay as they are. Words of extension 1 that are not 0 go first; they have no scalars.
 TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
                           const std::optional<ExtensionWords>& extension = {});
+
+/// Whether traces say where sources and receivers are.
+struct PositionsGiven {
+  bool source = true, receiver = true;
+};
+
+/// What a trace says of its place beside the coordinates of its ends.
+struct PlaceWords {
+  double offset_m = 0;                 // byte 37: receiver minus source, signed
+  double unit_m = 1;                   // of that word
+  std::array<double, 2> midpoint_m{};  // bytes 181 to 188, since revision 1
+};
+PlaceWords place_words(const TraceWords& words, const FileHeader& file,
+                       const std::optional<ExtensionWords>& extension = {});
+
+/// An end may lack its position: its x and y are 0, and the distance of both ends is not that of byte 37. A
+/// source at 0 lacks it only where byte 37 says something, both also where the midpoint is elsewhere.
+PositionsGiven positions_given(const TraceHeader& header, const PlaceWords& place);
+
+/// Puts an end whose position is not given at the offset along x from the other one, both about the midpoint
+/// where neither is given.
+void place_missing(TraceHeader& header, const PositionsGiven& given, const PlaceWords& place);
 
 /// Time of the first sample (delrt and, since revision 1, its scalar).
 double start_s(const TraceWords& words, const FileHeader& file);

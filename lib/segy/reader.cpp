@@ -15,6 +15,8 @@ namespace {
 /// Of a pipe memory grows by so much at a time.
 constexpr std::uint64_t smallest_step = 1 << 20;
 constexpr std::uint64_t largest_step = 1 << 25;
+/// Looked at for positions, beside the first one.
+constexpr std::uint64_t most_heads = 100;
 
 }  // namespace
 
@@ -23,6 +25,7 @@ Reader::Reader(const std::string& path, const ReadOptions& options, std::vector<
   in_place(name(), [&] {
     header_ = read_file_header(source_, options);
     look_at_first_trace();
+    look_for_positions();
   });
 }
 
@@ -184,11 +187,56 @@ bool Reader::next(Trace& trace) {
 }
 
 TraceHeader Reader::si_header(const Trace& trace) const {
-  return si_from_words(trace.words, header_, extension_of(trace.extensions, header_.endian));
+  return si_header_of(trace.words, trace.extensions);
 }
 
 TraceHeader Reader::si_header(const RawTrace& trace) const {
-  return si_from_words(trace.words, header_, extension_of(trace.extensions, header_.endian));
+  return si_header_of(trace.words, trace.extensions);
+}
+
+TraceHeader Reader::si_header_of(const TraceWords& words, const std::vector<std::uint8_t>& extensions) const {
+  const auto extension = extension_of(extensions, header_.endian);
+  auto header = si_from_words(words, header_, extension);
+  if (positions_.source && positions_.receiver) return header;
+  const auto place = place_words(words, header_, extension);
+  const auto own = positions_given(header, place);
+  place_missing(header, {own.source || positions_.source, own.receiver || positions_.receiver}, place);
+  return header;
+}
+
+/// `head`: the header of a trace and, if it has more, its extension 1. One that says a position is enough.
+void Reader::see_positions(std::span<const std::uint8_t> head) {
+  TraceWords words(head.first<TraceLayout::size>(), header_.endian);
+  if (header_.su) words.clear(181, 240);
+  std::optional<ExtensionWords> extension;
+  if (header_.extra_headers > 0) extension = extension_of(head.subspan(TraceLayout::size), header_.endian);
+  const auto own =
+      positions_given(si_from_words(words, header_, extension), place_words(words, header_, extension));
+  positions_.source |= own.source;
+  positions_.receiver |= own.receiver;
+}
+
+/// Only where the first trace lacks some are others looked at: what is 0 there may be a place.
+void Reader::look_for_positions() {
+  const std::size_t head = TraceLayout::size + (header_.extra_headers > 0 ? ExtensionLayout::size : 0);
+  const auto first = source_.peek(head);
+  if (first.size() < head) return;
+  positions_ = {false, false};
+  see_positions(first);
+  if (lengths_by_trace_ || (positions_.source && positions_.receiver)) return;
+  const auto length = static_cast<std::uint64_t>(TraceLayout::size * (1 + header_.extra_headers) +
+                                                 axis_.count * header_.format->bytes);
+  if (!source_.size()) {
+    const auto ahead = source_.peek(ByteSource::peek_limit);
+    for (std::uint64_t at = length; at + head <= ahead.size(); at += length)
+      see_positions(ahead.subspan(static_cast<std::size_t>(at), head));
+    return;
+  }
+  const std::uint64_t traces = (*source_.size() - header_.first_trace) / length;
+  const std::uint64_t step = std::max<std::uint64_t>(1, traces / most_heads);
+  std::vector<std::uint8_t> bytes(head);
+  for (std::uint64_t trace = step; trace < traces; trace += step)
+    if (source_.read_at(header_.first_trace + trace * length, bytes)) see_positions(bytes);
 }
 
 SampleAxis Reader::axis_of(const RawTrace& trace) const {

@@ -9,6 +9,7 @@
 #include "gather/trace.hpp"
 #include "segy/byte_source.hpp"
 #include "segy/file_header.hpp"
+#include "segy/geometry.hpp"
 #include "segy/words.hpp"
 
 namespace slipwave::segy {
@@ -61,17 +62,24 @@ class Reader {
   /// Traces delivered so far.
   std::int64_t delivered() const noexcept { return delivered_; }
 
-  /// Header and axis of a trace of this input in SI.
+  /// Header and axis of a trace of this input in SI. Ends whose positions are not given are placed by byte 37
+  /// and the midpoint.
   TraceHeader si_header(const Trace& trace) const;
   TraceHeader si_header(const RawTrace& trace) const;
   SampleAxis axis_of(const Trace& trace) const;
   SampleAxis axis_of(const RawTrace& trace) const;
+  /// Whether the traces of the file say where sources and receivers are: as the first one and up to a hundred
+  /// others, all over a file on disk.
+  const PositionsGiven& positions() const noexcept { return positions_; }
   /// Do the trace headers say how long each trace is?
   bool lengths_by_trace() const noexcept { return lengths_by_trace_; }
 
  private:
   void look_at_first_trace();
   bool trace_headers_fill(std::uint64_t size) const;
+  void look_for_positions();
+  void see_positions(std::span<const std::uint8_t> head);
+  TraceHeader si_header_of(const TraceWords& words, const std::vector<std::uint8_t>& extensions) const;
   std::int64_t extra_headers_of(const std::optional<ExtensionWords>& extension) const;
   std::int64_t samples_of(const TraceWords& words, const std::optional<ExtensionWords>& extension) const;
   bool at_trailer();
@@ -84,6 +92,7 @@ class Reader {
   FileHeader header_;
   SampleAxis axis_;
   bool lengths_by_trace_ = false;
+  PositionsGiven positions_;
   std::int64_t delivered_ = 0;
   RawTrace raw_;
   std::vector<std::uint8_t> bytes_;

@@ -62,6 +62,8 @@ int bits_of(const TraceWords& words) {
 
 }  // namespace
 
+bool names_su(const std::string& path) { return path.ends_with(".su"); }
+
 bool looks_like_text(std::span<const std::uint8_t> bytes) {
   const std::string text = decode_text(bytes, encoding_of(bytes));
   const auto printable = std::count_if(text.begin(), text.end(), [](char c) {

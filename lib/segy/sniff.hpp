@@ -9,6 +9,9 @@
 
 namespace slipwave::segy {
 
+/// Whether a file of that name is Seismic Unix: "gather.su".
+bool names_su(const std::string& path);
+
 enum class FileKind { unknown, segy, su };
 
 /// What the first bytes of an input (3600 tell everything, fewer less) look like; `size` is the whole

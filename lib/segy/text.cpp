@@ -127,6 +127,39 @@ std::string lay_out_text(std::span<const std::string> entries, int revision) {
   return joined(laid);
 }
 
+std::string lay_out_text(std::span<const std::string> entries, std::span<const std::string> always,
+                         int revision) {
+  std::vector<std::string> all(entries.begin(), entries.end());
+  all.insert(all.end(), always.begin(), always.end());
+  std::vector<std::vector<std::string>> first;
+  std::size_t lines = 0, rest = 0;
+  for (const std::string& entry : entries) lines += first.emplace_back(wrapped(entry)).size();
+  for (const std::string& entry : always) rest += wrapped(entry).size();
+  if (lines + rest <= free_lines) return lay_out_text(all, revision);
+  constexpr std::size_t room_for_tools = 4, beginning = 3;
+  const std::size_t most = free_lines - std::min(free_lines, rest + room_for_tools);
+  const auto longer = [](const auto& one, const auto& other) { return one.size() < other.size(); };
+  while (lines > most) {
+    const auto longest = std::max_element(first.begin(), first.end(), longer);
+    if (longest->size() > beginning) {
+      longest->pop_back();
+      longest->back() = "  ...";
+    } else if (first.size() > beginning) {
+      // The command that came last says most.
+      lines -= first[first.size() - 2].size();
+      first.erase(first.end() - 2);
+      continue;
+    } else {
+      break;
+    }
+    --lines;
+  }
+  std::vector<std::string> laid;
+  for (const auto& entry : first) laid.insert(laid.end(), entry.begin(), entry.end());
+  laid.insert(laid.end(), always.begin(), always.end());
+  return lay_out_text(laid, revision);
+}
+
 std::string with_entry(std::string_view text, const std::string& entry, int revision) {
   std::vector<std::string> laid = split(text);
   std::size_t used = free_lines;

@@ -17,7 +17,7 @@ enum class TextEncoding { ebcdic, ascii };
 /// "ebcdic" or "ascii".
 const char* name_of(TextEncoding encoding);
 
-/// What a textual header is written in: by its first byte, else by the commoner blank.
+/// What a textual header is written in: by its first byte or that of a stanza, else by the commoner blank.
 TextEncoding encoding_of(std::span<const std::uint8_t> text);
 
 /// Bytes of a file to ISO 8859-1 (EBCDIC is code page 037), one character a byte; encode_text is its inverse.
@@ -29,6 +29,12 @@ std::vector<std::uint8_t> encode_text(std::string_view text, TextEncoding encodi
 /// outside ASCII, are replaced: [ ] become ( ), | becomes /, the others a dot. Where 38 lines do not hold
 /// everything, the last of `lines` stays and a line "..." stands for what is left out.
 std::string lay_out_text(std::span<const std::string> lines, int revision);
+
+/// The same of two groups of lines, the second of which always stays as a whole: where 38 lines do not hold
+/// both, the longest of the first are cut, the later of them left out, and a few lines stay free for the
+/// commands of tools that come after.
+std::string lay_out_text(std::span<const std::string> lines, std::span<const std::string> always,
+                         int revision);
 
 /// `text` (3200 characters of another file) with one more entry after its last line in use, laid out as
 /// lay_out_text does. The other lines stay as they are; C39 and C40 are stamped where they are blank or hold

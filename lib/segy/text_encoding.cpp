@@ -43,6 +43,8 @@ TextEncoding encoding_of(std::span<const std::uint8_t> text) {
   if (text.empty()) return TextEncoding::ebcdic;
   if (text[0] == 0xC3 || text[0] == 0x83) return TextEncoding::ebcdic;  // C, c
   if (text[0] == 'C' || text[0] == 'c') return TextEncoding::ascii;
+  if (text.size() > 1 && text[0] == text[1] && (text[0] == 0x4D || text[0] == '('))  // a stanza, "(("
+    return text[0] == '(' ? TextEncoding::ascii : TextEncoding::ebcdic;
   // no line number to go by: blanks are the commonest character, 0x20 or 0x40
   std::size_t ascii_blanks = 0;
   std::size_t ebcdic_blanks = 0;

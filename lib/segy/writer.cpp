@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "segy/extension.hpp"
+#include "segy/sniff.hpp"
 #include "segy/writer_headers.hpp"
 
 namespace slipwave::segy {
@@ -57,6 +58,13 @@ void Writer::write(const Trace& trace, bool from_su) {
 }
 
 void Writer::write(const RawTrace& trace, bool from_su) {
+  const bool other_order = info_.raw_endian != info_.format.endian;
+  if (info_.raw_format && (info_.raw_format != &sample_format_ || other_order)) {
+    Trace decoded{trace.words, {}, trace.extensions};
+    decoded.samples.resize(trace.samples.size() / static_cast<std::size_t>(info_.raw_format->bytes));
+    decode_samples(trace.samples, *info_.raw_format, info_.raw_endian, decoded.samples);
+    return write(decoded, from_su);
+  }
   in_place("trace " + std::to_string(written_ + 1), [&] {
     put_headers(carried(trace.words, from_su), trace.extensions,
                 static_cast<std::int64_t>(trace.samples.size()) / sample_format_.bytes);
@@ -106,6 +114,15 @@ void Writer::put_samples(std::span<const double> samples) {
   ++written_;
 }
 
+FileFormat format_named_by(const std::string& path, const FileFormat& format) {
+  if (!names_su(path)) return format;
+  FileFormat su;
+  su.endian = native_endian;
+  su.encoding = format.encoding;
+  su.su = true;
+  return su;
+}
+
 void write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
                   const std::vector<std::string>& entries) {
   std::vector<TraceHeader> headers;
@@ -114,10 +131,8 @@ void write_gather(OutputFile& out, const Gather& gather, const FileFormat& forma
   info.format = format;
   info.axis = gather.axis;
   info.layout = layout_of(headers);
-  std::vector<std::string> all = entries;
-  const auto more = convention_entries(components_of(gather), info.axis, info.layout);
-  all.insert(all.end(), more.begin(), more.end());
-  info.text = lay_out_text(all, format.revision);
+  const auto conventions = convention_entries(components_of(gather), info.axis, info.layout);
+  info.text = lay_out_text(entries, conventions, format.revision);
   Writer writer(out, std::move(info));
   for (const slipwave::Trace& trace : gather.traces) writer.write(trace.header, trace.samples);
 }

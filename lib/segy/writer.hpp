@@ -25,6 +25,9 @@ struct FileFormat {
       false;  // Seismic Unix: no reel headers, format 5, bytes 181 to 240 zero; SU itself wants native_endian
 };
 
+/// `format`, or Seismic Unix where a file of that name is.
+FileFormat format_named_by(const std::string& path, const FileFormat& format = {});
+
 /// Everything that must be known before the first trace is written.
 struct FileInfo {
   FileFormat format;
@@ -36,6 +39,8 @@ struct FileInfo {
   int carried_revision = 1;            // of the file that carried traces come from: 0 has no time scalar
   bool lengths_vary = false;           // every trace has its own length, axis has the first one's
   std::int64_t extra_headers = 0;      // of 240 bytes a trace, carried along (revision 2)
+  const SampleFormat* raw_format = nullptr;  // of raw traces that are written, if not the file's
+  Endian raw_endian = Endian::big;           // and their byte order
 };
 
 /// Sentences about what some readers will not take (samples or interval above 32767).
@@ -44,7 +49,8 @@ std::vector<std::string> warnings_of(const FileInfo& info);
 /// The same kind of file as was read, for a tool that changes samples: revision, byte order and SU-ness
 /// kept, samples IEEE floats, or doubles where the input's were doubles or wider integers. As info_as()
 /// otherwise (conversion.hpp).
-FileInfo info_like(const Reader& reader, const std::string& entry);
+/// A name that ends in .su makes it Seismic Unix.
+FileInfo info_like(const Reader& reader, const std::string& entry, const std::string& output = "");
 
 /// Writes traces as they come, in the memory of one. Every number that goes into the file header is in
 /// `info`. Errors: a sampling the revision cannot hold; a trace of another length; a value the sample format
@@ -59,7 +65,7 @@ class Writer {
   void write(const TraceHeader& header, std::span<const double> samples);
   /// A trace of another file, its headers carried along; counters, ns and dt are made to fit.
   void write(const Trace& trace, bool from_su);
-  /// The same of samples that are in the format and byte order of this file already.
+  /// The same of samples in the format and byte order of the file, or those that FileInfo says of them.
   void write(const RawTrace& trace, bool from_su);
 
   std::int64_t written() const noexcept { return written_; }

@@ -140,10 +140,12 @@ std::vector<std::string> warnings_of(const FileInfo& info) {
   if (info.axis.count > highest_signed_16 && !has_wide_words(info.format))
     warnings.push_back(
         std::to_string(info.axis.count) +
-        " samples a trace: readers that take the word as signed see a negative number above 32767");
+        " samples a trace: readers that take the word as signed see a negative number above 32767; "
+        "sw-convert --revision 2 writes it in a wider one");
   if (interval_word(info.axis.interval_s) > highest_signed_16)
     warnings.push_back("sample interval " + shown(info.axis.interval_s) +
-                       " s: readers that take the word as signed see a negative number above 0.032767 s");
+                       " s: readers that take the word as signed see a negative number above 0.032767 s; "
+                       "sw-filter --resample makes it shorter");
   return warnings;
 }
 

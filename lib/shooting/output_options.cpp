@@ -57,6 +57,10 @@ void OutputOptions::check_names(std::size_t shots) const {
   if (first_shot < 1)
     throw Error("--first-shot: found " + std::to_string(first_shot) + ", expected 1 or more",
                 ErrorKind::usage);
+  if (first_shot != 1 && !shot_labels.empty())
+    throw Error("found --first-shot " + std::to_string(first_shot) +
+                    " and a survey that numbers its shots, expected one of them",
+                ErrorKind::usage);
   if (!snapshots.empty() && shots > 1 && !holds(snapshots, "{shot}"))
     throw Error("found " + std::to_string(shots) + " sources and --snapshots " + snapshots +
                     ", expected {shot} in the name",
@@ -94,7 +98,7 @@ void OutputOptions::check_parallel() const {
 template <int D>
 void OutputOptions::check_scene(const Scene<D>& scene,
                                 const std::function<void(const std::string&)>& warn) const {
-  const bool any_trace = !scene.survey.receivers_m.empty();
+  const bool any_trace = scene.survey.any_receiver();
   if (any_trace) check_sampling(scene.recording, warn);
   if (any_trace && !snapshots.empty() && snapshots == traces)
     throw Error("--output and --snapshots both name " + traces + "; give them different names",

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
@@ -15,9 +16,10 @@ struct OutputOptions {
   std::string traces = "-";
   std::string snapshots;  // empty: none
   std::string snapshot_fields = "vx,vz";
-  std::string slice;       // of 3-D snapshots, empty: all of the volume
-  int first_shot = 1;      // number of the first source
-  std::string checkpoint;  // empty: none
+  std::string slice;                      // of 3-D snapshots, empty: all of the volume
+  int first_shot = 1;                     // number of the first source
+  std::vector<std::int64_t> shot_labels;  // of a survey that numbers its shots; empty: none
+  std::string checkpoint;                 // empty: none
   std::optional<double> checkpoint_every_s;
   bool keep_unstable = false;
   int shots_in_parallel = 0;  // 0: as many as there are threads and memory allows (shots_at_once)
@@ -26,7 +28,9 @@ struct OutputOptions {
   /// Whether snapshots hold what slip has done.
   bool wants_slip() const;
   /// In headers, names and messages, of shot 1, 2, ... of the run.
-  std::size_t number_of(std::size_t shot) const { return shot + std::size_t(first_shot - 1); }
+  std::size_t number_of(std::size_t shot) const {
+    return shot_labels.empty() ? shot + std::size_t(first_shot - 1) : std::size_t(shot_labels[shot - 1]);
+  }
   /// Throws a usage Error on options that contradict each other or can not hold all shots.
   template <int D>
   void check(std::size_t shots) const;

@@ -1,8 +1,13 @@
 #include "shooting/scene_options.hpp"
 
+#include <algorithm>
+#include <map>
+#include <utility>
+
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
+#include "scene/model_ground.hpp"
 #include "scene/subdomains.hpp"
 
 namespace slipwave {
@@ -15,18 +20,69 @@ EdgeLaw edge_law(const std::string& name) {
                             : EdgeLaw::absorbing;
 }
 
+/// Reads each text once: many sources share theirs.
+template <class Value>
+class Once {
+ public:
+  template <class Parse>
+  const Value& get(const std::string& text, const std::string& place, const Parse& parse) {
+    const auto at = known_.find(text);
+    if (at != known_.end()) return at->second;
+    return known_.emplace(text, in_place(place, [&] { return parse(text); })).first->second;
+  }
+
+ private:
+  std::map<std::string, Value> known_;
+};
+
+/// Sources without their positions, which the model's ground may decide.
 template <int D>
 Survey<D> make_survey(const SceneOptions& s) {
   Survey<D> survey;
-  const auto wavelet = in_place("--wavelet", [&] { return parse_wavelet(s.wavelet); });
-  const auto mechanism = in_place("--kind", [&] { return parse_mechanism<D>(s.kind); });
-  for (const auto& text : s.sources)
-    survey.sources.push_back(
-        {in_place("--source", [&] { return parse_point<D>(text); }), mechanism, wavelet, s.amplitude});
-  for (const auto& text : s.receivers)
-    for (const auto& point : in_place("--receivers", [&] { return parse_line<D>(text); }))
-      survey.receivers_m.push_back(point);
+  auto given = s.survey.read(D);
+  Once<Wavelet> wavelets;
+  Once<Mechanism<D>> kinds;
+  const auto source_of = [&](const GivenSource& source) {
+    const bool own_wavelet = !source.wavelet.empty(), own_kind = !source.kind.empty();
+    if (!own_wavelet && s.wavelet.empty())
+      throw Error("--wavelet is missing; expected --wavelet W", ErrorKind::usage);
+    const auto& wavelet = wavelets.get(own_wavelet ? source.wavelet : s.wavelet,
+                                       own_wavelet ? source.from : "--wavelet", parse_wavelet);
+    const auto& kind =
+        kinds.get(own_kind ? source.kind : s.kind, own_kind ? source.from : "--kind", parse_mechanism<D>);
+    return Source<D>{
+        {}, kind, wavelet, source.amplitude.value_or(s.amplitude) * source.factor, source.delay_s};
+  };
+  bool any_blended = false;
+  for (const auto& shot : given.shots) {
+    survey.sources.push_back(source_of(shot.sources.front()));
+    any_blended = any_blended || shot.sources.size() > 1;
+  }
+  if (any_blended) survey.blended.resize(survey.sources.size());
+  for (std::size_t shot = 0; any_blended && shot < survey.sources.size(); ++shot)
+    for (std::size_t n = 1; n < given.shots[shot].sources.size(); ++n)
+      survey.blended[shot].push_back(source_of(given.shots[shot].sources[n]));
+  survey.spreads.emplace(std::move(given));
   return survey;
+}
+
+/// The ground of a model file, read row by row only as deep as it goes.
+template <int D>
+Ground<D> read_ground(const NetcdfFile& file, const Grid<D>& grid, bool needed) {
+  Ground<D> ground(grid);
+  constexpr std::int64_t rows_at_once = 32;
+  const std::int64_t rows = grid.shape[D - 1];
+  for (std::int64_t first = 0; needed && first < rows; first += rows_at_once)
+    if (see(ground, read_model_rows<D>(file, first, std::min(first + rows_at_once, rows)).medium)) break;
+  return ground;
+}
+
+/// Places the survey by the ground of the model that is there.
+template <int D>
+void place_on_model(Scene<D>& scene) {
+  Ground<D> ground(scene.model.grid());
+  if (needs_ground(scene.survey)) see(ground, scene.model.medium);
+  place(scene.survey, std::move(ground));
 }
 
 }  // namespace
@@ -36,7 +92,7 @@ Scene<D> SceneOptions::without_model() const {
   Scene<D> scene;
   scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
-    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name); }));
+    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name, D); }));
   scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
   for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};
@@ -101,6 +157,7 @@ template <int D>
 std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
   auto warnings = prepare_model(scene);
+  place_on_model(scene);
   check(scene);
   return warnings;
 }
@@ -112,6 +169,7 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
+      place(scene.survey, read_ground(file, grid, needs_ground(scene.survey)));
       check(scene.survey, grid);
       scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
       const auto [first, last] = rows_held(scene.subdomain);
@@ -120,6 +178,7 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
       scene.model = read_model<D>(file);
     }
     warnings = prepare_model(scene);
+    if (!group) place_on_model(scene);
   });
   if (group) join(scene, *group);
   collective_try(&all, [&] { check(scene); });

@@ -7,6 +7,7 @@
 #include "model/fracture.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
+#include "shooting/survey_options.hpp"
 
 namespace slipwave {
 
@@ -15,7 +16,7 @@ class NetcdfFile;
 /// What is simulated, as the options of the tools say it: model, sources, receivers, edges, numerics.
 struct SceneOptions {
   std::string model = "-";
-  std::vector<std::string> sources, receivers;
+  SurveyOptions survey;
   std::string kind = "explosion", wavelet, record = "vz,vx,p";
   std::string top = "free", sides = "absorbing", bottom = "absorbing";
   std::string order = "5", time_order = "2", correction = "second", precision = "float", without,
@@ -27,7 +28,8 @@ struct SceneOptions {
   int edge_width = 0;
   MediumLimits limits;
 
-  /// The scene, its model not yet read. Throws a usage Error naming the option.
+  /// The scene, its model not yet read and its survey not yet placed in it. Throws a usage Error naming the
+  /// option.
   template <int D>
   Scene<D> without_model() const;
   /// Puts the model in and checks both; what attenuates makes the medium unrelaxed. Returns warnings. Throws

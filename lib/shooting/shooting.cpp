@@ -24,12 +24,33 @@ void check_outputs(const ShootingOptions& options) {
   }
 }
 
+/// The options of outputs, shots called as the survey numbers them.
+template <int D>
+OutputOptions labelled(OutputOptions output, const Survey<D>& survey) {
+  if (!survey.spreads || !survey.spreads->given().numbered) return output;
+  for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot)
+    output.shot_labels.push_back(survey.label_of(shot));
+  return output;
+}
+
+/// A survey that lies beside a section was moved onto it.
+template <int D>
+void warn_of_projection(const Survey<D>& survey, const Messages& messages) {
+  const double moved_m = survey.spreads ? survey.spreads->moved_m() : 0;
+  if (moved_m > 0)
+    messages.warn("the survey was moved onto the model's section, places by up to " + shown(moved_m, 3) +
+                  " m across it and offsets by up to " + shown(survey.spreads->offset_change_m(), 3) + " m");
+}
+
 /// The scene without its model, all options checked.
 template <int D>
 Scene<D> make_scene(const ShootingOptions& options) {
-  const auto& output = options.output;
-  const bool any_snapshot = !output.snapshots.empty();
+  if (options.json && !options.plan) throw Error("--json needs --plan", ErrorKind::usage);
+  if (!options.scene.survey.any_source())
+    throw Error("--source is missing; expected --source X,Z", ErrorKind::usage);
   auto scene = options.scene.without_model<D>();
+  const OutputOptions output = labelled(options.output, scene.survey);
+  const bool any_snapshot = !output.snapshots.empty();
   if (any_snapshot) {
     if (!options.snapshot_every_s)
       throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
@@ -38,7 +59,7 @@ Scene<D> make_scene(const ShootingOptions& options) {
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());
   check_outputs(options);
-  if (scene.survey.receivers_m.empty() && !any_snapshot && !options.plan)
+  if (!scene.survey.any_receiver() && !any_snapshot && !options.plan)
     throw Error("nothing to record: give --receivers or --snapshots", ErrorKind::usage);
   return scene;
 }
@@ -76,17 +97,25 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages&
   throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
 }
 
+/// What sw-shoot --error 0.01 would choose, and what it costs against the scene as it is.
+Report setting_for_1_percent(const Scene<2>& scene) {
+  Report report;
+  const auto choice = cheapest_setting(scene, 0.01);
+  report.text("for 1 percent", (choice.good_enough ? "--error 0.01: " : "none is known; at best ") +
+                                   sentence_of(choice, scene) +
+                                   (choice.reason.empty() ? "" : "; " + choice.reason));
+  return report;
+}
+
 template <int D>
-void print_plan(const Scene<D>& scene, bool with_choice, const std::string& path) {
-  auto report = report_of(plan(scene));
+void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
+  const auto planned = plan(scene);
+  auto report = summary_of(planned);
   if constexpr (D == 2)
-    if (with_choice) {
-      const auto choice = cheapest_setting(scene, 0.01);
-      report.text("for an error of 1 %", (choice.good_enough ? "" : "at best ") + sentence_of(choice, scene) +
-                                             (choice.reason.empty() ? "" : "; " + choice.reason));
-    }
-  const std::string text = report.lines();
-  OutputFile out(path, OutputFile::Content::text);
+    if (!options.wanted_error) report.append(setting_for_1_percent(scene));
+  if (options.details || options.json) report.append(report_of(planned));
+  const std::string text = options.json ? report.json() + "\n" : report.lines();
+  OutputFile out(options.output.traces, OutputFile::Content::text);
   out.write(text.data(), text.size());
   out.commit();
 }
@@ -99,9 +128,11 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   file.close();
   if (options.wanted_error) scene = with_wanted_error(scene, *options.wanted_error, messages);
   for (const auto& sentence : warnings(scene)) messages.warn(sentence);
-  if (options.plan) return print_plan(scene, !options.wanted_error, options.output.traces);
-  options.output.check_scene(scene, messages.warn);
-  SurveyRun<D>(scene, options.output, provenance, messages, nullptr).run();
+  warn_of_projection(scene.survey, messages);
+  if (options.plan) return print_plan(scene, options);
+  const OutputOptions output = labelled(options.output, scene.survey);
+  output.check_scene(scene, messages.warn);
+  SurveyRun<D>(scene, output, provenance, messages, nullptr).run();
 }
 
 template <int D>
@@ -113,7 +144,9 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
                           !options.output.snapshots.empty());
   const auto of_model = options.scene.read_part_into(scene, file, ranks, groups.group());
   file.close();
-  collective_try(&ranks, [&] { options.output.check_scene(scene, messages.warn); });
+  const OutputOptions output = labelled(options.output, scene.survey);
+  collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
+  if (groups.leads()) warn_of_projection(scene.survey, messages);
   // Of each kind the first one's.
   for (const auto& sentences : {of_model, warnings(scene)})
     for (const auto& sentence : allgather_texts(ranks, sentences.empty() ? "" : sentences.back()))
@@ -121,7 +154,7 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
         messages.warn(sentence);
         break;
       }
-  SurveyRun<D>(scene, options.output, provenance, messages, &groups).run();
+  SurveyRun<D>(scene, output, provenance, messages, &groups).run();
 }
 
 }  // namespace

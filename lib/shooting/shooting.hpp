@@ -17,6 +17,8 @@ struct ShootingOptions {
   std::optional<double> snapshot_every_s;
   std::optional<double> wanted_error;  // choose the numerics for it
   bool plan = false;                   // print what would be computed, to output.traces
+  bool json = false;                   // of the plan, all of it
+  bool details = false;                // all of the plan
   bool balance = false;                // say where the energy went
 };
 

@@ -34,8 +34,7 @@ SurveyRun<D>::SurveyRun(const Scene<D>& scene, const OutputOptions& options, con
       provenance_{"", provenance.version, history_of(scene, provenance)},
       state_(state_settings(provenance.version)),
       traces_(options,
-              writes() && !scene.survey.receivers_m.empty() ? scene.recording.components
-                                                            : std::vector<Component>(),
+              writes() && scene.survey.any_receiver() ? scene.recording.components : std::vector<Component>(),
               textual_header_of(scene, provenance_.history, provenance.version)),
       at_once_(groups ? groups->groups() : shots_at_once(options, scene)) {}
 
@@ -80,6 +79,8 @@ void SurveyRun<D>::simulate_all() {
     messages_.say("continues from " + options_.checkpoint + ": " + state_.continues_at());
   const auto rest = unfinished_shots();
   if (traces_.one_per_shot() && writes()) traces_.write(state_, shots());
+  shots_to_do_ = rest.size();
+  rounds_ = (rest.size() + at_once_ - 1) / at_once_;
   for (std::size_t first = 0; first < rest.size(); first += at_once_) {
     const std::span<const std::size_t> some(rest.data() + first, std::min(at_once_, rest.size() - first));
     open_outputs(some);
@@ -121,10 +122,18 @@ void SurveyRun<D>::open_outputs(std::span<const std::size_t> some) {
                      history, state_, some[0]);
 }
 
+/// One bar for the whole survey, which the rounds of shots that run together fill one after the other.
 template <int D>
-Progress SurveyRun<D>::progress_of(std::span<const std::size_t> some) const {
-  return messages_.progress("shot " + number(some.front()) +
-                            (some.size() > 1 ? " to " + number(some.back()) : ""));
+Progress SurveyRun<D>::progress_of(std::span<const std::size_t> some) {
+  const auto round = std::int64_t(round_++);
+  if (rounds_ == 1)
+    return messages_.progress("shot " + number(some.front()) +
+                              (some.size() > 1 ? " to " + number(some.back()) : ""));
+  if (!progress_) progress_ = messages_.progress(std::to_string(shots_to_do_) + " shots");
+  if (!progress_) return {};  // silent
+  return [this, round](std::int64_t done, std::int64_t total) {
+    progress_(round * total + done, std::int64_t(rounds_) * total);
+  };
 }
 
 template <int D>

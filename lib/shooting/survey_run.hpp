@@ -42,7 +42,7 @@ class SurveyRun {
   std::vector<ShotReport> simulate_on_ranks(std::span<const std::size_t> some);
   void finish_outputs(std::span<const std::size_t> some, const std::vector<ShotReport>& reports);
   std::vector<std::string> save_unstable(const Unstable& error);
-  Progress progress_of(std::span<const std::size_t> some) const;
+  Progress progress_of(std::span<const std::size_t> some);
   std::size_t shots() const { return scene_.survey.sources.size(); }
   bool writes() const { return !groups_ || groups_->leads(); }
   std::string number(std::size_t shot) const { return std::to_string(options_.number_of(shot)); }
@@ -54,7 +54,9 @@ class SurveyRun {
   SnapshotHistory provenance_;  // but for the title
   RunState state_;
   TraceFiles traces_;
-  std::size_t at_once_;                        // shots
+  std::size_t at_once_;  // shots
+  std::size_t shots_to_do_ = 0, rounds_ = 0, round_ = 0;
+  Progress progress_;                          // of all rounds
   std::optional<ShotSnapshots<D>> snapshots_;  // of the shot that is being simulated
 };
 

@@ -56,7 +56,7 @@ void TraceFiles::write(RunState& state, std::size_t shots) {
     if (state.gather(shot)) open(shot);
   auto gathers = gathers_by_file(state, shots);
   for (auto& [name, file] : files_) {
-    segy::write_gather(file, gathers[name], {}, textual_header_);
+    segy::write_gather(file, gathers[name], segy::format_named_by(name), textual_header_);
     file.commit();
   }
   files_.clear();
@@ -66,7 +66,7 @@ void TraceFiles::write(RunState& state, std::size_t shots) {
 
 void TraceFiles::write_finished(RunState& state, std::size_t shots) {
   for (const auto& [name, gather] : gathers_by_file(state, shots)) {
-    segy::write_gather(files_.at(name), gather, {}, textual_header_);
+    segy::write_gather(files_.at(name), gather, segy::format_named_by(name), textual_header_);
     files_.at(name).commit();
   }
 }
@@ -77,7 +77,7 @@ void TraceFiles::write_unstable(RunState& state, std::size_t shots, const std::s
   textual_header.push_back(line);
   for (const auto& [name, gather] : gathers_by_file(state, shots)) {
     OutputFile file(unstable_name(name), OutputFile::Content::binary);
-    segy::write_gather(file, gather, {}, textual_header);
+    segy::write_gather(file, gather, segy::format_named_by(name), textual_header);
     file.commit();
     written.push_back(unstable_name(name));
   }

@@ -53,14 +53,16 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
       all.push_back(std::make_unique<Sponge<D, Real>>(state.layout, domain, dt_s, vp_max,
                                                       make_plane_wave<Real>(scene, source, domain, dt_s)));
   }
-  if (point_injection(source)) {
-    auto point = std::make_unique<PointSource<D, Real>>(state, domain, scene, source, unit, ranks);
-    if (!point->rows().empty()) all.push_back(std::move(point));
+  std::vector<const PointSource<D, Real>*> points;
+  for (const auto* each : scene.survey.sources_of(shot)) {
+    if (!point_injection(*each)) continue;
+    auto point = std::make_unique<PointSource<D, Real>>(state, domain, scene, *each, unit, ranks);
+    if (point->rows().empty()) continue;
+    points.push_back(point.get());
+    all.push_back(std::move(point));
   }
-  if (scene.attenuates()) {
-    const auto* point = all.empty() ? nullptr : dynamic_cast<const PointSource<D, Real>*>(all.back().get());
-    all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, point));
-  }
+  if (scene.attenuates())
+    all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, points));
   if (scene.slips()) all.push_back(std::make_unique<Slip<D, Real>>(state, domain, scene, dt_s, unit));
   return all;
 }

@@ -23,14 +23,16 @@ constexpr double largest_addition = 1e-20;
 /// numbers. The same with slip and without, so that the difference of both is the work of slip alone.
 /// Collective where there are ranks.
 template <int D>
-double unit_of(const Scene<D>& scene, const Source<D>& source, double dt_s, Ranks* ranks) {
-  const auto injection = point_injection(source);
-  if (!injection || scene.numerics.double_precision) return 1;
+double unit_of(const Scene<D>& scene, std::size_t shot, double dt_s, Ranks* ranks) {
+  const auto sources = scene.survey.sources_of(shot);
+  if (!point_injection(*sources.front()) || scene.numerics.double_precision) return 1;
   const auto& medium = scene.model.medium;
   const double volume = std::pow(medium.grid().spacing_m, D);
   double largest = 0;
-  if (scene.subdomain.owns(medium.grid(), source.position_m)) {
-    const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source.position_m)));
+  for (const auto* source : sources) {
+    if (!scene.subdomain.owns(medium.grid(), source->position_m)) continue;
+    const auto injection = point_injection(*source);
+    const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), source->position_m)));
     const double rho = medium.rho[cell], impedance = rho * medium.vp[cell];
     for (int i = 0; i < D; ++i) {
       largest = std::max(largest, std::abs(injection->force[std::size_t(i)]) / rho);
@@ -74,7 +76,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       shot_(shot),
       dt_s_(time_step_s(scene)),
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
-      unit_(unit_of(scene, scene.survey.sources[shot - 1], dt_s_, ranks)),
+      unit_(unit_of(scene, shot, dt_s_, ranks)),
       attenuating_(attenuating_medium(scene, dt_s_)),
       domain_(make_domain(medium(), scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                           scene.subdomain)),

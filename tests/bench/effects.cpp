@@ -26,6 +26,11 @@ void register_effects() {
   };
   add("none", [](Case&) {});
   add("none, every cell another material", [](Case& what) { what.variety = Variety::random; });
+  add("all rows bent", [](Case& what) { what.bent = true; });
+  add("all rows bent, every cell another material", [](Case& what) {
+    what.bent = true;
+    what.variety = Variety::random;
+  });
   add("free surface", [](Case& what) { what.top = EdgeLaw::free; });
   add("PML on three sides", [](Case& what) { what.others = EdgeLaw::absorbing; });
   add("PML on four sides", [](Case& what) { what.top = what.others = EdgeLaw::absorbing; });

@@ -33,7 +33,7 @@ TEST_F(Convert, CopiesBytesThatKeepTheirFormat) {
 
 TEST_F(Convert, GoesThereAndBackThroughPipes) {
   shoot();
-  done("sw-convert g.sgy --su | sw-convert | sw-diff - g.sgy | sw-info - | grep -q 'amplitude        0$'");
+  done("sw-convert g.sgy --su | sw-convert | sw-diff - g.sgy | sw-info - | grep -c 'amplitude 0 [mP]'");
   done(
       "sw-convert g.sgy --format double --revision 2 --endian little | sw-convert --format ieee --revision 1 "
       "--endian big | cmp -i 3200 - g.sgy");

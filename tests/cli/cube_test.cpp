@@ -63,13 +63,13 @@ TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
   EXPECT_TRUE(has(lines, "traces           9\n")) << lines;
   done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
   done("cmp a.sgy b.sgy");
-  const auto plan = done("sw-shoot m.nc " + shot + "--plan");
+  const auto plan = done("sw-shoot m.nc " + shot + "--plan -v");
   EXPECT_TRUE(has(plan, "slip, second order"));
   EXPECT_TRUE(has(plan, "% (cells that no wave has reached")) << plan;
   expect_refused("sw-shoot m.nc " + shot + "--error 0.01 --receivers 20,30,5 -o no.sgy", 2,
                  "sw-shoot: --error needs a model in 2-D, found one in 3-D");
   expect_refused("sw-shoot m.nc --source 95,85 --wavelet ricker:15 --time 0.1 --receivers 5,5,5 -o no.sgy", 2,
-                 "sw-shoot: --source: found '95,85', expected a point X,Y,Z");
+                 "sw-shoot: --source: found '95,85', expected points X0:X1:DX,Y,Z or X,Y,Z");
 }
 
 TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {
@@ -84,12 +84,16 @@ TEST_F(Cube, ShowsSlicesOfSnapshotsAndModels) {
   done("cmp <(grep -o 'base64,[^\"]*' a.svg) <(grep -o 'base64,[^\"]*' b.svg)");
   done("sw-plot m.nc --slice z=55 -o map.png && sw-plot slice.nc --over m.nc --movie -o film.png");
   EXPECT_TRUE(exists("film-0003.png"));
-  expect_refused("sw-plot m.nc -o no.png", 2,
-                 "sw-plot: m.nc: found a volume, expected --slice AXIS=AT, for example --slice y=60");
+  // Without a plane: three, on which the numbers are those of the sections alone.
+  done("sw-plot m.nc -o three.svg && sw-plot volume.nc --over m.nc --field vy -o wave.png");
+  EXPECT_EQ(done("grep -c '<image' three.svg"), "4\n");  // and the colour bar
+  expect_refused("sw-plot m.nc --x 0:50 -o no.png", 2,
+                 "sw-plot: --x: three sections are drawn; choose one by --slice, such as y=500");
   expect_refused("sw-plot m.nc --slice y=130 -o no.png", 2,
                  "sw-plot: m.nc: found y=130, expected it from 0 to 120");
-  expect_refused("sw-export m.nc --property vp -o no.sgy", 1,
-                 "sw-export: m.nc: found a model in 3-D, expected one in 2-D");
+  const auto cube = done("sw-export m.nc --property vp | sw-info -");
+  EXPECT_TRUE(has(cube, "traces           240\n")) << cube;
+  EXPECT_TRUE(has(cube, "receiver y       5 to 115 m\n")) << cube;
 }
 
 TEST_F(Cube, ShowsSlicesOfFittedGridsAtTrueDepths) {

@@ -33,6 +33,39 @@ TEST_F(Exchange, RecipeOfSegyioGivesSamplesAndPositions) {
             "(52, 201) [ 0. 25. 50.] 300.0\n");
 }
 
+TEST_F(Exchange, SegyioFindsTheSortingOfCubes) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  const std::string program =
+      "import segyio, numpy\n"
+      "with segyio.open('cube.sgy') as f:\n"
+      "    print(list(f.ilines), len(f.xlines), list(f.offsets), segyio.tools.cube(f).shape)\n";
+  done("sw-sort gather.sgy --key fldr,tracf,trid | sw-convert --cube -o cube.sgy");
+  EXPECT_EQ(python(program + "    whole = segyio.open('gather.sgy', ignore_geometry=True)\n"
+                             "    vz = [t for t, h in zip(whole.trace.raw[:], whole.header)\n"
+                             "          if h[9] == 2 and h[13] == 5 and h[29] == 12]\n"
+                             "    print(numpy.array_equal(f.gather[2, 5, 12], vz[0]))\n"),
+            "[1, 2] 13 [12, 14] (2, 13, 2, 201)\nTrue\n");
+  expect_refused(
+      "sw-convert gather.sgy --cube -o no.sgy", 1,
+      "sw-convert: gather.sgy: trace 14: found shot 1, channel 1, vz behind shot 1, channel 13, vx; a "
+      "cube needs the same traces of every shot, sorted by sw-sort --key fldr,tracf,trid");
+  done(
+      "sw-sort gather.sgy --key fldr,tracf,trid | sw-select --where 'not (fldr=2 and tracf=13)' -o part.sgy");
+  expect_refused(
+      "sw-convert part.sgy --cube -o no.sgy", 1,
+      "sw-convert: part.sgy: shot 2 ends before channel 13, vz; a cube needs the same traces of every "
+      "shot, sorted by sw-sort --key fldr,tracf,trid");
+  // A volume: values where they belong, in-lines along y.
+  done(
+      "sw-layers --size 60x40x30 --step 10 --layer 0:1500:0:1000 --layer 15:3000:1500:2000:20 --fit none "
+      "--no-average -o m.nc; "
+      "sw-export m.nc --property vp -o cube.sgy");
+  EXPECT_EQ(python(program + "    import netCDF4\n"
+                             "    vp = netCDF4.Dataset('m.nc')['vp'][:].data  # z, y, x\n"
+                             "    print(numpy.array_equal(segyio.tools.cube(f), vp.transpose(1, 2, 0)))\n"),
+            "[1, 2, 3, 4] 6 [0] (4, 6, 3)\nTrue\n");
+}
+
 TEST_F(Exchange, RecipeOfOpendtectSortsOneComponentByMidpointAndOffset) {
   if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
   done("sw-select gather.sgy --where component=vz | sw-sort --key cdp,offset -o line.sgy");

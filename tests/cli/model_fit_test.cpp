@@ -35,7 +35,7 @@ TEST_F(ModelFit, SaysWhatItLeavesOutWithItsPlace) {
   EXPECT_EQ(ran.err,
             "sw-layers: fitted: floor at 102 m, layer at 200 m, rows 0.98 to 1.02 of 5 m\n"
             "sw-layers: warning: not fitted: layer at 220 m dip -5 meets or crosses layer at 200 m at x=400, "
-            "z=185.005\n");
+            "z=185.005; --fit says what to follow\n");
 }
 
 TEST_F(ModelFit, IsKeptThroughAPipeOfFractures) {

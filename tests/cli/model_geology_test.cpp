@@ -64,9 +64,9 @@ TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
       ran.err,
       "sw-layers: fitted: floor at 200 m, rows 0.79 to 1.25 of 10 m\n"
       "sw-layers: warning: not fitted: layer at sine,250,100,1000 meets or crosses floor at 200 m at x=590, "
-      "z=196.417\n"
+      "z=196.417; --fit says what to follow\n"
       "sw-layers: warning: the layer at 200 m is cut off by the one at sine,250,100,1000 between x=585 and "
-      "x=915\n");
+      "x=915; if that is not meant, change the --layer\n");
   done(line + " -q");
 }
 

@@ -70,7 +70,8 @@ TEST_F(ModelPipeline, WarnsOfFluidInTheRegionUnlessQuiet) {
   EXPECT_EQ(ran.code, 0);
   EXPECT_EQ(
       ran.err,
-      "sw-fracture: warning: 40 fluid or void cells in the region stay intact, 40 cells are fractured\n");
+      "sw-fracture: warning: 40 fluid or void cells in the region stay intact, 40 cells are fractured; a "
+      "region within rock (--box, --polygon) has none\n");
   done(line + " -q");
 }
 
@@ -173,9 +174,9 @@ TEST_F(ModelPipeline, FracturesRockUnderItsWeightAndSaysSo) {
   EXPECT_TRUE(has(text, "prestress szz  -1201315 to -661948.9 Pa")) << text;
   const std::string shot =
       "sw-shoot m.nc --source 100,45 --wavelet ricker:25 --receivers 0:200:10,45 --time 0.15 -o ";
-  const auto plan = done(shot + "- --plan");
+  const auto plan = done(shot + "- --plan -v");
   for (const char* effect : {"blocks", "prestress", "opening"}) EXPECT_TRUE(has(plan, effect)) << plan;
-  const auto bare = done(shot + "- --plan --without prestress,opening");
+  const auto bare = done(shot + "- --plan -v --without prestress,opening");
   for (const char* effect : {"prestress:", "opening:"}) EXPECT_FALSE(has(bare, effect)) << bare;
   const auto strong = run(shot + "g.sgy --amplitude 1e14 --balance");
   EXPECT_EQ(strong.code, 0);

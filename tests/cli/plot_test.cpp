@@ -108,6 +108,70 @@ TEST_F(Plot, AMovieHasAFrameForEachTimeOnOneScale) {
   done("mkdir again; sw-plot s.nc --field vz --movie -o again/wave.png; diff -r film again");
 }
 
+TEST_F(Plot, AMovieIsMadeByFfmpegOrLeftAsPictures) {
+  done(everything);
+  // A program of that name that keeps what it is given: arguments, and the frames as its movie.
+  const auto install = [&](const std::string& script) {
+    write("ffmpeg", "#!/bin/bash\n" + script);
+    done("mkdir -p bin; mv ffmpeg bin; chmod +x bin/ffmpeg");
+  };
+  install("printf '%s\\n' \"$@\" > arguments\nout=${@: -1}\nexec cat > \"${out#file:}\"\n");
+  done("PATH=$PWD/bin:$PATH sw-plot s.nc --field vz --fps 25 --title 'a wave' --movie wave.mp4");
+  done("sw-plot s.nc --field vz --title 'a wave' --movie -o frame.png");
+  EXPECT_EQ(done("grep -abo IHDR wave.mp4 | wc -l"), done("ls frame-*.png | wc -l"));
+  EXPECT_EQ(done("grep -x -A 1 -e -framerate arguments"), "-framerate\n25\n");
+  EXPECT_EQ(done("grep -c '^title=a wave$' arguments"), "1\n");
+  install("echo 'Unknown encoder libx264' >&2\nexit 1\n");
+  expect_refused("PATH=$PWD/bin:$PATH sw-plot s.nc --movie no.mp4", 1,
+                 "sw-plot: no.mp4: ffmpeg failed: Unknown encoder libx264");
+  EXPECT_FALSE(exists("no.mp4"));
+  const auto without = run("PATH=$(dirname $(command -v sw-plot)); sw-plot s.nc --movie still.gif");
+  EXPECT_EQ(without.code, 0);
+  const auto last = "still-000" + done("ls frame-*.png | wc -l").substr(0, 1) + ".png";
+  EXPECT_EQ(without.err,
+            "sw-plot: warning: ffmpeg, which makes still.gif, is not installed: wrote "
+            "still-0001.png to " +
+                last + " instead\n");
+  EXPECT_TRUE(exists(last));
+}
+
+TEST_F(Plot, FfmpegMakesAMovieThatIsTheSameTwice) {
+  if (run("command -v ffmpeg").code != 0) GTEST_SKIP() << "ffmpeg is not installed";
+  done(everything);
+  for (const std::string kind : {"mp4", "gif"})
+    done("sw-plot s.nc --movie -o one." + kind + "; next_second; sw-plot s.nc --movie -o two." + kind +
+         "; cmp one." + kind + " two." + kind);
+  EXPECT_EQ(content("two.mp4").substr(4, 8), "ftypisom");
+  EXPECT_EQ(content("two.gif").substr(0, 6), "GIF89a");
+}
+
+TEST_F(Plot, GathersStandTogether) {
+  done(everything + "sw-filter g.sgy --gain scale:0.5 -o h.sgy");
+  done("sw-plot g.sgy h.sgy --component vz --difference -o three.png");
+  done("sw-plot g.sgy h.sgy --component vz --overlay -o over.pdf");
+  EXPECT_GT(std::stoi(done(size_line("three.png")).substr(1)), 1500);
+  done("sw-select h.sgy --where component=vz | sw-plot - g.sgy -o two.png");  // vz of both, which nobody left
+                                                                              // out
+  expect_refused(
+      "sw-plot g.sgy m.nc --component p -o x.png", 2,
+      "sw-plot: m.nc: several files can be drawn together only if all hold gathers, all spectra or "
+      "all errors");
+}
+
+TEST_F(Plot, APlaneWaveIsNoPoint) {
+  done("sw-layers --size 600x400 --step 10 --layer 0:4000:2000:2400 -o m.nc");
+  const std::string wave =
+      "sw-shoot m.nc --source 300,0 --wavelet ricker:15 --receivers 0:600:20,10 --time 0.2 --top absorbing ";
+  write("shot.cfg", "kind = plane:10\n");
+  done(wave + "--config shot.cfg -q -o plane.sgy; " + wave + "-q -o point.sgy");
+  const auto reds = [&](const std::string& gather) {  // lines in the colour of sources
+    done("sw-plot m.nc --survey " + gather + " -o p.svg");
+    return done("grep -cE 'stroke[:=]\"?rgb\\(80%' p.svg || true");
+  };
+  EXPECT_NE(reds("plane.sgy"), "0\n");
+  EXPECT_EQ(reds("point.sgy"), "0\n");
+}
+
 TEST_F(Plot, TakesOneFileOfSnapshotsFromAnother) {
   // Without slip all is linear, and twice the amplitude exactly twice the wave.
   const std::string linear = shoot + "--without slip --fields vz -o g.sgy --every ";
@@ -134,8 +198,9 @@ TEST_F(Plot, WarnsOfWhatItLeavesOut) {
   done(everything);
   const auto ran = run("sw-plot g.sgy -o g.png");
   EXPECT_EQ(ran.code, 0);
-  EXPECT_EQ(ran.err, "sw-plot: warning: the file holds other components, too; this is p\n");
-  done("sw-plot g.sgy --component vz -q -o g.png");
+  EXPECT_EQ(ran.err,
+            "sw-plot: warning: the file holds other components, too; this is p (--component chooses)\n");
+  done("sw-plot g.sgy --component vz -o g.png");  // what was asked for needs no warning
 }
 
 TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
@@ -151,9 +216,12 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
       "notes.txt -o x.png", 1,
       "notes.txt: is not a netCDF, SEG-Y or Seismic Unix file, expected a model, snapshots, spectra, errors "
       "or a gather");
-  refused("m.nc -o x.gif", 2, "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg");
-  refused("m.nc --map jet -o x.png", 2,
-          "--map: found the map 'jet', expected one of uniform, grey, white-black, blue-red, red-blue");
+  refused("m.nc -o x.gif", 2,
+          "--output: found 'x.gif', expected a name that ends with .png, .pdf or .svg, or --movie");
+  refused(
+      "m.nc --map jet -o x.png", 2,
+      "--map: the map 'jet' is refused: its lightness rises and falls, which draws edges that are not in the "
+      "data and hides others; use viridis or uniform, for waves seismic or blue-red");
   refused("m.nc --clip 0 -o x.png", 2, "--clip: found 0, expected above 0, at most 100");
   refused("m.nc --size 5x5 -o x.png", 2,
           "--size: found '5x5', expected WIDTHxHEIGHT with cm or px behind it");
@@ -163,9 +231,20 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
   refused("g.sgy --shot 9 -o x.png", 1, "g.sgy: has no trace of shot 9, it holds vz, p of shots 1 to 1");
   refused("s.nc --field div -o x.png", 1, "s.nc: found no field 'div', it holds p, vz");
   refused("m.nc g.sgy -o x.png", 2,
-          "m.nc: several files can be drawn together only if all hold spectra or all hold errors");
+          "m.nc: several files can be drawn together only if all hold gathers, all spectra or all errors");
+  refused("g.sgy --component p --difference -o x.png", 2,
+          "--difference: found 1 gather, expected two: FILE less FILE");
+  refused("g.sgy --component p --overlay --style both -o x.png", 2,
+          "--overlay: draws lines, which --style both does not go with");
+  refused("g.sgy g.sgy --component p --difference --difference-gain 0 -o x.png", 2,
+          "--difference-gain: found 0, expected a number other than 0");
+  refused("s.nc --movie x.mp4 -o y.mp4", 2, "--movie: found x.mp4 and -o y.mp4, expected one of them");
+  refused("s.nc -o x.mp4", 2,
+          "--output: found 'x.mp4', expected a name that ends with .png, .pdf or .svg, or --movie");
+  refused("s.nc --movie x.mp4 --fps 0", 2, "--fps: found 0, expected 0.1 to 240");
   refused("m.nc --movie -o x.png", 1, "m.nc: holds no snapshots, expected them for --movie");
-  refused("s.nc --movie", 2, "--movie: draws one file of snapshots, and needs a name (-o NAME.png)");
+  refused("s.nc --movie", 2,
+          "--movie: draws one file of snapshots, and needs a name (-o NAME.mp4 or NAME.png)");
 }
 
 TEST_F(Plot, ADamagedFileLeavesAnOlderPictureAsItWas) {

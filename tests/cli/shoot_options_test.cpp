@@ -140,13 +140,44 @@ TEST_F(ShootOptions, ComeFromAFileAndTheCommandLineWins) {
 }
 
 TEST_F(ShootOptions, PlanTellsWhatWouldBeComputedAndStops) {
-  const auto text = done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1000 --plan");
+  const std::string long_shot = "sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1000 --plan ";
+  const auto text = done(long_shot + "-v");
   for (const std::string word : {"grid", "steps", "time step", "Courant number  ", "memory",
                                  "slip, second order", "cells per shortest wavelength"})
     EXPECT_TRUE(has(text, word)) << word << " in " << text;
-  EXPECT_FALSE(
-      has(done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1 --without slip --plan"), "slip,"));
-  done(shoot + at + "--plan -o plan.txt; grep -q steps plan.txt");
+  EXPECT_FALSE(has(
+      done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1 --without slip --plan -v"), "slip,"));
+  done(shoot + at + "--plan -v -o plan.txt; grep -q steps plan.txt");
+}
+
+TEST_F(ShootOptions, PlanIsFiveLinesForItsUserAndAllOfItIsJson) {
+  const auto keys = done(shoot + at + "--plan | sed -E 's/^  ([a-z0-9 ]*[a-z])  .*/\\1/'");
+  EXPECT_EQ(keys, "error\nmostly from\ntime\nmemory\nfor 1 percent\n");
+  write("check.py", R"(
+import json, sys
+once = lambda pairs: dict(pairs) if len(dict(pairs)) == len(pairs) else sys.exit("a key is there twice")
+plan = json.load(sys.stdin, object_pairs_hook=once)
+assert plan["promised_error"]["unit"] == "%" and plan["promised_error"]["value"] > 0, plan
+assert plan["processor_time"]["value"] > 0 and plan["memory_of_a_shot"]["unit"] == "MiB", plan
+assert plan["cause"][0]["error"]["value"] <= plan["promised_error"]["value"], plan
+assert any("slip" in part for part in plan["part_of_step"]), plan
+)");
+  done(shoot + at + "--plan --json | python3 check.py");
+  expect_refused(shoot + at + "--json -o out.sgy", 2, "sw-shoot: --json needs --plan");
+}
+
+TEST_F(ShootOptions, HelpFitsAScreenAndTheRestIsInHelpAll) {
+  const auto help = done("sw-shoot --help"), all = done("sw-shoot --help-all");
+  EXPECT_LE(std::count(help.begin(), help.end(), '\n'), 60);
+  for (const std::string heading :
+       {"Source:", "Receivers and recording:", "Model and its boundaries:", "Numerics:", "Output:"})
+    for (const auto& text : {help, all}) EXPECT_TRUE(has(text, "\n" + heading + "\n")) << heading << text;
+  EXPECT_FALSE(has(help, "--edge-width"));
+  EXPECT_TRUE(has(all, "--edge-width"));
+  expect_refused("sw-shoot m.nc --recievrs 5,5", 2,
+                 "sw-shoot: unknown option --recievrs; did you mean --receivers?");
+  expect_refused("sw-shoot m.nc --polarisation 5", 2,
+                 "sw-shoot: unknown option --polarisation; --help-all lists them all");
 }
 
 TEST_F(ShootOptions, WriteGathersThatAnIndependentReaderAccepts) {

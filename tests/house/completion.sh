@@ -1,7 +1,9 @@
 #!/bin/sh
-# completion.sh BUILD TOOL...: what bash offers behind the tools, typed with tabs into a bash on a terminal of its own.
+# completion.sh BUILD TOOL...: what bash offers behind the tools, typed with tabs into a bash on a terminal of its own; and
+# zsh and fish where they are installed.
 set -eu
-completions=$1/completions
+everything=$1/completions
+completions=$everything/bash
 bin=$1/bin
 shift
 # shellcheck source=tests/house/lib.sh
@@ -13,8 +15,13 @@ for tool in "$@"; do
   bash -c 'compopt() { :; }
     . "$1" && COMP_WORDS=("$2" --) COMP_CWORD=1 && "_${2//-/_}" "$2" -- "$2" && printf "%s\n" "${COMPREPLY[@]}"' \
     - "$completions/$tool" "$tool" | sort > "$work/offered"
-  "$bin/$tool" --help | sed -nE 's/^  (-., )?(--[a-z0-9-]+).*/\2/p' | sort > "$work/options"
-  diff "$work/options" "$work/offered" || broken "$tool: --help lists the first, bash offers the second"
+  "$bin/$tool" --help-all | sed -nE 's/^  (-., )?(--[a-z0-9-]+).*/\2/p' | sort > "$work/options"
+  diff "$work/options" "$work/offered" || broken "$tool: --help-all lists the first, bash offers the second"
+  for other in "$everything/zsh/_$tool" "$everything/fish/$tool.fish"; do
+    while IFS= read -r option; do
+      grep -qE -- "(\*$option[=[]|-l ${option#--} )" "$other" || broken "$other does not offer $option"
+    done < "$work/options"
+  done
 done
 [ "$status" = 0 ] || exit 1
 
@@ -73,4 +80,52 @@ for typed, wanted in typed_and_wanted:
 type_in("exit\n")
 sys.exit(failed)
 END
+
+# offers COMPLETION WORDS...: what fish offers behind the words typed.
+offers() { HOME=$work fish --no-config -c "source '$everything/fish/$1.fish'; complete -C '$2'" | cut -f 1 | sort | tr '\n' ' '; }
+if command -v fish >/dev/null; then
+  for pair in 'sw-shoot --top m|mirror ' 'sw-shoot --record vx,s|vx,sxx vx,sxz vx,szz ' 'sw-shoot -o sho|shots.sgy '; do
+    found=$(offers sw-shoot "${pair%|*}")
+    [ "$found" = "${pair#*|}" ] || broken "fish offers behind '${pair%|*}': $found"
+  done
+fi
+if command -v zsh >/dev/null; then
+  python3 - "$everything/zsh" <<'END' || status=1
+import os, pty, re, select, sys, time
+
+child, terminal = pty.fork()
+if child == 0:
+    os.environ.update(PS1="", TERM="dumb")
+    os.execvp("zsh", ["zsh", "-f", "-i"])
+
+
+def said_until(mark):
+    said, end = "", time.monotonic() + 20
+    while not re.search(mark, said) and time.monotonic() < end:
+        if select.select([terminal], [], [], 0.5)[0]:
+            said += os.read(terminal, 65536).decode()
+    return said
+
+
+def answer(text):
+    os.write(terminal, (text + "\necho do''ne\n").encode())
+    return re.findall(r"^(<.*>)\r?$", said_until("\ndone\r"), re.MULTILINE)
+
+
+answer(f"PS1=; fpath=({sys.argv[1]} $fpath); autoload -Uz compinit; compinit -u -D")
+answer("sw-shoot() { printf '<%s>' \"$@\"; echo; }; stty -echo")
+failed = False
+for typed, wanted in [
+    ("sw-shoot --prec\tfl\t", "<--precision=float>"),
+    ("sw-shoot --top mi\t", "<--top><mirror>"),
+    ("sw-shoot --record=vx,sz\t", "<--record=vx,szz>"),
+]:
+    found = answer(typed)
+    if found != [wanted]:
+        print(f"zsh: {typed!r} becomes {found}, expected {wanted}")
+        failed = True
+os.write(terminal, b"exit\n")
+sys.exit(failed)
+END
+fi
 exit "$status"

@@ -23,7 +23,7 @@ done
 if "$SLIPWAVE_BUILD/bin/sw-info" "$out/stairs.nc" | grep -q 'fitted horizons'; then broken 'the stairs are fitted'; fi
 
 # Relative L2 errors, in the order of the file.
-awk '/^#/ && /measured/ { what = $0 } /^ *all / { print $3 "\t" what }' "$out/errors.txt" > "$work/errors"
+awk '/^#/ && /measured/ { what = $0 } /^ *all / { print $4 "\t" what }' "$out/errors.txt" > "$work/errors"
 cat "$out/errors.txt"
 awk -F '\t' '
   /measured, fitted/ { fitted = $1 }

@@ -1,6 +1,6 @@
 #!/bin/sh
-# help.sh ROOT BIN TOOL...: --help fits a screen and ends with its example; every tool has a man page that
-# names the same options, the exit status and an example.
+# help.sh ROOT BIN TOOL...: --help fits a screen and ends with its example; --help-all names what it names and more; every
+# tool has a man page that names the same options, all exit statuses and an example.
 set -eu
 root=$1
 bin=$2
@@ -39,10 +39,11 @@ lines_without() {
 for tool in "$@"; do
   help=$("$bin/$tool" --help 2>&1) || { broken "$tool --help: exit status $?"; continue; }
   [ "$(printf '%s\n' "$help" | wc -l)" -le 60 ] || broken "$tool --help: longer than a screen of 60 lines"
-  wide=$(printf '%s\n' "$help" | awk 'length($0) > 120')
-  [ -z "$wide" ] || broken "$tool --help: wider than 120 columns: $wide"
-  case $(printf '%s\n' "$help" | tail -n 1) in
-    *"$tool "*) ;;
+  all=$("$bin/$tool" --help-all 2>&1) || { broken "$tool --help-all: exit status $?"; continue; }
+  wide=$(printf '%s\n%s\n' "$help" "$all" | awk 'length($0) > 80')
+  [ -z "$wide" ] || broken "$tool --help-all: wider than 80 columns: $wide"
+  case $(printf '%s\n' "$help" | sed '1,/^Example:$/d') in
+    "  $tool "*) ;;
     *) broken "$tool --help: does not end with its example" ;;
   esac
 
@@ -51,11 +52,18 @@ for tool in "$@"; do
   for section in NAME SYNOPSIS DESCRIPTION OPTIONS 'EXIT STATUS' EXAMPLES; do
     grep -qE "^\\.SH \"?$section\"?\$" "$page" || broken "docs/man/$tool.1: no section $section"
   done
-  declared=$(printf '%s\n' "$help" | in_help)
+  for code in 0 1 2 128+N; do
+    sed -n '/^\.SH EXIT STATUS/,/^\.SH EXAMPLES/p' "$page" | grep -qxF ".B $code" ||
+      broken "docs/man/$tool.1: no exit status $code"
+  done
+  common=$(printf '%s\n' "$help" | in_help)
+  declared=$(printf '%s\n' "$all" | in_help)
+  missing=$(lines_without "$common" "$declared")
+  [ -z "$missing" ] || broken "$tool --help-all does not list: $missing"
   documented=$(in_page "$page")
   missing=$(lines_without "$declared" "$documented")
   [ -z "$missing" ] || broken "docs/man/$tool.1 does not document: $missing"
   invented=$(lines_without "$documented" "$declared")
-  [ -z "$invented" ] || broken "docs/man/$tool.1 documents what $tool --help does not list: $invented"
+  [ -z "$invented" ] || broken "docs/man/$tool.1 documents what $tool --help-all does not list: $invented"
 done
 exit "$status"

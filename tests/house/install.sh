@@ -17,14 +17,16 @@ for tool in "$@"; do
   esac
   cmp -s "$root/docs/man/$tool.1" "$prefix/share/man/man1/$tool.1" ||
     { echo "the man page of $tool is not installed"; status=1; }
-  [ -s "$prefix/share/bash-completion/completions/$tool" ] ||
-    { echo "the completion of $tool is not installed"; status=1; }
+  for completion in "bash-completion/completions/$tool" "zsh/vendor-completions/_$tool" "fish/vendor_completions.d/$tool.fish"; do
+    [ -s "$prefix/share/$completion" ] || { echo "there is no share/$completion"; status=1; }
+  done
 done
 others=$(find "$prefix" -type f ! -path "$prefix/bin/sw-*" ! -path "$prefix/share/man/man1/sw-*.1" \
-  ! -path "$prefix/share/bash-completion/completions/sw-*" ! -path "$prefix/share/slipwave/*")
+  ! -path "$prefix/share/bash-completion/completions/sw-*" \
+  ! -path "$prefix/share/zsh/vendor-completions/_sw-*" ! -path "$prefix/share/fish/vendor_completions.d/sw-*.fish" ! -path "$prefix/share/slipwave/*")
 [ -z "$others" ] || { printf 'installed beside what is expected: %s\n' "$others"; status=1; }
-tools=$(find "$prefix/bin" "$prefix/share/man" "$prefix/share/bash-completion" -type f | wc -l)
-[ "$tools" -eq $(($# * 3)) ] || { echo "installed $tools files, expected tool, man page and completion for each of: $*"; status=1; }
+tools=$(find "$prefix/bin" "$prefix/share/man" "$prefix/share/bash-completion" "$prefix/share/zsh" "$prefix/share/fish" -type f | wc -l)
+[ "$tools" -eq $(($# * 5)) ] || { echo "installed $tools files, expected tool, man page and three completions for each of: $*"; status=1; }
 
 sh "$root/tests/house/links.sh" "$prefix/share/slipwave" || { echo 'links of the installed pages lead nowhere'; status=1; }
 

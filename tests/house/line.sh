@@ -9,7 +9,7 @@ unset MAKEFLAGS MAKELEVEL
 # shellcheck source=tests/house/lib.sh
 . "$(dirname -- "$0")/lib.sh"
 bin=$2/bin
-survey() { "$root/surveys/run" line STEP=50 SHOTS=3 SPACING=1500 "$@"; }
+survey() { "$root/surveys/run" line STEP=50 SHOTS=3 "$@"; }
 # sums FOLDER: what the traces of all files are, whatever commands their texts tell of.
 sums() {
   for file in $(cd "$1" && find . -name '*.sgy' | sort); do

@@ -9,6 +9,12 @@ command -v dpkg-shlibdeps >/dev/null || { echo 'there is no dpkg-shlibdeps'; exi
 . "$(dirname -- "$0")/lib.sh"
 (cd "$build" && umask 077 && cpack -G DEB -B "$work/packages") >"$work/said" 2>&1 ||
   { cat "$work/said"; echo 'cpack failed'; exit 1; }
+# The recipe of a container makes them by the same command, of names that cpack gives.
+recipe=$(dirname -- "$0")/../../docs/container/Dockerfile
+grep -q '^RUN .*cpack -G DEB -B /packages$' "$recipe" || broken 'the Dockerfile makes no packages'
+for name in $(sed -n 's|^COPY --from=build /packages/\([^ ]*\) .*|\1|p' "$recipe"); do
+  [ -n "$(find "$work/packages" -name "$name")" ] || broken "the Dockerfile copies $name, cpack makes no such file"
+done
 # field PACKAGE FIELD
 field() { dpkg-deb -f "$1" "$2"; }
 # must_hold PACKAGE FIELD TEXT...

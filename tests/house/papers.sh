@@ -22,8 +22,8 @@ all_made() {
       [ -s "$work/$2/$file" ] || echo "$1: there is no $file"
     done
 }
-# share NAME FILE HEADING: relative L2 over all traces behind that heading.
-share() { awk -v heading="$2" '$0 == heading { on = 1 } on && $1 == "all" && NF == 5 { print $3; exit }' "$1"; }
+# share FILE HEADING: relative L2 of p behind that heading.
+share() { awk -v heading="$2" '$0 == heading { on = 1 } on && $1 == "all" && $2 == "p" { print $4; exit }' "$1"; }
 
 survey paper-plane-wave wave STEP=20 -j 2 >/dev/null 2>&1 || broken 'paper-plane-wave failed'
 missing=$(all_made paper-plane-wave wave)

@@ -32,7 +32,7 @@ pause() { sleep "$(awk "BEGIN { print $(random "$1" "$2") / 1000 }")"; } # ms
 
 survey() {
   TMPDIR=$small exec setsid make --no-print-directory -C "$root/surveys/line" BIN="$bin" OUT="$out" THREADS=1 STEP=50 \
-    SHOTS="$shots" SPACING=$((4500 / shots)) "$@"
+    SHOTS="$shots" "$@"
 }
 
 # The quiet run, where the others will be: files tell of the names of their inputs.

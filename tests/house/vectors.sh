@@ -123,6 +123,19 @@ want() {
         need("update<true, 2, true, " real ">", 14); need("update<false, 2, true, " real ">", 22)
         need("update<true, 3, false, " real ">", 8); need("update<false, 3, false, " real ">", 12)
         need("update<true, 3, true, " real ">", 21); need("update<false, 3, true, " real ">", 29)
+        # Of bent rows, by dimension: both pairs or all components, of order 5.
+        for (d = 2; d <= 3; ++d) {
+          need("reconstruct_bent_along<5, " d ", " real ">", 40 * d)
+          need("solve_bent_along<" d ", " real ">", 10 * d)
+          need("update_bent_along<" d ", " real ">", 8 * d)
+          need("reconstruct_bent_across<5, " d ", " real ">", 75 * d)
+          need("update_bent_across<" d ", " real ">", 12 * d)
+          for (fluid = 0; fluid <= 1; ++fluid) {
+            of = (fluid ? "true" : "false") ", " d ", " real ">"
+            need("solve_bent_across<" of, 14 * d)
+            need("advance_bent_across<" of, 26 * d)
+          }
+        }
         # Along and across, with and without memory of the change.
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"

@@ -37,7 +37,7 @@ class AttenuatingBox {
         domain_(solver::make_domain(medium_, all_edges(edges), 1)),
         state_(solver::make_filled_state<2, double>(domain_, medium_, dt_s_)),
         sweeps_(state_, domain_, 5),
-        effect_(state_.layout, domain_, scene_, dt_s_, nullptr),
+        effect_(state_.layout, domain_, scene_, dt_s_, {}),
         splitting_(splitting(2, time_order)) {
     std::mt19937 engine(seed);
     std::uniform_real_distribution<double> random(-0.5, 0.5);

@@ -201,6 +201,49 @@ TEST(PointWeights, HaveTheMomentsOfAPointSource) {
   EXPECT_NEAR(xz, 0, 1e-8);
 }
 
+/// |sum of the weights times exp(i k x)|, less `wanted`, largest over positions in a cell.
+double spread_error(double cells_per_wavelength, double wanted) {
+  const double k = 2 * pi / cells_per_wavelength;
+  double largest = 0;
+  for (int n = 0; n <= 50; ++n) {
+    const double position = n / 50.;
+    std::complex<double> sum = 0;
+    for (const auto& [cell, weight] : spread_weights(position, everywhere))
+      sum += weight * std::polar(1., k * (double(cell) - position));
+    largest = std::max(largest, std::abs(sum - wanted));
+  }
+  return largest;
+}
+
+TEST(SpreadWeights, KeepLongWavesAndSuppressShortOnes) {
+  for (const auto& [cells, bound] :
+       {std::pair(24., 5e-5), {15., 6e-4}, {12., 2e-3}, {10., 4e-3}, {8., 6e-3}, {6., 0.03}})
+    EXPECT_LT(spread_error(cells, 1), bound) << cells;
+  for (const auto& [cells, bound] : {std::pair(3., 0.04), {2.8, 0.01}, {2.4, 0.01}, {2., 0.01}})
+    EXPECT_LT(spread_error(cells, 0), bound) << cells;
+}
+
+TEST(SpreadWeights, HaveTheMomentsOfAPointSource) {
+  // Among many cells, beside the last one, in a span of the fewest, and with images beyond a mirror.
+  for (const auto& [usable, degree] : {std::pair(AxisCells{-50, 50}, 5), {{0, 50}, 3}, {{-4, 3}, 3}})
+    for (const double position : {-0.5, -0.2, 0., 0.3, 2.9}) {
+      const auto weights = spread_weights(position, usable);
+      EXPECT_LE(weights.size(), std::size_t(widest_spread));
+      for (int power = 0; power <= degree; ++power) {
+        double sum = 0;
+        for (const auto& [cell, weight] : weights) {
+          EXPECT_GE(cell, usable.low);
+          EXPECT_LE(cell, usable.high);
+          sum += weight * std::pow(double(cell) - position, power);
+        }
+        EXPECT_NEAR(sum, power == 0, 1e-8) << position << ", degree " << power;
+      }
+    }
+  double sum = 0;
+  for (const auto& weight : spread_weights(1.3, {0, 50, Beyond::even})) sum += weight.weight;
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
 TEST(TimeWeights, ReproducePolynomialsOfDegreeSevenEverywhere) {
   for (double position = 0; position <= 20; position += 0.173) {
     const auto [first, count, weights] = time_weights(position, 0, 20);

@@ -103,5 +103,6 @@ TEST(Options, TheNearestNameIsTheOneMeant) {
   EXPECT_EQ(slipwave::nearest_of(names, "soruce"), "source");
   EXPECT_EQ(slipwave::nearest_of(names, "si"), "sides");
   EXPECT_EQ(slipwave::nearest_of(names, "tiem"), "time");
+  EXPECT_EQ(slipwave::nearest_of(names, "recievrs"), "receivers");
   EXPECT_EQ(slipwave::nearest_of(names, "polarisation"), "");
 }

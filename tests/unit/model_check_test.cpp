@@ -64,6 +64,43 @@ TEST(ModelCheck, RefusesNegativeLambdaUnlessAllowed) {
   EXPECT_EQ(refusal(spoil, {.allow_auxetic = true}), "no error");
 }
 
+TEST(ModelCheck, RefusesOtherUnitsWithTheirRemedyUnlessAllowed) {
+  const auto refused = [](const char* unit, const std::function<void(Model<2>&)>& spoil) {
+    const auto sentence = refusal(spoil);
+    EXPECT_NE(sentence.find(std::string("build the model with --units ") + unit + ", if it is meant so"),
+              std::string::npos)
+        << sentence;
+    EXPECT_EQ(refusal(spoil, {.allow_slow = true}), "no error");
+  };
+  const auto material = [](float vp, float vs, float rho) {
+    return [=](Model<2>& model) {
+      model.medium.vp[rock] = vp;
+      model.medium.vs[rock] = vs;
+      model.medium.rho[rock] = rho;
+    };
+  };
+  refused("km/s", material(3, 1.5F, 2200));
+  refused("km/s", material(3000, 1.5F, 2200));
+  refused("km/s,g/cm3", material(3, 1.5F, 2.2F));
+  refused("g/cm3", material(3000, 1500, 2.2F));
+  refused("g/cm3", material(1500, 0, 1));
+  refused("ft/s", material(18000, 9000, 2200));
+}
+
+TEST(ModelCheck, TakesMudSnowAndAir) {
+  const auto taken = [](float vp, float vs, float rho) {
+    EXPECT_EQ(refusal([&](Model<2>& model) {
+                model.medium.vp[rock] = vp;
+                model.medium.vs[rock] = vs;
+                model.medium.rho[rock] = rho;
+              }),
+              "no error");
+  };
+  taken(1500, 20, 1500);
+  taken(150, 90, 50);
+  taken(340, 0, 1.2F);
+}
+
 TEST(ModelCheck, RefusesAVanishingBulkModulusAlways) {
   // K = rho (vp^2 - 4/3 vs^2).
   EXPECT_EQ(refusal([](Model<2>& model) { model.medium.vs[rock] = 2599; }, {.allow_auxetic = true}),

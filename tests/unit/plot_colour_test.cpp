@@ -83,7 +83,7 @@ TEST(PlotColours, BeyondTheEndsTheyStayAndNothingIsGrey) {
 
 TEST(PlotColours, AnUnknownMapIsRefusedWithTheNames) {
   try {
-    ColourMap("jet");
+    ColourMap("parula");
     FAIL() << "accepted";
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::usage);
@@ -97,6 +97,38 @@ TEST(PlotColours, NeighbouringLinesCanBeToldApart) {
     for (std::size_t other = 0; other < one; ++other)
       EXPECT_GT(distance(line_colour(one), line_colour(other)), 20) << one << " and " << other;
     EXPECT_GT(distance(line_colour(one), white), 30);
+  }
+}
+
+TEST(PlotColours, MapsOfOthersHaveTheirColours) {
+  const auto differ = [](const Colour& one, std::uint32_t rgb) {
+    const Colour other{double(rgb >> 16 & 0xff) / 255, double(rgb >> 8 & 0xff) / 255,
+                       double(rgb & 0xff) / 255};
+    return std::max(
+        {std::abs(one.red - other.red), std::abs(one.green - other.green), std::abs(one.blue - other.blue)});
+  };
+  // matplotlib 3.6, entries 64, 128 and 192 of 256 of viridis, which lie between the colours it is made of.
+  const ColourMap viridis("viridis"), seismic("seismic");
+  EXPECT_LT(differ(viridis.at(64 / 255.0), 0x3b528b), 0.012);
+  EXPECT_LT(differ(viridis.at(128 / 255.0), 0x21918c), 0.012);
+  EXPECT_LT(differ(viridis.at(192 / 255.0), 0x5ec962), 0.012);
+  EXPECT_LT(differ(viridis.at(0), 0x440154), 0.004);
+  EXPECT_LT(differ(viridis.at(1), 0xfde725), 0.004);
+  EXPECT_EQ(seismic.pixel(0.5), 0xffffffffu);
+  EXPECT_LT(differ(seismic.at(0.25), 0x0000ff), 0.02);
+  EXPECT_LT(differ(seismic.at(0.75), 0xff0000), 0.02);
+  EXPECT_LT(differ(seismic.at(0.625), 0xff8080), 0.02);
+  EXPECT_LT(differ(seismic.at(1), 0x800000), 0.004);
+}
+
+TEST(PlotColours, JetIsRefusedWithItsReason) {
+  for (const char* name : {"jet", "rainbow", "hsv"}) {
+    try {
+      const ColourMap map(name);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("edges that are not in the data"), std::string::npos);
+    }
   }
 }
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 
@@ -163,6 +165,122 @@ TEST(PlotGather, SilenceAndSingleSamplesAreDrawn) {
   one.axis.count = 1;
   one.samples.resize(1);
   EXPECT_GT(decoded(drawn(one, {})).width, 0);
+}
+
+/// Shots of 10 receivers each, on lines 5 m apart in y of `a_line` receivers; silent.
+GatherSection shots_and_lines(std::size_t shots, std::size_t a_line) {
+  auto section = with_spike(10 * shots, 0, 0, 0);
+  section.shots = std::int64_t(shots);
+  for (std::size_t n = 0; n < section.traces(); ++n) {
+    auto& header = section.headers[n];
+    header.shot = 101 + std::int64_t(n / 10);
+    header.receiver_m = {25.0 * double(n % a_line), 5.0 * double(n % 10 / a_line), 5};
+  }
+  return section;
+}
+
+TEST(PlotGather, ShotsAndLinesOfReceiversAreKeptApart) {
+  auto flat = shots_and_lines(3, 10);
+  const auto shots = order_traces(flat, TraceAxis::automatic);
+  ASSERT_EQ(shots.runs.size(), 3u);
+  EXPECT_EQ(shots.run_name, "shot");
+  EXPECT_EQ(shots.runs[2].label, "103");
+  EXPECT_EQ(shots.runs[2].first, 20u);
+  EXPECT_EQ(shots.runs[2].count, 10u);
+  EXPECT_TRUE(shots.line_starts.empty());
+  auto deep = shots_and_lines(2, 5);
+  EXPECT_EQ(order_traces(deep, TraceAxis::automatic).line_starts, (std::vector<std::size_t>{5, 15}));
+  auto one = shots_and_lines(1, 5);
+  const auto lines = order_traces(one, TraceAxis::automatic);
+  EXPECT_EQ(lines.run_name, "y (m)");
+  ASSERT_EQ(lines.runs.size(), 2u);
+  EXPECT_EQ(lines.runs[1].label, "5");
+  // A trace of each shot is a section, not a row of gathers.
+  auto section = with_spike(10, 0, 0, 0);
+  for (std::size_t n = 0; n < 10; ++n) section.headers[n].shot = std::int64_t(n);
+  section.shots = 10;
+  EXPECT_TRUE(order_traces(section, TraceAxis::automatic).runs.empty());
+}
+
+TEST(PlotGather, ALineStandsBetweenTwoShots) {
+  const auto pixels = decoded(drawn(shots_and_lines(4, 10), {}));
+  const auto frame = frame_of(pixels);
+  const double left = frame.left - line + 1, width = frame.right + line - left;
+  std::vector<int> dark;
+  for (int x = frame.left; x <= frame.right; ++x)
+    if (is_dark(pixels.at(x, (frame.top + frame.bottom) / 2))) dark.push_back(x);
+  for (int shot = 1; shot < 4; ++shot) {
+    const double expected = left + shot * width / 4;
+    EXPECT_TRUE(std::any_of(dark.begin(), dark.end(), [&](int x) { return std::fabs(x - expected) < 2.5; }))
+        << shot;
+  }
+  for (const int x : dark) EXPECT_LT(std::fabs(std::remainder(x - left, width / 4)), 2.5) << x;
+}
+
+TEST(PlotGather, AThreeDimensionalOffsetIsTheHorizontalDistance) {
+  auto section = with_spike(2, 0, 0, 0);
+  section.headers[0].receiver_m = {-30, 40, 5};
+  section.headers[1].receiver_m = {60, 80, 5};
+  EXPECT_EQ(order_traces(section, TraceAxis::offset).places, (std::vector<double>{-50, 100}));
+}
+
+TEST(PlotGather, TheDifferenceOfTwoGathersIsWhereTheyDiffer) {
+  const auto page = page_of_size("1500x600px");
+  GatherStyle style;
+  style.difference = true;
+  const auto panels_with = [&](float second) {
+    std::vector<NamedGather> gathers = {{"a", with_spike(9, 4, 50, 1)}, {"b", with_spike(9, 4, 50, second)}};
+    const auto pixels = decoded(draw_gathers(std::move(gathers), style, {.clip_percent = 100}, page).bytes);
+    std::array<int, 3> full{};  // pixels of the strongest colour in each third, less the bar
+    for (int y = 0; y < 600; ++y)
+      for (int x = 0; x < 1350; ++x) full[std::size_t(x / 450)] += pixels.at(x, y) == strongest;
+    return full;
+  };
+  const auto same = panels_with(1), other = panels_with(0.001f);
+  EXPECT_GT(same[0], 50);
+  EXPECT_GT(same[1], 50);
+  EXPECT_EQ(same[2], 0);
+  EXPECT_EQ(other[1], 0);
+  EXPECT_GT(other[2], 50);
+  auto moved = with_spike(9, 4, 50, 1);
+  moved.headers[3].receiver_m[0] += 1;
+  EXPECT_THROW(draw_gathers({{"a", with_spike(9, 4, 50, 1)}, {"b", moved}}, style, {}, page), Error);
+  EXPECT_THROW(draw_gathers({{"a", with_spike(9, 4, 50, 1)}}, style, {}, page), Error);
+}
+
+TEST(PlotGather, OverlaidLinesHaveAColourEach) {
+  GatherStyle style;
+  style.overlay = true;
+  const auto pixels = decoded(draw_gathers({{"a", with_spike(3, 0, 50, 1)}, {"b", with_spike(3, 2, 50, -1)}},
+                                           style, {}, page_of_size("900x700px"))
+                                  .bytes);
+  const auto frame = frame_of(pixels);
+  // Where one alone leaves its trace, near the spike: the first to the right, the second to the left.
+  const auto of = [&](std::size_t index) {
+    const auto colour = pixel_of(line_colour(index)) & 0xffffff;
+    Patch patch{0, 900, -1, 700, -1};
+    for (int y = frame.top; y <= frame.bottom; ++y)
+      for (int x = frame.left; x <= frame.right; ++x)
+        if (alike(pixels.at(x, y), colour))
+          patch = {patch.count + 1, std::min(patch.left, x), std::max(patch.right, x), 0, 0};
+    return patch;
+  };
+  const double trace = (frame.right - frame.left) / 3.0;
+  EXPECT_GT(of(0).right, frame.left + 1.5 * trace);  // 1.4 spacings to the right of the first place
+  EXPECT_LT(of(1).left, frame.left + 1.5 * trace);
+  EXPECT_GT(of(1).right, frame.left + 2.3 * trace);
+}
+
+TEST(PlotGather, InterpolationIsNotAcrossShots) {
+  auto section = shots_and_lines(2, 10);
+  for (std::size_t n = 0; n < section.samples.size(); ++n) section.samples[n] = n < 10 * 101 ? 1.0f : -1.0f;
+  const auto pixels = decoded(drawn(section, {}, {.clip_percent = 100, .interpolate = true}));
+  const auto frame = frame_of(pixels);
+  for (int x = frame.left; x <= frame.right; ++x) {
+    const auto colour = pixels.at(x, (frame.top + frame.bottom) / 2);
+    EXPECT_TRUE(colour == strongest || colour == weakest || std::abs(x - (frame.left + frame.right) / 2) < 4)
+        << x;
+  }
 }
 
 }  // namespace

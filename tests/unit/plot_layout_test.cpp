@@ -86,6 +86,35 @@ std::vector<std::pair<std::string, std::function<Picture(const Page&)>>> kinds()
   };
 }
 
+/// Those of several panels, or with names of shots above the data.
+std::vector<std::pair<std::string, std::function<Picture(const Page&)>>> wide_kinds() {
+  auto shots = with_spike(200, 3, 3, 1);
+  for (std::size_t n = 0; n < shots.traces(); ++n) shots.headers[n].shot = std::int64_t(1000 + n / 10);
+  shots.shots = 20;
+  GatherStyle overlaid, difference;
+  overlaid.overlay = difference.difference = true;
+  const auto pair = [] {
+    return std::vector<NamedGather>{{"a name that is long", with_spike(41, 3, 3, 1)},
+                                    {"another", with_spike(41, 3, 9, 2)}};
+  };
+  std::vector<ModelSection> sections;
+  std::vector<Slice> planes;
+  for (const int axis : {0, 1, 2}) {
+    auto section = fractured_blocks();
+    section.axes = section_axes(axis);
+    sections.push_back(section);
+    planes.push_back({axis, 105});
+  }
+  const std::vector<SurveyMarks> marks(3, SurveyMarks{{{200, 20}}, {{0, 10}, {100, 10}}});
+  return {
+      {"shots", [=](const Page& page) { return draw_gather(shots, {}, {.clip_percent = 50}, page); }},
+      {"overlay", [=](const Page& page) { return draw_gathers(pair(), overlaid, {}, page); }},
+      {"difference", [=](const Page& page) { return draw_gathers(pair(), difference, {}, page); }},
+      {"volume",
+       [=](const Page& page) { return draw_model_volume(sections, planes, false, marks, {}, page); }},
+  };
+}
+
 /// Few pixels, which do not matter here.
 Page coarse_page(const std::string& size, const std::string& title) {
   return page_of(Format::png, {size, 75.0, title, ""});
@@ -119,6 +148,35 @@ TEST(PlotLayout, NothingIsClippedAndNoTextsOverlap) {
       }
     }
   }
+}
+
+TEST(PlotLayout, NeitherDoTextsOfSeveralPanels) {
+  for (const auto& [name, draw] : wide_kinds()) {
+    for (const char* size : {"", "16x12cm", "30x12cm", "12x20cm"}) {
+      for (const auto& title : {std::string(), long_title}) {
+        const Page page = coarse_page(size, title);
+        expect_in_order(draw(page), page, name + " " + size + " " + title.substr(0, 5));
+      }
+    }
+  }
+}
+
+TEST(PlotLayout, SeveralPanelsAreReadableOrRefused) {
+  int drawn = 0, refused = 0;
+  for (const auto& [name, draw] : wide_kinds()) {
+    for (const char* size : {"4x3cm", "6x6cm", "9x7cm", "9x20cm", "30x8cm"}) {
+      const Page page = coarse_page(size, "Short");
+      try {
+        expect_in_order(draw(page), page, name + " " + size);
+        ++drawn;
+      } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::usage) << error.what();
+        ++refused;
+      }
+    }
+  }
+  EXPECT_GT(drawn, 10);
+  EXPECT_GT(refused, 2);
 }
 
 TEST(PlotLayout, SmallPicturesAreReadableOrRefused) {

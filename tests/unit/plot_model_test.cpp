@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "plot/derived_property.hpp"
 #include "plot/model_picture.hpp"
 #include "plot_cases.hpp"
 #include "plot_pixels.hpp"
@@ -158,6 +159,145 @@ TEST(PlotModel, APartOfTheAxesIsThatPart) {
   EXPECT_EQ(patch_of(pixels, 0xdbdbdb).count, 0);
   const auto middle = patch_of(pixels, half_grey);
   EXPECT_EQ(pixels.at(middle.left + 250, middle.top + 200), half_grey);
+}
+
+TEST(PlotModel, AllSourcesOfASurveyAreDrawn) {
+  SurveyMarks marks;
+  for (int n = 0; n < 21; ++n) marks.sources.push_back({100 + 4.0 * n, 120});
+  const auto pixels =
+      decoded(draw_model(three_blocks(), false, marks, in_grey, page_of_size("800x600px")).bytes);
+  const auto nothing = patch_of(pixels, 0xdbdbdb);
+  const double metre = (nothing.right - nothing.left + 1) / 400.0;
+  for (const auto& source : marks.sources) {
+    const int x = int(std::lround(nothing.left + metre * source[0]));
+    int red = 0;
+    for (int y = nothing.bottom; y < 500; ++y)
+      for (const int off : {-1, 0, 1}) red += alike(pixels.at(x + off, y), 0xcc1a1a);
+    EXPECT_GT(red, 0) << source[0];
+  }
+}
+
+TEST(PlotModel, APlaneWaveIsAFrontAndNoStar) {
+  SurveyMarks marks{{{200, 120}}, {}, true, 0};
+  const auto page = page_of_size("800x600px");
+  const auto red = [&](const Pixels& pixels) {
+    const auto nothing = patch_of(pixels, 0xdbdbdb), middle = patch_of(pixels, half_grey);
+    Patch found{0, 800, -1, 600, -1};
+    for (int y = nothing.top; y <= middle.bottom; ++y)
+      for (int x = nothing.left; x <= nothing.right; ++x)
+        if (alike(pixels.at(x, y), 0xcc1a1a))
+          found = {found.count + 1, std::min(found.left, x), std::max(found.right, x), std::min(found.top, y),
+                   std::max(found.bottom, y)};
+    return found;
+  };
+  const auto front = red(decoded(draw_model(three_blocks(), false, marks, in_grey, page).bytes));
+  const int width = front.right - front.left, height = front.bottom - front.top;
+  EXPECT_GT(width, 2 * height);  // a level line with an arrow down
+  EXPECT_GT(height, 20);
+  marks.plane_angle_deg.reset();
+  EXPECT_EQ(red(decoded(draw_model(three_blocks(), false, marks, in_grey, page).bytes)).count, 0);
+}
+
+TEST(PlotModel, DerivedPropertiesFollowFromTheOthers) {
+  const auto value = [](const char* name, const ElasticCell& cell) {
+    return find_derived_property(name)->value(cell);
+  };
+  const ElasticCell rock{3000, 3000 / std::sqrt(3.0), 2500}, water{1500, 0, 1000};
+  EXPECT_NEAR(value("vp/vs", rock), std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(value("poisson", rock), 0.25, 1e-12);
+  EXPECT_EQ(value("impedance", rock), 7.5e6);
+  EXPECT_NEAR(value("shear-impedance", rock), 7.5e6 / std::sqrt(3.0), 1e-3);
+  EXPECT_TRUE(std::isnan(value("vp/vs", water)));
+  EXPECT_EQ(value("poisson", water), 0.5);
+  EXPECT_EQ(value("shear-impedance", water), 0);
+  // vs = vp / sqrt 2: lateral strain stays the same.
+  EXPECT_NEAR(value("poisson", {2000, 2000 / std::sqrt(2.0), 1}), 0, 1e-12);
+}
+
+TEST(PlotModel, ArrowsShowThatColoursEndBeforeTheValues) {
+  ColourBar bar{ColourMap("grey"), {"", "", 10, 20}};
+  const Rect rect{5, 100, 8, 200};
+  EXPECT_EQ(bar.body(rect).height, 200);
+  bar.point_beyond(10, 20.5);
+  EXPECT_FALSE(bar.below);
+  EXPECT_TRUE(bar.above);
+  EXPECT_NEAR(bar.body(rect).bottom(), 300, 1e-9);
+  EXPECT_GT(bar.body(rect).y, 105);
+  // In the picture the bar's white end becomes a triangle: narrower the higher.
+  Look look = in_grey;
+  look.colours = Limits{1000, 2500};
+  const auto pixels = decoded(draw_model(three_blocks(), false, {}, look, page_of_size("800x600px")).bytes);
+  const auto nothing = patch_of(pixels, 0xdbdbdb);
+  int rows = 0, last = 1000;
+  for (int y = nothing.top + 12; y > nothing.top; --y) {
+    int dark = 0, first = -1, end = -1;
+    for (int x = nothing.right + 6; x < nothing.right + 40; ++x)
+      if ((pixels.at(x, y) & 0xff) < 0x60) first = first < 0 ? x : first, end = x, ++dark;
+    if (dark == 0 || end - first > last) continue;
+    rows += end - first < last;
+    last = end - first;
+  }
+  EXPECT_GE(rows, 4);
+  EXPECT_LT(last, 8);
+}
+
+/// Sections of 400 x 200 x 160 m, each of one value; the one across `grey` is drawn in the middle grey.
+Patch slice_of_volume(int grey, const std::string& size) {
+  std::vector<ModelSection> sections;
+  std::vector<Slice> planes;
+  const std::int64_t cells[] = {40, 20, 16};
+  for (const int axis : {0, 1, 2}) {
+    const auto [across, down] = axes_left(axis);
+    ModelSection section;
+    section.property = "vp";
+    section.axes = section_axes(axis);
+    section.values =
+        Field<2>(Grid<2>{{cells[across], cells[down]}, 10, {0, 0}}, axis == grey             ? 2000.0f
+                                                                    : axis == (grey + 1) % 3 ? 1000.0f
+                                                                                             : 3000.0f);
+    sections.push_back(section);
+    planes.push_back({axis, 50});
+  }
+  return patch_of(decoded(draw_model_volume(sections, planes, false, std::vector<SurveyMarks>(3), in_grey,
+                                            page_of_size(size))
+                              .bytes),
+                  half_grey);
+}
+
+TEST(PlotModel, AVolumeIsThreeSlicesOnOneScale) {
+  const auto span = [](const Patch& patch) {
+    return std::pair(patch.right - patch.left + 1.0, patch.bottom - patch.top + 1.0);
+  };
+  for (const std::string size : {"", "900x700px"}) {
+    const auto x = slice_of_volume(0, size), y = slice_of_volume(1, size), z = slice_of_volume(2, size);
+    const auto [y_width, y_height] = span(y);
+    EXPECT_NEAR(y_width / y_height, 2.5, 0.05) << size;
+    EXPECT_NEAR(span(z).first / y_width, 1, 0.02);
+    EXPECT_NEAR(span(z).second / y_height, 1.25, 0.03);
+    EXPECT_NEAR(span(x).first / y_height, 1.25, 0.03);
+    EXPECT_NEAR(span(x).second / y_height, 1, 0.03);
+    EXPECT_EQ(z.left, y.left);  // the level one above the other
+    EXPECT_LT(z.bottom, y.top);
+    EXPECT_NEAR(x.top, y.top, 1);  // these two side by side
+    EXPECT_GT(x.left, y.right);
+  }
+}
+
+TEST(PlotModel, PlanesOfAVolumeRunThroughTheSourceOrTheMiddle) {
+  const Grid<3> grid{{40, 20, 10}, 10, {0, 0, 0}};
+  const auto middle = planes_of(grid, {});
+  ASSERT_EQ(middle.size(), 3u);
+  EXPECT_EQ(middle[0].at_m, 205);  // the middle lies between two cells
+  EXPECT_EQ(middle[2].at_m, 55);
+  const auto source = planes_of(grid, {.source = Point<3>{77, 123, 5}});
+  EXPECT_EQ(source[0].at_m, 75);
+  EXPECT_EQ(source[1].at_m, 125);
+  EXPECT_EQ(source[2].at_m, 55);
+  EXPECT_EQ(planes_of(grid, {.source = Point<3>{770, 123, 5}})[0].at_m, 205);  // far outside
+  EXPECT_EQ(planes_of(grid, {.through = Point<3>{77, 123, 5}})[2].at_m, 5);
+  EXPECT_THROW(planes_of(grid, {.through = Point<3>{770, 123, 5}}), Error);
+  EXPECT_EQ(planes_of(grid, {.slice = Slice{1, 88}}).size(), 1u);
+  EXPECT_EQ(planes_of({{40, 1, 10}, 10, {}}, {}).size(), 1u);
 }
 
 }  // namespace

@@ -136,5 +136,50 @@ TEST(PlotMagnitudes, LeaveOutWhatIsStillOrNoNumber) {
   EXPECT_EQ(magnitudes.largest(), 3);
 }
 
+/// 12 x 5 unit cells whose values are linear in place, drawn on pixels that are finer or coarser than they.
+Raster linear_field(int width, int height, Take take) {
+  std::vector<float> values;
+  for (int k = 0; k < 5; ++k)
+    for (int i = 0; i < 12; ++i) values.push_back(float(2 * (i + 0.5) - 7 * (k + 0.5)));
+  const auto mixes = [](int cells, int pixels) {
+    const auto edges = even_edges(0, 1, cells);
+    return mixes_of_pixels(Scale({"", "", 0, double(cells)}, 0, 100), 0, 100, pixels, edges,
+                           middles_of(edges));
+  };
+  return interpolated([&](std::int64_t k) { return values.data() + 12 * k; }, mixes(12, width),
+                      mixes(5, height), take);
+}
+
+TEST(PlotRaster, InterpolationIsExactForWhatIsLinear) {
+  const int width = 120, height = 45;
+  const auto raster = linear_field(width, height, Take::extreme);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      // Beyond the outermost middles their values stay.
+      const double x = std::clamp((column + 0.5) * 12 / width, 0.5, 11.5);
+      const double z = std::clamp((row + 0.5) * 5 / height, 0.5, 4.5);
+      EXPECT_NEAR(raster.at(column, row), 2 * x - 7 * z, 1e-5);
+    }
+  }
+}
+
+TEST(PlotRaster, InterpolationStillTakesAllCellsOfACoarsePixel) {
+  const auto raster = linear_field(3, 45, Take::mean);  // four cells a pixel across
+  for (int row = 0; row < 45; ++row) {
+    const double z = std::clamp((row + 0.5) / 9, 0.5, 4.5);
+    for (int column = 0; column < 3; ++column)
+      EXPECT_NEAR(raster.at(column, row), 2 * (4 * column + 2) - 7 * z, 1e-5);
+  }
+}
+
+TEST(PlotRaster, InterpolationLeavesWhatHasNoValueItsCells) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<float> values = {1, nan, 3};
+  const auto value = [&](std::int64_t n) { return values[std::size_t(n)]; };
+  EXPECT_EQ(mixed(value, {{0, 2}, 0.4}, Take::mean), 1);
+  EXPECT_TRUE(std::isnan(mixed(value, {{0, 2}, 0.6}, Take::mean)));
+  EXPECT_EQ(mixed(value, {{1, 3}, 0.6}, Take::mean), 3);
+}
+
 }  // namespace
 }  // namespace slipwave::plot

@@ -63,6 +63,19 @@ TEST(Corpus, IsReadWithTheFactsOfItsReadme) {
   EXPECT_GE(files, 20);
 }
 
+TEST(Corpus, OffsetsAreThoseOfTheFilesNotOfCoordinatesTheyLack) {
+  const auto folder = shared_folder() / "data/segy-corpus";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "the corpus ../shared/data/segy-corpus is not there";
+  const auto offset_of = [&](const char* name) {
+    const auto offset = describe((folder / name).string()).offset_m;
+    EXPECT_EQ(offset.lowest, offset.highest) << name;
+    return offset.lowest;
+  };
+  EXPECT_EQ(offset_of("f3.sgy"), 0);
+  EXPECT_EQ(offset_of("small.sgy"), 1);
+  EXPECT_EQ(offset_of("shot-gather.sgy"), 1);
+}
+
 TEST(Corpus, TimeScalarOfTheDelayIsApplied) {
   const auto file = shared_folder() / "data/segy-corpus/delay-scalar.sgy";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "the corpus ../shared/data/segy-corpus is not there";

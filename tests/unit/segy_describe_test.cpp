@@ -48,7 +48,7 @@ TEST(Describe, ReportsComponentsGeometryAndSamples) {
   const Description facts = description_of(survey_gather(), {});
   EXPECT_EQ(facts.traces, 48);
   EXPECT_EQ(facts.shots, 2);
-  EXPECT_EQ(facts.components.at(Component::sxz), 8);
+  EXPECT_EQ(facts.components.at(Component::sxz).traces, 8);
   EXPECT_EQ(facts.components.size(), 6U);
   EXPECT_EQ(facts.receiver_m[0].lowest, 912.5);
   EXPECT_EQ(facts.receiver_m[0].highest, 950);
@@ -87,13 +87,100 @@ TEST(Describe, CountsWhatIsNotFiniteAndLeavesItOut) {
   EXPECT_TRUE(std::isfinite(facts.rms));
 }
 
+TEST(Describe, KeepsComponentsApart) {
+  Gather gather = survey_gather();
+  for (auto& trace : gather.traces)
+    for (auto& sample : trace.samples) sample = trace.header.component == Component::p ? -2e5 : 3e-6;
+  const Description facts = description_of(gather);
+  const auto& p = facts.components.at(Component::p);
+  EXPECT_EQ(p.sample.lowest, -2e5);
+  EXPECT_EQ(p.sample.highest, -2e5);
+  EXPECT_NEAR(p.rms, 2e5, 1e-6);
+  EXPECT_NEAR(facts.components.at(Component::vz).rms, 3e-6, 1e-18);
+  const std::string lines = report_of(facts).lines();
+  EXPECT_NE(lines.find("name p, traces 8, amplitude -200000 Pa, rms 200000 Pa\n"), std::string::npos)
+      << lines;
+  EXPECT_NE(lines.find("name vz, traces 8, amplitude 3e-06 m/s, rms 3e-06 m/s\n"), std::string::npos)
+      << lines;
+}
+
+namespace {
+
+/// A gather of others: one component, these words set in each trace.
+template <class Change>
+Description with_words(Change change) {
+  const Scratch scratch;
+  write_file(scratch.file("g"), survey_gather(), {});
+  auto bytes = bytes_of(scratch.file("g"));
+  const std::size_t trace = 240 + 4 * 51;
+  for (std::size_t n = 0; 3600 + n * trace < bytes.size(); ++n) {
+    const auto put = [&](std::size_t byte, std::int64_t value) {
+      store_bytes(&bytes[3600 + n * trace + byte - 1], 4, Endian::big, std::uint64_t(value));
+    };
+    change(std::int64_t(n), put);
+  }
+  put_bytes(scratch.file("g"), bytes);
+  return describe(scratch.file("g"));
+}
+
+}  // namespace
+
+TEST(Describe, TakesOffsetsFromByte37WhereNoCoordinatesAre) {
+  const Description facts = with_words([](std::int64_t n, const auto& put) {
+    for (const std::size_t byte : {73, 77, 81, 85, 181, 185}) put(byte, 0);
+    put(37, 100 + n);
+  });
+  EXPECT_FALSE(facts.positions.source);
+  EXPECT_FALSE(facts.positions.receiver);
+  EXPECT_EQ(facts.offset_m.lowest, 100);
+  EXPECT_EQ(facts.offset_m.highest, 147);
+}
+
+TEST(Describe, TakesStacksWithoutReceiversForStacks) {
+  // As of F3: source coordinates, byte 37 is 0.
+  const Description facts = with_words([](std::int64_t n, const auto& put) {
+    put(73, 6201972 + n);
+    for (const std::size_t byte : {37, 81, 85}) put(byte, 0);
+  });
+  EXPECT_TRUE(facts.positions.source);
+  EXPECT_FALSE(facts.positions.receiver);
+  EXPECT_EQ(facts.offset_m.lowest, 0);
+  EXPECT_EQ(facts.offset_m.highest, 0);
+  EXPECT_NE(report_of(facts).lines().find("receiver         no coordinates in the file"), std::string::npos);
+}
+
+TEST(Describe, BelievesCoordinatesThatAre0) {
+  // A receiver at 0 whose byte 37 was left empty, and others beside it.
+  const Description line = with_words([](std::int64_t n, const auto& put) {
+    put(37, 0);
+    put(73, 500000);
+    put(81, 100 * n);
+  });
+  EXPECT_TRUE(line.positions.receiver);
+  EXPECT_LT(line.offset_m.lowest, -400);
+  // A source at 0 whose byte 37 was left empty.
+  const Description shot = with_words([](std::int64_t n, const auto& put) {
+    put(37, 0);
+    put(73, 0);
+    put(81, 10000 + 100 * n);
+  });
+  EXPECT_TRUE(shot.positions.source);
+  EXPECT_GT(shot.offset_m.lowest, 0);
+  // One receiver at 0 all the time, with a byte 37 that says so.
+  Gather well = survey_gather();
+  for (auto& trace : well.traces) trace.header.receiver_m = {0, 0, 50};
+  EXPECT_TRUE(description_of(well).positions.receiver);
+  EXPECT_EQ(description_of(well).offset_m.lowest, -1100);
+}
+
 TEST(GatherReport, SaysFormatSamplingPositionsAndText) {
   const std::string lines = report_of(description_of(survey_gather(), {})).lines();
   for (const char* line :
        {"format           SEG-Y revision 1.0\n", "byte order       big\n", "samples          ieee\n",
         "format code      5\n", "text code        ebcdic\n", "samples a trace  51\n",
-        "time             0 to 0.1 s\n", "component        name vx, traces 8\n", "receiver z       2.5 m\n",
-        "text             C 1 slipwave test\n", "text             C39 SEG Y REV1\n"})
+        "time             0 to 0.1 s\n", "component        name vx, traces 8, amplitude 0 to 100 m/s, rms ",
+        "receiver z       2.5 m\n", "text             C 1 slipwave test\n",
+        "text             C39 SEG Y REV1\n"})
     EXPECT_NE(lines.find(line), std::string::npos) << line << lines;
   const std::string json = report_of(description_of(survey_gather(), {})).json();
   for (const char* part : {"\"format_code\": 5", "\"interval\": {\"value\": 0.002, \"unit\": \"s\"}",

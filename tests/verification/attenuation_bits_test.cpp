@@ -117,6 +117,60 @@ TEST(Attenuation, ContinuesFromACheckpoint) {
   EXPECT_TRUE(samples_of(continued.take_gather()) == samples_of(whole.take_gather()));
 }
 
+/// Rock that attenuates strongly, in double precision, with steps that fit the samples.
+Scene<2> lossy(const std::vector<Source<2>>& sources) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(60, 50, 5, rock);
+  for (const auto property : {Property::qp, Property::qs})
+    scene.model.medium[property] = Field<2>(scene.model.grid(), 15.F);
+  scene.survey.sources = {sources.front()};
+  scene.survey.blended = {{sources.begin() + 1, sources.end()}};
+  scene.survey.receivers_m = {{145, 120}, {220, 95}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.numerics.double_precision = true;
+  scene.numerics.time_step_s = 0.0005;
+  scene.recording = {{Component::vx, Component::vz}, 0.1, 0.001};
+  set_attenuation(scene);
+  check(scene);
+  return scene;
+}
+
+Source<2> source_at(const Point<2>& at, double delay_s) {
+  return {at, parse_mechanism<2>("explosion"), parse_wavelet("ricker:40"), 1e9, delay_s};
+}
+
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other) {
+  double largest = 0, scale = 0;
+  for (std::size_t n = 0; n < one.size(); ++n) {
+    largest = std::max(largest, std::abs(one[n] - other[n]));
+    scale = std::max(scale, std::abs(other[n]));
+  }
+  return largest / scale;
+}
+
+// What sources put into the stress does not relax, however many they are and whenever they begin.
+TEST(Attenuation, OfSourcesFiredTogetherAddsUp) {
+  // In one row of cells: rows near sources are swept in two halves.
+  const auto one = source_at({150, 125}, 0), other = source_at({164, 126}, 0);
+  auto sum = all_samples(shoot(lossy({one}), 1));
+  const auto added = all_samples(shoot(lossy({other}), 1));
+  for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += added[n];
+  EXPECT_LT(largest_difference(all_samples(shoot(lossy({one, other}), 1)), sum), 1e-9);
+  expect_same(lossy({one, source_at({157, 145}, 0.03)}));
+}
+
+TEST(Attenuation, BeginsWithADelayedSource) {
+  constexpr std::size_t late = 24;  // samples
+  const auto delayed = shoot(lossy({source_at({150, 125}, late * 0.001)}), 1),
+             at_once = shoot(lossy({source_at({150, 125}, 0)}), 1);
+  for (std::size_t n = 0; n < at_once.traces.size(); ++n) {
+    const auto& all = at_once.traces[n].samples;
+    const auto& moved = delayed.traces[n].samples;
+    // At t = 0 the wavelet is not quite zero.
+    EXPECT_LT(largest_difference({moved.begin() + late, moved.end()}, {all.begin(), all.end() - late}), 2e-4);
+  }
+}
+
 TEST(Attenuation, OfInfiniteQIsNone) {
   auto scene = sea();
   scene.recording.duration_s = 0.05;

@@ -31,10 +31,10 @@ double force_velocity(const Point<3>& r, int axis, int component, double t) {
 
 /// Radial velocity at a distance from an explosion whose moment grows at the rate `amplitude` w, and pressure
 /// (minus the mean of the normal stresses).
-double explosion_velocity(double distance, double t) {
+double explosion_velocity(double distance, double t, const RickerForm& wavelet = p_wavelet) {
   const double delayed = t - distance / rock.vp;
   return amplitude / (4 * std::numbers::pi * rock.rho * rock.vp * rock.vp) *
-         (p_wavelet(delayed) / (distance * distance) + p_wavelet.slope(delayed) / (rock.vp * distance));
+         (wavelet(delayed) / (distance * distance) + wavelet.slope(delayed) / (rock.vp * distance));
 }
 double explosion_pressure(double distance, double t) {
   const double bulk = rock.lambda() + 2 * rock.mu() / 3;
@@ -84,6 +84,27 @@ TEST(CubeFullSpace, ExplosionMovesAndPressesTheRockAsInTheClosedForm) {
                        [&](std::size_t, double t) { return explosion_pressure(distance, t); }),
               0.02)
         << "pressure of receiver " << receiver;
+  }
+}
+
+TEST(CubeFullSpace, NearFieldOfAnExplosionStandsTenCellsAway) {
+  // The edges beyond absorb. P waves are 50 cells long.
+  auto edges = edges_all_3d(EdgeLaw::mirror);
+  for (int axis = 0; axis < 3; ++axis) edges[axis][1] = EdgeLaw::absorbing;
+  const std::vector<Point<3>> places = {{50, 0, 0}, {2, 3, 50}, {36, 4, 35}, {29, 29, 29}};
+  auto scene = scene_of(uniform_cube({16, 16, 16}, spacing_m, rock), edges, {0, 0, 0}, "explosion",
+                        "ricker:18", places, {Component::vx, Component::vy, Component::vz}, 0.17, interval_s);
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const auto& r = places[n];
+    const double distance = std::hypot(r[0], r[1], r[2]);
+    EXPECT_LT(error_at(gather, n, 0, 3, 8,
+                       [&](std::size_t axis, double t) {
+                         return r[axis] / distance * explosion_velocity(distance, t, {18});
+                       }),
+              0.035)
+        << "receiver " << n;
   }
 }
 

@@ -31,6 +31,7 @@ struct DippingStack {
   bool wide = false;   // sides far away
   double peak_hz = 15;
   double duration_s = 0.55;
+  double courant = 0.9;
 };
 void PrintTo(const DippingStack& stack, std::ostream* out) { *out << stack.name; }
 
@@ -82,6 +83,7 @@ Scene<2> scene_in_cells(const DippingStack& stack, double cells) {
   scene.edges = edges_all(EdgeLaw::absorbing);
   if (stack.free_surface) scene.edges[1][0] = EdgeLaw::free;
   scene.recording = {{Component::vx, Component::vz}, stack.duration_s, interval_s};
+  scene.numerics.cfl = stack.courant;
   check(scene);
   return scene;
 }
@@ -117,6 +119,7 @@ double error_in_cells(const DippingStack& stack, double cells, const std::vector
 const std::vector<LayerStack::Receiver> both_sides = {{-150, -150}, {0, -100}, {150, -150}, {300, -120},
                                                       {-150, 150},  {0, 100},  {150, 150},  {300, 120}};
 const std::vector<LayerStack::Receiver> under_surface = {{-150, 150}, {0, 60}, {150, 100}, {300, 150}};
+const std::vector<LayerStack::Receiver> near_floor = {{-200, 9}, {100, 9}, {250, 9}, {400, 9}, {250, -30}};
 const std::vector<LayerStack::Receiver> on_surface = {{-150, 0}, {0, 0}, {100, 0}, {300, 0}};
 
 const DippingStack stacks[] = {
@@ -127,12 +130,29 @@ const DippingStack stacks[] = {
     // Where a surface that dips becomes level in the PML, waves along it come back.
     {"FreeSurfaceDip15", {rock}, {0}, 15, true, "explosion", under_surface, 200, 0.5, 2, true},
     {"FreeSurfaceDip30", {rock}, {0}, 30, true, "explosion", under_surface, 200, 0.6, 2, true},
-    {"OnFreeSurfaceDip0", {rock}, {0}, 0, true, "explosion", on_surface, 200, 2.5, 1.0, true},
-    {"OnFreeSurfaceDip15", {rock}, {0}, 15, true, "explosion", on_surface, 200, 2.5, 1.0, true},
-    {"OnFreeSurfaceDip30", {rock}, {0}, 30, true, "explosion", on_surface, 200, 2.5, 1.0, true},
+    {"OnFreeSurfaceDip0", {rock}, {0}, 0, true, "explosion", on_surface, 200, 0.5, 1.0, true},
+    {"OnFreeSurfaceDip15", {rock}, {0}, 15, true, "explosion", on_surface, 200, 0.5, 1.0, true},
+    {"OnFreeSurfaceDip30", {rock}, {0}, 30, true, "explosion", on_surface, 200, 0.5, 1.0, true},
     {"SolidSolid", {soft, hard}, {0}, 0, false, "explosion", both_sides, -200, 0.6, 2},
     {"SolidSolidDip15", {soft, hard}, {0}, 15, false, "explosion", both_sides, -200, 0.6, 2, true},
     {"WaterSoftHard", {water, soft, hard}, {0, 113.7}, 0, false, "explosion", both_sides, -200, 1.0, 2},
+    // Waves bound to the floor, in long and in short steps.
+    {"NearFloor", {water, rock}, {0}, 0, false, "force:0,1", near_floor, 50, 1.1, 2, true},
+    {"NearFloorDip15", {water, rock}, {0}, 15, false, "force:0,1", near_floor, 50, 1.1, 2, true},
+    {"NearFloorShortSteps",
+     {water, rock},
+     {0},
+     0,
+     false,
+     "force:0,1",
+     near_floor,
+     50,
+     1.0,
+     2,
+     true,
+     15,
+     0.55,
+     0.2},
     {"WaterSolidForce", {water, rock}, {0}, 0, false, "force:0,1", both_sides, 220, 2.7, 2},
     {"SolidFluidSolidSolid",
      {soft, water, rock, hard},
@@ -145,7 +165,7 @@ const DippingStack stacks[] = {
      2.9,
      2},
     // A tenth of its S wavelength: two rows on either grid.
-    {"ThinBed", {hard, soft, hard}, {0, 8}, 0, false, "explosion", both_sides, -200, 1.5, -1},
+    {"ThinBed", {hard, soft, hard}, {0, 8}, 0, false, "explosion", both_sides, -200, 0.45, -1.2},
 };
 
 class Stack : public testing::TestWithParam<DippingStack> {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "parallel/threads.hpp"
 
@@ -24,9 +25,9 @@ void clear(Buffer<Real>& buffer) {
 template <int D, class Real>
 RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>& domain,
                                         const Scene<D>& scene, double dt_s,
-                                        const PointSource<D, Real>* source)
+                                        std::vector<const PointSource<D, Real>*> sources)
     : layout_(layout),
-      source_(source),
+      sources_(std::move(sources)),
       every_(relaxation_steps(scene.numerics)),
       mechanisms_(scene.attenuation->mechanisms.count()),
       parts_(relaxing_parts(D, has_shear(domain))),
@@ -98,7 +99,8 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
                                             const IndexRange& columns) {
   const auto of_row = segments(fields.row);
   if (of_row.empty() || time.step % every_ != every_ - 1) return;
-  const bool injected = source_ && source_->add_stress_before(time.step, fields, columns, -1);
+  bool injected = false;
+  for (const auto* source : sources_) injected |= source->add_stress_before(time.step, fields, columns, -1);
   const std::int64_t end = columns.last == layout_.shape()[0] ? layout_.padded_nx() : columns.last;
   for (const auto& segment : of_row) {
     const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
@@ -111,7 +113,8 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
     rows.shares = shares_.data() + place * mechanisms_ * moduli_;
     relax_(last - first, rows);
   }
-  if (injected) source_->add_stress_before(time.step, fields, columns, 1);
+  if (!injected) return;
+  for (const auto* source : sources_) source->add_stress_before(time.step, fields, columns, 1);
 }
 
 template <int D, class Real>

@@ -27,9 +27,9 @@ template <int D, class Real>
 class RelaxingStress : public Effect<D, Real> {
  public:
   /// The medium of the scene must be unrelaxed (unrelax()), that of the domain StepwiseRelaxation::medium().
-  /// What `source` (may be null) puts into the stress is no strain and does not relax.
+  /// What `sources` put into the stress is no strain and does not relax.
   RelaxingStress(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
-                 const PointSource<D, Real>* source);
+                 std::vector<const PointSource<D, Real>*> sources);
 
   EffectDeclaration declaration() const override {
     return {ActsOn::nothing, false, all_stresses<D>, all_stresses<D>, true, true};
@@ -59,7 +59,7 @@ class RelaxingStress : public Effect<D, Real> {
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
 
   const Layout<D>& layout_;
-  const PointSource<D, Real>* source_;
+  std::vector<const PointSource<D, Real>*> sources_;
   int every_, mechanisms_, parts_, moduli_;
   std::int64_t cells_ = 0, stored_ = 0;
   std::vector<Segment> segments_;

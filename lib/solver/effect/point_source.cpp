@@ -11,7 +11,12 @@ namespace slipwave::solver {
 template <int D, class Real>
 PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
                                   const Source<D>& source, double unit, Ranks* ranks)
-    : state_(state), domain_(domain), medium_(scene.model.medium), wavelet_(source.wavelet), unit_(unit) {
+    : state_(state),
+      domain_(domain),
+      medium_(scene.model.medium),
+      wavelet_(source.wavelet),
+      delay_s_(source.delay_s),
+      unit_(unit) {
   if (domain.subdomain.owns(domain.model_grid, source.position_m)) weigh(source);
   if (ranks) share(*ranks);
   find_rows();
@@ -22,7 +27,7 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
   for (StepTime time{0, dt_s}; active(time) && time.end_s() <= scene.recording.duration_s + dt_s;
        ++time.step) {
     given_.push_back(given);
-    given += unit * dt_s * wavelet_(time.end_s());
+    given += unit * dt_s * wavelet_(time.end_s() - delay_s_);
   }
   given_.push_back(given);
   if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
@@ -37,10 +42,11 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   const double rho = medium_.rho(domain_.model_cell(centre_));
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
+  const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    if (!spread) add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
   }
@@ -52,13 +58,16 @@ void PointSource<D, Real>::share(Ranks& ranks) {
   const std::int64_t lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
   const std::int64_t before = domain_.grid.first[D - 1];
   std::vector<Index<D>> centre;
+  std::vector<std::int64_t> reach;
   if (!values_.empty()) {
     centre.push_back(centre_);
     centre.back()[D - 1] += before;
+    reach.push_back(reach_);
   }
   for (auto& value : values_) value.line += before * lines_a_row;
   centre_ = allgather(&ranks, centre).at(0);
   centre_[D - 1] -= before;
+  reach_ = allgather(&ranks, reach).at(0);
   const auto all = allgather(&ranks, values_);
   values_.clear();
   for (auto value : all) {
@@ -73,7 +82,7 @@ void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fi
   if (!active(time)) return;
   const auto values = values_of(fields.row);
   if (values.empty()) return;
-  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s());
+  const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_);
   const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
   const double before = counts ? energy_of(fields.row, cells) : 0;
   for (const auto& value : values) {
@@ -125,15 +134,32 @@ double PointSource<D, Real>::energy_of(std::int64_t line, const IndexRange& colu
 
 template <int D, class Real>
 void PointSource<D, Real>::report(ShotReport& report) const {
-  report.source_work = std::accumulate(work_.begin(), work_.end(), 0.);
+  report.source_work = std::accumulate(work_.begin(), work_.end(), report.source_work.value_or(0));
 }
 
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
 template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
-  if (strength == 0) return;
-  for (auto value : source_weights(state_.layout, domain_, source.position_m, like)) {
-    value.place += (row - like) * state_.layout.row_pitch();
+  if (strength != 0)
+    add(source_weights(state_.layout, domain_, source.position_m, like), row - like, strength);
+}
+
+/// Spreads `strength` over all normal stresses, smoothly where that is possible.
+template <int D, class Real>
+bool PointSource<D, Real>::add_smoothly(const Source<D>& source, double strength) {
+  using Rows = FieldRows<D>;
+  const int like = Rows::normal_stress(D - 1);
+  const auto weights = smooth_source_weights(state_.layout, domain_, source.position_m, like);
+  if (weights.empty()) return false;
+  reach_ = widest_spread / 2;
+  for (int i = 0; i < D; ++i) add(weights, Rows::normal_stress(i) - like, strength);
+  return true;
+}
+
+template <int D, class Real>
+void PointSource<D, Real>::add(const std::vector<ValueWeight>& weights, int rows_on, double strength) {
+  for (auto value : weights) {
+    value.place += rows_on * state_.layout.row_pitch();
     value.weight *= strength;
     if (domain_.model_grid.rows) {
       auto cell = state_.layout.line_index(value.line);
@@ -148,12 +174,11 @@ void PointSource<D, Real>::add(const Source<D>& source, int row, int like, doubl
 /// two half sweeps a step, and which ones do must not depend on the place, or traces would change with it.
 template <int D, class Real>
 void PointSource<D, Real>::find_rows() {
-  constexpr std::int64_t reach = widest_stencil / 2;
   rows_ = lines_of(values_);
   for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
     const auto at = state_.layout.line_index(line);
     bool near = true;
-    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach;
+    for (std::size_t axis = 1; axis < D; ++axis) near &= std::abs(at[axis] - centre_[axis]) <= reach_;
     if (near) rows_.push_back(line);
   }
   std::sort(rows_.begin(), rows_.end());

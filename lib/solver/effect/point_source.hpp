@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "acquisition/interpolation.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/effect.hpp"
@@ -27,7 +28,9 @@ class PointSource : public Effect<D, Real> {
   std::string name() const override { return "source"; }
   std::int64_t cells() const override { return std::int64_t(values_.size()); }
   std::span<const std::int64_t> rows() const override { return rows_; }
-  bool active(const StepTime& time) const override { return time.end_s() <= wavelet_.duration_s(); }
+  bool active(const StepTime& time) const override {
+    return time.end_s() - delay_s_ <= wavelet_.duration_s();
+  }
   bool injects(const StepTime& time, std::int64_t row) const override {
     return active(time) && row >= rows_.front() && row <= rows_.back();
   }
@@ -48,6 +51,8 @@ class PointSource : public Effect<D, Real> {
   void weigh(const Source<D>& source);
   void share(Ranks& ranks);
   void add(const Source<D>& source, int row, int like, double strength);
+  bool add_smoothly(const Source<D>& source, double strength);
+  void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
   std::span<const ValueWeight> values_of(std::int64_t row) const;
   double energy_of(std::int64_t row, const IndexRange& cells) const;
@@ -56,8 +61,10 @@ class PointSource : public Effect<D, Real> {
   const Domain<D>& domain_;
   const Medium<D>& medium_;
   Wavelet wavelet_;
+  double delay_s_;
   double unit_;
-  Index<D> centre_{};  // the cell of the source, which may lie beyond this subdomain
+  Index<D> centre_{};                        // the cell of the source, which may lie beyond this subdomain
+  std::int64_t reach_ = widest_stencil / 2;  // of the weights of a source in that cell, in cells
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> rows_;
   unsigned writes_ = 0;

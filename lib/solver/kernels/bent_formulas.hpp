@@ -89,18 +89,46 @@ template <int D, class Real>
   }
 }
 
-/// What leaves a cell through one of its faces, as a vector (F4): along the normal of the face with the
-/// reconstruction of P, across it with that of S. z v_p - side t_p and so on; zp and zs times |N| of the
-/// face.
+/// A face between two rows: N and 1/|N|.
 template <int D, class Real>
-[[gnu::always_inline]] inline RowVector<D, Real> outgoing_wave(const RowVector<D, Real>& v_p,
-                                                               const RowVector<D, Real>& t_p,
-                                                               const RowVector<D, Real>& v_s,
-                                                               const RowVector<D, Real>& t_s,
-                                                               const RowVector<D, Real>& normal, Real inverse,
-                                                               Real side, Real zp, Real zs, Real carries_s) {
-  const auto p = zp * v_p - side * t_p, s = carries_s * (zs * v_s - side * t_s);
-  return s + (inverse * dot(normal, p - s)) * normal;
+struct BentFace {
+  RowVector<D, Real> normal;
+  Real over;
+};
+
+[[gnu::always_inline]] inline float root_of(float square) { return __builtin_sqrtf(square); }
+[[gnu::always_inline]] inline double root_of(double square) { return __builtin_sqrt(square); }
+
+template <int D, class Real>
+[[gnu::always_inline]] inline BentFace<D, Real> bent_face(const RowVector<D, Real>& normal) {
+  return {normal, 1 / root_of(dot(normal, normal))};
+}
+
+/// What leaves a cell through one of its faces (F4), resolved for that face: along its normal with the
+/// reconstruction of P, across it with that of S; side is 1 up, -1 down. In 2-D the components along (N_z,
+/// N_x)/|N| and (-N_x, N_z)/|N|, in 3-D, where there are two across, a vector.
+template <class Real>
+[[gnu::always_inline]] inline RowVector<2, Real> outgoing_wave(const RowVector<2, Real>& v_p,
+                                                               const RowVector<2, Real>& t_p,
+                                                               const RowVector<2, Real>& v_s,
+                                                               const RowVector<2, Real>& t_s,
+                                                               const BentFace<2, Real>& face, Real side,
+                                                               Real zp, Real zs, Real carries_s) {
+  const Real nx = face.normal.x;
+  return {zp * (v_p.z + nx * v_p.x) - side * face.over * (t_p.z + nx * t_p.x),
+          zs * (v_s.x - nx * v_s.z) - side * (face.over * carries_s) * (t_s.x - nx * t_s.z)};
+}
+template <class Real>
+[[gnu::always_inline]] inline RowVector<3, Real> outgoing_wave(const RowVector<3, Real>& v_p,
+                                                               const RowVector<3, Real>& t_p,
+                                                               const RowVector<3, Real>& v_s,
+                                                               const RowVector<3, Real>& t_s,
+                                                               const BentFace<3, Real>& face, Real side,
+                                                               Real zp, Real zs, Real carries_s) {
+  const Real length = face.over * dot(face.normal, face.normal);
+  const auto p = (zp * length) * v_p - side * t_p;
+  const auto s = (zs * length) * v_s - (side * carries_s) * t_s;
+  return s + (face.over * face.over * dot(face.normal, p - s)) * face.normal;
 }
 
 /// What the reconstruction of a bent cell reads besides fields: the normals of the faces before and behind
@@ -111,27 +139,32 @@ struct BentCell {
   Real courant_p, courant_s, zp, zs, carries_s;
 };
 
-/// The outgoing waves of a cell up and down (F4); v(k) and t(k) are velocity and traction k rows further.
+/// The outgoing waves of a cell up and down (F4) through faces `upper` and `lower`, as outgoing_wave()
+/// resolves them; v(k) and t(k) are velocity and traction k rows further.
+template <int Order, int D, class Real, class V, class T>
+[[gnu::always_inline]] inline void reconstruct_between(const V& v, const T& t, const BentFace<D, Real>& lower,
+                                                       const BentFace<D, Real>& upper, Real courant_p,
+                                                       Real courant_s, Real zp, Real zs, Real carries_s,
+                                                       RowVector<D, Real>& up, RowVector<D, Real>& down) {
+  RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
+  Real e0, e1, e2, e3, o1, o2, o3;
+  weights<Order>(courant_p, e0, e1, e2, e3, o1, o2, o3);
+  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vp_even, vp_odd);
+  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, tp_even, tp_odd);
+  weights<Order>(courant_s, e0, e1, e2, e3, o1, o2, o3);
+  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vs_even, vs_odd);
+  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, ts_even, ts_odd);
+  up = outgoing_wave(vp_even + vp_odd, tp_even + tp_odd, vs_even + vs_odd, ts_even + ts_odd, upper, Real(1),
+                     zp, zs, carries_s);
+  down = outgoing_wave(vp_even - vp_odd, tp_even - tp_odd, vs_even - vs_odd, ts_even - ts_odd, lower,
+                       Real(-1), zp, zs, carries_s);
+}
 template <int Order, int D, class Real, class V, class T>
 [[gnu::always_inline]] inline void reconstruct_bent_cell(const V& v, const T& t,
                                                          const BentCell<D, Real>& cell,
                                                          RowVector<D, Real>& up, RowVector<D, Real>& down) {
-  RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
-  Real e0, e1, e2, e3, o1, o2, o3;
-  weights<Order>(cell.courant_p, e0, e1, e2, e3, o1, o2, o3);
-  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vp_even, vp_odd);
-  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, tp_even, tp_odd);
-  weights<Order>(cell.courant_s, e0, e1, e2, e3, o1, o2, o3);
-  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vs_even, vs_odd);
-  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, ts_even, ts_odd);
-  const Real upper = dot(cell.upper, cell.upper), lower = dot(cell.lower, cell.lower);
-  const Real long_upper = __builtin_sqrt(upper), long_lower = __builtin_sqrt(lower);
-  // One division for both.
-  const Real both = 1 / (upper * lower);
-  up = outgoing_wave<D>(vp_even + vp_odd, tp_even + tp_odd, vs_even + vs_odd, ts_even + ts_odd, cell.upper,
-                        both * lower, Real(1), cell.zp * long_upper, cell.zs * long_upper, cell.carries_s);
-  down = outgoing_wave<D>(vp_even - vp_odd, tp_even - tp_odd, vs_even - vs_odd, ts_even - ts_odd, cell.lower,
-                          both * upper, Real(-1), cell.zp * long_lower, cell.zs * long_lower, cell.carries_s);
+  reconstruct_between<Order, D>(v, t, bent_face(cell.lower), bent_face(cell.upper), cell.courant_p,
+                                cell.courant_s, cell.zp, cell.zs, cell.carries_s, up, down);
 }
 
 }  // namespace slipwave::solver

@@ -10,52 +10,75 @@
 namespace slipwave::solver {
 namespace {
 
-/// Along a horizontal axis: the pair is (v, J s), and a face has the impedance Z times its own J (F2).
+/// The outgoing waves of a pair (v, J s) of a cell; j points at its J.
 template <int Order, class Real>
-void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const Real* __restrict v,
-                            const Real* __restrict s, const Real* __restrict impedance,
-                            const Real* __restrict b, Real scale, const BentAlong<Real>& metric,
-                            Real* __restrict up, Real* __restrict down) {
+[[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, const Real* s, std::int64_t stride,
+                                                         const Real* j, std::int64_t j_stride, Real courant,
+                                                         Real z_lo, Real z_hi, Real& up, Real& down) {
+  Real e0, e1, e2, e3, o1, o2, o3, v_even, v_odd, t_even, t_odd;
+  weights<Order>(courant, e0, e1, e2, e3, o1, o2, o3);
+  even_odd<Order>(v, stride, e0, e1, e2, e3, o1, o2, o3, v_even, v_odd);
+  even_odd_of<Order>(
+      [=](long k) __attribute__((always_inline)) { return j[k * j_stride] * s[k * stride]; }, e0, e1, e2, e3,
+      o1, o2, o3, t_even, t_odd);
+  up = z_hi * (v_even + v_odd) - (t_even + t_odd);
+  down = z_lo * (v_even - v_odd) + (t_even - t_odd);
+}
+
+/// Along a horizontal axis: the pairs are (v, J s), and a face has the impedance Z times its own J (F2).
+template <int Order, int Pairs, class Real>
+void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
+                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
+                            OutgoingWaves<Real> outgoing) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict j = metric.j, * __restrict j_lo = metric.j_lo, * __restrict j_hi = metric.j_hi;
+  const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
+  const Real* __restrict v = pairs.v[0], * __restrict s = pairs.s[0], * __restrict w = pairs.v[1], * __restrict t = pairs.s[1];
+  const Real* __restrict w2 = pairs.v[2], * __restrict t2 = pairs.s[2];
   const std::int64_t j_stride = metric.stride;
+  Real* __restrict up_p = outgoing.up(0), * __restrict down_p = outgoing.down(0);
+  Real* __restrict up_s = outgoing.up(1), * __restrict down_s = outgoing.down(1);
+  Real* __restrict up_s2 = outgoing.up(2), * __restrict down_s2 = outgoing.down(2);
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const auto traction = [=](long k) __attribute__((always_inline)) {
-      return j[i + k * j_stride] * s[i + k * stride];
-    };
-    Real e0, e1, e2, e3, o1, o2, o3, v_even, v_odd, t_even, t_odd;
-    weights<Order>(size * (impedance[i] * b[i]), e0, e1, e2, e3, o1, o2, o3);
-    even_odd<Order>(v + i, stride, e0, e1, e2, e3, o1, o2, o3, v_even, v_odd);
-    even_odd_of<Order>(traction, e0, e1, e2, e3, o1, o2, o3, t_even, t_odd);
-    const Real z = sign * impedance[i];
-    up[i] = z * j_hi[i] * (v_even + v_odd) - (t_even + t_odd);
-    down[i] = z * j_lo[i] * (v_even - v_odd) + (t_even - t_odd);
+    const Real moved = size * b[i], lo = sign * j_lo[i], hi = sign * j_hi[i];
+    const Real p = zp[i], z = zs[i];
+    reconstruct_bent_pair<Order>(v + i, s + i, stride, j + i, j_stride, moved * p, lo * p, hi * p, up_p[i],
+                                 down_p[i]);
+    reconstruct_bent_pair<Order>(w + i, t + i, stride, j + i, j_stride, moved * z, lo * z, hi * z, up_s[i],
+                                 down_s[i]);
+    if constexpr (Pairs == 3)
+      reconstruct_bent_pair<Order>(w2 + i, t2 + i, stride, j + i, j_stride, moved * z, lo * z, hi * z,
+                                   up_s2[i], down_s2[i]);
   }
 }
 
-/// (E8) at faces of impedances Z J: of all pairs.
+/// (E8) at faces of impedances Z J, of all pairs, with one division.
 template <int Pairs, class Real>
 void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
                       const Real* __restrict j_face, InterfaceStates<Real> faces) {
   const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
-  for (int p = 0; p < Pairs; ++p) {
-    const Real* __restrict up = below.up(p), * __restrict down = above.down(p);
-    const Real* __restrict z_lo = p == 0 ? zp_lo : zs_lo, * __restrict z_hi = p == 0 ? zp_hi : zs_hi;
-    Real* __restrict v = faces.v(p), * __restrict s = faces.s(p);
+  const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0), * __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
+  const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
+  Real* __restrict v_p = faces.v(0), * __restrict s_p = faces.s(0), * __restrict v_s = faces.v(1), * __restrict s_s = faces.s(1);
+  Real* __restrict v_s2 = faces.v(2), * __restrict s_s2 = faces.s(2);
 #pragma omp simd
-    for (std::int64_t i = 0; i < n; ++i) {
-      riemann(up[i], down[i], z_lo[i], z_hi[i], 1 / (z_lo[i] + z_hi[i] + Real(none)), v[i], s[i]);
-      v[i] /= j_face[i];
-    }
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real p_lo = zp_lo[i], p_hi = zp_hi[i], s_lo = zs_lo[i], s_hi = zs_hi[i], j = j_face[i];
+    // Those of velocities; those of tractions are J times as large.
+    const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none);
+    const Real both = 1 / (sum_p * sum_s * j), share_p = both * sum_s, share_s = both * sum_p;
+    riemann(up_p[i], down_p[i], j * p_lo, j * p_hi, share_p, v_p[i], s_p[i]);
+    riemann(up_s[i], down_s[i], j * s_lo, j * s_hi, share_s, v_s[i], s_s[i]);
+    if constexpr (Pairs == 3) riemann(up_s2[i], down_s2[i], j * s_lo, j * s_hi, share_s, v_s2[i], s_s2[i]);
   }
 }
 
 /// (E9) with rho J instead of rho.
 template <int D, class Real>
 void update_bent_along(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
-                       const MaterialRows<Real>& material, const Real* __restrict j,
+                       const MaterialRows<Real>& material, const Real* __restrict over_j,
                        const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale;
   const Real* __restrict v_lo = lo.v(0), * __restrict s_lo = lo.s(0), * __restrict w_lo = lo.v(1), * __restrict t_lo = lo.s(1);
@@ -68,7 +91,7 @@ void update_bent_along(std::int64_t n, Real scale, InterfaceStates<Real> lo, Int
   for (std::int64_t i = 0; i < n; ++i) {
     Real moved, p_modulus, s_modulus, along;
     update_coefficients<true>(scale, size, b[i], zp[i], zs[i], moved, p_modulus, s_modulus);
-    moved /= j[i];
+    moved *= over_j[i];
     update_p<true>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
     passive[i] += along;
     if constexpr (D == 3) passive2[i] += along;
@@ -105,20 +128,19 @@ template <int D, class Real>
 template <int Order, int D, class Real>
 [[gnu::always_inline]] inline void reconstruct_bent_at(const Real* field, std::int64_t pitch,
                                                        std::int64_t stride, const Real* n_cell,
-                                                       const Real* n_face, std::int64_t of_metric,
-                                                       std::int64_t next, Real courant, Real sign, Real zp,
-                                                       Real zs, Real* out, std::int64_t out_pitch) {
-  const auto own = row_normal<D>(n_cell, of_metric);
-  const Real stretched = courant * __builtin_sqrt(dot(own, own));
+                                                       const Real* n_face, const Real* over_face,
+                                                       std::int64_t of_metric, std::int64_t next,
+                                                       Real courant, Real sign, Real zp, Real zs, Real* out,
+                                                       std::int64_t out_pitch) {
   RowVector<D, Real> up, down;
-  reconstruct_bent_cell<Order, D>(
+  reconstruct_between<Order, D>(
       [=](long k) __attribute__((always_inline)) { return row_velocity<D>(field + k * stride, pitch); },
       [=](long k) __attribute__((always_inline)) {
         return row_traction<D>(field + k * stride, pitch, n_cell + k * next, of_metric);
       },
-      BentCell<D, Real>{row_normal<D>(n_face, of_metric), row_normal<D>(n_face + next, of_metric),
-                        stretched * zp, stretched * zs, sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0)},
-      up, down);
+      BentFace<D, Real>{row_normal<D>(n_face, of_metric), over_face[0]},
+      BentFace<D, Real>{row_normal<D>(n_face + next, of_metric), over_face[next]}, courant * zp, courant * zs,
+      sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0), up, down);
   put(up, out, 2 * out_pitch);
   put(down, out + out_pitch, 2 * out_pitch);
 }
@@ -129,115 +151,197 @@ void reconstruct_bent_across(std::int64_t n, Real scale, const BentFields<const 
                              OutgoingWaves<Real> outgoing) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
-  const Real* __restrict field = fields.first, * __restrict j = metric.j;
-  const Real* __restrict n_cell = metric.n_cell, * __restrict n_face = metric.n_face;
+  const Real* __restrict field = fields.first, * __restrict stretch = metric.stretch;
+  const Real* __restrict n_cell = metric.n_cell, * __restrict n_face = metric.n_face, * __restrict over_face = metric.over_face;
   const std::int64_t pitch = fields.pitch, stride = fields.stride;
   const std::int64_t of_metric = metric.pitch, next = metric.stride, out_pitch = outgoing.pitch;
   Real* __restrict out = outgoing.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    reconstruct_bent_at<Order, D>(field + i, pitch, stride, n_cell + i, n_face + i, of_metric, next,
-                                  size * b[i] / j[i], sign, zp[i], zs[i], out + i, out_pitch);
+    reconstruct_bent_at<Order, D>(field + i, pitch, stride, n_cell + i, n_face + i, over_face + i, of_metric,
+                                  next, size * b[i] * stretch[i], sign, zp[i], zs[i], out + i, out_pitch);
 }
 
-/// The Riemann solution (E8) along and across the normal of a bent face. In fluid the velocity along the face
-/// is that of the cells: faces holds what the cell below the face sees, seen_above what the cell above does.
-template <int D, class Real>
-[[gnu::always_inline]] inline void solve_bent_at(RowVector<D, Real> normal, RowVector<D, Real> up,
-                                                 RowVector<D, Real> down, RowVector<D, Real> own_lo,
-                                                 RowVector<D, Real> own_hi, Real p_lo, Real p_hi, Real s_lo,
-                                                 Real s_hi, Real* face, std::int64_t face_pitch,
-                                                 Real* seen_above, std::int64_t seen_pitch) {
-  const Real over = 1 / __builtin_sqrt(dot(normal, normal)), inverse = over * over;
+/// Whether a cell is fluid, as a factor.
+template <class Real>
+[[gnu::always_inline]] inline Real is_fluid(Real zp, Real zs) {
+  return (zs > 0 ? Real(0) : Real(1)) * (zp > 0 ? Real(1) : Real(0));
+}
+
+/// The Riemann solution (E8) along and across the normal of a bent face from waves that outgoing_wave()
+/// resolved: velocities as the cell below the face sees them and tractions. In fluid the velocity along the
+/// face is that of the cells (F7), and other for the cell above it.
+template <bool Fluid, class Real>
+[[gnu::always_inline]] inline void solve_bent_at(BentFace<2, Real> face, RowVector<2, Real> up,
+                                                 RowVector<2, Real> down, Real sign, const Real* cell_lo,
+                                                 const Real* cell_hi, std::int64_t pitch, Real p_lo,
+                                                 Real p_hi, Real s_lo, Real s_hi, Real* first,
+                                                 std::int64_t first_pitch, Real* seen_above,
+                                                 std::int64_t seen_pitch) {
+  const Real nx = face.normal.x, over = face.over;
+  Real share_p, share_s, v_n, t_n, v_t, t_t;
+  riemann_shares<true>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
+  riemann(up.z, down.z, p_lo, p_hi, over * share_p, v_n, t_n);
+  riemann(up.x, down.x, s_lo, s_hi, over * share_s, v_t, t_t);
+  v_n *= over, v_t *= over;
+  Real t_lo = v_t;
+  if constexpr (Fluid) {
+    const auto own_lo = row_velocity<2>(cell_lo, pitch), own_hi = row_velocity<2>(cell_hi, pitch);
+    const Real turned = sign * (over * over);
+    const Real along_lo = turned * (own_lo.x - nx * own_lo.z), along_hi = turned * (own_hi.x - nx * own_hi.z);
+    const Real fluid_lo = is_fluid(p_lo, s_lo), fluid_hi = is_fluid(p_hi, s_hi);
+    const Real mixed = Real(0.5) * fluid_lo * fluid_hi * (along_hi - along_lo);
+    t_lo = (1 - fluid_lo) * v_t + fluid_lo * (along_lo + mixed);
+    const Real t_hi = (1 - fluid_hi) * v_t + fluid_hi * (along_hi - mixed);
+    seen_above[0] = v_n - nx * t_hi;
+    seen_above[seen_pitch] = nx * v_n + t_hi;
+  }
+  first[0] = v_n - nx * t_lo;
+  first[first_pitch] = t_n - nx * t_t;
+  first[2 * first_pitch] = nx * v_n + t_lo;
+  first[3 * first_pitch] = nx * t_n + t_t;
+}
+template <bool Fluid, class Real>
+[[gnu::always_inline]] inline void solve_bent_at(BentFace<3, Real> face, RowVector<3, Real> up,
+                                                 RowVector<3, Real> down, Real sign, const Real* cell_lo,
+                                                 const Real* cell_hi, std::int64_t pitch, Real p_lo,
+                                                 Real p_hi, Real s_lo, Real s_hi, Real* first,
+                                                 std::int64_t first_pitch, Real* seen_above,
+                                                 std::int64_t seen_pitch) {
+  const auto normal = face.normal;
+  const Real over = face.over, inverse = over * over;
   Real share_p, share_s, v_p, t_p;
   riemann_shares<true>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
   const Real p_up = inverse * dot(normal, up), p_down = inverse * dot(normal, down);
   riemann(p_up, p_down, p_lo, p_hi, share_p, v_p, t_p);
   const auto up_s = up - p_up * normal, down_s = down - p_down * normal;
   const auto v_s = (over * share_s) * (up_s + down_s);
-  const auto t_s = share_s * (s_lo * down_s - s_hi * up_s);
-  // Along the face, of fluid cells.
-  const auto along_lo = own_lo - (inverse * dot(normal, own_lo)) * normal;
-  const auto along_hi = own_hi - (inverse * dot(normal, own_hi)) * normal;
-  const Real fluid_lo = (s_lo > 0 ? Real(0) : Real(1)) * (p_lo > 0 ? Real(1) : Real(0));
-  const Real fluid_hi = (s_hi > 0 ? Real(0) : Real(1)) * (p_hi > 0 ? Real(1) : Real(0));
-  const auto mixed = (Real(0.5) * fluid_lo * fluid_hi) * (along_hi - along_lo);
   const auto of_p = (over * v_p) * normal;
-  put(of_p + ((1 - fluid_lo) * v_s + fluid_lo * (along_lo + mixed)), face, 2 * face_pitch);
-  put(of_p + ((1 - fluid_hi) * v_s + fluid_hi * (along_hi - mixed)), seen_above, seen_pitch);
-  put(t_p * normal + t_s, face + face_pitch, 2 * face_pitch);
+  put(t_p * normal + share_s * (s_lo * down_s - s_hi * up_s), first + first_pitch, 2 * first_pitch);
+  if constexpr (Fluid) {
+    const auto own_lo = sign * row_velocity<3>(cell_lo, pitch),
+               own_hi = sign * row_velocity<3>(cell_hi, pitch);
+    const auto along_lo = own_lo - (inverse * dot(normal, own_lo)) * normal;
+    const auto along_hi = own_hi - (inverse * dot(normal, own_hi)) * normal;
+    const Real fluid_lo = is_fluid(p_lo, s_lo), fluid_hi = is_fluid(p_hi, s_hi);
+    const auto mixed = (Real(0.5) * fluid_lo * fluid_hi) * (along_hi - along_lo);
+    put(of_p + ((1 - fluid_lo) * v_s + fluid_lo * (along_lo + mixed)), first, 2 * first_pitch);
+    put(of_p + ((1 - fluid_hi) * v_s + fluid_hi * (along_hi - mixed)), seen_above, seen_pitch);
+  } else {
+    put(of_p + v_s, first, 2 * first_pitch);
+  }
 }
 
-template <int D, class Real>
-void solve_bent_across(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                       const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
-                       const BentAcross<Real>& metric, InterfaceStates<Real> faces,
-                       Real* __restrict seen_above, std::int64_t seen_pitch) {
-  const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
-  const Real* __restrict up = below.first, * __restrict down = above.first + above.pitch;
-  const Real* __restrict cell_lo = fields_lo.first, * __restrict cell_hi = fields_hi.first;
-  const Real* __restrict n_face = metric.n_face;
-  const std::int64_t up_pitch = 2 * below.pitch, down_pitch = 2 * above.pitch, pitch = fields_lo.pitch;
-  const std::int64_t of_metric = metric.pitch, face_pitch = faces.pitch;
-  Real* __restrict face = faces.first;
+template <bool Fluid, int D, class Real>
+void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
+  const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
+  const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
+  const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
+  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
+                     cells = at.fields_lo.pitch;
+  const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
+  Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    solve_bent_at<D>(row_normal<D>(n_face + i, of_metric), take<D>(up + i, up_pitch),
-                     take<D>(down + i, down_pitch), sign * row_velocity<D>(cell_lo + i, pitch),
-                     sign * row_velocity<D>(cell_hi + i, pitch), zp_lo[i], zp_hi[i], zs_lo[i], zs_hi[i],
-                     face + i, face_pitch, seen_above + i, seen_pitch);
+    solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
+                         take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
+                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
+                         seen_above + i, seen_pitch);
 }
 
-/// (F5): rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J). `lo` holds tractions, v_lo what this cell sees.
+/// (F5) of one cell: rho J v += dt/h [T*], s += C : sym(N [v*]) dt/(h J), from velocities and tractions
+/// before and behind it; v_lo is what this cell sees.
 template <int D, class Real>
-void update_bent_across(std::int64_t n, Real scale, InterfaceStates<Real> lo, const Real* __restrict v_lo,
-                        std::int64_t v_lo_pitch, InterfaceStates<Real> hi, const MaterialRows<Real>& material,
-                        const BentAcross<Real>& metric, const BentFields<Real>& fields) {
+[[gnu::always_inline]] inline void update_bent_at(Real scale, Real size, Real b, Real zp, Real zs,
+                                                  const Real* n_cell, std::int64_t of_metric,
+                                                  RowVector<D, Real> v_lo, RowVector<D, Real> v_hi,
+                                                  RowVector<D, Real> t_lo, RowVector<D, Real> t_hi, Real* f,
+                                                  std::int64_t p) {
+  Real moved, p_modulus, mu;
+  update_coefficients<true>(scale, size, b, zp, zs, moved, p_modulus, mu);
+  const Real lambda = p_modulus - 2 * mu;
+  const auto d = v_hi - v_lo;
+  const auto dt = moved * (t_hi - t_lo);
+  const Real nx = n_cell[0];
+  if constexpr (D == 2) {
+    f[0] += dt.x;
+    f[p] += dt.z;
+    const Real along = nx * d.x;
+    f[2 * p] += lambda * d.z + p_modulus * along;
+    f[3 * p] += lambda * along + p_modulus * d.z;
+    f[4 * p] += mu * (nx * d.z + d.x);
+  } else {
+    const Real ny = n_cell[of_metric];
+    f[0] += dt.x;
+    f[p] += dt.y;
+    f[2 * p] += dt.z;
+    const Real trace = lambda * (nx * d.x + ny * d.y + d.z);
+    f[3 * p] += trace + 2 * mu * (nx * d.x);
+    f[4 * p] += trace + 2 * mu * (ny * d.y);
+    f[5 * p] += trace + 2 * mu * d.z;
+    f[6 * p] += mu * (nx * d.y + ny * d.x);
+    f[7 * p] += mu * (nx * d.z + d.x);
+    f[8 * p] += mu * (ny * d.z + d.y);
+  }
+}
+
+template <int D, class Real>
+void update_bent_across(std::int64_t n, Real scale, const BentUpdate<Real>& of) {
   const Real size = scale < 0 ? -scale : scale;
-  const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
-  const Real* __restrict hi_of = hi.first, * __restrict lo_of = lo.first + lo.pitch;
-  const Real* __restrict j = metric.j, * __restrict n_cell = metric.n_cell;
-  const std::int64_t hi_pitch = 2 * hi.pitch, lo_pitch = 2 * lo.pitch, p = fields.pitch;
-  Real* __restrict first = fields.first;
+  const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
+  const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
+  const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
+  const std::int64_t of_metric = of.metric.pitch;
+  Real* __restrict f = of.fields.first;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i)
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
+                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
+                      take<D>(t_hi + i, hi), f + i, p);
+}
+
+/// The solution at a face and the update of another row in one loop: the same bits as both loops.
+template <bool Fluid, int D, class Real>
+void advance_bent_across(std::int64_t n, Real scale, const BentSolve<Real>& at, const BentUpdate<Real>& of) {
+  const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
+  const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
+  const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
+  const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
+  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
+                     cells = at.fields_lo.pitch;
+  const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
+  Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
+  const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
+  const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
+  const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
+  Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    Real moved, p_modulus, mu;
-    const Real over = 1 / j[i];
-    update_coefficients<true>(scale, size, b[i], zp[i], zs[i], moved, p_modulus, mu);
-    moved *= over, p_modulus *= over, mu *= over;
-    const Real lambda = p_modulus - 2 * mu;
-    const auto d = take<D>(hi_of + i, hi_pitch) - take<D>(v_lo + i, v_lo_pitch);
-    const auto dt = moved * (take<D>(hi_of + i + hi.pitch, hi_pitch) - take<D>(lo_of + i, lo_pitch));
-    Real* __restrict f = first + i;
-    const Real nx = n_cell[i];
-    if constexpr (D == 2) {
-      f[0] += dt.x;
-      f[p] += dt.z;
-      const Real trace = lambda * (nx * d.x + d.z);
-      f[2 * p] += trace + 2 * mu * (nx * d.x);
-      f[3 * p] += trace + 2 * mu * d.z;
-      f[4 * p] += mu * (nx * d.z + d.x);
-    } else {
-      const Real ny = n_cell[i + metric.pitch];
-      f[0] += dt.x;
-      f[p] += dt.y;
-      f[2 * p] += dt.z;
-      const Real trace = lambda * (nx * d.x + ny * d.y + d.z);
-      f[3 * p] += trace + 2 * mu * (nx * d.x);
-      f[4 * p] += trace + 2 * mu * (ny * d.y);
-      f[5 * p] += trace + 2 * mu * d.z;
-      f[6 * p] += mu * (nx * d.y + ny * d.x);
-      f[7 * p] += mu * (nx * d.z + d.x);
-      f[8 * p] += mu * (ny * d.z + d.y);
-    }
+    solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
+                         take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
+                         cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
+                         seen_above + i, seen_pitch);
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
+                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
+                      take<D>(t_hi + i, hi), f + i, p);
   }
 }
 
 template <int Order, int D, class Real>
 constexpr BentKernels<Real> bent_kernels = {
-    reconstruct_bent_along<Order, Real>,     solve_bent_along<D, Real>,  update_bent_along<D, Real>,
-    reconstruct_bent_across<Order, D, Real>, solve_bent_across<D, Real>, update_bent_across<D, Real>};
+    reconstruct_bent_along<Order, D, Real>,
+    solve_bent_along<D, Real>,
+    update_bent_along<D, Real>,
+    reconstruct_bent_across<Order, D, Real>,
+    {solve_bent_across<false, D, Real>, solve_bent_across<true, D, Real>},
+    update_bent_across<D, Real>,
+    {advance_bent_across<false, D, Real>, advance_bent_across<true, D, Real>}};
 
 }  // namespace
 }  // namespace slipwave::solver

@@ -101,18 +101,26 @@ struct FusedRow {
 };
 
 /// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): J of its
-/// cells, neighbours a stride apart, and of the faces before and behind each cell.
+/// cells, neighbours a stride apart, and of the faces before and behind each cell; 1/J of the cells.
 template <class Real>
 struct BentAlong {
   const Real *j, *j_lo, *j_hi;
   std::int64_t stride;
+  const Real* over_j;
 };
 /// For the sweep along z (F3): J of the cells; the horizontal components of N, a pitch apart, of the cells
-/// and of the faces before them; a stride leads to the next row.
+/// and of the faces before them; a stride leads to the next row. What the loops would need roots and
+/// divisions for: |N|/J and 1/J of the cells, 1/|N| of the faces.
 template <class Real>
 struct BentAcross {
   const Real *j, *n_cell, *n_face;
   std::int64_t pitch, stride;
+  const Real *stretch = nullptr, *over_j = nullptr, *over_face = nullptr;
+};
+/// The fields of the pairs of a sweep along a horizontal axis, in 2-D two.
+template <class Real>
+struct BentPairs {
+  const Real *v[3], *s[3];
 };
 /// All fields of a range of cells: field rows a pitch apart, rows of cells a stride.
 template <class Real>
@@ -121,29 +129,53 @@ struct BentFields {
   std::int64_t pitch, stride;
 };
 
-/// Loops of sweeps through bent rows (bent_rows.hpp), with shear everywhere. Across the rows outgoing waves
-/// and interface states are vectors, components z, x, [y], that is those of the pairs where a face is level.
+/// What the solution at a face across the rows reads and writes: outgoing waves, material and fields of the
+/// cells before and behind it; its metric; the states, and the velocities that the cells above it see where
+/// there is fluid.
+template <class Real>
+struct BentSolve {
+  OutgoingWaves<Real> below, above;
+  MaterialRows<Real> lo, hi;
+  BentFields<const Real> fields_lo, fields_hi;
+  BentAcross<Real> metric;
+  InterfaceStates<Real> faces;
+  Real* seen_above;
+  std::int64_t seen_pitch;
+};
+/// What the update of a row reads and writes: the states at the faces before and behind it, where v_lo are
+/// the velocities that its cells see.
+template <class Real>
+struct BentUpdate {
+  InterfaceStates<Real> lo, hi;
+  const Real* v_lo;
+  std::int64_t v_lo_pitch;
+  MaterialRows<Real> material;
+  BentAcross<Real> metric;
+  BentFields<Real> fields;
+};
+
+/// Loops of sweeps through bent rows (bent_rows.hpp), with shear everywhere. Across the rows interface states
+/// are vectors, components z, x, [y], and outgoing waves as outgoing_wave() resolves them: both are those of
+/// the pairs where a face is level.
 template <class Real>
 struct BentKernels {
-  void (*reconstruct_along)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
-                            const Real* impedance, const Real* b, Real scale, const BentAlong<Real>& metric,
-                            Real* up, Real* down);
+  void (*reconstruct_along)(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
+                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
+                            OutgoingWaves<Real> outgoing);
   void (*solve_along)(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Real* j_face,
                       InterfaceStates<Real> faces);
   void (*update_along)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
-                       const MaterialRows<Real>& material, const Real* j, const SweptRows<Real>& rows);
+                       const MaterialRows<Real>& material, const Real* over_j, const SweptRows<Real>& rows);
   void (*reconstruct_across)(std::int64_t n, Real scale, const BentFields<const Real>& fields,
                              const MaterialRows<Real>& material, const BentAcross<Real>& metric,
                              OutgoingWaves<Real> outgoing);
-  void (*solve_across)(std::int64_t n, Real sign, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                       const BentFields<const Real>& fields_lo, const BentFields<const Real>& fields_hi,
-                       const BentAcross<Real>& metric, InterfaceStates<Real> faces, Real* seen_above,
-                       std::int64_t seen_pitch);
-  void (*update_across)(std::int64_t n, Real scale, InterfaceStates<Real> lo, const Real* v_lo,
-                        std::int64_t v_lo_pitch, InterfaceStates<Real> hi, const MaterialRows<Real>& material,
-                        const BentAcross<Real>& metric, const BentFields<Real>& fields);
+  /// By whether there is fluid: else the velocity is the same on both sides, and `seen_above` not written.
+  void (*solve_across[2])(std::int64_t n, Real sign, const BentSolve<Real>& at);
+  void (*update_across)(std::int64_t n, Real scale, const BentUpdate<Real>& of);
+  /// Both in one loop; the face must be none of the row's.
+  void (*advance_across[2])(std::int64_t n, Real scale, const BentSolve<Real>& at,
+                            const BentUpdate<Real>& of);
 };
 
 /// Inner loops of a sweep over n neighbouring cells of one row, for one order and one instruction set.

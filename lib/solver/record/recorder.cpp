@@ -38,11 +38,12 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
                             std::size_t shot, double unit, Ranks* ranks)
     : ranks_(ranks), gather_(empty_gather(scene, shot, ranks)), unit_(unit) {
   std::vector<std::vector<ValueWeight>> of_traces;
+  const auto receivers = scene.survey.receivers_of(shot);
   for (const Component component : scene.recording.components)
-    for (const auto& receiver : scene.survey.receivers_m) {
+    for (const auto& receiver : receivers) {
       of_traces.emplace_back();
-      if (domain.subdomain.owns(domain.model_grid, receiver))
-        of_traces.back() = component_weights<D>(layout, domain, receiver, component);
+      if (domain.subdomain.owns(domain.model_grid, receiver.point_m))
+        of_traces.back() = component_weights<D>(layout, domain, receiver.point_m, component);
     }
   history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
   sums_.resize(gather_.traces.size());

@@ -390,8 +390,8 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   };
   if constexpr (D == 2) {
     auto& ring = tile.rings[std::size_t(stage.number)];
-    // Free surfaces read some cells of the columns beside these.
-    if (is_zero(rows, {}, {columns.first - lag, columns.last + lag})) {
+    // Corrections are computed a block ahead, and read some cells of the columns beside these.
+    if (is_zero(rows, {}, {columns.first - lag, columns.last + lag + free_surface_reach})) {
       sweeps_.skip(step, columns, ring);
       return;
     }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "solver/kernels/bent_formulas.hpp"
+#include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -89,13 +90,6 @@ struct Motion {
   RowVector<D, Real> v, t;
 };
 
-/// Multiplies the part of a vector along a normal and the rest.
-template <int D, class Real>
-RowVector<D, Real> scaled(const RowVector<D, Real>& normal, Real along, Real across,
-                          const RowVector<D, Real>& vector) {
-  return across * vector + ((along - across) * dot(normal, vector) / dot(normal, normal)) * normal;
-}
-
 template <int D, class Real>
 Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real>& metric, int offset) {
   const Real* const cell = fields.first + offset * fields.stride;
@@ -103,48 +97,73 @@ Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real
           row_traction<D>(cell, fields.pitch, metric.n_cell + offset * metric.stride, metric.pitch)};
 }
 
+/// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
+template <int D, class Real>
+void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
+                    const RowVector<D, Real>& normal, const InterfaceCorrections<D, Real>& corrections,
+                    int ghost, Real scale, Motion<D, Real>& at) {
+  const auto of = [&](auto&& component) {
+    RowVector<D, Real> vector;
+    vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
+    if constexpr (D == 3) vector.y = component(2)[side.slot];
+    return vector;
+  };
+  // A fluid slides along the face.
+  const Real solid = stencil.solid ? 1 : 0;
+  at.v = at.v + Real(2 * ghost + 1) *
+                    scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
+  at.t = at.t + scale * scaled(normal, 2 - 2 * Real(side.share_p), solid * (2 - 2 * Real(side.share_s)),
+                               of([&](int c) { return corrections.traction(c); }));
+}
+
 /// At a stencil offset, extended beyond the ends of the stencil.
 template <int D, class Real>
 Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real>& fields,
-                         const BentAcross<Real>& metric, int offset) {
+                         const BentAcross<Real>& metric, const InterfaceCorrections<D, Real>& corrections,
+                         Real scale, int offset) {
   const bool below = offset < -stencil.low.cells;
   if (!below && offset <= stencil.high.cells) return load<D>(fields, metric, offset);
   const auto& side = below ? stencil.low : stencil.high;
   if (side.p == Extension::constant) return load<D>(fields, metric, below ? -side.cells : side.cells);
   // The mirror image lies nearer to the cell with each fold, so this ends.
-  auto at = extended<D>(stencil, fields, metric,
-                        below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset);
+  const int mirrored = below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset;
+  auto at = extended<D>(stencil, fields, metric, corrections, scale, mirrored);
   const int face = below ? -side.cells : side.cells + 1;
   const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
-  if (side.p != Extension::interface)
-    return {
+  const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
+  if (side.p != Extension::interface) {
+    at = {
         scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
         scaled(normal, sign(side.p, Extension::traction_free), sign(side.s, Extension::traction_free), at.t)};
-  auto across =
-      load<D>(fields, metric,
-              below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
-  // A fluid has no traction along the face.
-  const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
-  at.t = scaled(normal, Real(1), solid, at.t);
-  across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
-  const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
-  return {at.v + scaled(normal, p, s, across.v - at.v),
+  } else {
+    auto across =
+        load<D>(fields, metric,
+                below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
+    // A fluid has no traction along the face.
+    const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
+    at.t = scaled(normal, Real(1), solid, at.t);
+    across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
+    const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
+    at = {at.v + scaled(normal, p, s, across.v - at.v),
           at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
+  }
+  if (side.slot >= 0) add_correction(stencil, side, normal, corrections, ghost, below ? scale : -scale, at);
+  return at;
 }
 
 template <int Order, int D, class Real>
 void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
-                  Real zp, Real zs, const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
+                  Real zp, Real zs, const BentAcross<Real>& metric,
+                  const InterfaceCorrections<D, Real>& corrections, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   std::array<Motion<D, Real>, 2 * reach + 1> at;
   for (int k = -reach; k <= reach; ++k) {
     const int position = k + reach;
-    at[std::size_t(position)] = extended<D>(stencil, fields, metric, k);
+    at[std::size_t(position)] = extended<D>(stencil, fields, metric, corrections, scale, k);
   }
-  const auto own = row_normal<D>(metric.n_cell, metric.pitch);
   const Real sign = scale < 0 ? -1 : 1;
-  const Real courant = sign * scale * b * Real(__builtin_sqrt(dot(own, own))) / metric.j[0];
+  const Real courant = sign * scale * b * metric.stretch[0];
   const BentCell<D, Real> cell = {row_normal<D>(metric.n_face, metric.pitch),
                                   row_normal<D>(metric.n_face + metric.stride, metric.pitch),
                                   courant * zp,
@@ -162,7 +181,7 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
 
 template <int D, class Real>
 using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
-                         const BentAcross<Real>&, OutgoingWaves<Real>);
+                         const BentAcross<Real>&, const InterfaceCorrections<D, Real>&, OutgoingWaves<Real>);
 template <int D, class Real, int... N>
 constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
   return {correct_cell<orders[N], D, Real>...};
@@ -171,7 +190,8 @@ constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::intege
 }  // namespace
 
 template <int D, class Real>
-BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
+BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
+                                    const InterfaceCorrections<D, Real>& corrections) {
   if (domain.bent_rows.empty()) return;
   const auto& grid = domain.grid;
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -186,12 +206,20 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
         continue;
       }
       bool inside = false;
-      const auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
-      const auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
+      auto low = side_of(up, domain.edges[D - 1][0], reach, inside);
+      auto high = side_of(down, domain.edges[D - 1][1], reach, inside);
+      for (auto* side : {&low, &high}) {
+        Index<D> face = at;
+        face[D - 1] += side == &low ? -low.cells : high.cells + 1;
+        if (side->p != Extension::none) side->slot = corrections.slot(face);
+      }
+      const bool corrected = low.slot >= 0 || high.slot >= 0;
       const bool near_free = low.p == Extension::traction_free || high.p == Extension::traction_free;
       if (inside) {
-        cells_.push_back(
-            {std::int32_t(at[0]), std::int8_t(reach_within(low, high, reach)), z_s > 0, low, high});
+        cells_.push_back({std::int32_t(at[0]),
+                          std::int8_t(std::min(reach_within(low, high, reach),
+                                               corrected ? most_reach_at_contrasts : reach)),
+                          z_s > 0, low, high});
       } else if (reach > most_reach_at_contrasts &&
                  (near_free || contrast(up, reach) || contrast(down, reach))) {
         BentStencil::Side open;
@@ -206,7 +234,9 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach) {
 template <int D, class Real>
 void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRange& columns, Real scale,
                                     const BentFields<const Real>& fields, const MaterialRows<Real>& material,
-                                    const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) const {
+                                    const BentAcross<Real>& metric,
+                                    const InterfaceCorrections<D, Real>& corrections,
+                                    OutgoingWaves<Real> outgoing) const {
   static constexpr auto correct_as = correctors<D, Real>(std::make_integer_sequence<int, order_count>());
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
@@ -219,8 +249,9 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
     }
     correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
         *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
-        material.zs[i], {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride},
-        outgoing.at(i));
+        material.zs[i],
+        {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride, metric.stretch + i},
+        corrections, outgoing.at(i));
   }
 }
 

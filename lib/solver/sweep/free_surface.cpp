@@ -1,6 +1,9 @@
 #include "solver/sweep/free_surface.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -12,6 +15,37 @@ constexpr std::array<double, 4> weights = {-0.125, -0.25, 0.25, 0.125};
 /// Cells without a strong interface or an edge needed across the edge: no stencil that reads beyond it may
 /// reach another extension.
 constexpr auto fewest_across = std::int64_t(2) * max_reach;
+
+/// The component along an axis.
+template <int D>
+double& component(RowVector<D, double>& vector, int axis) {
+  if (axis == D - 1) return vector.z;
+  if constexpr (D == 3)
+    if (axis == 1) return vector.y;
+  return vector.x;
+}
+
+/// N of the first or the last face of the rows at a cell beside it, and the height of this cell in cells.
+template <int D>
+std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
+  constexpr int z = D - 1, corners = 1 << z;
+  RowVector<D, double> normal{};
+  normal.z = 1;
+  double height = 0;
+  for (int n = 0; n < corners; ++n) {
+    Index<D> upper = at, lower = at;
+    for (int axis = 0; axis < z; ++axis) {
+      upper[axis] += (n >> axis) & 1;
+      lower[axis] = upper[axis];
+    }
+    ++lower[z];
+    const double depth = corner_depth(domain, upper), below = corner_depth(domain, lower);
+    height += (below - depth) / corners;
+    for (int axis = 0; axis < z; ++axis)
+      component(normal, axis) -= ((n >> axis) & 1 ? 2.0 : -2.0) / corners * (side ? below : depth);
+  }
+  return {normal, height};
+}
 
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
@@ -48,6 +82,42 @@ bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int 
   return true;
 }
 
+/// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
+/// free.
+template <int D>
+bool thin(const Domain<D>& domain, int along) {
+  return domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size());
+}
+template <int D>
+bool ends_free(const Domain<D>& domain, int along) {
+  return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
+}
+
+/// The same of a bent row at an end of z: all velocities of the neighbours take part.
+template <int D>
+std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& at, int side, int row) {
+  const auto [normal, height] = end_of_rows(domain, at, side);
+  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+  const double mu = zs * zs / (zp * zp), outward = side ? -1 : 1,
+               factor = outward * height / dot(normal, normal);
+  std::vector<SurfaceTerm<D>> terms;
+  for (int along = 0; along < D - 1; ++along) {
+    if (thin(domain, along)) {
+      if (ends_free(domain, along)) return {};
+      continue;
+    }
+    for (int of = 0; of < D; ++of) {
+      std::array<RowVector<D, double>, std::size_t(D - 1)> one{};
+      component(one[std::size_t(along)], of) = 1;
+      auto bend = scaled(normal, factor, factor / mu, traction_of_motion_along<D>(normal, 1.0, mu, one));
+      const double share = component(bend, row);
+      if (share != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), share, terms))
+        return {};
+    }
+  }
+  return terms;
+}
+
 }  // namespace
 
 template <int D>
@@ -55,8 +125,9 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
                                           int row) {
   using Rows = FieldRows<D>;
   const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-  // Along rows that bend the plain mirror image is of second order, too.
-  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0 || domain.bent(at[D - 1])) return {};
+  const bool bent = domain.bent(at[D - 1]);
+  // On bent rows sides keep the plain mirror image.
+  if (domain.edges[axis][side] != EdgeLaw::free || zs == 0 || (bent && axis < D - 1)) return {};
   Index<D> before = at;
   for (std::int64_t n = 1; n < fewest_across; ++n) {
     Index<D> next = before;
@@ -65,15 +136,15 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
+  if (bent) return bent_slope(domain, at, side, row);
   const double height = domain.height(at[D - 1]);
   std::vector<SurfaceTerm<D>> terms;
   for (int along = 0; along < D; ++along) {
     if (along == axis) continue;
     // The first ghost lies a cell of this axis away, neighbours along the edge one of the other.
     const double outward = (side ? -1 : 1) * (axis == D - 1 ? height : along == D - 1 ? 1 / height : 1);
-    // A slice too thin for a difference has no slope, unless its own edges are free.
-    if (domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets.size())) {
-      if (domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free) return {};
+    if (thin(domain, along)) {
+      if (ends_free(domain, along)) return {};
       continue;
     }
     bool found = true;
@@ -111,8 +182,18 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       const auto place = [&](int material_row) {
         return material.cell(at) + material_row * material.row_pitch();
       };
+      const double height = axis == D - 1 ? domain.height(at[D - 1]) : 1;
       if (!terms.empty())
-        cells_.push_back({pair, number(at), place(row_b), place(impedance_row), begin, terms_.size()});
+        cells_.push_back({pair, number(at), place(row_b), place(impedance_row), Real(outward_ / height),
+                          begin, terms_.size()});
+      if (pair == 0 && !terms.empty() && domain.bent(at[D - 1])) {
+        const auto [normal, rows_height] = end_of_rows(domain, at, side);
+        BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
+        end.factor = Real(dot(normal, normal) * outward_ / rows_height);
+        end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
+        if constexpr (D == 3) end.normal.y = Real(normal.y);
+        bent_ends_.push_back(end);
+      }
       ++pair;
     };
     add(FieldRows<D>::velocity(axis), row_zp);
@@ -160,7 +241,33 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::
       slope += terms_[term].weight * fields[terms_[term].place];
     const Real z = material[cell->impedance], stiffness = z * z * material[cell->b];
     velocity_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = slope;
-    traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] = outward_ * stiffness * slope;
+    traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] =
+        cell->outward * stiffness * slope;
+  }
+  correct_bent_ends(state, first, last);
+}
+
+/// The traction that bends velocities as the corrections do, as stresses of the first ghost cells: with that
+/// of the last component along the rows as it is, T = s N.
+template <int D, class Real>
+void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::int64_t first,
+                                             std::int64_t last) {
+  auto end = std::lower_bound(bent_ends_.begin(), bent_ends_.end(), first,
+                              [](const BentEnd& one, std::int64_t number) { return one.number < number; });
+  const Real* const material = state.material.data();
+  for (; end != bent_ends_.end() && end->number < last; ++end) {
+    const auto n = std::size_t(end->number);
+    RowVector<D, Real> bend;
+    bend.z = velocity_corrections_[0][n], bend.x = velocity_corrections_[1][n];
+    if constexpr (D == 3) bend.y = velocity_corrections_[2][n];
+    const Real b = material[end->b], zp = material[end->zp], zs = material[end->zs];
+    const auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
+    traction_corrections_[0][n] = t.z - end->normal.x * t.x;
+    traction_corrections_[1][n] = t.x;
+    if constexpr (D == 3) {
+      traction_corrections_[0][n] -= end->normal.y * t.y;
+      traction_corrections_[2][n] = t.y;
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/kernels/bent_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 
@@ -19,7 +20,7 @@ struct SurfaceTerm {
 
 /// The correction of velocity at a free surface (side 0 low, 1 high of an axis) of a solid: the difference of
 /// the velocity `row` between cell j before the surface and its image beyond it, over 2 j + 1, as a sum of
-/// velocities of cells along the edge (theory.md (E12)). `at` is a cell of the edge. Empty where the image is
+/// velocities of cells along the edge (theory.md (E11)). `at` is a cell of the edge. Empty where the image is
 /// not corrected: in fluid and void, beside them, beside strong interfaces and free surfaces of another axis,
 /// and on grids of a few cells along the edge (in 3-D: along both axes of it).
 template <int D>
@@ -60,13 +61,23 @@ class FreeSurface {
   struct Cell {
     int pair;
     std::int64_t number, b, impedance;
+    Real outward;  // over the height of the row in cells
     std::size_t terms_begin, terms_end;
   };
+  /// A cell of a bent row: places of its material, N of the edge, and N.N over J, negative at a high side.
+  struct BentEnd {
+    std::int64_t number, b, zp, zs;
+    RowVector<D, Real> normal;
+    Real factor;
+  };
+  void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+
   int axis_ = 0, side_ = 0;
   Real outward_ = 1;
   std::int64_t padded_nx_ = 0;
   Index<D> shape_{};
-  std::vector<Cell> cells_;     // by number
+  std::vector<Cell> cells_;  // by number
+  std::vector<BentEnd> bent_ends_;
   std::vector<Term> terms_;     // places in the fields, at the edges of all axes but the last in retained_
   std::vector<Real> retained_;  // [number][velocity]
   std::array<std::vector<Real>, D> velocity_corrections_, traction_corrections_;

@@ -135,6 +135,8 @@ template <class Real>
 struct PairOfLine {
   const Real *v_, *s_, *j_;
   std::int64_t stride, j_stride;
+  PairCorrections<Real> corrections;
+  Real scale;
   Real v(std::int64_t offset) const { return v_[offset * stride]; }
   Real s(std::int64_t offset) const {
     return j_ ? j_[offset * j_stride] * s_[offset * stride] : s_[offset * stride];
@@ -161,6 +163,9 @@ void extend(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>&
   // The mirror image lies nearer to the cell with each fold, so this ends.
   const int mirrored = below ? -2 * stencil.low - 1 - offset : 2 * stencil.high + 1 - offset;
   extend(stencil, mirrored, pair, v_at, s_at);
+  const auto slot = below ? stencil.slot_low : stencil.slot_high;
+  const Real share =
+      law == Extension::interface ? Real(below ? stencil.share_low : stencil.share_high) : Real(0);
   if (law == Extension::traction_free) {
     s_at = -s_at;
   } else if (law == Extension::motionless) {
@@ -168,10 +173,14 @@ void extend(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>&
   } else {
     const std::int64_t across = below ? std::max(offset, -stencil.low - stencil.beyond_low)
                                       : std::min(offset, stencil.high + stencil.beyond_high);
-    const Real twice = 2 * Real(below ? stencil.share_low : stencil.share_high);
+    const Real twice = 2 * share;
     v_at += twice * (pair.v(across) - v_at);
     s_at += (2 - twice) * (pair.s(across) - s_at);
   }
+  if (slot < 0) return;
+  const int ghost = below ? -stencil.low - 1 - offset : offset - stencil.high - 1;
+  v_at += Real(2 * ghost + 1) * pair.corrections.v[slot];
+  s_at += (below ? 2 : -2) * (1 - share) * pair.scale * pair.corrections.s[slot];
 }
 
 template <int Order, class Real>
@@ -211,7 +220,8 @@ int reach_within(int interfaces, bool ends, int others, int reach) {
 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
-                                     int reach, const CorrectedAt<D>& corrected)
+                                     int reach, const CorrectedAt<D>& corrected,
+                                     const SlotBefore<D>& slot_before)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -233,9 +243,18 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
-        cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
-                          std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
-                          float(high.share), std::int8_t(reach_within(low, high, reach))});
+        const auto slot = [&](const Side& side, std::int64_t cells) {
+          Index<D> face = at;
+          face[std::size_t(axis)] += cells;
+          return side.inside && slot_before ? slot_before(face) : -1;
+        };
+        const auto slot_low = slot(low, -low.cells), slot_high = slot(high, high.cells + 1);
+        cells_.push_back(
+            {std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
+             std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share), float(high.share),
+             std::int8_t(std::min(reach_within(low, high, reach),
+                                  slot_low < 0 && slot_high < 0 ? reach : most_reach_at_contrasts)),
+             slot_low, slot_high});
       } else if (reach > most_reach_at_contrasts &&
                  ((low.at_edge() && corrected(at, 0)) || (high.at_edge() && corrected(at, 1)) ||
                   contrast(down, reach) || contrast(up, reach))) {
@@ -259,6 +278,7 @@ template <class Real>
 void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
                                      std::int64_t stride, const Real* v, const Real* s,
                                      const MaterialRows<Real>& material, Real scale, Real* up, Real* down,
+                                     const PairCorrections<Real>& corrections,
                                      const BentAlong<Real>* metric) const {
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = cells_.begin() + starts_[std::size_t(line)];
@@ -273,21 +293,25 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
       up[i] = down[i] = 0;
     else
       correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
-          *cell, {v + i, s + i, metric ? metric->j + i : nullptr, stride, metric ? metric->stride : 0},
+          *cell,
+          {v + i, s + i, metric ? metric->j + i : nullptr, stride, metric ? metric->stride : 0, corrections,
+           scale},
           impedance[i], material.b[i], scale, metric ? metric->j_lo[i] : 1, metric ? metric->j_hi[i] : 1,
           up[i], down[i]);
   }
 }
 
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
-                                              const CorrectedAt<2>&);
+                                              const CorrectedAt<2>&, const SlotBefore<2>&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
-                                              const CorrectedAt<3>&);
+                                              const CorrectedAt<3>&, const SlotBefore<3>&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
-                                              float*, float*, const BentAlong<float>*) const;
+                                              float*, float*, const PairCorrections<float>&,
+                                              const BentAlong<float>*) const;
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const double*, const double*, const MaterialRows<double>&,
-                                              double, double*, double*, const BentAlong<double>*) const;
+                                              double, double*, double*, const PairCorrections<double>&,
+                                              const BentAlong<double>*) const;
 
 }  // namespace slipwave::solver

@@ -57,12 +57,22 @@ struct InterfaceStencil {
   std::int8_t beyond_low, beyond_high;  // interface: cells beyond it that may be read
   float share_low, share_high;          // interface: Z of the other side over the sum of both
   std::int8_t reach;  // of the reconstruction used here, not_carried where the wave is not carried
+  std::int32_t slot_low = -1, slot_high = -1;  // of InterfaceCorrections, -1: none
 };
 constexpr std::int8_t not_carried = -1;
 
 /// Whether the free surface of this side (0 low, 1 high) is corrected in line with a cell (FreeSurface).
 template <int D>
 using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
+
+/// Slot of the corrections (InterfaceCorrections) at the face between a cell and the one before it, or -1.
+template <int D>
+using SlotBefore = std::function<std::int32_t(const Index<D>& at)>;
+/// By slot, of one pair: the correction of v over 2 j + 1, and the jump of s in a sweep over a whole step.
+template <class Real>
+struct PairCorrections {
+  const Real *v, *s;
+};
 
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
 /// these are corrected.
@@ -73,7 +83,7 @@ class InterfaceStencils {
   /// the grid's edges; cells the reconstruction reaches to each side.
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const CorrectedAt<D>& corrected);
+                    const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before);
 
   std::size_t size() const { return cells_.size(); }
   /// Whether it would correct anything of these columns.
@@ -85,9 +95,9 @@ class InterfaceStencils {
   template <class Real>
   void correct(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride, const Real* v,
                const Real* s, const MaterialRows<Real>& material, Real scale, Real* up, Real* down,
-               const BentAlong<Real>* metric = nullptr) const {
+               const PairCorrections<Real>& corrections, const BentAlong<Real>* metric = nullptr) const {
     if (starts_[std::size_t(line)] < starts_[std::size_t(line) + 1])
-      correct_line(order, line, columns, stride, v, s, material, scale, up, down, metric);
+      correct_line(order, line, columns, stride, v, s, material, scale, up, down, corrections, metric);
   }
 
  private:
@@ -95,7 +105,8 @@ class InterfaceStencils {
   template <class Real>
   void correct_line(int order, std::int64_t line, const IndexRange& columns, std::int64_t stride,
                     const Real* v, const Real* s, const MaterialRows<Real>& material, Real scale, Real* up,
-                    Real* down, const BentAlong<Real>* metric) const;
+                    Real* down, const PairCorrections<Real>& corrections,
+                    const BentAlong<Real>* metric) const;
   Wave wave_ = wave_p;
   std::vector<InterfaceStencil> cells_;  // by line, then x
   std::vector<std::int64_t> starts_;     // of each line in cells_, and the end

@@ -44,8 +44,19 @@ Metric<D, Real>::Metric(const Domain<D>& domain) : bent_(domain.bent_rows) {
   layout_ = Layout<D>(domain.grid.shape, rows);
   lines_a_row_ = layout_.lines() / domain.grid.shape[D - 1];
   values_ = Buffer<Real>(layout_.total());
+  find_fluid(domain);
   fill(domain);
   fill_ghosts(domain);
+}
+
+template <int D, class Real>
+void Metric<D, Real>::find_fluid(const Domain<D>& domain) {
+  const auto &z_p = domain.impedance(wave_p), &z_s = domain.impedance(wave_s);
+  const std::int64_t nx = layout_.shape()[0];
+  for (std::int64_t cell = 0; cell < domain.grid.size(); ++cell) {
+    if (cell % nx == 0) fluid_.push_back(0);
+    if (z_p[std::size_t(cell)] > 0 && z_s[std::size_t(cell)] == 0) fluid_.back() = 1;
+  }
 }
 
 template <int D, class Real>
@@ -61,13 +72,20 @@ void Metric<D, Real>::fill(const Domain<D>& domain) {
           ++next[axis];
           return next;
         };
-        put(at, row_j, (height_of_face(domain, at, 0) + height_of_face(domain, beyond(0), 0)) / 2);
+        const double j = (height_of_face(domain, at, 0) + height_of_face(domain, beyond(0), 0)) / 2;
+        double of_face = 1, of_cell = 1;  // |N| squared
         for (int axis = 0; axis < D - 1; ++axis) {
           const double upper = slope_of_face(domain, at, axis);
+          const double own = (upper + slope_of_face(domain, beyond(D - 1), axis)) / 2;
+          of_face += upper * upper, of_cell += own * own;
           put(at, row_face + axis, height_of_face(domain, at, axis));
           put(at, row_n_face + axis, -upper);
-          put(at, row_n_cell + axis, -(upper + slope_of_face(domain, beyond(D - 1), axis)) / 2);
+          put(at, row_n_cell + axis, -own);
         }
+        put(at, row_j, j);
+        put(at, row_over_j, 1 / j);
+        put(at, row_stretch, std::sqrt(of_cell) / j);
+        put(at, row_over_face, 1 / std::sqrt(of_face));
       }
     }
   });
@@ -100,27 +118,33 @@ void Metric<D, Real>::fill_ghosts_beyond(const Domain<D>& domain, const Index<D>
     from[axis] = side ? cells - 1 - image : image;
     ghost[axis] = side ? cells + j : -1 - j;
     for (int of = 0; of < rows; ++of)
-      *place(ghost, of) = (of >= row_n_face ? sign : Real(1)) * *place(from, of);
+      *place(ghost, of) = (of >= row_n_face && of < row_over_j ? sign : Real(1)) * *place(from, of);
   }
   if (!side) return;
   Index<D> beyond = at;
   ++beyond[axis];
   if (axis < D - 1) return put(beyond, row_face + axis, height_of_face(domain, beyond, axis));
-  for (int other = 0; other < D - 1; ++other)
-    put(beyond, row_n_face + other, -slope_of_face(domain, beyond, other));
+  double of_face = 1;
+  for (int other = 0; other < D - 1; ++other) {
+    const double slope = slope_of_face(domain, beyond, other);
+    of_face += slope * slope;
+    put(beyond, row_n_face + other, -slope);
+  }
+  put(beyond, row_over_face, 1 / std::sqrt(of_face));
 }
 
 template <int D, class Real>
 BentAlong<Real> Metric<D, Real>::along(int axis, const Index<D>& line, std::int64_t x) const {
   const Real* const face = row(line, row_face + axis) + x;
   const std::int64_t stride = layout_.stride(axis);
-  return {row(line, row_j) + x, face, face + stride, stride};
+  return {row(line, row_j) + x, face, face + stride, stride, row(line, row_over_j) + x};
 }
 
 template <int D, class Real>
 BentAcross<Real> Metric<D, Real>::across(const Index<D>& line, std::int64_t x) const {
-  return {row(line, row_j) + x, row(line, row_n_cell) + x, row(line, row_n_face) + x, layout_.row_pitch(),
-          layout_.stride(D - 1)};
+  return {row(line, row_j) + x,      row(line, row_n_cell) + x,   row(line, row_n_face) + x,
+          layout_.row_pitch(),       layout_.stride(D - 1),       row(line, row_stretch) + x,
+          row(line, row_over_j) + x, row(line, row_over_face) + x};
 }
 
 template <int D, class Real>

@@ -27,18 +27,31 @@ class Metric {
     return inverse_heights_.empty() ? Real(1) : inverse_heights_[std::size_t(row)];
   }
 
+  /// Whether there are fluid cells on either side of the face before a line, across the rows.
+  bool fluid_at_face(std::int64_t line) const { return fluid(line) || fluid(line - lines_a_row_); }
   /// Of a bent row, from a cell on.
   BentAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
   BentAcross<Real> across(const Index<D>& line, std::int64_t x) const;
+  /// All rows of the metric of a line.
+  static constexpr int rows_of_line = 3 * D + 1;
+  const Real* first_row(const Index<D>& line) const { return row(line, 0); }
+  std::int64_t row_pitch() const { return layout_.row_pitch(); }
   /// J of a cell.
   Real volume(const Index<D>& at) const;
 
  private:
-  // Rows of a line: J, J of the face before the cell along each horizontal axis, N of the upper face, N.
-  static constexpr int row_j = 0, row_face = 1, row_n_face = D, row_n_cell = 2 * D - 1, rows = 3 * D - 2;
+  // Rows of a line: J, J of the face before the cell along each horizontal axis, N of the upper face, N; then
+  // 1/J, |N|/J, 1/|N| of the upper face.
+  static constexpr int row_j = 0, row_face = 1, row_n_face = D, row_n_cell = 2 * D - 1,
+                       row_over_j = 3 * D - 2, row_stretch = row_over_j + 1, row_over_face = row_stretch + 1,
+                       rows = row_over_face + 1;
   const Real* row(const Index<D>& line, int of) const {
     return values_.data() + layout_.line(line) + of * layout_.row_pitch();
   }
+  bool fluid(std::int64_t line) const {
+    return line >= 0 && line < std::int64_t(fluid_.size()) && fluid_[std::size_t(line)];
+  }
+  void find_fluid(const Domain<D>& domain);
   void fill(const Domain<D>& domain);
   void fill_ghosts(const Domain<D>& domain);
   void fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side);
@@ -50,6 +63,7 @@ class Metric {
   std::int64_t lines_a_row_ = 1;
   std::vector<char> bent_;             // by row
   std::vector<Real> inverse_heights_;  // by row
+  std::vector<char> fluid_;            // by line: whether it holds fluid cells
   Layout<D> layout_;
   Buffer<Real> values_;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
@@ -35,23 +37,20 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   return velocity == motionless ? Beyond::odd : Beyond::even;
 }
 
-/// The largest box of cells of one kind round a cell, within reach of a stencil, grown one layer at
-/// a time on each side.
-template <int D>
-std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
-  const auto kind = [&](const Index<D>& at) {
-    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
-  };
+/// The largest box round a cell of cells that are `alike(cell)`, grown one layer at a time on each side, by
+/// `rings` at most and, where `longest` is given, until it is that long.
+template <int D, class Alike>
+std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings,
+                                   std::int64_t longest, Alike&& alike) {
   std::array<AxisCells, D> box;
   for (std::size_t axis = 0; axis < D; ++axis) box[axis].low = box[axis].high = centre[axis];
-  const int wanted = kind(centre);
   const auto layer_fits = [&](std::size_t axis, std::int64_t layer) {
     if (layer < 0 || layer >= domain.grid.shape[axis]) return false;
     Index<D> at;
     for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
     at[axis] = layer;
     for (;;) {
-      if (kind(at) != wanted) return false;
+      if (!alike(at)) return false;
       std::size_t other = 0;
       for (; other < D; ++other) {
         if (other == axis) continue;
@@ -61,11 +60,52 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
       if (other == D) return true;
     }
   };
-  for (int ring = 0; ring < widest_stencil; ++ring)
+  for (int ring = 0; ring < rings; ++ring)
     for (std::size_t axis = 0; axis < D; ++axis) {
-      if (box[axis].low == centre[axis] - ring && layer_fits(axis, box[axis].low - 1)) --box[axis].low;
-      if (box[axis].high == centre[axis] + ring && layer_fits(axis, box[axis].high + 1)) ++box[axis].high;
+      auto& cells = box[axis];
+      if (cells.high - cells.low + 1 >= longest) continue;
+      if (cells.low == centre[axis] - ring && layer_fits(axis, cells.low - 1)) --cells.low;
+      if (cells.high == centre[axis] + ring && layer_fits(axis, cells.high + 1)) ++cells.high;
     }
+  return box;
+}
+
+/// Cells of one kind (solid or fluid) round a cell, within reach of a stencil.
+template <int D>
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
+  const auto kind = [&](const Index<D>& at) {
+    return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
+  };
+  const int wanted = kind(centre);
+  return box_round(domain, centre, widest_stencil, std::numeric_limits<std::int64_t>::max(),
+                   [&](const Index<D>& at) { return kind(at) == wanted; });
+}
+
+/// Impedances that differ by less than this factor are those of one rock.
+constexpr double one_rock = 1.05;
+
+/// Cells of the rock round a cell over which a source can be spread smoothly; nothing where there are too
+/// few. Beyond a plane of symmetry lies the image of the source.
+template <int D>
+std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domain, const Index<D>& centre,
+                                                          int field_row) {
+  const auto alike = [&](const Index<D>& at) {
+    for (const Wave wave : {wave_p, wave_s}) {
+      const double one = domain.impedance(wave)(centre), other = domain.impedance(wave)(at);
+      if (other > one_rock * one || one > one_rock * other) return false;
+    }
+    return true;
+  };
+  auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    auto& cells = box[axis];
+    if (cells.low == 0 && domain.edges[int(axis)][0] == EdgeLaw::mirror)
+      cells.below = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
+    if (cells.high == domain.grid.shape[axis] - 1 && domain.edges[int(axis)][1] == EdgeLaw::mirror)
+      cells.above = beyond_edge<D>(EdgeLaw::mirror, int(axis), field_row, false);
+    const int images = (cells.below != Beyond::unknown) + (cells.above != Beyond::unknown);
+    if (images < 2 && (cells.high - cells.low + 1) * (1 + images) < narrowest_spread) return {};
+  }
   return box;
 }
 
@@ -73,29 +113,46 @@ std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& c
 constexpr int half_a_stencil = widest_stencil / 2;
 constexpr double centred_from = half_a_stencil - 1;
 
+/// Whether an edge across z makes even or odd what is along and across it, but not what is along x and z: on
+/// bent rows the stresses of a solid and the velocity of a fluid.
+template <int D>
+bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row, bool fluid) {
+  if (!domain.bent(centre[D - 1])) return false;
+  return law == EdgeLaw::mirror || (law == EdgeLaw::free && (row < D) == fluid);
+}
+
 /// The cells round a point and the extension of the field beyond those at an edge of the grid.
 template <int D>
 std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
                                                      int field_row, bool fluid) {
   auto usable = usable_cells(domain, centre);
   for (std::size_t axis = 0; axis < D; ++axis) {
-    if (usable[axis].low == 0)
-      usable[axis].below = beyond_edge<D>(domain.edges[int(axis)][0], int(axis), field_row, fluid);
-    if (usable[axis].high == domain.grid.shape[axis] - 1)
-      usable[axis].above = beyond_edge<D>(domain.edges[int(axis)][1], int(axis), field_row, fluid);
+    const auto beyond = [&](int side) {
+      const EdgeLaw law = domain.edges[int(axis)][side];
+      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
+      return beyond_edge<D>(law, int(axis), field_row, fluid);
+    };
+    if (usable[axis].low == 0) usable[axis].below = beyond(0);
+    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
   }
   return usable;
+}
+
+template <int D>
+std::vector<ValueWeight> value_weights(const Layout<D>& layout, const std::vector<PointWeight<D>>& points,
+                                       int field_row) {
+  std::vector<ValueWeight> weights;
+  for (const auto& point : points)
+    weights.push_back(
+        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+  return weights;
 }
 
 template <int D>
 std::vector<ValueWeight> weights_within(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m,
                                         const std::array<AxisCells, std::size_t(D)>& usable, int field_row) {
-  std::vector<ValueWeight> weights;
-  for (const auto& point : point_weights<D>(domain.grid, point_m, usable))
-    weights.push_back(
-        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
-  return weights;
+  return value_weights(layout, point_weights<D>(domain.grid, point_m, usable), field_row);
 }
 
 /// The correction of velocity of the images beyond a free surface of a solid, as weights.
@@ -176,6 +233,17 @@ std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>
 }
 
 template <int D>
+std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                               const Point<D>& point_m, int field_row) {
+  const Index<D> centre = cell_at(domain, point_m);
+  if (domain.impedance(wave_s)(centre) == 0) return {};
+  const auto usable = cells_of_the_rock(domain, centre, field_row);
+  if (!usable) return {};
+  const Point<D> place = domain.model_grid.row_coordinates(point_m);
+  return value_weights(layout, spread_point_weights<D>(domain.grid, place, *usable), field_row);
+}
+
+template <int D>
 int row_of(const WaveField& field) {
   using Rows = FieldRows<D>;
   const auto axis = [](int of_3d) { return std::min(of_3d, D - 1); };  // 2-D: x and z
@@ -200,12 +268,16 @@ std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain
 template Index<2> cell_at(const Domain<2>&, const Point<2>&);
 template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
+                                                        int);
 template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                     Component);
 template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
+                                                        int);
 template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
                                                     Component);
 template int row_of<3>(const WaveField&);

@@ -30,6 +30,12 @@ template <int D>
 std::vector<ValueWeight> source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                         const Point<D>& point_m, int field_row);
 
+/// The same for a normal stress in a solid, smoothly spread over cells of the rock that the source is in
+/// (theory.md (A8)). Empty in fluid, and where that rock is too thin.
+template <int D>
+std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                               const Point<D>& point_m, int field_row);
+
 /// The same for a component of a gather: the mean of its terms (gather/component.hpp).
 template <int D>
 std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,

@@ -13,6 +13,10 @@ namespace {
 /// Columns swept together across: their data stays in the first cache.
 constexpr std::int64_t stripe_width = 256;
 
+/// Halves of rows to prefetch after the reconstruction and after the update of a bent row: with those of its
+/// metric there are twice as many.
+constexpr int prefetched_by_bent = 3;
+
 }  // namespace
 
 template <int D, class Real>
@@ -25,7 +29,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
       shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
       metric_(domain),
-      bent_stencils_(domain, reach_) {
+      corrections_(state, domain, metric_),
+      bent_stencils_(domain, reach_, corrections_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -37,12 +42,14 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
       const auto wave = Wave(n % 2);
+      SlotBefore<D> slot_before;
+      if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
       const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
       stencils_[axis][wave] =
-          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected);
+          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected, slot_before);
     }
   });
 }
@@ -111,7 +118,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                                       OutgoingWaves<Real> outgoing, PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
   if (metric_.bent(number))
-    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing);
+    return reconstruct_bent_row(axis, line, columns, fields, pitch, stride, scale, outgoing, prefetch);
   scale = scale_of(axis, line, scale);
   const std::int64_t nx = state_.layout.shape()[0];
   // The padding of the last block of a row has no material: with it a piece would never be uniform.
@@ -134,7 +141,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(
         order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down);
+        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down,
+        corrections_of(axis, p));
     prefetch.prefetch_one();
   }
 }
@@ -142,40 +150,64 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
 template <int D, class Real>
 void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns,
                                            const Real* fields, std::int64_t pitch, std::int64_t stride,
-                                           Real scale, OutgoingWaves<Real> outgoing) const {
+                                           Real scale, OutgoingWaves<Real> outgoing,
+                                           PrefetchQueue<Real>& prefetch) const {
   const auto number = state_.layout.line_number(line);
+  prefetch.prefetch(prefetched_by_bent);
   const auto material = state_.material_from(line, columns.first);
   if (axis == z_axis) {
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
-    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, outgoing);
+    bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
   const auto metric = metric_.along(axis, line, columns.first);
+  BentPairs<Real> pairs{};
   for (int p = 0; p < D; ++p) {
-    const Pair& pair = pairs_[axis][p];
-    const Real* const v = fields + pair.v * pitch + columns.first;
-    const Real* const s = fields + pair.s * pitch + columns.first;
-    bent_kernels().reconstruct_along(columns.count(), stride, v, s,
-                                     pair.wave == wave_p ? material.zp : material.zs, material.b, scale,
-                                     metric, outgoing.up(p), outgoing.down(p));
-    stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, outgoing.up(p),
-                                       outgoing.down(p), &metric);
+    pairs.v[p] = fields + pairs_[axis][p].v * pitch + columns.first;
+    pairs.s[p] = fields + pairs_[axis][p].s * pitch + columns.first;
   }
+  bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
+  for (int p = 0; p < D; ++p)
+    stencils_[axis][pairs_[axis][p].wave].correct(order_, number, columns, stride, pairs.v[p], pairs.s[p],
+                                                  material, scale, outgoing.up(p), outgoing.down(p),
+                                                  corrections_of(axis, p), &metric);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::solve_bent(const Index<D>& above_face, const Index<D>& below_face,
-                                 const IndexRange& columns, Real scale, OutgoingWaves<Real> up,
-                                 OutgoingWaves<Real> down, InterfaceStates<Real> faces) const {
+BentSolve<Real> Sweeps<D, Real>::bent_face(const Index<D>& at, std::int64_t row, std::int64_t x,
+                                           Ring<Real>& ring) const {
+  Index<D> lo = at, hi = at;
+  lo[z_axis] = row - 1, hi[z_axis] = row;
   const auto fields = [&](const Index<D>& line) {
-    return BentFields<const Real>{state_.field_row(line, 0) + columns.first, state_.layout.row_pitch(), 0};
+    return BentFields<const Real>{state_.field_row(line, 0) + x, state_.layout.row_pitch(), 0};
   };
-  bent_kernels().solve_across(
-      columns.count(), scale < 0 ? -1 : 1, up, down, state_.material_from(above_face, columns.first),
-      state_.material_from(below_face, columns.first), fields(above_face), fields(below_face),
-      metric_.across(below_face, columns.first), faces, faces.v(D), faces.pitch);
+  const auto faces = ring.faces(row, x);
+  return {ring.outgoing(row - 1, x),
+          ring.outgoing(row, x),
+          state_.material_from(lo, x),
+          state_.material_from(hi, x),
+          fields(lo),
+          fields(hi),
+          metric_.across(hi, x),
+          faces,
+          faces.v(D),
+          faces.pitch};
+}
+
+template <int D, class Real>
+BentUpdate<Real> Sweeps<D, Real>::bent_update(const Index<D>& line, std::int64_t x, Real* fields,
+                                              std::int64_t pitch, InterfaceStates<Real> lo,
+                                              InterfaceStates<Real> hi) const {
+  const bool fluid = metric_.fluid_at_face(state_.layout.line_number(line));
+  return {lo,
+          hi,
+          lo.v(fluid ? D : 0),
+          fluid ? lo.pitch : 2 * lo.pitch,
+          state_.material_from(line, x),
+          metric_.across(line, x),
+          {fields + x, pitch, 0}};
 }
 
 template <int D, class Real>
@@ -189,14 +221,13 @@ template <int D, class Real>
 void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                                   std::int64_t pitch, Real scale, const Flux& flux,
                                   const SweptRows<Real>& rows) const {
-  const auto material = state_.material_from(line, columns.first);
   if (axis == z_axis)
-    bent_kernels().update_across(columns.count(), scale, flux.lo, flux.lo.v(D), flux.lo.pitch, flux.hi,
-                                 material, metric_.across(line, columns.first),
-                                 {fields + columns.first, pitch, 0});
+    bent_kernels().update_across(columns.count(), scale,
+                                 bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi));
   else
-    bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi, material,
-                                metric_.along(axis, line, columns.first).j, rows);
+    bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
+                                state_.material_from(line, columns.first),
+                                metric_.along(axis, line, columns.first).over_j, rows);
 }
 
 /// Advances these columns.
@@ -238,9 +269,10 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
         .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
                 run ? run->rows() : state_.material_from(line, part.first), swept(part.first));
   };
-  if (metric_.bent(number))
+  if (metric_.bent(number)) {
     update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
-  else
+    work.prefetch().prefetch(prefetched_by_bent);
+  } else
     split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                   between_faces);
   work.prefetch().prefetch_one();
@@ -281,6 +313,7 @@ void Sweeps<D, Real>::along(int axis, Real scale) {
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
   for (const int side : {0, 1})
     free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
+  if (axis == z_axis) corrections_.update_all(state_);
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -317,6 +350,9 @@ void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& column
   if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
                  state_.material_layout.row_pitch(), material_rows);
+  if (metric_.bent(line))
+    prefetch.add(metric_.first_row(at) + columns.first, columns.count(), metric_.row_pitch(),
+                 metric_.rows_of_line);
 }
 
 /// At the low edge the wave upwards follows from the one downwards, at the high edge the other way round.
@@ -413,6 +449,37 @@ RowFields<Real> Sweeps<D, Real>::ahead_along_x(std::int64_t line, const IndexRan
   return copy;
 }
 
+/// The interface states of the faces before these cells of a row, to which `outgoing` and `faces` point.
+template <int D, class Real>
+void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bool begins, bool ends,
+                                  OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const {
+  const Index<D> at = state_.layout.line_index(line);
+  const auto solve = [&](const IndexRange& part) {
+    const auto from = part.first - cells.first;
+    const auto here = outgoing.at(from);
+    const auto material = state_.material_from(at, part.first - 1);
+    if (metric_.bent(line))
+      return bent_kernels().solve_along(part.count(), here.at(-1), here, material,
+                                        state_.material_from(at, part.first),
+                                        metric_.along(0, at, part.first).j_lo, faces.at(from));
+    const auto* run = state_.uniform_run(line, part.first - 1, part.last);
+    const auto lo = run ? run->rows() : material;
+    face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
+                                    run ? lo : state_.material_from(at, part.first), faces.at(from));
+  };
+  if (metric_.bent(line)) return solve(cells);
+  // The faces at the ends of a row have other material on one side.
+  const std::int64_t nx = state_.layout.shape()[0];
+  const std::int64_t inner_first = begins ? std::min(lag, cells.last) : cells.first;
+  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : cells.last;
+  const auto uniform_interior = state_.uniform_interior[0].of(line);
+  for (const IndexRange& part : {IndexRange{cells.first, inner_first}, IndexRange{inner_first, inner_last},
+                                 IndexRange{inner_last, cells.last}})
+    // The first face of a run is that of the cell before it, too.
+    split_by_runs(
+        uniform_interior, 1, part, [](const IndexRange&) {}, solve);
+}
+
 /// The outgoing waves of the cell before the first reconstructed one are already in place.
 template <int D, class Real>
 void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real>& work) {
@@ -434,31 +501,8 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
         std::fill(zero, zero + with_faces.last - nx, Real(0));
     enter_grid(0, 1, 1, beyond.at(-1), beyond);
   }
-  // The faces at the ends of a row have other material on one side.
-  const std::int64_t inner_first = begins ? std::min(lag, with_faces.last) : with_faces.first;
-  const std::int64_t inner_last = ends ? std::max(inner_first, (nx - 1) / lag * lag) : with_faces.last;
   const auto faces = work.faces();
-  const auto solve = [&](const IndexRange& part) {
-    const auto here = first.at(part.first - piece.reconstructed.first);
-    if (metric_.bent(piece.line)) {
-      bent_kernels().solve_along(part.count(), here.at(-1), here, state_.material_from(at, part.first - 1),
-                                 state_.material_from(at, part.first), metric_.along(0, at, part.first).j_lo,
-                                 faces.at(part.first - base));
-      return;
-    }
-    const auto* run = state_.uniform_run(piece.line, part.first - 1, part.last);
-    const auto lo = run ? run->rows() : state_.material_from(at, part.first - 1);
-    face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
-                                    run ? lo : state_.material_from(at, part.first),
-                                    faces.at(part.first - base));
-  };
-  const auto uniform_interior = state_.uniform_interior[0].of(piece.line);
-  for (const IndexRange& part :
-       {IndexRange{with_faces.first, inner_first}, IndexRange{inner_first, inner_last},
-        IndexRange{inner_last, with_faces.last}})
-    // The first face of a run is that of the cell before it, too.
-    split_by_runs(
-        uniform_interior, 1, part, [](const IndexRange&) {}, solve);
+  solve_along(piece.line, with_faces, begins, ends, first, faces.at(with_faces.first - base));
   work.prefetch().prefetch_one();
   const auto here = work.outgoing().at(piece.update.first - base);
   const auto lo = faces.at(piece.update.first - base);
@@ -479,7 +523,9 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   const auto faces = ring.faces(row, x);
   const auto material_lo = state_.material_from(line_lo, x), material_hi = state_.material_from(line_hi, x);
   if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
-    if (axis == z_axis) return solve_bent(line_lo, line_hi, columns, scale, up, down, faces);
+    if (axis == z_axis)
+      return bent_kernels().solve_across[metric_.fluid_at_face(layout.line_number(line_hi))](
+          columns.count(), scale < 0 ? -1 : 1, bent_face(at, row, x, ring));
     bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
                                metric_.along(axis, line_hi, x).j_lo, faces);
     return;
@@ -515,6 +561,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
+    if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
                                 : std::span<const IndexRange>();
@@ -537,6 +584,34 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
            {ring.faces(done, x), ring.faces(done + 1, x), ring.outgoing(done - 1, x), ring.outgoing(done, x),
             ring.outgoing(done + 1, x)},
            work, true);
+}
+
+template <int D, class Real>
+bool Sweeps<D, Real>::filters(int axis, const Index<D>& line, const IndexRange& columns) const {
+  return std::any_of(filters_.begin(), filters_.end(), [&](const auto* filter) {
+    const auto parts = filter->filtered(axis, line, columns);
+    return std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part.empty(); });
+  });
+}
+
+/// The solution at the face before a row and the update of the row `reach` before, in one loop. Returns
+/// false, and does nothing, where other work is needed between them.
+template <int D, class Real>
+bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                   Real scale, Ring<Real>& ring, Workspace<Real>& work) {
+  const std::int64_t rows = state_.layout.shape()[axis], done = row - reach_, x = columns.first;
+  // The update of the row just before would read what the solution writes.
+  if (axis != z_axis || reach_ < 2 || done < 0 || !metric_.bent_row(done)) return false;
+  if (!metric_.bent_row(row - 1) && (row == rows || !metric_.bent_row(row))) return false;
+  Index<D> here = at, advanced = at;
+  here[axis] = row, advanced[axis] = done;
+  if (filters(axis, advanced, columns)) return false;
+  bent_kernels().advance_across[metric_.fluid_at_face(state_.layout.line_number(here))](
+      columns.count(), scale, bent_face(at, row, x, ring),
+      bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(), ring.faces(done, x),
+                  ring.faces(done + 1, x)));
+  work.prefetch().prefetch(prefetched_by_bent + 2);
+  return true;
 }
 
 template <int D, class Real>
@@ -575,9 +650,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
       if (run.first < columns.last && run.last > columns.first) return false;
   for (const auto& stencils : stencils_[axis])
     if (stencils.any(number, columns)) return false;
-  for (const auto* filter : filters_)
-    for (const auto& part : filter->filtered(axis, advanced, columns))
-      if (!part.empty()) return false;
+  if (filters(axis, advanced, columns)) return false;
   const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
   const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
@@ -652,6 +725,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   };
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
+  corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

@@ -8,6 +8,7 @@
 #include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
@@ -68,10 +69,11 @@ class Sweeps {
   /// For a sweep along that axis of columns from `first` on, once the material is filled in.
   Ring<Real> make_ring(int axis, std::int64_t first, std::int64_t width) const;
 
-  /// Whether free surfaces of an axis are corrected: sweeps along it then need the velocities there of
-  /// free_surface_reach cells on all sides as they were before the sweep.
+  /// Whether free surfaces or interfaces of an axis are corrected: sweeps along it then need the velocities
+  /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
-    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty();
+    return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
+           (axis == z_axis && !corrections_.empty());
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -117,12 +119,17 @@ class Sweeps {
                        PrefetchQueue<Real>& prefetch) const;
   /// The same of a bent row of a fitted grid.
   void reconstruct_bent_row(int axis, const Index<D>& line, const IndexRange& columns, const Real* fields,
-                            std::int64_t pitch, std::int64_t stride, Real scale,
-                            OutgoingWaves<Real> outgoing) const;
-  /// The interface states of a face across the rows that is bent, or before or behind a bent row.
-  void solve_bent(const Index<D>& above_face, const Index<D>& below_face, const IndexRange& columns,
-                  Real scale, OutgoingWaves<Real> up, OutgoingWaves<Real> down,
-                  InterfaceStates<Real> faces) const;
+                            std::int64_t pitch, std::int64_t stride, Real scale, OutgoingWaves<Real> outgoing,
+                            PrefetchQueue<Real>& prefetch) const;
+  /// Of the face before a row, across the rows, that is bent, or before or behind a bent row.
+  BentSolve<Real> bent_face(const Index<D>& at, std::int64_t row, std::int64_t x, Ring<Real>& ring) const;
+  /// Of a bent row in a sweep across the rows.
+  BentUpdate<Real> bent_update(const Index<D>& line, std::int64_t x, Real* fields, std::int64_t pitch,
+                               InterfaceStates<Real> lo, InterfaceStates<Real> hi) const;
+  bool advance_bent(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
+                    Ring<Real>& ring, Workspace<Real>& work);
+  /// Whether an effect filters the update of any of these columns.
+  bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
   const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     return kernels_[uniform]->face[D - 2][shear_];
@@ -143,6 +150,8 @@ class Sweeps {
   Real scale_of(int axis, const Index<D>& line, Real scale) const {
     return axis == z_axis ? scale * metric_.inverse_height(line[z_axis]) : scale;
   }
+  void solve_along(std::int64_t line, const IndexRange& cells, bool begins, bool ends,
+                   OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
@@ -165,6 +174,12 @@ class Sweeps {
   bool shear_;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
+  InterfaceCorrections<D, Real> corrections_;
+  /// Those of a pair of the sweep along an axis.
+  PairCorrections<Real> corrections_of(int axis, int pair) const {
+    if (axis != z_axis) return {nullptr, nullptr};
+    return {corrections_.velocity(pair), corrections_.traction(pair)};
+  }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed>, D> changed_;                   // [axis]

@@ -63,6 +63,9 @@ class PrefetchQueue {
     for (int row = 0; row < count; ++row)
       for (const std::int64_t from : {std::int64_t(0), half_}) halves_[left_++] = first + row * pitch + from;
   }
+  void prefetch(int halves) {
+    for (int n = 0; n < halves; ++n) prefetch_one();
+  }
   void prefetch_one() {
     if (left_ == 0) return;
     const Real* const half = halves_[--left_];
@@ -70,7 +73,7 @@ class PrefetchQueue {
   }
 
  private:
-  static constexpr int most = 16;  // of eight rows, fields and material
+  static constexpr int most = 32;  // of eight rows, fields and material, and of seven of the metric
   const Real* halves_[most] = {};
   int left_ = 0;
   std::int64_t half_ = 0;

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace slipwave {
+
+/// A table that people or their programs wrote: CSV (RFC 4180) with a header line that names the columns in
+/// any order, or columns between blanks, with or without a header. # begins a comment line; empty lines are
+/// passed over. Rows are read one after the other.
+class Table {
+ public:
+  /// A file or, of tests, a text under a name. Throws Error naming the file, the line and the column.
+  explicit Table(const std::string& path);
+  Table(std::string name, std::string text);
+
+  /// "shots.csv".
+  const std::string& name() const { return name_; }
+  /// Names of the columns; empty where there is no header.
+  const std::vector<std::string>& columns() const { return columns_; }
+  /// Values of the first row: the number of columns where there is no header.
+  std::size_t width() const { return width_; }
+  /// Where a column is; none where the table has no such column.
+  std::optional<std::size_t> find(std::string_view column) const;
+  /// Refuses columns that are not among these: a misspelt name must not be passed over.
+  void expect_columns(const std::vector<std::string>& known) const;
+  /// Names the columns of a table without header.
+  void name_columns(const std::vector<std::string>& names);
+
+  /// The next row; false after the last one. Throws Error where it has not as many values as the header.
+  bool next();
+  std::int64_t line() const { return line_; }
+  /// "shots.csv: line 3".
+  std::string place() const;
+  /// A value of the row; "" where it is left out.
+  std::string_view text(std::size_t column) const { return values_[column]; }
+  bool has(std::optional<std::size_t> column) const { return column && !values_[*column].empty(); }
+  /// Throws Error "shots.csv: line 3: column x: found 'abc', expected a number".
+  double number(std::size_t column) const;
+  std::int64_t integer(std::size_t column) const;
+  /// Throws Error with the place of a value in front.
+  [[noreturn]] void refuse(std::size_t column, const std::string& sentence) const;
+
+ private:
+  void begin();
+  bool next_values();
+  bool split(std::string_view line);
+  std::string column_name(std::size_t column) const;
+
+  std::string name_, text_;
+  std::string_view rest_;
+  bool commas_ = false;
+  std::int64_t line_ = 0;
+  std::size_t width_ = 0;
+  bool first_is_row_ = false;
+  std::vector<std::string> columns_;
+  std::vector<std::string_view> values_;
+  std::vector<std::string> unquoted_;
+};
+
+}  // namespace slipwave

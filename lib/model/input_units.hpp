@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/property.hpp"
+
+namespace slipwave {
+
+/// What numbers that name no unit are in: typed ones, raw files, SEG-Y. SI unless said.
+class InputUnits {
+ public:
+  InputUnits() = default;
+  /// "km/s", "g/cm3", "km/s,g/cm3", "ft/s": a unit for all properties that can have it. Throws a usage Error
+  /// on one that no property has.
+  static InputUnits parse(const std::string& list);
+  /// What one of it is in SI.
+  double factor(Property property) const;
+
+ private:
+  std::vector<std::string> names_;
+};
+
+}  // namespace slipwave

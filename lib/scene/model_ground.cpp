@@ -1,0 +1,22 @@
+#include "scene/model_ground.hpp"
+
+namespace slipwave {
+
+template <int D>
+bool see(Ground<D>& ground, const Medium<D>& medium) {
+  const auto& grid = medium.grid();
+  const std::int64_t before = grid.first[D - 1];
+  const auto matter = [&](Index<D> at) {
+    at[D - 1] -= before;
+    const auto cell = std::size_t(grid.flat(at));
+    return medium.is_void(cell) ? Matter::nothing : medium.is_fluid(cell) ? Matter::fluid : Matter::rock;
+  };
+  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row)
+    if (ground.see_row(before + row, matter)) return true;
+  return false;
+}
+
+template bool see(Ground<2>&, const Medium<2>&);
+template bool see(Ground<3>&, const Medium<3>&);
+
+}  // namespace slipwave

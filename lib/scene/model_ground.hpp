@@ -1,0 +1,16 @@
+#pragma once
+
+#include "acquisition/ground.hpp"
+#include "model/medium.hpp"
+
+namespace slipwave {
+
+/// Looks at the rows of a medium, which are some or all of those of the ground's model, from the top down
+/// until all columns are known; returns whether they are.
+template <int D>
+bool see(Ground<D>& ground, const Medium<D>& medium);
+
+extern template bool see(Ground<2>&, const Medium<2>&);
+extern template bool see(Ground<3>&, const Medium<3>&);
+
+}  // namespace slipwave

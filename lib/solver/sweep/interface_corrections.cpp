@@ -1,0 +1,245 @@
+#include "solver/sweep/interface_corrections.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/edges.hpp"
+#include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/motion_along.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// As along free surfaces (free_surface.cpp).
+constexpr std::array<int, 4> offsets = {-2, -1, 1, 2};
+constexpr std::array<double, 4> difference_weights = {-0.125, -0.25, 0.25, 0.125};
+/// Of what half a sweep along the interface of fluid and solid leaves on it, the share that is taken out:
+/// with one half waves bound to it keep their speed best (theory.md (E11a)). At free surfaces it is all.
+constexpr double traction_share = 0.5;
+/// Ratio of P impedances from which a fluid is too light to hold a wave at the interface: over gas the energy
+/// of thousands of steps would rise by a few millionths of what is left.
+constexpr double gas_ratio = 100;
+/// Cells of one medium needed on either side: no stencil may reach another extension as well.
+constexpr auto fewest_across = std::int64_t(2) * max_reach;
+/// Cells of the interface needed to both sides along each axis: a shorter one holds no wave.
+constexpr int fewest_along = 8;
+
+template <int D>
+bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const double a = domain.impedance(wave)(one), b = domain.impedance(wave)(other);
+    if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
+  }
+  return true;
+}
+
+/// Whether a slice is too thin for a difference along this axis: it then has no slope (free_surface.cpp).
+template <int D>
+bool thin(const Domain<D>& domain, int axis) {
+  return domain.grid.shape[std::size_t(axis)] <= std::int64_t(offsets.size());
+}
+
+/// Whether enough cells like this one lie behind it along z (`step` 1 or -1) and beside it.
+template <int D>
+bool extends_far(const Domain<D>& domain, const Index<D>& from, int step) {
+  constexpr int z = D - 1;
+  Index<D> at = from;
+  const bool is_void = domain.impedance(wave_p)(from) == 0;
+  for (std::int64_t n = 1; n < fewest_across && !is_void; ++n) {
+    Index<D> next = at;
+    next[z] += step;
+    if (next[z] < 0 || next[z] >= domain.grid.shape[z] || !alike(domain, at, next)) return false;
+    at = next;
+  }
+  for (int axis = 0; axis < z; ++axis) {
+    const std::int64_t last = domain.grid.shape[std::size_t(axis)] - 1;
+    if (thin(domain, axis)) {
+      for (const int side : {0, 1})
+        if (domain.edges[axis][side] == EdgeLaw::free) return false;
+      continue;
+    }
+    const auto place = from[std::size_t(axis)];
+    if (place + offsets.front() < 0 || place + offsets.back() > last) return false;
+    for (auto n = std::max<std::int64_t>(0, place - fewest_along); n <= std::min(last, place + fewest_along);
+         ++n) {
+      Index<D> beside = from;
+      beside[std::size_t(axis)] = n;
+      if (!alike(domain, from, beside)) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether the face before a row bends.
+template <int D>
+bool bent_face(const Domain<D>& domain, std::int64_t row) {
+  return domain.bent(row - 1) || domain.bent(row);
+}
+
+/// Whether the faces before a row (in 3-D plane) part fluid from solid along all of it.
+template <int D>
+bool spans_grid(const Domain<D>& domain, std::int64_t row) {
+  Grid<D> plane = domain.grid;
+  plane.shape[D - 1] = 1;
+  for (std::int64_t n = 0; n < plane.size(); ++n) {
+    Index<D> below = plane.index(n), above = below;
+    below[D - 1] = row, above[D - 1] = row - 1;
+    if ((domain.impedance(wave_s)(above) > 0) == (domain.impedance(wave_s)(below) > 0)) return false;
+  }
+  return true;
+}
+
+/// Whether the cells before and behind the face before `below` meet at a fluid-solid interface, or in bent
+/// rows at the free surface of a solid, that extends far enough.
+template <int D>
+bool corrected(const Domain<D>& domain, const Index<D>& below) {
+  Index<D> above = below;
+  --above[D - 1];
+  const auto carries = [&](Wave wave, const Index<D>& at) { return domain.impedance(wave)(at) > 0; };
+  if (carries(wave_s, above) == carries(wave_s, below)) return false;
+  const double z_above = domain.impedance(wave_p)(above), z_below = domain.impedance(wave_p)(below);
+  if (z_above == 0 || z_below == 0) {
+    // Beside void level rows keep the mirror image.
+    if (!bent_face(domain, below[D - 1])) return false;
+  } else if (z_above > gas_ratio * z_below || z_below > gas_ratio * z_above) {
+    return false;
+  }
+  return extends_far(domain, above, -1) && extends_far(domain, below, 1);
+}
+
+}  // namespace
+
+template <int D, class Real>
+InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain,
+                                                    const Metric<D, Real>& metric)
+    : padded_nx_(state.layout.padded_nx()), material_pitch_(state.material_layout.row_pitch()) {
+  constexpr int z = D - 1;
+  const auto& shape = domain.grid.shape;
+  Grid<D> plane = domain.grid;
+  plane.shape[z] = 1;
+  const auto& s_waves = domain.impedance(wave_s);
+  const bool any = std::any_of(s_waves.begin(), s_waves.end(), [](float z) { return z == 0; });
+  first_.assign(2, 0);
+  for (std::int64_t row = 1; row < shape[z]; ++row) {
+    // Stairs of a regular grid are of first order anyway, and its axes are alike.
+    const bool wanted = any && (bent_face(domain, row) || spans_grid(domain, row));
+    for (std::int64_t n = 0; wanted && n < plane.size(); ++n) {
+      Index<D> at = plane.index(n);
+      at[z] = row;
+      if (!corrected(domain, at)) continue;
+      Slot slot{row, D == 2 ? at[0] : at[1] * padded_nx_ + at[0], {}, {}};
+      const bool bent = metric.bent_row(row) && metric.bent_row(row - 1);
+      for (int axis = 0; axis < z && bent; ++axis) {
+        Index<D> line = at;
+        line[0] = 0;
+        const auto of = metric.across(line, at[0]);
+        slot.normal[std::size_t(axis)] = of.n_face[axis * of.pitch];
+      }
+      for (const int side : {0, 1}) {
+        Index<D> cell = at;
+        cell[z] += side - 1;
+        auto& to = slot.sides[std::size_t(side)];
+        for (int axis = 0; axis < z; ++axis)
+          for (std::size_t k = 0; k < offsets.size(); ++k) {
+            Index<D> beside = cell;
+            if (!thin(domain, axis)) beside[axis] += offsets[k];
+            to.cells[std::size_t(axis) * offsets.size() + k] = state.layout.cell(beside);
+          }
+        to.b = state.material_layout.cell(cell);
+        to.j = metric.volume(cell);
+      }
+      slots_.push_back(slot);
+    }
+    first_.push_back(slots_.size());
+  }
+  for (auto* lists : {&velocities_, &tractions_})
+    for (auto& list : *lists) list.assign(slots_.size(), 0);
+}
+
+template <int D, class Real>
+std::int32_t InterfaceCorrections<D, Real>::slot(const Index<D>& below) const {
+  const auto row = std::size_t(below[D - 1]);
+  if (slots_.empty() || below[D - 1] < 1 || row + 1 >= first_.size()) return none;
+  const std::int64_t column = D == 2 ? below[0] : below[1] * padded_nx_ + below[0];
+  const auto found = first_at(row, column);
+  return found < first_[row + 1] && slots_[found].column == column ? std::int32_t(found) : none;
+}
+
+/// The first slot of a row at this column or behind it.
+template <int D, class Real>
+std::size_t InterfaceCorrections<D, Real>::first_at(std::size_t row, std::int64_t column) const {
+  const auto begin = slots_.begin() + std::ptrdiff_t(first_[row]),
+             end = slots_.begin() + std::ptrdiff_t(first_[row + 1]);
+  return std::size_t(
+      std::lower_bound(begin, end, column,
+                       [](const Slot& slot, std::int64_t wanted) { return slot.column < wanted; }) -
+      slots_.begin());
+}
+
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update(const State<D, Real>& state, std::int64_t row,
+                                           const IndexRange& columns) {
+  if (slots_.empty() || row < 1 || std::size_t(row) + 1 >= first_.size()) return;
+  for (auto n = first_at(std::size_t(row), columns.first), end = first_[std::size_t(row) + 1];
+       n < end && slots_[n].column < columns.last; ++n)
+    update_slot(state, n);
+}
+
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update_all(const State<D, Real>& state) {
+  for (std::size_t n = 0; n < slots_.size(); ++n) update_slot(state, n);
+}
+
+/// On either side motion along the interface alone puts a traction t on it in a unit of time. Velocities bend
+/// so that it stays what it is, by a = -J t/(modulus N^2) a cell; and half of a sweep along the interface has
+/// put t dt/2 on it.
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
+  using Vector = RowVector<D, Real>;
+  const Slot& slot = slots_[n];
+  const Vector normal = row_normal<D>(slot.normal.data(), 1);
+  const Real square = dot(normal, normal);
+  const std::int64_t pitch = state.layout.row_pitch();
+  Vector velocity{}, traction{};
+  Real sum_p = 0, sum_s = 0;
+  bool beside_void = false;
+  for (const int which : {0, 1}) {
+    const Side& side = slot.sides[std::size_t(which)];
+    const Real* const material = state.material.data() + side.b;
+    const Real b = material[0], zp = material[row_zp * material_pitch_],
+               zs = material[row_zs * material_pitch_];
+    if (zp == 0) {
+      beside_void = true;
+      continue;
+    }
+    // Differences along x and y of the velocities.
+    std::array<Vector, std::size_t(D - 1)> along{};
+    for (std::size_t axis = 0; axis < D - 1; ++axis)
+      for (std::size_t k = 0; k < offsets.size(); ++k)
+        along[axis] = along[axis] +
+                      Real(difference_weights[k]) *
+                          row_velocity<D>(state.fields.data() + side.cells[axis * offsets.size() + k], pitch);
+    // Moduli times dt/h.
+    const Real p = zp * zp * b, mu = zs * zs * b;
+    const Vector t = traction_of_motion_along<D>(normal, p, mu, along);
+    const Vector t_p = (dot(normal, t) / square) * normal, t_s = t - t_p;
+    const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
+    velocity = velocity + (-sign * side.j / square * (zp / p)) * t_p;
+    if (zs > 0) velocity = velocity + (-sign * side.j / square * (zs / mu)) * t_s;
+    traction = traction + (-sign / 2) * (zs > 0 ? t : t_p);
+    sum_p += zp, sum_s += zs;
+  }
+  const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
+  const Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
+  velocities_[0][n] = v.z, velocities_[1][n] = v.x;
+  if (!beside_void) traction = Real(traction_share) * traction;
+  tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;
+  if constexpr (D == 3) velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
+}
+
+template class InterfaceCorrections<2, float>;
+template class InterfaceCorrections<2, double>;
+template class InterfaceCorrections<3, float>;
+template class InterfaceCorrections<3, double>;
+
+}  // namespace slipwave::solver

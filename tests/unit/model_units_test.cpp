@@ -1,0 +1,80 @@
+#include <bit>
+#include <cmath>
+
+#include "model/input_units.hpp"
+#include "model/layers.hpp"
+#include "model/raw_shape.hpp"
+#include "model_cases.hpp"
+
+using namespace slipwave;
+
+namespace {
+
+/// Depth columns, one after the other, of a section whose beds dip and whose speed grows with depth.
+std::vector<char> dipping_beds(std::int64_t nx, std::int64_t nz) {
+  std::vector<char> bytes;
+  for (std::int64_t i = 0; i < nx; ++i)
+    for (std::int64_t k = 0; k < nz; ++k) {
+      const auto bed = float(1500 + 10 * double(k) + 300 * std::sin(0.3 * (double(k) + 0.2 * double(i))));
+      const auto bits = std::bit_cast<std::uint32_t>(bed);
+      for (int byte = 0; byte < 4; ++byte) bytes.push_back(char(bits >> (8 * byte) & 0xff));
+    }
+  return bytes;
+}
+
+std::string said_of(std::int64_t nx, std::int64_t nz, FastAxis fast) {
+  Grid<2> grid;
+  grid.shape = {nx, nz};
+  return sentence_of([&] { check_raw_shape(dipping_beds(120, 50), grid, fast); });
+}
+
+}  // namespace
+
+TEST(InputUnits, AreMadeSIForThePropertiesThatHaveThem) {
+  const auto units = InputUnits::parse("km/s,g/cm3");
+  EXPECT_EQ(units.factor(Property::vp), 1000);
+  EXPECT_EQ(units.factor(Property::vs), 1000);
+  EXPECT_EQ(units.factor(Property::rho), 1000);
+  EXPECT_EQ(InputUnits::parse("km/s").factor(Property::rho), 1);
+  EXPECT_EQ(InputUnits::parse("ft/s").factor(Property::vp), 0.3048);
+  EXPECT_EQ(InputUnits().factor(Property::vp), 1);
+}
+
+TEST(InputUnits, OfALayerLeaveItsGradientPerSecond) {
+  const auto layer = parse_layer("0:2+0.5:1:2.1", InputUnits::parse("km/s,g/cm3"));
+  EXPECT_EQ(layer.material, (Material{2000, 1000, 2100}));
+  EXPECT_EQ(layer.gradient, (Material{0.5, 0, 0}));
+}
+
+TEST(InputUnits, ThatNothingHasAreRefused) {
+  EXPECT_EQ(sentence_of([] { InputUnits::parse("km/s,lb"); }),
+            "found 'lb', expected units of speed and density: m/s, km/s, ft/s, kg/m3, g/cm3");
+}
+
+TEST(RawShape, IsTakenWhereNeighboursContinueEachOther) {
+  EXPECT_EQ(said_of(120, 50, FastAxis::z), "no error");
+  EXPECT_EQ(said_of(50, 120, FastAxis::x), "no error");
+}
+
+TEST(RawShape, IsRefusedWhereTheNumbersOfCellsAreExchanged) {
+  const auto sentence = said_of(50, 120, FastAxis::z);
+  EXPECT_NE(sentence.find("found 50x120, in which neighbouring columns differ by"), std::string::npos)
+      << sentence;
+  EXPECT_NE(sentence.find("with --shape 120x50 or --order x-fast"), std::string::npos) << sentence;
+  EXPECT_NE(said_of(120, 50, FastAxis::x).find("with --shape 50x120 or --order z-fast"), std::string::npos);
+}
+
+TEST(RawShape, IsTakenOfWhatHasNoShape) {
+  // Noise, and stripes that are upright or level: no shape is smoother than the other by far.
+  Grid<2> grid;
+  grid.shape = {40, 30};
+  for (const int kind : {0, 1, 2}) {
+    std::vector<char> bytes(4 * 1200);
+    for (std::size_t n = 0; n < 1200; ++n) {
+      const std::size_t number = kind == 0 ? n * 7919 % 1201 : kind == 1 ? n / 30 : n % 30;
+      const auto bits = std::bit_cast<std::uint32_t>(float(number % 7));
+      for (std::size_t byte = 0; byte < 4; ++byte) bytes[4 * n + byte] = char(bits >> (8 * byte) & 0xff);
+    }
+    EXPECT_EQ(sentence_of([&] { check_raw_shape(bytes, grid, FastAxis::z); }), "no error") << kind;
+  }
+}
