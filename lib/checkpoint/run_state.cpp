@@ -235,7 +235,8 @@ void RunState::write_checkpoint() {
     if (ends_ != 0) settings_.say(ended + "; " + settings_.path + " holds " + description());
   } catch (const Error& error) {
     settings_.warn(ended + (ended.empty() ? "" : "; ") + error.what() +
-                   "; the checkpoint was not written, an older one stays as it was; --checkpoint names a file elsewhere");
+                   "; the checkpoint was not written, an older one stays as it was; --checkpoint names a "
+                   "file elsewhere");
   }
   due_ = (Clock::now() + in_ticks(settings_.every_s)).time_since_epoch().count();
   ++written_;

@@ -93,9 +93,13 @@ std::vector<std::string> losses_of(const Reader& reader, const FileFormat& forma
     if (count != 0) losses.push_back(reader.name() + ": " + what + " left out; " + cure);
   };
   if (!holds_extended_text(format))
-    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are", "--revision 1 keeps them");
-  if (!holds_extra_headers(reader, format)) lose(header.extra_headers, "additional trace headers are", "--revision 2 in the same byte order keeps them");
-  if (header.major >= 2) lose(header.binary.get("trailers"), "data trailers are", "only a copy of the file keeps them");
+    lose(static_cast<std::int64_t>(header.extended.size()), "extended textual headers are",
+         "--revision 1 keeps them");
+  if (!holds_extra_headers(reader, format))
+    lose(header.extra_headers, "additional trace headers are",
+         "--revision 2 in the same byte order keeps them");
+  if (header.major >= 2)
+    lose(header.binary.get("trailers"), "data trailers are", "only a copy of the file keeps them");
   if (header.feet && format.su)
     losses.push_back(reader.name() + ": lengths are in feet, which SU does not say; SEG-Y (no --su) does");
   return losses;

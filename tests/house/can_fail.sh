@@ -21,9 +21,9 @@ fresh() {
   printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
   echo 'See [the theory](docs/theory.md).' > "$house/README.md"
   printf '```sh\nsw-x\n```\n' > "$house/docs/tools.md"
-  printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size S\n.SH EXIT STATUS\n.SH EXAMPLES\n' \
+  printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size S\n.SH EXIT STATUS\n.B 0\n.B 1\n.B 2\n.B 128+N\n.SH EXAMPLES\n' \
     > "$house/docs/man/sw-x.1"
-  printf '#!/bin/sh\necho "  --size S"\necho "  sw-x --size 2"\n' > "$house/build/bin/sw-x"
+  printf '#!/bin/sh\necho "  --size S"\necho "Example:"\necho "  sw-x --size 2"\n' > "$house/build/bin/sw-x"
   chmod +x "$house/build/bin/sw-x"
 }
 
@@ -93,11 +93,12 @@ noticed equations docs/theory.md 's = rho c v  (E2)\n`Wave.Stops`' 'there is no 
 noticed equations docs/theory.md 's = rho c v  (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
 noticed equations docs/traces.md 'as in `Wave.Stands`' 'docs/traces.md: there is no test Wave.Stands'
 noticed links README.md '[more](docs/more.md)' 'docs/more.md leads nowhere'
-noticed help build/bin/sw-x 'echo "  --step H"; echo " sw-x"' 'does not document: --step H'
+noticed help build/bin/sw-x 'echo "  --step H"; echo "  sw-x"' 'does not document: --step H'
+noticed help build/bin/sw-x 'printf "%090d\\n" 0' 'wider than 80 columns'
 noticed help build/bin/sw-x 'echo done' 'does not end with its example'
 noticed help build/bin/sw-x 'seq 70; echo "sw-x --size 3"' 'longer than a screen'
 noticed help build/bin/sw-x 'exit 3' 'exit status 3'
-noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x --help does not list: --colour'
+noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x --help-all does not list: --colour'
 noticed help docs/man/sw-y.1 '.SH NAME' 'sw-y.1: there is no such tool'
 noticed help tools/sw_y.cpp 'int main() {}' 'sw-y is not built'
 noticed readme README.md '```sh\nsw-x --size 2\nsw-z\n```' 'README.md.01: a command failed'

@@ -19,7 +19,7 @@ for tool in "$@"; do
   diff "$work/options" "$work/offered" || broken "$tool: --help-all lists the first, bash offers the second"
   for other in "$everything/zsh/_$tool" "$everything/fish/$tool.fish"; do
     while IFS= read -r option; do
-      grep -qE -- "(\*$option[=[]|-l ${option#--} )" "$other" || broken "$other does not offer $option"
+      grep -qE -- "(\*${option}[=[]|-l ${option#--} )" "$other" || broken "$other does not offer $option"
     done < "$work/options"
   done
 done

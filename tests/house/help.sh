@@ -42,10 +42,11 @@ for tool in "$@"; do
   all=$("$bin/$tool" --help-all 2>&1) || { broken "$tool --help-all: exit status $?"; continue; }
   wide=$(printf '%s\n%s\n' "$help" "$all" | awk 'length($0) > 80')
   [ -z "$wide" ] || broken "$tool --help-all: wider than 80 columns: $wide"
-  case $(printf '%s\n' "$help" | sed '1,/^Example:$/d') in
-    "  $tool "*) ;;
-    *) broken "$tool --help: does not end with its example" ;;
-  esac
+  example=$(printf '%s\n' "$help" | sed '1,/^Example:$/d')
+  case $example in
+    "  $tool "*) ! printf '%s\n' "$example" | grep -q '^[^ ]' ;;
+    *) false ;;
+  esac || broken "$tool --help: does not end with its example"
 
   page=$root/docs/man/$tool.1
   [ -f "$page" ] || { broken "docs/man/$tool.1 is missing"; continue; }

@@ -12,9 +12,10 @@ command -v dpkg-shlibdeps >/dev/null || { echo 'there is no dpkg-shlibdeps'; exi
 # The recipe of a container makes them by the same command, of names that cpack gives.
 recipe=$(dirname -- "$0")/../../docs/container/Dockerfile
 grep -q '^RUN .*cpack -G DEB -B /packages$' "$recipe" || broken 'the Dockerfile makes no packages'
-for name in $(sed -n 's|^COPY --from=build /packages/\([^ ]*\) .*|\1|p' "$recipe"); do
+sed -n 's|^COPY --from=build /packages/\([^ ]*\) .*|\1|p' "$recipe" > "$work/copied"
+while IFS= read -r name; do
   [ -n "$(find "$work/packages" -name "$name")" ] || broken "the Dockerfile copies $name, cpack makes no such file"
-done
+done < "$work/copied"
 # field PACKAGE FIELD
 field() { dpkg-deb -f "$1" "$2"; }
 # must_hold PACKAGE FIELD TEXT...

@@ -157,7 +157,8 @@ TEST(ExtendedText, IsLeftOutWithASentenceWhereThereIsNoPlaceForIt) {
   FileFormat old;
   old.revision = 0;
   EXPECT_EQ(losses_of(reader, old),
-            std::vector<std::string>{scratch.file("x") + ": extended textual headers are left out; --revision 1 keeps them"});
+            std::vector<std::string>{scratch.file("x") +
+                                     ": extended textual headers are left out; --revision 1 keeps them"});
   EXPECT_TRUE(losses_of(reader, {}).empty());
   rewrite(scratch.file("x"), scratch.file("y"), old);
   expect_same(read_file(scratch.file("y")), survey_gather(samples, 1));
@@ -242,7 +243,9 @@ TEST(AdditionalHeader, OfAnotherNameIsCarriedAndNotRead) {
   const Bytes written = bytes_of(scratch.file("y"));
   EXPECT_TRUE(std::equal(bytes.begin() + 3600, bytes.end(), written.begin() + 3600, written.end()));
   EXPECT_EQ(losses_of(reader, {}),
-            std::vector<std::string>{scratch.file("x") + ": additional trace headers are left out; --revision 2 in the same byte order keeps them"});
+            std::vector<std::string>{
+                scratch.file("x") +
+                ": additional trace headers are left out; --revision 2 in the same byte order keeps them"});
   rewrite(scratch.file("x"), scratch.file("z"), {});
   expect_same(read_file(scratch.file("z")), survey_gather(samples, 1));
 }

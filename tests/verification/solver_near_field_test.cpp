@@ -105,8 +105,7 @@ TEST(PointSource, BesideAnInterfaceStaysInItsRock) {
       const auto exact = LayerStack{{over, under}, {0}, false, -cells * h}.ricker(peak_hz, interval_s,
                                                                                   found[0][0].size(), at);
       for (std::size_t n = 0; n < places.size(); ++n)
-        EXPECT_LT(error_of(found[n], exact[n]), 0.03)
-            << over.vp << ", " << cells << " cells, receiver " << n;
+        EXPECT_LT(error_of(found[n], exact[n]), 0.03) << over.vp << ", " << cells << " cells, receiver " << n;
     }
 }
 
