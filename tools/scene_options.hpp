@@ -20,7 +20,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
       "position of the source, m; X0:X1:DX,Z or repeated: several shots; Z may be surface+D or floor-D; "
       "@FILE: a table; in 3-D X,Y,Z");
   options.add("kind", s.kind, "KIND", source_kind_help());
-  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+  options.add("wavelet", s.wavelet, "W", "ricker:F, sine:F[:CYCLES], gauss:F, file:PATH[:TRACE]; Hz");
   options.add("amplitude", s.amplitude, "A",
               "peak of the moment rate, force or velocity: " + amplitude_help());
   options.add("receivers", s.survey.receivers, "X0:X1:DX,Z",
@@ -39,7 +39,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("time", s.duration_s, "T", "length of the traces, s");
   options.add("dt", s.interval_s, "DT", "sampling interval of the traces, s");
   options.add("record", s.record, "LIST",
-              "components: " + joined(component_names(2)) + "; in 3-D also " + joined(component_names(3, 2)));
+              "components: " + joined(component_names(2)) + " (das:ANGLE:GAUGE); in 3-D also those with y");
   options.add_choice(
       "top", s.top, edges,
       "boundary at z = 0: free (no traction), absorbing, rigid (no motion) or mirror (a plane of symmetry: "

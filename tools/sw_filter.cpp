@@ -10,6 +10,7 @@
 #include "io/output_file.hpp"
 #include "segy/reader.hpp"
 #include "segy/writer.hpp"
+#include "shooting/trace_wavelet.hpp"
 #include "trace_input.hpp"
 
 using namespace slipwave;
@@ -31,7 +32,7 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("taper", settings.taper, "T[,END]", "cosine taper at both ends, s; or START,END");
   options.add("convolve", settings.wavelet, "W",
-              "convolve with a wavelet: ricker:F, sine:F[:CYCLES], gauss:F or file:PATH; F in Hz");
+              "convolve with a wavelet: ricker:F, sine:F[:CYCLES], gauss:F or file:PATH[:TRACE]; F in Hz");
   options.add("zero-delay", settings.zero_delay, "shift the wavelet's own time zero to t = 0");
   options.add("band", settings.band, "F1,F2,F3,F4", "zero-phase band-pass with linear slopes (Ormsby), Hz");
   options.add("resample", settings.interval_s, "DT",
@@ -43,7 +44,7 @@ void declare(cli::Options& options, Settings& settings) {
 
 /// The part of the wavelet that a trace is long enough to feel.
 Kernel kernel_of(const Settings& settings, const SampleAxis& axis) {
-  const Wavelet wavelet = in_place("--convolve", [&] { return parse_wavelet(settings.wavelet); });
+  const Wavelet wavelet = in_place("--convolve", [&] { return wavelet_named(settings.wavelet); });
   const double shift_s = settings.zero_delay ? wavelet.delay_s() : 0;
   const double longest_s = static_cast<double>(axis.count) * axis.interval_s;
   return sampled_kernel([&](double t_s) { return wavelet(t_s + shift_s); }, std::max(-shift_s, -longest_s),

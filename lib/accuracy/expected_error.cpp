@@ -168,11 +168,13 @@ void add_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneW
     length = std::min(length, edge / std::abs(wave.direction[axis]));
   }
   const Point<2> entry = {receiver[0] - length * wave.direction[0], receiver[1] - length * wave.direction[1]};
-  auto way = straight_way(scene.model.medium, entry, receiver, WaveKind::p);
+  const auto kind = wave.shear ? WaveKind::s : WaveKind::p;
+  auto way = straight_way(scene.model.medium, entry, receiver, kind);
   const auto [vp, vs] = speeds_at(scene.model.medium, entry);
-  if (vp > 0) way.add(vp, vs, zone_cells(scene, source) * grid.spacing_m / vp);
+  if (const double c = wave.speed(vp, vs); c > 0)
+    way.add(vp, vs, zone_cells(scene, source) * grid.spacing_m / c);
   const double angle = std::atan2(wave.direction[0], wave.direction[1]);
-  if (!way.empty()) trains.push_back({1, WaveKind::p, angle, way, band_of(source.wavelet, 0)});
+  if (!way.empty()) trains.push_back({1, kind, angle, way, band_of(source.wavelet, 0)});
 }
 
 Trains direct_waves(const Scene<2>& scene) {

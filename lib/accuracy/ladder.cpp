@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/error.hpp"
 #include "model/resample.hpp"
@@ -46,24 +47,30 @@ std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
 }
 
 GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gather>& exact) {
-  std::array<Sums, 2> whole, late;  // velocities, stresses
+  std::map<std::string, Sums> whole, late;  // by unit: what is alike counts together
   for (std::size_t shot = 0; shot < exact.size(); ++shot)
     for (std::size_t n = 0; n < exact[shot].traces.size(); ++n) {
       const auto& a = found[shot].traces[n].samples;
       const auto& b = exact[shot].traces[n].samples;
-      const bool stress = std::string(unit_of(exact[shot].traces[n].header.component)) == "Pa";
+      const std::string unit = unit_of(exact[shot].traces[n].header.component);
+      auto &all = whole[unit], &last = late[unit];
       for (std::size_t sample = 0; sample < b.size(); ++sample) {
         const double wrong = (a[sample] - b[sample]) * (a[sample] - b[sample]);
-        whole[stress].wrong += wrong;
-        whole[stress].all += b[sample] * b[sample];
+        all.wrong += wrong;
+        all.all += b[sample] * b[sample];
         if (4 * sample < 3 * b.size()) continue;
-        late[stress].wrong += wrong;
-        late[stress].all += b[sample] * b[sample];
+        last.wrong += wrong;
+        last.all += b[sample] * b[sample];
       }
     }
   // A NaN counts as the larger.
-  const auto larger = [](double a, double b) { return std::isnan(a) || a > b ? a : b; };
-  return {larger(whole[0].relative(), whole[1].relative()), larger(late[0].relative(), late[1].relative())};
+  const auto largest = [](const std::map<std::string, Sums>& of_units) {
+    double most = 0;
+    for (const auto& [unit, sums] : of_units)
+      if (const double one = sums.relative(); std::isnan(one) || one > most) most = one;
+    return most;
+  };
+  return {largest(whole), largest(late)};
 }
 
 }  // namespace slipwave

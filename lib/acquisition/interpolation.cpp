@@ -63,11 +63,21 @@ double mean_cosine(double from, double to, double x) {
   return std::abs(x) < 1e-6 ? 1 : (std::sin(to * x) - std::sin(from * x)) / ((to - from) * x);
 }
 
-/// Weights on the cells `first` .. `first + count - 1` for the value at `position`: the least mean square of
-/// |sum w_j exp(i k (j - position)) - 1| over the passband, and of the sum alone over the stopband, `moments`
-/// exact, by Lagrange multipliers.
+/// Mean of k sin(k x) over 0 <= k <= to.
+double mean_slope(double to, double x) {
+  const double phase = to * x;
+  // The closed form loses its digits where both terms are alike.
+  if (std::abs(phase) < 1e-2) return to * phase * (1. / 3 - phase * phase / 30);
+  return to * (std::sin(phase) / phase - std::cos(phase)) / phase;
+}
+
+enum class Wanted { value, slope };
+
+/// Weights on the cells `first` .. `first + count - 1` for the value, or the derivative per cell, at
+/// `position`: the least mean square of |sum w_j exp(i k (j - position)) - 1|, or - i k, over the passband,
+/// and of the sum alone over the stopband, `moments` exact, by Lagrange multipliers.
 std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count, int most_moments,
-                                         const Fit& fit) {
+                                         const Fit& fit, Wanted wanted) {
   const int moments = std::min(count, most_moments), unknowns = count + moments;
   std::array<Row, most_unknowns> a{};
   for (int i = 0; i < count; ++i) {
@@ -78,14 +88,14 @@ std::array<double, most_unknowns> fitted(double position, std::int64_t first, in
         a[i][j] += fit.suppression * mean_cosine(fit.stopband, std::numbers::pi, double(i - j));
     }
     a[i][i] += ridge;
-    a[i][unknowns] = mean_cosine(0, fit.passband, x);
+    a[i][unknowns] = wanted == Wanted::value ? mean_cosine(0, fit.passband, x) : mean_slope(fit.passband, x);
     double power = 1;
     for (int m = 0; m < moments; ++m) {
       a[i][count + m] = a[count + m][i] = power;
       power *= x;
     }
   }
-  a[count][unknowns] = 1;
+  a[count + (wanted == Wanted::value ? 0 : 1)][unknowns] = 1;
   return solve(a, unknowns);
 }
 
@@ -99,25 +109,27 @@ CellWeight folded(CellWeight weight, const AxisCells& usable) {
   return weight;
 }
 
-/// Weights of up to `most_cells` usable cells round `position`.
-std::vector<CellWeight> weights_round(double position, const AxisCells& usable, int most_cells,
-                                      const Fit& fit) {
-  assert(usable.low <= usable.high);
-  assert(position >= double(usable.low) - 0.5 - on_centre &&
-         position <= double(usable.high) + 0.5 + on_centre);
-  // The window of cells, images included, that may be taken: an image must be that of a usable cell.
+/// The window of cells, images included, that may be taken: an image must be that of a usable cell.
+std::array<std::int64_t, 2> window(const AxisCells& usable, const Fit& fit) {
   const std::int64_t length = usable.high - usable.low + 1;
   const bool images_below = usable.below != Beyond::unknown, images_above = usable.above != Beyond::unknown;
   const std::int64_t reach = images_below && images_above ? fit.widest : length;
-  const std::int64_t low = images_below ? usable.low - reach : usable.low;
-  const std::int64_t high = images_above ? usable.high + reach : usable.high;
+  return {images_below ? usable.low - reach : usable.low, images_above ? usable.high + reach : usable.high};
+}
+
+/// Weights of up to `most_cells` usable cells round `position`, images put to their cells.
+std::vector<CellWeight> weights_round(double position, const AxisCells& usable, int most_cells,
+                                      const Fit& fit, Wanted wanted = Wanted::value) {
+  assert(usable.low <= usable.high);
+  assert(position >= double(usable.low) - 0.5 - on_centre &&
+         position <= double(usable.high) + 0.5 + on_centre);
+  const auto [low, high] = window(usable, fit);
   const auto centred = [&](int count) { return std::int64_t(std::floor(position - 0.5 * (count - 2))); };
   const bool around = centred(most_cells) >= low && centred(most_cells) + most_cells - 1 <= high;
   const int most = around ? most_cells : std::min(most_cells, fit.widest_beside);
   const int count = int(std::min<std::int64_t>(most, high - low + 1));
   const std::int64_t first = std::clamp(centred(count), low, high - count + 1);
-
-  const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit);
+  const auto weights = fitted(position, first, count, around ? fit.moments : fit.moments_beside, fit, wanted);
   std::vector<CellWeight> found;
   for (int i = 0; i < count; ++i) {
     const auto weight = folded({first + i, weights[std::size_t(i)]}, usable);
@@ -129,6 +141,23 @@ std::vector<CellWeight> weights_round(double position, const AxisCells& usable, 
       same->weight += weight.weight;
   }
   return found;
+}
+
+/// Of the Lagrange polynomial i through `count` samples 0, 1, ..: its value at x.
+double lagrange(int i, int count, double x) {
+  double value = 1;
+  for (int j = 0; j < count; ++j)
+    if (j != i) value *= (x - j) / double(i - j);
+  return value;
+}
+
+/// The samples that interpolation at a position takes.
+TimeWeights samples_round(double position, std::int64_t low, std::int64_t high) {
+  assert(low <= high && position >= double(low) - on_centre && position <= double(high) + on_centre);
+  TimeWeights result;
+  result.count = int(std::min<std::int64_t>(8, high - low + 1));
+  result.first = std::clamp(std::int64_t(std::floor(position)) - 3, low, high - result.count + 1);
+  return result;
 }
 
 /// Products of the weights of the axes, by axis_weights(axis, position).
@@ -161,6 +190,16 @@ std::vector<CellWeight> axis_weights(double position, const AxisCells& usable, i
   return weights_round(position, usable, most_cells, to_interpolate);
 }
 
+std::vector<CellWeight> axis_slopes(double position, const AxisCells& usable) {
+  const auto [low, high] = window(usable, to_interpolate);
+  // Cells on the shorter side.
+  const double beside = std::max(0., std::min(std::ceil(position - on_centre) - double(low),
+                                              double(high) - std::floor(position + on_centre)));
+  const int wanted = std::clamp(int(2 * std::min(beside, 4.) + 4), 5, widest_stencil);
+  if (low == high) return {};
+  return weights_round(position, usable, wanted, to_interpolate, Wanted::slope);
+}
+
 std::vector<CellWeight> spread_weights(double position, const AxisCells& usable) {
   return weights_round(position, usable, widest_spread, to_spread);
 }
@@ -183,19 +222,43 @@ std::vector<PointWeight<D>> spread_point_weights(const Grid<D>& grid, const Poin
 }
 
 TimeWeights time_weights(double position, std::int64_t low, std::int64_t high) {
-  assert(low <= high && position >= double(low) - on_centre && position <= double(high) + on_centre);
   const auto nearest = std::int64_t(std::round(position));
   if (std::abs(position - double(nearest)) < on_centre) return {nearest, 1, {1.}};
-  TimeWeights result;
-  result.count = int(std::min<std::int64_t>(8, high - low + 1));
-  result.first = std::clamp(std::int64_t(std::floor(position)) - 3, low, high - result.count + 1);
+  auto result = samples_round(position, low, high);
+  for (int i = 0; i < result.count; ++i)
+    result.weights[std::size_t(i)] = lagrange(i, result.count, position - double(result.first));
+  return result;
+}
+
+TimeWeights time_slopes(double position, std::int64_t low, std::int64_t high) {
+  auto result = samples_round(position, low, high);
   const double x = position - double(result.first);
   for (int i = 0; i < result.count; ++i) {
-    double weight = 1;
-    for (int j = 0; j < result.count; ++j)
-      if (j != i) weight *= (x - j) / double(i - j);
-    result.weights[std::size_t(i)] = weight;
+    double slope = 0;
+    for (int without = 0; without < result.count; ++without) {
+      if (without == i) continue;
+      double product = 1 / double(i - without);
+      for (int j = 0; j < result.count; ++j)
+        if (j != i && j != without) product *= (x - j) / double(i - j);
+      slope += product;
+    }
+    result.weights[std::size_t(i)] = slope;
   }
+  return result;
+}
+
+TimeWeights time_integrals(double from, double to, std::int64_t low, std::int64_t high) {
+  // Gauss's four points are exact for polynomials of degree seven.
+  constexpr std::array<double, 4> nodes = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                           0.8611363115940526};
+  constexpr std::array<double, 4> shares = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                            0.3478548451374538};
+  auto result = samples_round(from, low, high);
+  const double middle = (from + to) / 2 - double(result.first), half = (to - from) / 2;
+  for (int i = 0; i < result.count; ++i)
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+      result.weights[std::size_t(i)] +=
+          half * shares[n] * lagrange(i, result.count, middle + half * nodes[n]);
   return result;
 }
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "acquisition/direction.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 
@@ -82,17 +82,54 @@ Mechanism<D> parse_plane_wave(const std::string& text, const std::string& parame
     throw Error(
         "source kind '" + text + "': found an angle of " + shown(angle) + " degrees, expected -360 to 360",
         ErrorKind::usage);
-  // Multiples of 90 degrees travel along the grid exactly.
-  const auto exact_sine = [](double degrees) {
-    const double turned = std::remainder(degrees, 360.);
-    if (std::fmod(turned, 180.) == 0) return 0.;
-    return turned == 90 ? 1. : turned == -90 ? -1. : std::sin(turned * std::numbers::pi / 180);
-  };
   PlaneWave<D> wave;
   wave.angle_deg = angle;
-  wave.direction[0] = exact_sine(angle);
-  wave.direction[D - 1] = exact_sine(angle + 90);
+  wave.direction[0] = sine_of_degrees(angle);
+  wave.direction[D - 1] = cosine_of_degrees(angle);
   return wave;
+}
+
+/// An S wave that travels down moves towards +x when its wavelet is positive.
+template <int D>
+Mechanism<D> parse_plane_s_wave(const std::string& text, const std::string& parameters) {
+  auto wave = std::get<PlaneWave<D>>(parse_plane_wave<D>(text, parameters));
+  wave.shear = true;
+  return wave;
+}
+
+/// An angle of the source kind within -most .. most degrees, least .. most where it is given.
+double angle_of(const std::string& text, const char* name, double angle, double least, double most) {
+  if (angle >= least && angle <= most) return angle;
+  throw Error("source kind '" + text + "': found " + name + " " + shown(angle) + " degrees, expected " +
+                  shown(least) + " to " + shown(most),
+              ErrorKind::usage);
+}
+
+/// Aki & Richards (2002), box 4.4, with x as north and y as east.
+template <int D>
+Mechanism<D> parse_double_couple(const std::string& text, const std::string& parameters) {
+  const auto numbers = in_place("source kind '" + text + "'", [&] { return parse_numbers(parameters, ','); });
+  if (numbers.size() != (D == 2 ? 1 : 3))
+    throw Error("source kind '" + text + "': found " + std::to_string(numbers.size()) + " numbers, " +
+                    expected_kinds<D>(),
+                ErrorKind::usage);
+  const double strike = D == 2 ? 270 : angle_of(text, "STRIKE", numbers[0], -360, 360);
+  const double dip = angle_of(text, "DIP", numbers[D == 2 ? 0 : 1], D == 2 ? -180 : 0, D == 2 ? 180 : 90);
+  const double rake = D == 2 ? 90 : angle_of(text, "RAKE", numbers[2], -360, 360);
+  const auto sine = sine_of_degrees, cosine = cosine_of_degrees;
+  const double along = cosine(rake), up = sine(rake);
+  MomentTensor<D> moment;
+  auto& m = moment.tensor;
+  constexpr int x = 0, z = D - 1;
+  m(x, x) = -(sine(dip) * along * sine(2 * strike) + sine(2 * dip) * up * sine(strike) * sine(strike));
+  m(z, z) = sine(2 * dip) * up;
+  m(x, z) = -(cosine(dip) * along * cosine(strike) + cosine(2 * dip) * up * sine(strike));
+  if constexpr (D == 3) {
+    m(1, 1) = sine(dip) * along * sine(2 * strike) - sine(2 * dip) * up * cosine(strike) * cosine(strike);
+    m(0, 1) = sine(dip) * along * cosine(2 * strike) + sine(2 * dip) * up * sine(2 * strike) / 2;
+    m(1, 2) = -(cosine(dip) * along * sine(strike) - cosine(2 * dip) * up * cosine(strike));
+  }
+  return moment;
 }
 
 template <int D>
@@ -102,6 +139,9 @@ constexpr SourceKind<D> kinds[] = {
     {"moment", D == 2 ? "MXX,MZZ,MXZ" : "MXX,MYY,MZZ,MXY,MXZ,MYZ", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_moment<D>, inject_moment<D>},
     {"plane", "ANGLE", "degrees, 0 is down", "m/s", parse_plane_wave<D>, nullptr},
+    {"double-couple", D == 2 ? "DIP" : "STRIKE,DIP,RAKE", "", D == 2 ? "N m/s per m" : "N m/s",
+     parse_double_couple<D>, inject_moment<D>},
+    {"plane-s", "ANGLE", "SV", "m/s", parse_plane_s_wave<D>, nullptr},
 };
 
 static_assert(std::size(kinds<2>) >= std::variant_size_v<Mechanism<2>>);
@@ -127,6 +167,7 @@ Mechanism<D> parse_mechanism(const std::string& text) {
 
 template <int D>
 const char* name_of(const Mechanism<D>& mechanism) {
+  if (const auto* wave = std::get_if<PlaneWave<D>>(&mechanism); wave && wave->shear) return "plane-s";
   return source_kinds<D>()[mechanism.index()].name;
 }
 

@@ -8,8 +8,6 @@
 
 namespace slipwave {
 
-namespace {
-
 template <int D>
 bool is_inside(const Point<D>& point, const Grid<D>& grid) {
   const Point<D> at = grid.row_coordinates(point);
@@ -36,8 +34,6 @@ void check_inside(const std::string& what, const Point<D>& point, const Grid<D>&
     beside = beside || !(point[axis] >= grid.origin_m[axis] && point[axis] <= grid.end(axis));
   throw Error(what + " at " + place + " lies outside the model, expected " + extent + (beside ? remedy : ""));
 }
-
-}  // namespace
 
 template <int D>
 std::vector<Receiver<D>> Survey<D>::receivers_of(std::size_t shot) const {
@@ -158,6 +154,10 @@ void check(const Survey<D>& survey, const Grid<D>& grid) {
   });
 }
 
+template bool is_inside<2>(const Point<2>&, const Grid<2>&);
+template bool is_inside<3>(const Point<3>&, const Grid<3>&);
+template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&, const std::string&);
+template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&, const std::string&);
 template struct Survey<2>;
 template struct Survey<3>;
 template void each_receiver(const Survey<2>&,

@@ -28,11 +28,15 @@ struct MomentTensor {
   SymmetricTensor<D, double> tensor;
 };
 
-/// A plane P wave that comes in from outside. In 3-D it travels in the x-z plane.
+/// A plane P wave, or an S wave polarized in the x-z plane (SV), that comes in from outside. In 3-D it
+/// travels in the x-z plane.
 template <int D>
 struct PlaneWave {
   double angle_deg = 0;
   Point<D> direction{};  // of travel; unit vector
+  bool shear = false;
+
+  double speed(double vp, double vs) const { return shear ? vs : vp; }
 };
 
 template <int D>
@@ -42,8 +46,8 @@ using Mechanism = std::variant<Explosion, PointForce<D>, MomentTensor<D>, PlaneW
 ///   explosion  moment rate A w, N m/s in 3-D, N m/s per metre of the line source in 2-D
 ///   force      A w times the vector, N (2-D: N/m)
 ///   moment     moment rate A w times the tensor, N m/s (2-D: N m/s per m)
-///   plane      particle velocity A w along the direction of travel, m/s; w(0) is at the wavefront that runs
-///              through position_m at t = 0
+///   plane      particle velocity A w along the direction of travel, or across it (S waves), m/s; w(0) is at
+///              the wavefront that runs through position_m at t = 0
 template <int D>
 struct Source {
   Point<D> position_m{};
@@ -112,16 +116,29 @@ struct PointInjection {
 template <int D>
 std::optional<PointInjection<D>> point_injection(const Source<D>& source);
 
-/// "explosion", "force:AX,AZ", "moment:MXX,MZZ,MXZ" or "plane:ANGLE"; in 3-D "force:AX,AY,AZ" and
-/// "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ". ANGLE in degrees: 0 travels straight down, positive angles tilt towards
-/// +x, 90 travels towards +x, 180 up. Vector and tensor are taken as they are, not normalised, and must not
-/// vanish. Throws a usage Error.
+/// "explosion", "force:AX,AZ", "moment:MXX,MZZ,MXZ", "plane:ANGLE", "double-couple:DIP" or "plane-s:ANGLE";
+/// in 3-D "force:AX,AY,AZ", "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ" and "double-couple:STRIKE,DIP,RAKE". ANGLE in
+/// degrees: 0 travels straight down, positive angles tilt towards +x, 90 travels towards +x, 180 up. Vector
+/// and tensor are taken as they are, not normalised, and must not vanish. A double couple has unit moment:
+/// STRIKE from x towards y, the plane dips to the right of it, RAKE is the direction in which the upper side
+/// slips, from STRIKE, upwards positive (Aki & Richards 2002, with x as north and y as east). In 2-D the
+/// plane dips towards +x and the upper side moves up it: STRIKE 270, RAKE 90. Throws a usage Error.
 template <int D>
 Mechanism<D> parse_mechanism(const std::string& text);
 
-/// "explosion", "force", "moment" or "plane" (acquisition/source_kind.hpp).
+/// "explosion", "force", "moment", "plane" or "plane-s" (acquisition/source_kind.hpp).
 template <int D>
 const char* name_of(const Mechanism<D>& mechanism);
+
+/// Whether a point is in the grid; its faces belong to it.
+template <int D>
+bool is_inside(const Point<D>& point_m, const Grid<D>& grid);
+
+/// Throws an Error "WHAT at x=.. lies outside the model, expected .." where a point is not in the grid, with
+/// the remedy where it lies beside the model.
+template <int D>
+void check_inside(const std::string& what, const Point<D>& point_m, const Grid<D>& grid,
+                  const std::string& remedy = {});
 
 /// Throws an Error naming the first source or receiver that is not in the grid (its faces belong to it) or
 /// not finite. The position of a plane wave is only a point of reference and may lie anywhere.
@@ -134,6 +151,10 @@ extern template Mechanism<2> parse_mechanism<2>(const std::string&);
 extern template Mechanism<3> parse_mechanism<3>(const std::string&);
 extern template const char* name_of<2>(const Mechanism<2>&);
 extern template const char* name_of<3>(const Mechanism<3>&);
+extern template bool is_inside<2>(const Point<2>&, const Grid<2>&);
+extern template bool is_inside<3>(const Point<3>&, const Grid<3>&);
+extern template void check_inside<2>(const std::string&, const Point<2>&, const Grid<2>&, const std::string&);
+extern template void check_inside<3>(const std::string&, const Point<3>&, const Grid<3>&, const std::string&);
 extern template struct Survey<2>;
 extern template struct Survey<3>;
 extern template void place(Survey<2>&, Ground<2>);

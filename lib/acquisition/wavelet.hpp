@@ -105,12 +105,16 @@ class Wavelet {
 /// a usage Error; what is wrong in the file is a data Error that names file and line.
 Wavelet parse_wavelet(const std::string& text);
 
+/// A wavelet through samples at growing times, s, of equal number. One that begins before 0 is shifted to
+/// begin at 0; a first or last sample that is not zero is led from and to zero over one sample interval.
+/// Throws a data Error where there are fewer than two, only zeros, or samples too near to each other.
+shape::Sampled sampled_wavelet(std::vector<double> times_s, std::vector<double> values);
+
 /// Reads samples: two columns, time in s and value, or one column of values with a line "# dt=SECONDS"
 /// somewhere before the first (the first value is at t = 0). Columns are separated by blanks, tabs or a
 /// comma; empty lines and lines that begin with # are skipped. Times must grow, by 1e-15 s and 1e-12 of the
-/// whole at least, and lie within 1e9 s of 0; values are at most 1e100. A file that begins before 0
-/// is shifted to begin at 0. A first or last sample that is not zero is led from and to zero over one sample
-/// interval.
+/// whole at least, and lie within 1e9 s of 0; values are at most 1e100. What becomes of them:
+/// sampled_wavelet().
 shape::Sampled read_wavelet(const std::string& path);
 
 }  // namespace slipwave

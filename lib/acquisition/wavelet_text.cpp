@@ -64,6 +64,12 @@ std::optional<double> interval_in(std::string_view comment) {
 // What splines and spectra can be made of in doubles, far beyond all that sources do.
 constexpr double most_seconds = 1e9, largest_value = 1e100, shortest_step_s = 1e-15, finest_step = 1e-12;
 
+void check_sample(double time, double value) {
+  if (std::abs(time) > most_seconds || std::abs(value) > largest_value)
+    throw Error("found " + shown(value) + " at " + shown(time) + " s, expected values up to " +
+                shown(largest_value) + " and times up to " + shown(most_seconds) + " s");
+}
+
 /// Samples as they stand in a file, line by line.
 class SampleReader {
  public:
@@ -89,36 +95,12 @@ class SampleReader {
       throw Error("found time " + shown(time) + " s after " + shown(times_.back()) +
                   " s, expected growing times");
     const double value = parse_number(columns.back());
-    if (std::abs(time) > most_seconds || std::abs(value) > largest_value)
-      throw Error("found " + shown(value) + " at " + shown(time) + " s, expected values up to " +
-                  shown(largest_value) + " and times up to " + shown(most_seconds) + " s");
+    check_sample(time, value);
     times_.push_back(time);
     values_.push_back(value);
   }
 
-  shape::Sampled finish() && {
-    if (values_.size() < 2)
-      throw Error("found " + std::to_string(values_.size()) + (values_.size() == 1 ? " sample" : " samples") +
-                  ", expected at least 2");
-    if (std::all_of(values_.begin(), values_.end(), [](double v) { return v == 0; }))
-      throw Error("found only zeros, expected a wavelet");
-    if (values_.front() != 0) {
-      times_.insert(times_.begin(), 2 * times_[0] - times_[1]);
-      values_.insert(values_.begin(), 0);
-    }
-    if (values_.back() != 0) {
-      times_.push_back(2 * times_.back() - times_[times_.size() - 2]);
-      values_.push_back(0);
-    }
-    const double delay = std::max(0., -times_.front());
-    for (auto& time : times_) time += delay;
-    const double shortest = std::max(shortest_step_s, finest_step * (times_.back() - times_.front()));
-    for (std::size_t n = 1; n < times_.size(); ++n)
-      if (!(times_[n] - times_[n - 1] >= shortest))
-        throw Error("found samples " + shown(times_[n] - times_[n - 1]) + " s apart, expected at least " +
-                    shown(shortest) + " s in a wavelet of " + shown(times_.back() - times_.front()) + " s");
-    return shape::Sampled(std::move(times_), std::move(values_), delay);
-  }
+  shape::Sampled finish() && { return sampled_wavelet(std::move(times_), std::move(values_)); }
 
  private:
   std::optional<double> interval_;
@@ -126,6 +108,30 @@ class SampleReader {
 };
 
 }  // namespace
+
+shape::Sampled sampled_wavelet(std::vector<double> times, std::vector<double> values) {
+  if (values.size() < 2)
+    throw Error("found " + std::to_string(values.size()) + (values.size() == 1 ? " sample" : " samples") +
+                ", expected at least 2");
+  if (std::all_of(values.begin(), values.end(), [](double v) { return v == 0; }))
+    throw Error("found only zeros, expected a wavelet");
+  if (values.front() != 0) {
+    times.insert(times.begin(), 2 * times[0] - times[1]);
+    values.insert(values.begin(), 0);
+  }
+  if (values.back() != 0) {
+    times.push_back(2 * times.back() - times[times.size() - 2]);
+    values.push_back(0);
+  }
+  const double delay = std::max(0., -times.front());
+  for (auto& time : times) time += delay;
+  const double shortest = std::max(shortest_step_s, finest_step * (times.back() - times.front()));
+  for (std::size_t n = 1; n < times.size(); ++n)
+    if (!(times[n] - times[n - 1] >= shortest))
+      throw Error("found samples " + shown(times[n] - times[n - 1]) + " s apart, expected at least " +
+                  shown(shortest) + " s in a wavelet of " + shown(times.back() - times.front()) + " s");
+  return shape::Sampled(std::move(times), std::move(values), delay);
+}
 
 shape::Sampled read_wavelet(const std::string& path) {
   const auto text = read_text(path);

@@ -92,6 +92,7 @@ class Digest {
     if (const auto* wave = std::get_if<PlaneWave<D>>(&mechanism)) {
       add(wave->angle_deg);
       add(wave->direction);
+      if (wave->shear) add(1);
     }
     if (const auto* moment = std::get_if<MomentTensor<D>>(&mechanism))
       for (int i = 0; i < D; ++i)
@@ -167,13 +168,16 @@ Identity identity_of(const Scene<D>& scene) {
                attenuation] = scene;
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, tiling] = numerics;
-  const auto& [components, duration_s, interval_s] = recording;
+  const auto& [components, duration_s, interval_s, fibre] = recording;
   const auto& [sources, receivers_m, blended, spreads] = survey;
   static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);  // changes no result
   const double step_s = given_step_s ? *given_step_s : time_step_s(scene);
   std::string recorded;
   for (const auto component : components)
     recorded += (recorded.empty() ? "" : ",") + std::string(name_of(component));
+  if (fibre)
+    recorded += " (fibre at " + shown(fibre->angle_deg) + ", " + shown(fibre->azimuth_deg) +
+                " degrees, gauge " + shown(fibre->gauge_m) + " m)";
   Identity identity = {
       {"grid", shown(model.grid())},
       {"order", std::to_string(order)},

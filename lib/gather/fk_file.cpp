@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "gather/spectrum_file.hpp"
 #include "io/netcdf_file.hpp"
 
 namespace slipwave {
@@ -33,10 +34,8 @@ std::string number(double value) {
 }  // namespace
 
 std::string fk_unit(Component component, bool power) {
-  const std::string unit = unit_of(component);
-  if (unit.empty()) return "";
-  if (unit == "m/s") return power ? "(m s-1)^2 s Hz-1 m2" : "m s-1 Hz-1 m";
-  return unit + (power ? "^2 s Hz-1 m2" : " Hz-1 m");
+  const std::string unit = spectrum_unit(component, power);
+  return unit.empty() ? "" : unit + (power ? " m2" : " m");
 }
 
 void write_fk_netcdf(OutputFile& out, const FkFacts& facts, const FkSpectra& spectra) {

@@ -80,10 +80,10 @@ std::string definition_of(const SampleAxis& axis, const SpectrumSettings& settin
 }
 
 std::string spectrum_unit(Component component, bool power) {
-  std::string unit = unit_of(component);
+  const std::string unit = cf_unit(unit_of(component));
   if (unit.empty()) return "";
-  if (unit == "m/s") unit = power ? "(m s-1)" : "m s-1";
-  return unit.append(power ? "^2 s Hz-1" : " Hz-1");
+  if (!power) return unit + " Hz-1";
+  return (unit.find('-') == std::string::npos ? unit : "(" + unit + ")") + "^2 s Hz-1";
 }
 
 }  // namespace slipwave

@@ -13,28 +13,27 @@ namespace slipwave {
 
 namespace {
 
+/// Derivatives of whole grids, and the recorded components they are.
 struct DerivativeRow {
   Derivative content;
-  const char* name;
-  const char* long_name;
-  bool in_2d, in_3d;
+  Component component;
 };
 
 constexpr DerivativeRow derivatives[] = {
-    {Derivative::divergence, "div", "divergence of particle velocity", true, true},
-    {Derivative::curl, "curl", "curl of particle velocity, dvx/dz - dvz/dx", true, false},
-    {Derivative::curl_x, "curlx", "curl of particle velocity along x, dvz/dy - dvy/dz", false, true},
-    {Derivative::curl_y, "curly", "curl of particle velocity along y, dvx/dz - dvz/dx", false, true},
-    {Derivative::curl_z, "curlz", "curl of particle velocity along z, dvy/dx - dvx/dy", false, true},
+    {Derivative::divergence, Component::div}, {Derivative::curl, Component::curl},
+    {Derivative::curl_x, Component::curl_x},  {Derivative::curl_y, Component::curl_y},
+    {Derivative::curl_z, Component::curl_z},
 };
 
 template <int D>
 std::vector<SnapshotField> make_fields() {
   std::vector<SnapshotField> fields;
   for (const auto& row : component_rows())
-    if (row.in(D)) fields.push_back({row.name, row.description(D), cf_unit(row.unit), row.component});
-  for (const auto& row : derivatives)
-    if (D == 2 ? row.in_2d : row.in_3d) fields.push_back({row.name, row.long_name, "s-1", row.content});
+    if (row.in(D) && row.is_field())
+      fields.push_back({row.name, row.description(D), cf_unit(row.unit), row.component});
+  for (const auto& [content, component] : derivatives)
+    if (const auto& row = row_of(component); row.in(D))
+      fields.push_back({row.name, row.long_name, cf_unit(row.unit), content});
   fields.push_back({"slip", "accumulated slip on fracture planes, as a strain", "1", SlipField::slip});
   fields.push_back({"slip_rate", "slip strain rate in the last step", "s-1", SlipField::slip_rate});
   fields.push_back({"dissipated", "energy dissipated by slip", "J m-3", SlipField::dissipated});
@@ -44,8 +43,9 @@ std::vector<SnapshotField> make_fields() {
 
 std::vector<std::string> derivative_names(bool in_2d, bool in_3d) {
   std::vector<std::string> names;
-  for (const auto& row : derivatives)
-    if (row.in_2d == in_2d && row.in_3d == in_3d) names.emplace_back(row.name);
+  for (const auto& [content, component] : derivatives)
+    if (const auto& row = row_of(component); row.in_2d == in_2d && row.in_3d == in_3d)
+      names.emplace_back(row.name);
   return names;
 }
 
@@ -75,8 +75,9 @@ const SnapshotField& snapshot_field(const std::string& name) {
 }
 
 std::string snapshot_field_help() {
-  return "fields: " + joined(field_names<2>()) + "; in 3-D also " + joined(component_names(3, 2)) + ", and " +
-         joined(derivative_names(false, true)) + " for " + joined(derivative_names(true, false));
+  return "fields: " + joined(field_names<2>()) + "; in 3-D also " +
+         joined(component_names(3, 2, Listed::fields)) + ", and " + joined(derivative_names(false, true)) +
+         " for " + joined(derivative_names(true, false));
 }
 
 template <int D>

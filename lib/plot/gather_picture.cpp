@@ -62,7 +62,7 @@ Axis axis_of(const Content& content) {
 /// What colours stand for. A gain of t^2 turns m/s into m/s s^2.
 Axis value_axis(const GatherSection& section, double gain_power) {
   const std::string name = section.component == Component::other ? "amplitude" : name_of(section.component);
-  const std::string unit = unit_of(section.component);
+  const std::string unit = typeset_unit(unit_of(section.component));
   if (gain_power == 0) return {name, unit};
   const std::string power = gain_power == 1 ? "" : raised(shown(gain_power));
   return {name + " t" + power, unit.empty() ? "s" + power : unit + " s" + power};

@@ -10,6 +10,7 @@
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "plot/derived_property.hpp"
+#include "plot/ticks.hpp"
 
 namespace slipwave::plot {
 namespace {
@@ -88,17 +89,11 @@ bool may_have_void(const NetcdfFile& file) {
   return !range || range->empty() || !(range->front() > 0);
 }
 
-/// "kg/m3" with its power raised.
-std::string typeset(std::string unit) {
-  if (const auto power = unit.find("m3"); power != std::string::npos) unit.replace(power, 2, "m\u00b3");
-  return unit;
-}
-
 /// Without its values.
 ModelSection begun_section(const NetcdfFile& file, const std::string& property) {
   ModelSection section;
   section.property = property;
-  if (const auto row = find_property(property)) section.unit = typeset(row_of(*row).shown_unit);
+  if (const auto row = find_property(property)) section.unit = typeset_unit(row_of(*row).shown_unit);
   if (const auto derived = find_derived_property(property)) {
     section.property = derived->label;
     section.unit = derived->unit;

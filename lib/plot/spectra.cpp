@@ -3,22 +3,34 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "gather/fk_file.hpp"
 #include "gather/spectrum_file.hpp"
 #include "io/netcdf_file.hpp"
+#include "plot/ticks.hpp"
 
 namespace slipwave::plot {
 namespace {
 
+/// Units of spectra as they are written, and with fraction bars: "s-1 Hz-1" and "1/s/Hz".
+std::string with_fraction_bars(const std::string& unit) {
+  for (const auto& row : component_rows()) {
+    const std::string recorded = typeset_unit(row.unit);
+    const bool fraction = recorded.find('/') != std::string::npos;
+    auto squared = (fraction ? "(" + recorded + ")" : recorded) + "\u00b2 s/Hz";
+    if (unit == spectrum_unit(row.component, false)) return recorded + "/Hz";
+    if (unit == spectrum_unit(row.component, true)) return squared;
+    if (unit == fk_unit(row.component, false)) return recorded + " m/Hz";
+    if (unit == fk_unit(row.component, true)) return squared + " m\u00b2";
+  }
+  return unit;
+}
+
 /// "m/s/Hz" for "m s-1 Hz-1", "(m/s)² s/Hz" for "(m s-1)^2 s Hz-1".
 std::string unit_as_shown(const std::string& unit) {
-  if (unit == "m s-1 Hz-1") return "m/s/Hz";
-  if (unit == "(m s-1)^2 s Hz-1") return "(m/s)\u00b2 s/Hz";
-  if (unit == "Pa Hz-1") return "Pa/Hz";
   if (unit == "m s-1 Hz-1 m") return "m\u00b2/s/Hz";
   if (unit == "(m s-1)^2 s Hz-1 m2") return "(m\u00b2/s)\u00b2 s/Hz";
-  if (unit == "Pa Hz-1 m") return "Pa m/Hz";
   if (unit == "Pa^2 s Hz-1 m2") return "(Pa m)\u00b2 s/Hz";
-  return unit == "Pa^2 s Hz-1" ? "Pa\u00b2 s/Hz" : unit;
+  return with_fraction_bars(unit);
 }
 
 std::string without_folders(const std::string& path) { return path.substr(path.rfind('/') + 1); }

@@ -102,6 +102,13 @@ std::string raised(const std::string& number) {
   return text;
 }
 
+std::string typeset_unit(std::string unit) {
+  for (const auto* power : {"m3", "s2"})
+    if (const auto at = unit.find(power); at != std::string::npos)
+      unit.replace(at + 1, 1, raised({power[1]}));
+  return unit;
+}
+
 std::string power_of_ten(int exponent) {
   return exponent == 0 ? "" : "10" + raised(std::to_string(exponent));
 }

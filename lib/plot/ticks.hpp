@@ -31,6 +31,8 @@ std::string log_label(double tick);
 
 /// A number as an exponent: "⁻¹·⁵" for "-1.5".
 std::string raised(const std::string& number);
+/// "kg/m³" for "kg/m3", "m/s²" for "m/s2".
+std::string typeset_unit(std::string unit);
 /// "10⁻⁹"; "" for exponent 0.
 std::string power_of_ten(int exponent);
 

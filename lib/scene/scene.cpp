@@ -109,7 +109,7 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
                      std::size_t from) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  const double length = source.wavelet.duration_s() * medium.vp[from];
+  const double length = source.wavelet.duration_s() * wave.speed(medium.vp[from], medium.vs[from]);
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     double behind = 0;
@@ -161,7 +161,27 @@ void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const Plan
         check_uniform_edge(scene, axis, side,
                            "an oblique plane wave needs one solid or fluid along all absorbing boundaries",
                            reference);
+  if (wave.shear && !scene.model.medium.is_solid(*reference))
+    throw Error("a plane S wave needs rock along the boundary it enters by, found " +
+                described(scene.model.medium, *reference) + "; use --kind plane");
   check_beginning(scene, source, wave, *reference);
+}
+
+/// Both ends of the gauge must be in the model, and in rock or fluid.
+template <int D>
+void check_fibre(const Scene<D>& scene) {
+  const auto& fibre = *scene.recording.fibre;
+  const auto grid = scene.subdomain.whole(scene.model.grid());
+  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
+    const auto who = [&] {
+      return name_of_receiver(scene.survey, shot, number) + " with an end of its das gauge of " +
+             shown(fibre.gauge_m) + " m";
+    };
+    for (const auto& end : gauge_ends<D>(fibre, receiver)) {
+      if (!is_inside<D>(end, grid)) check_inside<D>(who(), end, grid);
+      refuse_void(scene, end, who);
+    }
+  });
 }
 
 template <int D>
@@ -196,7 +216,8 @@ void check_sources(const Scene<D>& scene, std::size_t shot) {
 }
 
 template <int D>
-void check_components(const std::vector<Component>& components) {
+void check_components(const Recording& recording) {
+  const auto& components = recording.components;
   for (const Component component : components) {
     if (std::count(components.begin(), components.end(), component) > 1)
       throw Error("found component " + std::string(name_of(component)) + " more than once, expected it once",
@@ -205,6 +226,8 @@ void check_components(const std::vector<Component>& components) {
       throw Error("found component " + std::string(name_of(component)) + " in " + std::to_string(D) +
                       "-D, expected " + joined(component_names(D), " or "),
                   ErrorKind::usage);
+    if (component == Component::das && !recording.fibre)
+      throw Error("found das without a fibre, expected das:ANGLE:GAUGE", ErrorKind::usage);
   }
 }
 
@@ -291,7 +314,8 @@ void check(const Scene<D>& scene) {
   each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
     refuse_void<D>(scene, receiver, [&] { return name_of_receiver(scene.survey, shot, number); });
   });
-  check_components<D>(scene.recording.components);
+  check_components<D>(scene.recording);
+  if (scene.recording.fibre) check_fibre(scene);
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
   check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");

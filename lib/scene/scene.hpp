@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "acquisition/fibre.hpp"
 #include "acquisition/survey.hpp"
 #include "fracture/slip_law.hpp"
 #include "gather/trace.hpp"
@@ -47,6 +48,7 @@ struct Recording {
   std::vector<Component> components;
   double duration_s = 0;
   double interval_s = 0;
+  std::optional<Fibre> fibre{};  // of Component::das
   std::int64_t samples() const;
 };
 

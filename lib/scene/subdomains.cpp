@@ -82,6 +82,9 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
   std::vector<std::int64_t> points;  // rows of receivers
   each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t, std::size_t) {
     points.push_back(cell_of(whole, receiver)[z]);
+    if (scene.recording.fibre)
+      for (const auto& end : gauge_ends<D>(*scene.recording.fibre, receiver))
+        points.push_back(cell_of(whole, end)[z]);
   });
   std::sort(points.begin(), points.end());
   const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row

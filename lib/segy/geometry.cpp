@@ -82,6 +82,8 @@ class Lines {
 std::int64_t unit_code(Component component) {
   const std::string unit = unit_of(component);
   if (unit == "Pa") return 1;
+  if (unit == "m") return 5;
+  if (unit == "m/s2") return 7;
   return unit == "m/s" ? 6 : -1;
 }
 

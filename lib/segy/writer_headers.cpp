@@ -1,5 +1,6 @@
 #include "segy/writer_headers.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -159,6 +160,10 @@ std::vector<std::string> convention_entries(std::span<const Component> component
   entries.push_back("Recorded: " + recorded);
   entries.push_back("Signs: z and vz positive down, x along the line; stress positive in tension,");
   entries.push_back("  p = -(sum of normal stresses)/dimensions, positive in compression");
+  if (std::any_of(components.begin(), components.end(), [](Component component) {
+        return component >= Component::exx && component <= Component::das;
+      }))
+    entries.push_back("  strain rates positive in extension, exz = (dvx/dz + dvz/dx)/2");
   entries.push_back("trid 256 + n: stress n = 1 sxx, 2 syy, 3 szz, 4 syz, 5 sxz, 6 sxy");
   entries.push_back("Sampling: " + std::to_string(axis.count) + " samples every " + shown(axis.interval_s) +
                     " s from " + shown(axis.start_s) + " s");

@@ -9,6 +9,7 @@
 #include "model/model_netcdf.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/subdomains.hpp"
+#include "shooting/trace_wavelet.hpp"
 
 namespace slipwave {
 namespace {
@@ -47,7 +48,7 @@ Survey<D> make_survey(const SceneOptions& s) {
     if (!own_wavelet && s.wavelet.empty())
       throw Error("--wavelet is missing; expected --wavelet W", ErrorKind::usage);
     const auto& wavelet = wavelets.get(own_wavelet ? source.wavelet : s.wavelet,
-                                       own_wavelet ? source.from : "--wavelet", parse_wavelet);
+                                       own_wavelet ? source.from : "--wavelet", wavelet_named);
     const auto& kind =
         kinds.get(own_kind ? source.kind : s.kind, own_kind ? source.from : "--kind", parse_mechanism<D>);
     return Source<D>{
@@ -64,6 +65,17 @@ Survey<D> make_survey(const SceneOptions& s) {
       survey.blended[shot].push_back(source_of(given.shots[shot].sources[n]));
   survey.spreads.emplace(std::move(given));
   return survey;
+}
+
+template <int D>
+void add_component(const std::string& name, Recording& recording) {
+  const bool fibre = name == "das" || name.starts_with("das:");
+  if (fibre && recording.fibre)
+    throw Error(
+        "found das more than once, expected one fibre: exx, ezz and exz give the strain rate along any",
+        ErrorKind::usage);
+  if (fibre) recording.fibre = parse_fibre<D>(name);
+  recording.components.push_back(fibre ? Component::das : component_named(name, D));
 }
 
 /// The ground of a model file, read row by row only as deep as it goes.
@@ -92,7 +104,7 @@ Scene<D> SceneOptions::without_model() const {
   Scene<D> scene;
   scene.survey = make_survey<D>(*this);
   for (const auto& name : split(record, ','))
-    scene.recording.components.push_back(in_place("--record", [&] { return component_named(name, D); }));
+    in_place("--record", [&] { add_component<D>(name, scene.recording); });
   scene.recording.duration_s = duration_s;
   scene.recording.interval_s = interval_s;
   for (int axis = 0; axis < D - 1; ++axis) scene.edges[axis] = {edge_law(sides), edge_law(sides)};

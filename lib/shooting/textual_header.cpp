@@ -52,6 +52,10 @@ std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::str
           (scene.slips() || scene.subdomain.slips ? std::string(", slip: ") + name_of(n.correction)
                                                   : std::string(", no slip")),
   };
+  if (const auto& fibre = scene.recording.fibre)
+    entries.push_back("das: strain rate along a fibre, mean over a gauge of " + shown(fibre->gauge_m) +
+                      " m; fibre " + shown(fibre->angle_deg) + " degrees from down towards +x" +
+                      (D == 3 ? ", turned by " + shown(fibre->azimuth_deg) + " degrees from x to y" : ""));
   for (std::size_t begin = 0; begin < history.size();) {
     const auto end = std::min(history.find('\n', begin), history.size());
     if (end > begin) entries.push_back(history.substr(begin, end - begin));

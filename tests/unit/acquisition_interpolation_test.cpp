@@ -160,6 +160,59 @@ TEST(AxisWeights, VanishOnAnOddMirror) {
   EXPECT_NEAR(weight_sum(axis_weights(-0.5, {0, 1000, Beyond::even})), 1, 1e-12);
 }
 
+/// |derivative - exact|/k of exp(i k x), any phase, largest over positions from .. to.
+double slope_error(double cells_per_wavelength, double from, double to, const AxisCells& usable) {
+  const double k = 2 * pi / cells_per_wavelength;
+  double largest = 0;
+  for (int n = 0; n <= 100; ++n) {
+    const double position = from + (to - from) * n / 100;
+    std::complex<double> sum = 0;
+    for (const auto& [cell, weight] : axis_slopes(position, usable))
+      sum += weight * std::polar(1., k * (double(cell) - position));
+    largest = std::max(largest, std::abs(sum / k - std::complex<double>(0, 1)));
+  }
+  return largest;
+}
+
+TEST(AxisSlopes, DifferentiateWaves) {
+  // The table of the header, a tenth above.
+  const double cells[] = {20, 16, 10, 8, 6, 5};
+  const double inside[] = {9e-5, 1.5e-4, 2.2e-4, 6e-5, 3e-5, 3.5e-3};
+  const double on_last[] = {4e-3, 8e-3, 5e-2, 0.1, 0.3, 0.55}, beyond[] = {1.4e-2, 3e-2, 0.14, 0.3, 0.8, 1.5};
+  for (std::size_t n = 0; n < std::size(cells); ++n) {
+    EXPECT_LT(slope_error(cells[n], 0, 1, everywhere), inside[n]) << cells[n];
+    EXPECT_LT(slope_error(cells[n], 0, 0, {0, 1000}), on_last[n]) << cells[n];
+    EXPECT_LT(slope_error(cells[n], -0.5, -0.5, {0, 1000}), beyond[n]) << cells[n];
+    // The other side is the mirror image.
+    EXPECT_NEAR(slope_error(cells[n], 0.3, 0.3, {0, 1000}), slope_error(cells[n], -0.3, -0.3, {-1000, 0}),
+                1e-9);
+  }
+}
+
+TEST(AxisSlopes, ReproduceCubicsForAnyStencil) {
+  for (const auto& usable :
+       {everywhere, AxisCells{0, 1000}, AxisCells{-1000, 1}, AxisCells{-2, 2}, AxisCells{0, 3}})
+    for (const double position : {0., 0.02, 0.3, 0.5, 0.97, 1., 1.4})
+      for (int power = 0; power <= 3; ++power) {
+        double sum = 0;
+        for (const auto& [cell, weight] : axis_slopes(position, usable))
+          sum += weight * std::pow(double(cell), power);
+        EXPECT_NEAR(sum, power == 0 ? 0 : power * std::pow(position, power - 1), 1e-8)
+            << position << ' ' << power;
+      }
+}
+
+TEST(AxisSlopes, FoldAtAMirrorAndVanishInOneCell) {
+  const double k = 2 * pi / 9;
+  for (double position = -0.5; position < 4; position += 0.11) {
+    double even = 0;
+    for (const auto& [cell, weight] : axis_slopes(position, {0, 1000, Beyond::even}))
+      even += weight * std::cos(k * (double(cell) + 0.5));
+    EXPECT_NEAR(even / k, -std::sin(k * (position + 0.5)), 3e-4) << position;
+  }
+  EXPECT_TRUE(axis_slopes(5.3, {5, 5}).empty());
+}
+
 TEST(PointWeights, SampleAPlaneWaveAnywhereInTheGrid) {
   const Grid<2> grid{{100, 80}, 5, {-20, 0}};
   const double k = 2 * pi / (8 * 5);  // 8 cells per wavelength
@@ -282,6 +335,24 @@ TEST(TimeWeights, ConvergeWithOrderEight) {
   };
   EXPECT_NEAR(std::log2(error(10) / error(20)), 8, 0.2);
   EXPECT_LT(error(10), 3e-5);
+}
+
+TEST(TimeWeights, DifferentiateAndIntegratePolynomialsOfDegreeSeven) {
+  const auto applied = [](const TimeWeights& weights, int power) {
+    double sum = 0;
+    for (int n = 0; n < weights.count; ++n)
+      sum += weights.weights[std::size_t(n)] * std::pow(double(weights.first + n) / 8, power);
+    return sum;
+  };
+  for (const double at : {4., 4.3, 4.99, 7.7})
+    for (int power = 0; power <= 7; ++power) {
+      const double slope = power == 0 ? 0 : power * std::pow(at / 8, power - 1) / 8;
+      EXPECT_NEAR(applied(time_slopes(at, 0, 12), power), slope, 1e-11) << at << ' ' << power;
+      const double from = std::floor(at);
+      EXPECT_NEAR(applied(time_integrals(from, at, 0, 12), power),
+                  8 * (std::pow(at / 8, power + 1) - std::pow(from / 8, power + 1)) / (power + 1), 1e-11)
+          << at << ' ' << power;
+    }
 }
 
 }  // namespace

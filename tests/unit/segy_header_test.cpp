@@ -186,9 +186,8 @@ TEST(TraceWords, FollowTheTableOfTheFormat) {
 TEST(TraceWords, GiveTheSameSiBack) {
   FileHeader file;
   file.major = 1;
-  for (const Component component :
-       {Component::vx, Component::vy, Component::vz, Component::p, Component::sxx, Component::syy,
-        Component::szz, Component::sxy, Component::sxz, Component::syz, Component::other}) {
+  for (const auto& row : component_rows()) {
+    const Component component = row.component;
     TraceHeader header = header_at(1234.5, -77.25);
     header.component = component;
     header.source_m[1] = 3;
@@ -201,6 +200,19 @@ TEST(TraceWords, GiveTheSameSiBack) {
     EXPECT_EQ(back.shot, 3);
     EXPECT_EQ(back.channel, 17);
   }
+}
+
+TEST(TraceWords, SayTheUnitOfEachComponent) {
+  const auto unit_of_trace = [](Component component) {
+    TraceHeader header = header_at(1234.5, -77.25);
+    header.component = component;
+    return words_from_si(header, layout_of(std::vector<TraceHeader>{header})).get("unit");
+  };
+  EXPECT_EQ(unit_of_trace(Component::p), 1);
+  EXPECT_EQ(unit_of_trace(Component::ux), 5);
+  EXPECT_EQ(unit_of_trace(Component::vz), 6);
+  EXPECT_EQ(unit_of_trace(Component::az), 7);
+  EXPECT_EQ(unit_of_trace(Component::das), -1);
 }
 
 TEST(TraceWords, ApplyScalarsFeetAndTheTimeScalar) {

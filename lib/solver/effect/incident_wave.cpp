@@ -23,10 +23,21 @@ class PlaneForm {
  public:
   PlaneForm(const Source<2>& source, double vp, double vs, double rho)
       : wavelet_(source.wavelet), origin_(source.position_m) {
-    const auto direction = std::get<PlaneWave<2>>(source.mechanism).direction;
-    slowness_ = {direction[0] / vp, direction[1] / vp};
+    const auto& wave = std::get<PlaneWave<2>>(source.mechanism);
+    const auto& direction = wave.direction;
+    const double c = wave.speed(vp, vs);
+    slowness_ = {direction[0] / c, direction[1] / c};
     const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
-    const double strain = -source.amplitude / vp;  // e = -v/vp along the direction of travel
+    const double strain = -source.amplitude / c;  // grad v = -d v'/c
+    if (wave.shear) {
+      const Point<2> across = {direction[1], -direction[0]};
+      factor_[Rows::velocity(0)] = source.amplitude * across[0];
+      factor_[Rows::velocity(1)] = source.amplitude * across[1];
+      factor_[Rows::normal_stress(0)] = strain * 2 * mu * direction[0] * across[0];
+      factor_[Rows::normal_stress(1)] = strain * 2 * mu * direction[1] * across[1];
+      factor_[Rows::shear_stress(0, 1)] = strain * mu * (direction[0] * across[1] + direction[1] * across[0]);
+      return;
+    }
     factor_[Rows::velocity(0)] = source.amplitude * direction[0];
     factor_[Rows::velocity(1)] = source.amplitude * direction[1];
     factor_[Rows::normal_stress(0)] = strain * (lambda + 2 * mu * direction[0] * direction[0]);

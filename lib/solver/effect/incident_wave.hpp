@@ -41,7 +41,7 @@ class IncidentWave {
 template <int D>
 std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s, double vp_max);
 
-/// A plane P wave in one medium, in closed form (theory.md (A7)). 2-D.
+/// A plane P or SV wave in one medium, in closed form (theory.md (A7)). 2-D.
 /// Everywhere in scenes whose edges are uniform; with `columns`, at the sides the solution of the column of
 /// cells along each side edge, which follows a vertical wave through any layers.
 template <class Real>

@@ -7,9 +7,9 @@
 #include <tuple>
 #include <utility>
 
-#include "acquisition/interpolation.hpp"
 #include "base/error.hpp"
 #include "scene/empty_gather.hpp"
+#include "solver/record/component_weights.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -37,39 +37,85 @@ template <int D, class Real>
 Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                             std::size_t shot, double unit, Ranks* ranks)
     : ranks_(ranks), gather_(empty_gather(scene, shot, ranks)), unit_(unit) {
-  std::vector<std::vector<ValueWeight>> of_traces;
-  const auto receivers = scene.survey.receivers_of(shot);
-  for (const Component component : scene.recording.components)
-    for (const auto& receiver : receivers) {
-      of_traces.emplace_back();
-      if (domain.subdomain.owns(domain.model_grid, receiver.point_m))
-        of_traces.back() = component_weights<D>(layout, domain, receiver.point_m, component);
-    }
-  history_.assign(std::size_t(kept) * gather_.traces.size(), 0);
-  sums_.resize(gather_.traces.size());
-  read_all(layout, of_traces);
+  const auto weights = all_weights(layout, domain, scene, shot);
+  find_spans(scene, shot);
+  history_.assign(std::size_t(kept) * series(), 0);
+  sums_.resize(series());
+  read_all(layout, weights);
   find_box(layout, domain.grid.first[D - 1]);
 }
 
-/// Traces that no rank but one has weights for are zero on the others.
+template <int D, class Real>
+std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layout<D>& layout,
+                                                                     const Domain<D>& domain,
+                                                                     const Scene<D>& scene,
+                                                                     std::size_t shot) {
+  std::vector<std::vector<ValueWeight>> firsts, seconds;
+  const auto receivers = scene.survey.receivers_of(shot);
+  const auto owned = [&](const Point<D>& point) { return domain.subdomain.owns(domain.model_grid, point); };
+  // The mean strain rate is the difference of the velocities at both ends, along the fibre, over its length.
+  const auto end_weights = [&](const Point<D>& end, double sign) {
+    auto vector = direction_of<D>(*scene.recording.fibre);
+    for (auto& part : vector) part *= sign / scene.recording.fibre->gauge_m;
+    return owned(end) ? velocity_along<D>(layout, domain, end, vector) : std::vector<ValueWeight>{};
+  };
+  for (const Component component : scene.recording.components)
+    for (const auto& receiver : receivers) {
+      const auto& point_m = receiver.point_m;
+      if (component == Component::das) {
+        const auto ends = gauge_ends<D>(*scene.recording.fibre, point_m);
+        second_ends_.push_back({firsts.size(), {}});
+        second_ends_.back().samples.reserve(std::size_t(gather_.axis.count));
+        seconds.push_back(end_weights(ends[0], -1));
+        firsts.push_back(end_weights(ends[1], 1));
+      } else {
+        firsts.emplace_back();
+        if (owned(point_m)) firsts.back() = component_weights<D>(layout, domain, point_m, component);
+      }
+    }
+  firsts.insert(firsts.end(), seconds.begin(), seconds.end());
+  return firsts;
+}
+
+template <int D, class Real>
+void Recorder<D, Real>::find_spans(const Scene<D>& scene, std::size_t shot) {
+  const auto receivers = scene.survey.receiver_count(shot);
+  for (const Component component : scene.recording.components) {
+    const auto what = row_of(component).in_time;
+    if (spans_.empty() || spans_.back().what != what)
+      spans_.push_back(
+          {spans_.empty() ? 0 : spans_.back().last, spans_.empty() ? 0 : spans_.back().last, what});
+    spans_.back().last += receivers;
+    any_integral_ = any_integral_ || what == InTime::integral;
+  }
+  if (!second_ends_.empty()) spans_.push_back({gather_.traces.size(), series(), InTime::value});
+  if (any_integral_) integrals_.assign(series(), 0);
+}
+
+/// Series that no rank but one has weights for are zero on the others.
 template <int D, class Real>
 Gather Recorder<D, Real>::take() {
-  if (!ranks_) return std::move(gather_);
-  std::vector<std::int64_t> mine;  // number of a trace, its samples
-  std::vector<double> samples;
-  for (std::size_t n = 0; n < gather_.traces.size(); ++n) {
-    if (first_term_[n] == first_term_[n + 1]) continue;
-    const auto& of_trace = gather_.traces[n].samples;
-    mine.insert(mine.end(), {std::int64_t(n), std::int64_t(of_trace.size())});
-    samples.insert(samples.end(), of_trace.begin(), of_trace.end());
+  if (ranks_) {
+    std::vector<std::int64_t> mine;  // number of a series, its samples
+    std::vector<double> samples;
+    for (std::size_t n = 0; n < series(); ++n) {
+      if (first_term_[n] == first_term_[n + 1]) continue;
+      const auto& of_series = samples_of(n);
+      mine.insert(mine.end(), {std::int64_t(n), std::int64_t(of_series.size())});
+      samples.insert(samples.end(), of_series.begin(), of_series.end());
+    }
+    const auto all = gather_on_first(*ranks_, mine);
+    samples = gather_on_first(*ranks_, samples);
+    auto next = samples.begin();
+    for (std::size_t n = 0; n < all.size(); n += 2) {
+      const auto end = next + std::ptrdiff_t(all[n + 1]);
+      samples_of(std::size_t(all[n])).assign(next, end);
+      next = end;
+    }
   }
-  const auto traces = gather_on_first(*ranks_, mine);
-  samples = gather_on_first(*ranks_, samples);
-  auto next = samples.begin();
-  for (std::size_t n = 0; n < traces.size(); n += 2) {
-    const auto end = next + std::ptrdiff_t(traces[n + 1]);
-    gather_.traces[std::size_t(traces[n])].samples.assign(next, end);
-    next = end;
+  for (const auto& [trace, samples] : second_ends_) {
+    auto& sum = gather_.traces[trace].samples;
+    for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += samples[n];
   }
   return std::move(gather_);
 }
@@ -83,6 +129,7 @@ std::int64_t Recorder<D, Real>::steps_needed(const Recording& recording, double 
 template <int D, class Real>
 bool Recorder<D, Real>::wants(const StepTime& time) const {
   const std::int64_t instant = time.step + 1;
+  if (any_integral_) return true;
   // The first sample that may still need it, or one before it.
   constexpr std::int64_t half = kept / 2;
   const double first = double(instant - half) * time.dt_s / gather_.axis.interval_s;
@@ -114,41 +161,59 @@ void Recorder<D, Real>::read(const StepTime& time, const RowFields<const Real>& 
 
 template <int D, class Real>
 void Recorder<D, Real>::finish(const StepTime& time) {
-  const auto traces = gather_.traces.size();
   const std::int64_t instant = time.step + 1;
   if (wants(time)) {
-    double* const now = history_.data() + instant % kept * std::int64_t(traces);
+    double* const now = history_.data() + instant % kept * std::int64_t(series());
     const Real* const values = values_of(time);
     const double* weights = weights_.data();
-    for (std::size_t trace = 0; trace < traces; ++trace) {
+    for (std::size_t one = 0; one < series(); ++one) {
       SideBySide sum;
-      for (auto n = first_term_[trace]; n < first_term_[trace + 1]; ++n) {
+      for (auto n = first_term_[one]; n < first_term_[one + 1]; ++n) {
         sum.add(weights, values + terms_[n].value, terms_[n].count);
         weights += terms_[n].count;
       }
-      now[trace] = sum.total() / unit_;
+      now[one] = sum.total() / unit_;
     }
   }
   interpolate(instant, time.dt_s);
 }
 
-/// All samples whose eight steps are there. Before t = 0 nothing moves: those instants count as zero.
+/// Before t = 0 nothing moves: those instants count as zero.
+template <int D, class Real>
+void Recorder<D, Real>::add_to_sums(const TimeWeights& weights, double factor, std::size_t first,
+                                    std::size_t last) {
+  for (int n = 0; n < weights.count; ++n) {
+    const std::int64_t instant = weights.first + n;
+    if (instant < 0) continue;
+    const double weight = weights.weights[std::size_t(n)] * factor;
+    const double* const then = history_.data() + instant % kept * std::int64_t(series());
+    for (std::size_t one = first; one < last; ++one) sums_[one] += weight * then[one];
+  }
+}
+
+/// All samples whose eight steps are there. Integrals then advance to the next step: samples lie behind it.
 template <int D, class Real>
 void Recorder<D, Real>::interpolate(std::int64_t newest, double dt_s) {
-  const auto traces = gather_.traces.size();
+  const std::int64_t oldest = newest - kept + 1, before = newest - kept / 2;
   for (; next_sample_ < gather_.axis.count; ++next_sample_) {
-    if (steps_before(next_sample_, dt_s) + kept / 2 > newest) return;
-    const auto weights = time_weights(steps_at(next_sample_, dt_s), newest - kept + 1, newest);
+    if (steps_before(next_sample_, dt_s) > before) break;
+    const double at = steps_at(next_sample_, dt_s);
     std::fill(sums_.begin(), sums_.end(), 0.);
-    for (int n = 0; n < weights.count; ++n) {
-      const std::int64_t instant = weights.first + n;
-      if (instant < 0) continue;
-      const double weight = weights.weights[std::size_t(n)];
-      const double* const then = history_.data() + instant % kept * std::int64_t(traces);
-      for (std::size_t trace = 0; trace < traces; ++trace) sums_[trace] += weight * then[trace];
+    for (const auto& [first, last, what] : spans_) {
+      if (what == InTime::value) add_to_sums(time_weights(at, oldest, newest), 1, first, last);
+      if (what == InTime::derivative) add_to_sums(time_slopes(at, oldest, newest), 1 / dt_s, first, last);
+      if (what != InTime::integral) continue;
+      add_to_sums(time_integrals(double(before), at, oldest, newest), dt_s, first, last);
+      for (std::size_t one = first; one < last; ++one) sums_[one] += integrals_[one];
     }
-    for (std::size_t trace = 0; trace < traces; ++trace)
-      gather_.traces[trace].samples.push_back(sums_[trace]);
+    for (std::size_t one = 0; one < series(); ++one) samples_of(one).push_back(sums_[one]);
+  }
+  if (!any_integral_ || before < 0) return;
+  std::fill(sums_.begin(), sums_.end(), 0.);
+  for (const auto& [first, last, what] : spans_) {
+    if (what != InTime::integral) continue;
+    add_to_sums(time_integrals(double(before), double(before) + 1, oldest, newest), dt_s, first, last);
+    for (std::size_t one = first; one < last; ++one) integrals_[one] += sums_[one];
   }
 }
 
@@ -156,10 +221,12 @@ template <int D, class Real>
 void Recorder<D, Real>::serialize(Archive& archive) {
   archive.value(next_sample_);
   archive.fixed(history_);
-  for (auto& trace : gather_.traces) {
-    archive.values(trace.samples);
-    if (std::int64_t(trace.samples.size()) != next_sample_ || next_sample_ > gather_.axis.count)
-      throw Error("found a trace of " + std::to_string(trace.samples.size()) + " samples, expected " +
+  if (any_integral_) archive.fixed(integrals_);
+  for (std::size_t one = 0; one < series(); ++one) {
+    auto& samples = samples_of(one);
+    archive.values(samples);
+    if (std::int64_t(samples.size()) != next_sample_ || next_sample_ > gather_.axis.count)
+      throw Error("found a trace of " + std::to_string(samples.size()) + " samples, expected " +
                   std::to_string(next_sample_));
   }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "acquisition/interpolation.hpp"
 #include "base/archive.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
@@ -12,7 +13,8 @@
 namespace slipwave::solver {
 
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
-/// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)).
+/// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)); integrals and
+/// derivatives in time are those of the same polynomials (A9).
 template <int D, class Real>
 class Recorder : public Record<D, Real> {
  public:
@@ -41,6 +43,10 @@ class Recorder : public Record<D, Real> {
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
+  /// Weights of the first series of each trace, and of further ones where a trace is the sum of two.
+  std::vector<std::vector<ValueWeight>> all_weights(const Layout<D>& layout, const Domain<D>& domain,
+                                                    const Scene<D>& scene, std::size_t shot);
+  void find_spans(const Scene<D>& scene, std::size_t shot);
   void read_all(const Layout<D>& layout, const std::vector<std::vector<ValueWeight>>& of_traces);
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
   /// Whether any sample is interpolated from the end of that step.
@@ -53,6 +59,13 @@ class Recorder : public Record<D, Real> {
     return std::int64_t(std::floor(steps_at(sample, dt_s)));
   }
   void interpolate(std::int64_t newest, double dt_s);
+  void add_to_sums(const TimeWeights& weights, double factor, std::size_t first, std::size_t last);
+  /// The samples of a series: those of its trace, or kept beside it until both ends of a fibre are known.
+  std::vector<double>& samples_of(std::size_t series) {
+    const auto traces = gather_.traces.size();
+    return series < traces ? gather_.traces[series].samples : second_ends_[series - traces].samples;
+  }
+  std::size_t series() const { return gather_.traces.size() + second_ends_.size(); }
   Real* values_of(const StepTime& time) {
     return values_.data() + time.step % Effect<D, Real>::most_steps_in_progress * values_a_step_;
   }
@@ -71,20 +84,36 @@ class Recorder : public Record<D, Real> {
   struct Term {
     std::int64_t value, count;
   };
+  /// Series that follow each other of which the same is recorded.
+  struct Span {
+    std::size_t first, last;
+    InTime what;
+  };
+  /// The velocity along a fibre at its other end (with the sign it counts with): a series that is added to a
+  /// trace when all are known, since another rank may own that end.
+  struct SecondEnd {
+    std::size_t trace;
+    std::vector<double> samples;
+  };
   Ranks* ranks_;
   Gather gather_;
+  std::vector<SecondEnd> second_ends_;
+  std::vector<Span> spans_;    // of all series: traces, then second ends
+  bool any_integral_ = false;  // then every step is read
+  std::vector<double>
+      integrals_;  // of each series, times 1/s, up to half of `kept` before the newest instant
   double unit_;
-  std::vector<double> weights_;          // of all traces, in the order of their terms
-  std::vector<Term> terms_;              // of all traces
-  std::vector<std::size_t> first_term_;  // of each trace, and the end
+  std::vector<double> weights_;          // of all series, in the order of their terms
+  std::vector<Term> terms_;              // of all series
+  std::vector<std::size_t> first_term_;  // of each series, and the end
   std::vector<Run> runs_;                // by line, row, column
   std::vector<RowRuns> rows_;            // by line, row
   std::vector<std::size_t> starts_;      // of each line in rows_, and the end
   Box box_;
   std::int64_t values_a_step_ = 0;
   std::vector<Real> values_;     // [step modulo those in progress][value]
-  std::vector<double> history_;  // [instant modulo kept][trace], of the instants that samples need
-  std::vector<double> sums_;     // of a sample, one per trace
+  std::vector<double> history_;  // [instant modulo kept][series], of the instants that samples need
+  std::vector<double> sums_;     // of a sample, one per series
   std::int64_t next_sample_ = 0;
 };
 

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 
-#include "acquisition/interpolation.hpp"
 #include "grid/locate.hpp"
 #include "solver/sweep/free_surface.hpp"
 
@@ -37,8 +36,18 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
   return velocity == motionless ? Beyond::odd : Beyond::even;
 }
 
-/// The largest box round a cell of cells that are `alike(cell)`, grown one layer at a time on each side, by
-/// `rings` at most and, where `longest` is given, until it is that long.
+/// Whether the scheme's stencils end between two cells of one kind.
+template <int D>
+bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const double z = domain.impedance(wave)(one), beyond = domain.impedance(wave)(other);
+    if (z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z) return true;
+  }
+  return false;
+}
+
+/// The largest box round a cell of cells that are `alike(cell, the next one towards the centre)`, grown one
+/// layer at a time on each side, by `rings` at most and, where `longest` is given, until it is that long.
 template <int D, class Alike>
 std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& centre, int rings,
                                    std::int64_t longest, Alike&& alike) {
@@ -50,7 +59,9 @@ std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& cent
     for (std::size_t other = 0; other < D; ++other) at[other] = box[other].low;
     at[axis] = layer;
     for (;;) {
-      if (!alike(at)) return false;
+      Index<D> inside = at;
+      inside[axis] += layer < centre[axis] ? 1 : -1;
+      if (!alike(at, inside)) return false;
       std::size_t other = 0;
       for (; other < D; ++other) {
         if (other == axis) continue;
@@ -72,13 +83,16 @@ std::array<AxisCells, D> box_round(const Domain<D>& domain, const Index<D>& cent
 
 /// Cells of one kind (solid or fluid) round a cell, within reach of a stencil.
 template <int D>
-std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre) {
+std::array<AxisCells, D> usable_cells(const Domain<D>& domain, const Index<D>& centre, Reach reach) {
   const auto kind = [&](const Index<D>& at) {
     return (domain.impedance(wave_p)(at) > 0) + (domain.impedance(wave_s)(at) > 0);
   };
   const int wanted = kind(centre);
   return box_round(domain, centre, widest_stencil, std::numeric_limits<std::int64_t>::max(),
-                   [&](const Index<D>& at) { return kind(at) == wanted; });
+                   [&](const Index<D>& at, const Index<D>& inside) {
+                     return kind(at) == wanted &&
+                            (reach == Reach::over_one_kind || !strong_interface(domain, at, inside));
+                   });
 }
 
 /// Impedances that differ by less than this factor are those of one rock.
@@ -89,7 +103,7 @@ constexpr double one_rock = 1.05;
 template <int D>
 std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domain, const Index<D>& centre,
                                                           int field_row) {
-  const auto alike = [&](const Index<D>& at) {
+  const auto alike = [&](const Index<D>& at, const Index<D>&) {
     for (const Wave wave : {wave_p, wave_s}) {
       const double one = domain.impedance(wave)(centre), other = domain.impedance(wave)(at);
       if (other > one_rock * one || one > one_rock * other) return false;
@@ -119,23 +133,6 @@ template <int D>
 bool askew(const Domain<D>& domain, const Index<D>& centre, EdgeLaw law, int row, bool fluid) {
   if (!domain.bent(centre[D - 1])) return false;
   return law == EdgeLaw::mirror || (law == EdgeLaw::free && (row < D) == fluid);
-}
-
-/// The cells round a point and the extension of the field beyond those at an edge of the grid.
-template <int D>
-std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
-                                                     int field_row, bool fluid) {
-  auto usable = usable_cells(domain, centre);
-  for (std::size_t axis = 0; axis < D; ++axis) {
-    const auto beyond = [&](int side) {
-      const EdgeLaw law = domain.edges[int(axis)][side];
-      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
-      return beyond_edge<D>(law, int(axis), field_row, fluid);
-    };
-    if (usable[axis].low == 0) usable[axis].below = beyond(0);
-    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
-  }
-  return usable;
 }
 
 template <int D>
@@ -188,6 +185,22 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values) {
   std::sort(lines.begin(), lines.end());
   lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
   return lines;
+}
+
+template <int D>
+std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                     int field_row, bool fluid, Reach reach) {
+  auto usable = usable_cells(domain, centre, reach);
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const auto beyond = [&](int side) {
+      const EdgeLaw law = domain.edges[int(axis)][side];
+      if (axis == D - 1 && askew(domain, centre, law, field_row, fluid)) return Beyond::unknown;
+      return beyond_edge<D>(law, int(axis), field_row, fluid);
+    };
+    if (usable[axis].low == 0) usable[axis].below = beyond(0);
+    if (usable[axis].high == domain.grid.shape[axis] - 1) usable[axis].above = beyond(1);
+  }
+  return usable;
 }
 
 template <int D>
@@ -252,34 +265,19 @@ int row_of(const WaveField& field) {
   return one == other ? Rows::normal_stress(one) : Rows::shear_stress(one, other);
 }
 
-template <int D>
-std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                           const Point<D>& point_m, Component component) {
-  const auto terms = slipwave::row_of(component).terms_in(D);
-  std::vector<ValueWeight> all;
-  for (const auto& term : terms)
-    for (auto weight : row_weights(layout, domain, point_m, row_of<D>(term.field))) {
-      weight.weight /= term.sign * int(terms.size());
-      all.push_back(weight);
-    }
-  return all;
-}
-
 template Index<2> cell_at(const Domain<2>&, const Point<2>&);
 template std::vector<ValueWeight> row_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&, int);
+template std::array<AxisCells, 2> extended_cells(const Domain<2>&, const Index<2>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
                                                         int);
-template std::vector<ValueWeight> component_weights(const Layout<2>&, const Domain<2>&, const Point<2>&,
-                                                    Component);
 template int row_of<2>(const WaveField&);
 template Index<3> cell_at(const Domain<3>&, const Point<3>&);
 template std::vector<ValueWeight> row_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
 template std::vector<ValueWeight> source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&, int);
+template std::array<AxisCells, 3> extended_cells(const Domain<3>&, const Index<3>&, int, bool, Reach);
 template std::vector<ValueWeight> smooth_source_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
                                                         int);
-template std::vector<ValueWeight> component_weights(const Layout<3>&, const Domain<3>&, const Point<3>&,
-                                                    Component);
 template int row_of<3>(const WaveField&);
 
 }  // namespace slipwave::solver

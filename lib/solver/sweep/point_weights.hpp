@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "acquisition/interpolation.hpp"
 #include "gather/component.hpp"
 #include "solver/sweep/domain.hpp"
 
@@ -36,10 +37,14 @@ template <int D>
 std::vector<ValueWeight> smooth_source_weights(const Layout<D>& layout, const Domain<D>& domain,
                                                const Point<D>& point_m, int field_row);
 
-/// The same for a component of a gather: the mean of its terms (gather/component.hpp).
+/// What ends the cells that are read: another kind of cell (solid, fluid, void), or strong interfaces, too.
+enum class Reach { over_one_kind, to_strong_interfaces };
+/// The cells round a cell that may be read along each axis, and the extension of a field row beyond those at
+/// an edge of the grid.
 template <int D>
-std::vector<ValueWeight> component_weights(const Layout<D>& layout, const Domain<D>& domain,
-                                           const Point<D>& point_m, Component component);
+std::array<AxisCells, std::size_t(D)> extended_cells(const Domain<D>& domain, const Index<D>& centre,
+                                                     int field_row, bool fluid,
+                                                     Reach reach = Reach::over_one_kind);
 
 /// Row of a field of the wave equation.
 template <int D>
