@@ -50,7 +50,12 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("edge-width", s.edge_width, "CELLS",
               "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
   options.add("without", s.without, "LIST",
-              "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress");
+              "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress, attenuation");
+  options.add("q-frequency", s.q_frequency_hz, "F",
+              "with qp, qs: frequency of the model's speeds, Hz [that of the wavelet]");
+  options.add("q-band", s.q_band, "F1,F2",
+              "band of constant qp and qs, Hz [1/5 to 2.5 times that of the wavelet]");
+  options.add("q-mechanisms", s.q_mechanisms, "N", "relaxation mechanisms, 2 to 5");
   options.add("allow-slow", s.limits.allow_slow, "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", s.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add_choice("precision", s.precision, {"float", "double"}, "floating-point precision");

@@ -105,7 +105,7 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
 }
 
 /// The user's scene; nothing of it is asked for where a built-in case is.
-Scene<2> make_scene(const Settings& s) {
+Scene<2> make_scene(const Settings& s, const cli::Context& context) {
   for (const auto& [given, name] : {std::pair{s.shot.survey.any_source(), "--source"},
                                     {!s.shot.wavelet.empty(), "--wavelet"},
                                     {s.shot.survey.any_receiver(), "--receivers"},
@@ -113,7 +113,8 @@ Scene<2> make_scene(const Settings& s) {
     if (!given)
       throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);
   auto scene = s.shot.without_model<2>();
-  s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model));
+  for (const auto& sentence : s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model)))
+    context.warn(sentence);
   return scene;
 }
 
@@ -125,7 +126,7 @@ void run(const Settings& s, const cli::Context& context) {
   expect_other_files(s.output, {s.shot.model});
   if (built_in && s.shot.model != "-")
     throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);
-  const auto scene = built_in ? full_space_case() : make_scene(s);
+  const auto scene = built_in ? full_space_case() : make_scene(s, context);
   const auto ladder = ladder_of(s, scene);
   // A name that can not be written costs no computing.
   std::optional<OutputFile> out;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -9,6 +11,7 @@
 #include "io/input_bytes.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "model/attenuation.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/model_report.hpp"
 #include "output/snapshot_reader.hpp"
@@ -60,7 +63,10 @@ Exported<D> of_model(const NetcdfFile& file, const Settings& settings) {
   if (const auto property = find_property(name)) {
     if (!model.medium.has(*property))
       throw Error(file.shown_name() + ": found no variable '" + name + "', expected a model with it");
-    return {model.medium[*property], {name, row_of(*property).shown_unit, {}}};
+    auto values = model.medium[*property];
+    // Formats of samples know no infinity.
+    std::replace(values.begin(), values.end(), std::numeric_limits<float>::infinity(), elastic_quality);
+    return {std::move(values), {name, row_of(*property).shown_unit, {}}};
   }
   if (name != "fracture")
     throw Error("--property: " + file.shown_name() + " is a model: found '" + name + "', expected " +

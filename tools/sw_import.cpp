@@ -14,6 +14,7 @@
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/raw_shape.hpp"
+#include "model/relations.hpp"
 #include "model/resample.hpp"
 #include "segy/reader.hpp"
 #include "segy/sniff.hpp"
@@ -27,7 +28,7 @@ struct Settings {
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
-  std::string crop, vs_from, rho_from;
+  std::string crop, vs_from, rho_from, q_from;
   std::string surface, floor;
   std::string units;
   double fluid_vp = 1500;
@@ -53,6 +54,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
                      "rho = 310 vp^0.25 in solids, 1000 in fluid");
+  options.add("q-from-vs", settings.q_from, "RULE",
+              "qp and qs of solids: vs/N (qs = vs/N), olsen (0.02 vs, 0.1 vs from 1500 m/s on) or brocher (a "
+              "polynomial in vs); qp = 1.5 to 2 qs");
   options.add("resample", settings.resample_m, "H",
               "new cell size: averages in larger cells, interpolates for smaller ones; kinds are not mixed");
   options.add("no-average", settings.no_average, "interpolate also for larger cells");
@@ -85,6 +89,10 @@ void check_choices(const Settings& settings) {
   };
   one_of(settings.file(Property::vs), settings.vs_from, "vs");
   one_of(settings.file(Property::rho), settings.rho_from, "rho");
+  for (const auto property : {Property::qp, Property::qs})
+    if (!settings.q_from.empty() && !settings.file(property).empty())
+      throw Error("found both --q-from-vs and --" + row_of(property).name + ", expected one of them",
+                  ErrorKind::usage);
   if (!settings.shape.empty() && !settings.step_m)
     throw Error("--step is missing; raw files need it", ErrorKind::usage);
   if (settings.step_m && !(*settings.step_m > 0)) {
@@ -158,14 +166,17 @@ Field<2> read_file(const Settings& settings, Property property, double unit, std
 
 /// The number that stands in place of a file, in SI.
 std::optional<double> constant_of(const Settings& settings, Property property) {
+  const auto& given = settings.file(property);
+  if (row_of(property).if_absent && given == "inf") return PropertyRow::infinite;
   try {
-    return parse_number(settings.file(property)) * units_of(settings).factor(property);
+    return parse_number(given) * units_of(settings).factor(property);
   } catch (const Error&) {
     return {};
   }
 }
 
-/// What is given of each property; constants, on the grid of the first file. `history` is that of the file.
+/// What is given of each property; constants that every model has, on the grid of the first file. `history`
+/// is that of the file.
 std::vector<std::optional<Field<2>>> read_given(const Settings& settings, std::string& history) {
   const auto units = units_of(settings);
   std::vector<std::optional<Field<2>>> fields(all_properties().size());
@@ -178,9 +189,11 @@ std::vector<std::optional<Field<2>>> read_given(const Settings& settings, std::s
     if (!grid) grid = fields[std::size_t(property)]->grid();
   }
   if (!grid) throw Error("found constants only, expected a file of at least one property", ErrorKind::usage);
-  for (const Property property : all_properties())
-    if (!settings.file(property).empty() && !fields[std::size_t(property)])
+  for (const Property property : all_properties()) {
+    if (row_of(property).if_absent || settings.file(property).empty()) continue;
+    if (!fields[std::size_t(property)])
       fields[std::size_t(property)] = Field<2>(*grid, float(*constant_of(settings, property)));
+  }
   return fields;
 }
 
@@ -199,9 +212,14 @@ Medium<2> read_medium(const Settings& settings, std::string& history) {
   auto medium =
       medium_of<2>(*taken(Property::vp), taken(Property::vs), taken(Property::rho), settings.fluid_vp);
   clear_void(medium, settings);
-  for (const Property property : all_properties())
-    if (auto& field = fields[std::size_t(property)]; row_of(property).if_absent && field)
-      add_property(medium, property, std::move(*field));
+  for (const Property property : all_properties()) {
+    if (!row_of(property).if_absent || settings.file(property).empty()) continue;
+    if (const auto value = constant_of(settings, property))
+      add_constant(medium, property, *value);
+    else
+      add_property(medium, property, *taken(property));
+  }
+  if (!settings.q_from.empty()) in_place("--q-from-vs", [&] { add_q_from_vs(medium, settings.q_from); });
   return medium;
 }
 

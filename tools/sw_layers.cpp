@@ -24,11 +24,13 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("size", settings.size, "LXxLZ", "size of the model, m; in 3-D LXxLYxLZ");
   options.add("step", settings.step_m, "H", "cell size, m");
   options.add(
-      "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP]",
+      "layer", settings.layers, "DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]",
       "a layer from DEPTH down; repeat, top layer first. DIP in degrees, deepening towards +x, with DEPTH at "
       "x = 0. VS 0 is fluid; above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
       "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF; smooth@FILE has no "
-      "kinks. VP, VS, RHO may be A+K or A-K: A at the top, K more or less per metre");
+      "kinks. VP, VS, RHO may be A+K or A-K: A at the top, K more or less per metre. Other properties follow "
+      "by name: 'qp=80 "
+      "qs=40'");
   options.add(
       "fit", settings.fit, "surface,floor|all|none",
       "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");

@@ -139,6 +139,13 @@ std::string digest_of(const Things&... things) {
   return digest.text();
 }
 
+/// "3 mechanisms for 4 to 50 Hz, speeds at 20 Hz".
+std::string shown_attenuation(const Attenuation& attenuation) {
+  const auto& [mechanisms, reference_hz] = attenuation;
+  return std::to_string(mechanisms.count()) + " mechanisms for " + shown(mechanisms.low_hz()) + " to " +
+         shown(mechanisms.high_hz()) + " Hz, speeds at " + shown(reference_hz) + " Hz";
+}
+
 const char* name_of(EdgeLaw law) {
   switch (law) {
     case EdgeLaw::free:
@@ -157,8 +164,8 @@ const char* name_of(EdgeLaw law) {
 
 template <int D>
 Identity identity_of(const Scene<D>& scene) {
-  const auto& [model, part, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary] =
-      scene;
+  const auto& [model, part, survey, edges, numerics, recording, snapshot_every_s, with_slip, slip_diary,
+               attenuation] = scene;
   if (!part.is_whole()) throw Error("found a part of a scene, expected the whole of it");
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, tiling] = numerics;
   const auto& [components, duration_s, interval_s, fibre] = recording;
@@ -189,6 +196,7 @@ Identity identity_of(const Scene<D>& scene) {
       {"number of sources", std::to_string(sources.size())},
       {"number of receivers", std::to_string(spreads ? spreads->count_of(1) : receivers_m.size())},
   };
+  if (attenuation) identity.push_back({"attenuation", shown_attenuation(*attenuation)});
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1})
       identity.push_back(

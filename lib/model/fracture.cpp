@@ -111,25 +111,29 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
   return least;
 }
 
-SlipEffect slip_effect_named(const std::string& name) {
-  const char* const names[] = {"slip", "friction", "viscosity", "cohesion", "opening", "prestress"};
+ModelEffect model_effect_named(const std::string& name) {
+  const char* const names[] = {"slip",    "friction",  "viscosity",  "cohesion",
+                               "opening", "prestress", "attenuation"};
   std::string all;
-  for (int n = 0; n < 6; ++n) {
-    if (name == names[n]) return SlipEffect(n);
-    all += (n == 0 ? "" : n == 5 ? " or " : ", ") + std::string(names[n]);
+  for (int n = 0; n < 7; ++n) {
+    if (name == names[n]) return ModelEffect(n);
+    all += (n == 0 ? "" : n == 6 ? " or " : ", ") + std::string(names[n]);
   }
   throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
 }
 
 template <int D>
-void remove_effect(Model<D>& model, SlipEffect effect) {
-  if (effect == SlipEffect::prestress) model.prestress_pa.clear();
+void remove_effect(Model<D>& model, ModelEffect effect) {
+  if (effect == ModelEffect::prestress) model.prestress_pa.clear();
+  if (effect == ModelEffect::attenuation)
+    for (const auto property : {Property::qp, Property::qs})
+      if (model.medium.has(property)) model.medium[property] = {};
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
-      if (effect == SlipEffect::friction) system.friction = system.dynamic_friction = 0;
-      if (effect == SlipEffect::viscosity) system.viscosity_s = 0;
-      if (effect == SlipEffect::cohesion) system.strength_pa = 0;
-      if (effect == SlipEffect::opening) system.opens = false;
+      if (effect == ModelEffect::friction) system.friction = system.dynamic_friction = 0;
+      if (effect == ModelEffect::viscosity) system.viscosity_s = 0;
+      if (effect == ModelEffect::cohesion) system.strength_pa = 0;
+      if (effect == ModelEffect::opening) system.opens = false;
     }
 }
 
@@ -183,8 +187,8 @@ template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
 template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
 template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
 template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
-template void remove_effect(Model<2>&, SlipEffect);
-template void remove_effect(Model<3>&, SlipEffect);
+template void remove_effect(Model<2>&, ModelEffect);
+template void remove_effect(Model<3>&, ModelEffect);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

@@ -47,16 +47,17 @@ struct CriticalLength {
 template <int D>
 CriticalLength critical_length(const Model<D>& model, std::size_t code);
 
-/// What slip of a model consists of: each can be left out of a run.
-enum class SlipEffect { slip, friction, viscosity, cohesion, opening, prestress };
+/// Effects of a model that can be left out of a run: slip, what it consists of, and attenuation.
+enum class ModelEffect { slip, friction, viscosity, cohesion, opening, prestress, attenuation };
 
 /// Throws a usage Error that lists the names.
-SlipEffect slip_effect_named(const std::string& name);
+ModelEffect model_effect_named(const std::string& name);
 
 /// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
-/// planes that carry tension, no prestress. `slip` leaves the model alone: Scene::with_slip.
+/// planes that carry tension, no prestress, neither qp nor qs. `slip` leaves the model alone:
+/// Scene::with_slip.
 template <int D>
-void remove_effect(Model<D>& model, SlipEffect effect);
+void remove_effect(Model<D>& model, ModelEffect effect);
 
 /// How many cells a new fracture set took and did not take.
 struct FractureCount {

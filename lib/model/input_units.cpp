@@ -14,8 +14,9 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// 0 where the property has no such unit.
+/// 0 where the property has no such unit. Those without units have none to choose.
 double factor_of(const PropertyRow& row, const std::string& unit) {
+  if (row.thousand.empty()) return 0;
   if (holds(row.si, unit)) return 1;
   if (holds(row.thousand, unit)) return 1000;
   return unit == "ft/s" && holds(row.si, "m/s") ? foot_m : 0;

@@ -135,6 +135,54 @@ Trend parse_trend(std::string_view text) {
   return {parse_number(text), 0};
 }
 
+/// Takes away what stands behind the numbers of a layer, after ':' or blanks: "qp=80", "qs=40".
+std::vector<std::string> take_named(std::vector<std::string>& parts) {
+  std::vector<std::string> named;
+  for (std::size_t n = 1; n < parts.size();) {
+    const auto words = split(parts[n], ' ');
+    const bool all = words.front().find('=') != std::string::npos;
+    for (std::size_t w = all ? 0 : 1; w < words.size(); ++w)
+      if (!words[w].empty()) named.emplace_back(words[w]);
+    if (all) {
+      parts.erase(parts.begin() + std::ptrdiff_t(n));
+    } else {
+      parts[n++] = words.front();
+    }
+  }
+  return named;
+}
+
+void set_others(Layer& layer, const std::vector<std::string>& named) {
+  std::string names;
+  for (const Property property : all_properties())
+    if (row_of(property).if_absent) names += (names.empty() ? "" : ", ") + row_of(property).name;
+  for (const auto& text : named) {
+    const auto equals = text.find('=');
+    const auto property = find_property(text.substr(0, equals));
+    if (equals == std::string::npos || !property || !row_of(*property).if_absent)
+      throw Error("found '" + text + "', expected NAME=VALUE, NAME one of " + names, ErrorKind::usage);
+    for (const auto& [given, value] : layer.others)
+      if (given == *property) throw Error("found " + row_of(given).name + " twice", ErrorKind::usage);
+    const auto number = text.substr(equals + 1);
+    const auto& row = row_of(*property);
+    const double value = number == "inf" && row.if_absent == PropertyRow::infinite ? PropertyRow::infinite
+                                                                                   : parse_number(number);
+    layer.others.emplace_back(*property, value);
+  }
+}
+
+/// The optional properties that any layer has.
+std::vector<Property> others_of(const std::vector<Layer>& layers) {
+  std::vector<Property> others;
+  for (const Property property : all_properties())
+    if (std::any_of(layers.begin(), layers.end(), [&](const Layer& layer) {
+          return std::any_of(layer.others.begin(), layer.others.end(),
+                             [&](const auto& other) { return other.first == property; });
+        }))
+      others.push_back(property);
+  return others;
+}
+
 template <int D>
 Index<D> index_of(std::int64_t column, std::int64_t line, std::int64_t row) {
   if constexpr (D == 2) return {column, row};
@@ -246,12 +294,20 @@ Material Layer::at_depth(double below_top_m) const {
           material.rho + gradient.rho * depth};
 }
 
+double Layer::value(Property property) const {
+  for (const auto& [of, value] : others)
+    if (of == property) return value;
+  return row_of(property).if_absent.value();
+}
+
 Layer parse_layer(std::string_view text, const InputUnits& units) {
-  const auto parts = split(text, ':');
+  auto parts = split(text, ':');
+  const auto named = take_named(parts);
   if (parts.size() != 4 && parts.size() != 5) {
-    throw Error("found '" + std::string(text) + "', expected DEPTH:VP:VS:RHO[:DIP]", ErrorKind::usage);
+    throw Error("found '" + std::string(text) + "', expected DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]",
+                ErrorKind::usage);
   }
-  return in_place('\'' + std::string(text) + "'", [&] {
+  auto layer = in_place('\'' + std::string(text) + "'", [&] {
     const auto vp = parse_trend(parts[1]), vs = parse_trend(parts[2]), rho = parse_trend(parts[3]);
     const double dip_deg = parts.size() == 5 ? parse_number(parts[4]) : 0;
     return Layer(Horizon::parse(parts[0], dip_deg),
@@ -259,6 +315,8 @@ Layer parse_layer(std::string_view text, const InputUnits& units) {
                   rho.value * units.factor(Property::rho)},
                  {vp.gradient, vs.gradient, rho.gradient});
   });
+  in_place('\'' + std::string(text) + "'", [&] { set_others(layer, named); });
+  return layer;
 }
 
 template <int D>
@@ -315,6 +373,9 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
                          const std::vector<std::int64_t>& rows) {
   check_pile(grid, layers);
   Medium<D> medium(grid);
+  const auto others = others_of(layers);
+  for (const Property property : others)
+    medium[property] = Field<D>(grid, float(row_of(property).if_absent.value()));
   const Pile<D> pile(grid, layers, rows);
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);
@@ -330,12 +391,19 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
         const std::size_t centre = pile.layers_at(tops, z, row);
         if (centre == 0) continue;  // void
         MaterialMean mean(layers[centre - 1].at_depth(z - tops[centre - 1]));
+        std::vector<ScalarMean> means;
+        for (const Property property : others)
+          means.emplace_back(row_of(property).mean, float(layers[centre - 1].value(property)));
         if (average && pile.cut(over, at, z, cuts)) {
           const auto shares = shares_of_cell(cuts);
           for (std::size_t i = 0; i < layers.size(); ++i)
-            mean.add(layers[i].at_depth(z - tops[i]), shares[i]);
+            if (mean.add(layers[i].at_depth(z - tops[i]), shares[i]))
+              for (std::size_t k = 0; k < others.size(); ++k)
+                means[k].add(float(layers[i].value(others[k])), shares[i]);
         }
-        put(medium, std::size_t((row * lines + line) * columns + n), mean.mean());
+        const auto cell = std::size_t((row * lines + line) * columns + n);
+        put(medium, cell, mean.mean());
+        for (std::size_t k = 0; k < others.size(); ++k) medium[others[k]][cell] = float(means[k].mean());
       }
     }
   }

@@ -17,6 +17,7 @@ struct Layer {
   Horizon top;
   Material material;  // at the top
   Material gradient;  // what vp and vs (1/s) and rho (kg/m4) gain a metre below it; 0 by default
+  std::vector<std::pair<Property, double>> others;  // of its other properties, all over the layer
 
   Layer() = default;
   Layer(const Horizon& top, const Material& material, const Material& gradient = {})
@@ -25,13 +26,16 @@ struct Layer {
   Layer(double depth_m, double vp, double vs, double rho, double dip_deg = 0)
       : top(depth_m, dip_deg), material{vp, vs, rho} {}
 
+  /// Of an optional property: what its row says where the layer does not.
+  double value(Property property) const;
   /// At a depth below the top; at the top where that is negative.
   Material at_depth(double below_top_m) const;
 };
 
 /// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". DEPTH and DIP as Horizon::parse(); VP, VS and RHO are numbers,
-/// or "A+K" and "A-K" for A at the top and K more or less with every metre below it. Throws a usage Error, or
-/// one that names a horizon's file. A is in `units`, K in SI whatever they are.
+/// or "A+K" and "A-K" for A at the top and K more or less with every metre below it. Behind them, after ':'
+/// or blanks, other properties as NAME=VALUE ("qp=80 qs=40"), each once; VALUE may be inf. Throws a usage
+/// Error, or one that names a horizon's file. A is in `units`, K in SI whatever they are.
 Layer parse_layer(std::string_view text, const InputUnits& units = {});
 
 /// The grid of `size_m` in cells of `spacing_m`, its low corner at the origin. Throws a usage Error when a

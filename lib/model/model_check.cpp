@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/attenuation.hpp"
 #include "model/model.hpp"
 #include "model/prestress.hpp"
 
@@ -28,6 +29,8 @@ template <int D>
 
 std::string expected_values(const PropertyRow& row) {
   const std::string finite = "a finite number";
+  if (std::isinf(row.largest) && row.if_absent == PropertyRow::infinite)
+    return "a number of at least " + shown(row.least) + ", or inf";
   if (std::isinf(row.largest))
     return finite + (row.least == 0 ? " not below zero" : " of at least " + shown(row.least));
   return finite + " from " + shown(row.least) + " to " + shown(row.largest);
@@ -39,7 +42,8 @@ void check_values(const Medium<D>& medium, Property property) {
   const auto& field = medium[property];
   for (std::size_t cell = 0; cell < field.size(); ++cell) {
     const double value = double(field[cell]);
-    if (value >= row.least && value <= row.largest && std::isfinite(value)) continue;
+    if (value >= row.least && value <= row.largest && (std::isfinite(value) || value == row.if_absent))
+      continue;
     if (row.if_absent && medium.is_void(cell)) continue;
     const std::string found = std::isnan(value) ? "NaN" : shown_float(value);
     refuse(field.grid(), cell, row.name, "is " + found + ", expected " + expected_values(row));
@@ -114,6 +118,10 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
                ", expected both 0 in void or a density");
   }
   if (vp == 0) refuse(medium.grid(), cell, "vp", "is 0, expected a speed above zero outside void");
+  if (vs == 0 && medium.has(Property::qs) && medium[Property::qs][cell] < elastic_quality)
+    refuse(medium.grid(), cell, "qs",
+           "is " + shown_float(double(medium[Property::qs][cell])) +
+               ", expected inf in fluid, which carries no S waves");
   if (!limits.allow_slow) check_plausible(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {

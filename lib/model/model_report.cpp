@@ -16,9 +16,11 @@ namespace {
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
   std::int64_t not_finite = 0;
+  bool may_be_infinite = false;  // then that is a value like others, without being low or high
+  std::int64_t infinite = 0;
   void see(double value) {
     if (!std::isfinite(value)) {
-      ++not_finite;
+      ++(may_be_infinite && value > 0 ? infinite : not_finite);
       return;
     }
     low = std::min(low, value);
@@ -28,6 +30,7 @@ struct Range {
 
 void report(Report& report, const std::string& key, const Range& range, const std::string& unit) {
   if (range.low <= range.high) report.range(key, range.low, range.high, unit);
+  if (range.infinite) report.count(key + " infinite", range.infinite);
   if (range.not_finite) report.count(key + " not finite", range.not_finite);
 }
 
@@ -60,8 +63,10 @@ void report_grid(Report& report, const Grid<D>& grid) {
 }
 
 template <int D>
-void report_field(Report& into, const std::string& key, const Field<D>& field, const std::string& unit) {
+void report_field(Report& into, const std::string& key, const Field<D>& field, const std::string& unit,
+                  bool may_be_infinite = false) {
   Range range;
+  range.may_be_infinite = may_be_infinite;
   for (const float value : field) range.see(double(value));
   report(into, key, range, unit);
 }
@@ -123,7 +128,8 @@ Report report_of(const Model<D>& model) {
   const auto& medium = model.medium;
   report_grid(of_model, model.grid());
   for (const Property property : medium.properties())
-    report_field(of_model, row_of(property).name, medium[property], row_of(property).shown_unit);
+    report_field(of_model, row_of(property).name, medium[property], row_of(property).shown_unit,
+                 row_of(property).if_absent == PropertyRow::infinite);
   std::int64_t solid = 0, fluid = 0, nothing = 0;
   double slowest = std::numeric_limits<double>::infinity();
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {

@@ -29,7 +29,25 @@ std::vector<PropertyRow> property_rows() {
            .shown_unit = "kg/m3",
            .si = kg_m3,
            .thousand = g_cm3,
-           .mean = Mean::elastic}};
+           .mean = Mean::elastic},
+          {.name = "qp",
+           .long_name = "quality factor of P waves, infinite = elastic",
+           .help = "quality factor of P waves, a file or a number",
+           .units = "1",
+           .shown_unit = "",
+           .si = {"1", ""},
+           .least = 1,
+           .mean = Mean::harmonic,
+           .if_absent = PropertyRow::infinite},
+          {.name = "qs",
+           .long_name = "quality factor of S waves, infinite = elastic",
+           .help = "quality factor of S waves, a file or a number; fluids have none",
+           .units = "1",
+           .shown_unit = "",
+           .si = {"1", ""},
+           .least = 1,
+           .mean = Mean::harmonic,
+           .if_absent = PropertyRow::infinite}};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

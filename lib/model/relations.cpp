@@ -1,8 +1,37 @@
 #include "model/relations.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
 
 namespace slipwave {
+namespace {
+
+/// qs of vs in m/s, and the ratio of qp to it.
+struct QualityRule {
+  std::function<double(double)> qs;
+  double ratio;
+};
+
+QualityRule quality_rule(const std::string& rule) {
+  if (rule == "olsen") return {[](double vs) { return (vs < 1500 ? 0.02 : 0.1) * vs; }, 1.5};
+  if (rule == "brocher")
+    return {[](double vs) {
+              const double v = vs / 1000;
+              return vs < 300 ? 13 : -16 + v * (104.13 + v * (-25.225 + v * 8.2184));
+            },
+            2};
+  if (rule.rfind("vs/", 0) == 0) {
+    const double divisor = parse_number(rule.substr(3));
+    if (divisor > 0) return {[divisor](double vs) { return vs / divisor; }, 2};
+  }
+  throw Error("found '" + rule + "', expected vs/N with N above 0, olsen or brocher", ErrorKind::usage);
+}
+
+}  // namespace
 
 template <int D>
 Field<D> vs_by_castagna(const Field<D>& vp, double fluid_vp) {
@@ -31,6 +60,31 @@ Field<D> rho_by_gardner(const Field<D>& vp, const Field<D>& vs) {
   return rho;
 }
 
+template <int D>
+void add_q_from_vs(Medium<D>& medium, const std::string& rule) {
+  constexpr double least = 5;
+  const auto of = quality_rule(rule);
+  for (const auto property : {Property::qp, Property::qs})
+    medium[property] = Field<D>(medium.grid(), float(PropertyRow::infinite));
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (!medium.is_solid(cell)) continue;
+    const double vp = medium.vp[cell], vs = medium.vs[cell], qs = std::max(least, of.qs(vs));
+    medium[Property::qs][cell] = float(qs);
+    medium[Property::qp][cell] = float(std::min(of.ratio, 0.75 * vp * vp / (vs * vs)) * qs);
+  }
+}
+
+template <int D>
+void add_constant(Medium<D>& medium, Property property, double value) {
+  medium[property] = Field<D>(medium.grid(), float(value));
+  for (std::size_t cell = 0; property == Property::qs && cell < medium.vp.size(); ++cell)
+    if (!medium.is_solid(cell)) medium[property][cell] = float(PropertyRow::infinite);
+}
+
+template void add_q_from_vs(Medium<2>&, const std::string&);
+template void add_q_from_vs(Medium<3>&, const std::string&);
+template void add_constant(Medium<2>&, Property, double);
+template void add_constant(Medium<3>&, Property, double);
 template Field<2> vs_by_castagna(const Field<2>&, double);
 template Field<3> vs_by_castagna(const Field<3>&, double);
 template Field<2> rho_by_gardner(const Field<2>&, const Field<2>&);

@@ -67,8 +67,15 @@ std::vector<Corner> corners_of(const Medium<D>& medium, const std::array<const F
   return corners;
 }
 
+/// Linear in the property, or in its inverse where that is what averages.
 template <int D>
-float blend(const Field<D>& field, const std::vector<Corner>& corners) {
+float blend(const Field<D>& field, const std::vector<Corner>& corners, Mean rule) {
+  if (rule == Mean::harmonic) {
+    ScalarMean mean(rule, field[corners.front().cell]);
+    for (const auto& corner : corners)
+      if (corner.weight > 0) mean.add(field[corner.cell], corner.weight);
+    return float(mean.mean());
+  }
   // Sums of differences keep a constant exactly constant.
   const double base = double(field[corners.front().cell]);
   double value = base;
@@ -195,7 +202,7 @@ Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
     for (std::size_t axis = 0; axis < D; ++axis) round[axis] = &to.feet[axis][std::size_t(at[axis])];
     const auto corners = corners_of<D>(model.medium, round, source);
     for (const Property property : properties)
-      to.model.medium[property][cell] = blend(model.medium[property], corners);
+      to.model.medium[property][cell] = blend(model.medium[property], corners, row_of(property).mean);
   });
 }
 

@@ -131,6 +131,10 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
 /// are followed there. An oblique one is known only where all absorbing edges lie in one medium.
 template <int D>
 void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
+  if (scene.attenuates())
+    throw Error(
+        "found a plane wave in a model that attenuates, expected a point source or --without attenuation",
+        ErrorKind::usage);
   constexpr int z = D - 1;
   const double across = wave.direction[0], down = wave.direction[z];
   const auto& rows = scene.model.grid().rows;
@@ -247,6 +251,35 @@ bool Scene<D>::slips() const {
 }
 
 template <int D>
+bool Scene<D>::attenuates() const {
+  return attenuation && attenuating_cells(model.medium) > 0;
+}
+
+template <int D>
+std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice) {
+  double peak_hz = 0;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    for (const auto* source : scene.survey.sources_of(shot))
+      peak_hz = std::max(peak_hz, source->wavelet.nominal_hz());
+  if (!(peak_hz > 0)) return {};
+  const double reference_hz = choice.reference_hz.value_or(peak_hz);
+  if (!(reference_hz > 0) || !std::isfinite(reference_hz))
+    throw Error("--q-frequency: found " + shown(reference_hz) + " Hz, expected it above 0", ErrorKind::usage);
+  const auto band_hz = choice.band_hz.value_or(std::array{peak_hz / 5, 2.5 * peak_hz});
+  const Mechanisms mechanisms = in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms", [&] {
+    return Mechanisms(choice.mechanisms, band_hz[0], band_hz[1]);
+  });
+  if (attenuating_cells(scene.model.medium) == 0) return {};
+  scene.attenuation.emplace(Attenuation{mechanisms, reference_hz});
+  // What has relaxed is twice as much memory as the fields: longer tiles bring it through the caches less
+  // often. Processes that share a shot have chosen how much they exchange before.
+  auto& tiling = scene.numerics.tiling;
+  if (D == 2 && tiling.steps == 0 && scene.subdomain.is_whole()) tiling.steps = 6;
+  const auto lowered = unrelax(scene.model.medium, *scene.attenuation);
+  return lowered.empty() ? std::vector<std::string>{} : std::vector{lowered};
+}
+
+template <int D>
 double stable_time_step_s(const Scene<D>& scene) {
   return scene.model.grid().spacing_m /
          std::max(scene.subdomain.fastest_across_cells, fastest_across_cells(scene.model.medium));
@@ -337,6 +370,7 @@ double highest_frequency_hz(const Survey<D>& survey) {
 }
 
 template struct Scene<2>;
+template std::vector<std::string> set_attenuation(Scene<2>&, const AttenuationChoice&);
 template double stable_time_step_s(const Scene<2>&);
 template double time_step_s(const Scene<2>&);
 template int zone_cells(const Scene<2>&, const Source<2>&);
@@ -344,6 +378,7 @@ template void check(const Scene<2>&);
 template SlowestWave slowest_wave(const Medium<2>&);
 template double highest_frequency_hz(const Survey<2>&);
 template struct Scene<3>;
+template std::vector<std::string> set_attenuation(Scene<3>&, const AttenuationChoice&);
 template double stable_time_step_s(const Scene<3>&);
 template double time_step_s(const Scene<3>&);
 template int zone_cells(const Scene<3>&, const Source<3>&);

@@ -8,6 +8,7 @@
 #include "acquisition/survey.hpp"
 #include "fracture/slip_law.hpp"
 #include "gather/trace.hpp"
+#include "model/attenuation.hpp"
 #include "model/model.hpp"
 #include "scene/edges.hpp"
 #include "scene/orders.hpp"
@@ -63,10 +64,28 @@ struct Scene {
   std::optional<double> snapshot_every_s;  // whole fields at the first step after each multiple of it
   bool with_slip = true;                   // false: fracture sets of the model stay intact
   bool slip_diary = false;                 // keep slip and what it dissipates, cell by cell, and energies
+  /// How cells with a finite qp or qs attenuate; the medium is then the unrelaxed one (set_attenuation()).
+  /// Nothing: qp and qs do nothing.
+  std::optional<Attenuation> attenuation = {};
 
+  /// Whether waves are attenuated anywhere.
+  bool attenuates() const;
   /// Whether slip happens anywhere.
   bool slips() const;
 };
+
+/// How attenuation is wanted; what is not said follows from the wavelets.
+struct AttenuationChoice {
+  int mechanisms = 3;
+  std::optional<double> reference_hz;            // where speeds are as given; else the peak of the wavelets
+  std::optional<std::array<double, 2>> band_hz;  // where Q is constant; else a fifth to 2.5 times the peak
+};
+
+/// Lets a scene attenuate whose medium has a finite qp or qs anywhere, else only checks the choice: chooses
+/// mechanisms for its wavelets and makes its medium unrelaxed. Returns warnings. Throws Error as Mechanisms
+/// and unrelax(). The survey is there already; of several processes each does it with its part of the model.
+template <int D>
+std::vector<std::string> set_attenuation(Scene<D>& scene, const AttenuationChoice& choice = {});
 
 /// h/vp_max, s: the time step at Courant number 1.
 template <int D>

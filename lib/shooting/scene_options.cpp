@@ -89,6 +89,14 @@ Ground<D> read_ground(const NetcdfFile& file, const Grid<D>& grid, bool needed) 
   return ground;
 }
 
+/// Places the survey by the ground of the model that is there.
+template <int D>
+void place_on_model(Scene<D>& scene) {
+  Ground<D> ground(scene.model.grid());
+  if (needs_ground(scene.survey)) see(ground, scene.model.medium);
+  place(scene.survey, std::move(ground));
+}
+
 }  // namespace
 
 template <int D>
@@ -111,15 +119,15 @@ Scene<D> SceneOptions::without_model() const {
   scene.numerics.double_precision = precision == "double";
   scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);
-  for (const auto effect : effects_without()) scene.with_slip &= effect != SlipEffect::slip;
+  for (const auto effect : effects_without()) scene.with_slip &= effect != ModelEffect::slip;
   return scene;
 }
 
-std::vector<SlipEffect> SceneOptions::effects_without() const {
-  std::vector<SlipEffect> effects;
+std::vector<ModelEffect> SceneOptions::effects_without() const {
+  std::vector<ModelEffect> effects;
   if (without.empty()) return effects;
   for (const auto& name : split(without, ','))
-    effects.push_back(in_place("--without", [&] { return slip_effect_named(name); }));
+    effects.push_back(in_place("--without", [&] { return model_effect_named(name); }));
   return effects;
 }
 
@@ -131,18 +139,45 @@ void SceneOptions::check_model(Model<D>& read) const {
   if (!without.empty()) in_place("--without " + without, [&] { check(read, limits); });
 }
 
+AttenuationChoice SceneOptions::attenuation() const {
+  AttenuationChoice choice;
+  choice.mechanisms = q_mechanisms;
+  choice.reference_hz = q_frequency_hz;
+  if (!q_band.empty()) {
+    const auto band = in_place("--q-band", [&] { return parse_numbers(q_band, ','); });
+    if (band.size() != 2)
+      throw Error("--q-band: found '" + q_band + "', expected F1,F2 in Hz", ErrorKind::usage);
+    choice.band_hz = {band[0], band[1]};
+  }
+  return choice;
+}
+
+/// Checks the model and lets it attenuate.
 template <int D>
-void SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
-  scene.model = read_model<D>(file);
+std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   check_model(scene.model);
-  Ground<D> ground(scene.model.grid());
-  if (needs_ground(scene.survey)) see(ground, scene.model.medium);
-  place(scene.survey, std::move(ground));
-  check(scene);
+  const auto choice = attenuation();
+  try {
+    return set_attenuation(scene, choice);
+  } catch (const Error& error) {
+    if (error.kind() == ErrorKind::usage) throw;
+    throw error.within(model == "-" ? "standard input" : model);
+  }
 }
 
 template <int D>
-void SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const {
+std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
+  scene.model = read_model<D>(file);
+  auto warnings = prepare_model(scene);
+  place_on_model(scene);
+  check(scene);
+  return warnings;
+}
+
+template <int D>
+std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
+                                                      Ranks* group) const {
+  std::vector<std::string> warnings;
   collective_try(&all, [&] {
     if (group) {
       const auto grid = read_model_grid<D>(file);
@@ -154,22 +189,21 @@ void SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks
     } else {
       scene.model = read_model<D>(file);
     }
-    check_model(scene.model);
-    if (!group) {
-      Ground<D> ground(scene.model.grid());
-      if (needs_ground(scene.survey)) see(ground, scene.model.medium);
-      place(scene.survey, std::move(ground));
-    }
+    warnings = prepare_model(scene);
+    if (!group) place_on_model(scene);
   });
   if (group) join(scene, *group);
   collective_try(&all, [&] { check(scene); });
+  return warnings;
 }
 
 template Scene<2> SceneOptions::without_model() const;
 template Scene<3> SceneOptions::without_model() const;
-template void SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&, Ranks*) const;
-template void SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&, Ranks*) const;
-template void SceneOptions::read_model_into(Scene<2>&, const NetcdfFile&) const;
-template void SceneOptions::read_model_into(Scene<3>&, const NetcdfFile&) const;
+template std::vector<std::string> SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&,
+                                                               Ranks*) const;
+template std::vector<std::string> SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&,
+                                                               Ranks*) const;
+template std::vector<std::string> SceneOptions::read_model_into(Scene<2>&, const NetcdfFile&) const;
+template std::vector<std::string> SceneOptions::read_model_into(Scene<3>&, const NetcdfFile&) const;
 
 }  // namespace slipwave

@@ -22,7 +22,9 @@ struct SceneOptions {
   std::string order = "5", time_order = "2", correction = "second", precision = "float", without,
               executor = "tiled";
   double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
-  std::optional<double> time_step_s;
+  std::optional<double> time_step_s, q_frequency_hz;
+  int q_mechanisms = AttenuationChoice().mechanisms;
+  std::string q_band;
   int edge_width = 0;
   MediumLimits limits;
 
@@ -30,18 +32,23 @@ struct SceneOptions {
   /// option.
   template <int D>
   Scene<D> without_model() const;
-  /// Puts the model in and checks both. Throws an Error naming the file.
+  /// Puts the model in and checks both; what attenuates makes the medium unrelaxed. Returns warnings. Throws
+  /// an Error naming the file.
   template <int D>
-  void read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
+  std::vector<std::string> read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
   /// Collective: the same of the part that this process of `all` takes, as one of the `group` (may be null)
   /// that shoots a shot together. Errors are thrown on all.
   template <int D>
-  void read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all, Ranks* group) const;
+  std::vector<std::string> read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
+                                          Ranks* group) const;
 
  private:
   template <int D>
   void check_model(Model<D>& model) const;
-  std::vector<SlipEffect> effects_without() const;
+  AttenuationChoice attenuation() const;
+  template <int D>
+  std::vector<std::string> prepare_model(Scene<D>& scene) const;
+  std::vector<ModelEffect> effects_without() const;
 };
 
 }  // namespace slipwave

@@ -124,7 +124,7 @@ template <int D>
 void shoot_model(const ShootingOptions& options, const Provenance& provenance, const Messages& messages,
                  NetcdfFile file) {
   auto scene = make_scene<D>(options);
-  options.scene.read_model_into(scene, file);
+  for (const auto& sentence : options.scene.read_model_into(scene, file)) messages.warn(sentence);
   file.close();
   if (options.wanted_error) scene = with_wanted_error(scene, *options.wanted_error, messages);
   for (const auto& sentence : warnings(scene)) messages.warn(sentence);
@@ -142,18 +142,18 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
   collective_try(&ranks, [&] { scene = make_scene<D>(options); });
   const RankGroups groups(ranks, options.output.ranks_per_shot, scene.survey.sources.size(),
                           !options.output.snapshots.empty());
-  options.scene.read_part_into(scene, file, ranks, groups.group());
+  const auto of_model = options.scene.read_part_into(scene, file, ranks, groups.group());
   file.close();
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
   if (groups.leads()) warn_of_projection(scene.survey, messages);
-  std::string mine;
-  for (const auto& sentence : warnings(scene)) mine = sentence;
-  for (const auto& sentence : allgather_texts(ranks, mine))
-    if (!sentence.empty()) {
-      messages.warn(sentence);
-      break;
-    }
+  // Of each kind the first one's.
+  for (const auto& sentences : {of_model, warnings(scene)})
+    for (const auto& sentence : allgather_texts(ranks, sentences.empty() ? "" : sentences.back()))
+      if (!sentence.empty()) {
+        messages.warn(sentence);
+        break;
+      }
   SurveyRun<D>(scene, output, provenance, messages, &groups).run();
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "scene/splitting.hpp"
+#include "solver/effect/attenuation.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/effect/point_source.hpp"
 #include "solver/effect/slip.hpp"
@@ -20,6 +21,19 @@ bool absorbs(const Scene<D>& scene, const Source<D>& source) {
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
   return any && zone_cells(scene, source) > 0;
+}
+
+/// The sweeps of a step and, after the middle one of those along the last axis, what acts between sweeps.
+template <int D, class Real>
+void add_sweeps(const std::vector<SweepFraction>& sweeps, const std::vector<Effect<D, Real>*>& filters,
+                const std::vector<Entry<D, Real>>& between, std::vector<Entry<D, Real>>& step) {
+  std::vector<std::size_t> along_last;
+  for (std::size_t n = 0; n < sweeps.size(); ++n)
+    if (sweeps[n].axis == D - 1) along_last.push_back(n);
+  for (std::size_t n = 0; n < sweeps.size(); ++n) {
+    step.push_back(Sweep<D, Real>{sweeps[n].axis, sweeps[n].fraction, filters});
+    if (n == along_last[(along_last.size() - 1) / 2]) step.insert(step.end(), between.begin(), between.end());
+  }
 }
 
 }  // namespace
@@ -39,11 +53,16 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
       all.push_back(std::make_unique<Sponge<D, Real>>(state.layout, domain, dt_s, vp_max,
                                                       make_plane_wave<Real>(scene, source, domain, dt_s)));
   }
+  std::vector<const PointSource<D, Real>*> points;
   for (const auto* each : scene.survey.sources_of(shot)) {
     if (!point_injection(*each)) continue;
     auto point = std::make_unique<PointSource<D, Real>>(state, domain, scene, *each, unit, ranks);
-    if (!point->rows().empty()) all.push_back(std::move(point));
+    if (point->rows().empty()) continue;
+    points.push_back(point.get());
+    all.push_back(std::move(point));
   }
+  if (scene.attenuates())
+    all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, points));
   if (scene.slips()) all.push_back(std::make_unique<Slip<D, Real>>(state, domain, scene, dt_s, unit));
   return all;
 }
@@ -53,21 +72,21 @@ TimeStep<D, Real> StepBuilder<D, Real>::time_step(Sweeps<D, Real>& sweeps, const
                                                   const std::vector<Record<D, Real>*>& records,
                                                   std::int64_t steps) const {
   std::vector<Effect<D, Real>*> filters;
-  std::vector<Entry<D, Real>> before, after, step;
+  std::vector<Entry<D, Real>> before, after, between, step;
   for (const auto& effect : effects) {
     const auto declared = effect->declaration();
     if (declared.filters_sweeps) {
       filters.push_back(effect.get());
       sweeps.use(effect.get());
     }
+    if (declared.between_sweeps) between.push_back(Between<D, Real>{effect.get()});
     if (declared.acts_on == ActsOn::nothing) continue;
     before.push_back(Apply<D, Real>{effect.get(), false});
     after.push_back(Apply<D, Real>{effect.get(), true});
   }
   // The effect that acts last before recording acts first after it: the step is symmetric about its end.
   std::reverse(after.begin(), after.end());
-  for (const auto& [axis, fraction] : splitting(D, scene.numerics.time_order))
-    step.push_back(Sweep<D, Real>{axis, fraction, filters});
+  add_sweeps(splitting(D, scene.numerics.time_order), filters, between, step);
   step.insert(step.end(), before.begin(), before.end());
   for (auto* record : records) step.push_back(Read<D, Real>{record});
   step.insert(step.end(), after.begin(), after.end());

@@ -9,6 +9,7 @@
 #include "grid/locate.hpp"
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
+#include "solver/effect/attenuation.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -45,6 +46,13 @@ double unit_of(const Scene<D>& scene, std::size_t shot, double dt_s, Ranks* rank
   return scene.model.fracture_sets.empty() ? unit : std::min(unit, 1.);
 }
 
+/// The medium whose stress relaxes by steps; nothing where the scene does not attenuate.
+template <int D>
+std::optional<Medium<D>> attenuating_medium(const Scene<D>& scene, double dt_s) {
+  if (!scene.attenuates()) return {};
+  return relaxation_by_steps(scene, dt_s).medium();
+}
+
 /// What all ranks report together.
 ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   ShotReport all;
@@ -69,9 +77,10 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       dt_s_(time_step_s(scene)),
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
       unit_(unit_of(scene, shot, dt_s_, ranks)),
-      domain_(make_domain(scene.model.medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
+      attenuating_(attenuating_medium(scene, dt_s_)),
+      domain_(make_domain(medium(), scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                           scene.subdomain)),
-      state_(make_filled_state<D, Real>(domain_, scene.model.medium, dt_s_)),
+      state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
       effects_(builder().effects(shot, unit_, ranks)),
       recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
@@ -84,6 +93,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
   // Everything that depends on them is built.
   domain_.release_impedances();
+  attenuating_.reset();
   bool changed = false;
   for (auto& effect : effects_) changed |= effect->initialize(state_);
   if (changed) executor_->fields_changed();

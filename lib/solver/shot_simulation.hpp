@@ -50,6 +50,7 @@ class ShotSimulation {
 
  private:
   StepBuilder<D, Real> builder() { return {*scene_, domain_, state_, dt_s_}; }
+  const Medium<D>& medium() const { return attenuating_ ? *attenuating_ : scene_->model.medium; }
   std::vector<Record<D, Real>*> records();
   std::unique_ptr<Halo<D, Real>> make_halo();
   void check_together();
@@ -62,6 +63,7 @@ class ShotSimulation {
   double dt_s_;
   std::int64_t steps_, done_ = 0;
   double unit_;
+  std::optional<Medium<D>> attenuating_;  // in place of the scene's, while domain and state are built
   Domain<D> domain_;
   State<D, Real> state_;
   Sweeps<D, Real> sweeps_;

@@ -45,6 +45,11 @@ void register_effects() {
       what.nx = what.nz = 3000;
       what.slipping = share;
     });
+  add("attenuation in all cells", [](Case& what) { what.attenuating = 40; });
+  add("attenuation in all cells, every cell another material", [](Case& what) {
+    what.variety = Variety::random;
+    what.attenuating = 40;
+  });
   add("slip in 10 % of the cells", [](Case& what) { what.slipping = 0.1; });
   add("slip in all cells", [](Case& what) { what.slipping = 1; });
   const auto add_slip = [&](const std::string& kind, const auto& change) {

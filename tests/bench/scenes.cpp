@@ -87,6 +87,12 @@ Scene<2> make_scene(const Case& what) {
   scene.recording = {{Component::vx, Component::vz}, what.duration_s, 0.001};
   if (what.receivers <= 1) scene.recording.interval_s = 0.01;
   if (what.snapshot_every_s > 0) scene.snapshot_every_s = what.snapshot_every_s;
+  if (what.attenuating > 0) {
+    auto& medium = scene.model.medium;
+    medium[Property::qp] = Field<2>(medium.grid(), float(2 * what.attenuating));
+    if (!what.fluid) medium[Property::qs] = Field<2>(medium.grid(), float(what.attenuating));
+    set_attenuation(scene);
+  }
   return scene;
 }
 

@@ -27,6 +27,7 @@ struct Case {
   bool bent = false;  // rows of a fitted grid that all are bent, but for the first and the last face
   bool plane_wave = false;
   bool at_the_surface = false;  // source and receivers, else in the middle and above it
+  double attenuating = 0;       // a quality factor of S waves in all cells, twice that of P waves; 0: elastic
   double slipping = 0;          // share of the cells, a box in the middle
   SlipCorrection correction = SlipCorrection::second;
   bool blocks = false, parting = false, under_stress = false;  // what else slip may be of

@@ -1,5 +1,5 @@
 #!/bin/sh
-# vectors.sh BUILD: whether every inner loop of lib/solver/kernels/kernels_level.cpp and slip_level.cpp was compiled into vectors
+# vectors.sh BUILD: whether every inner loop of lib/solver/kernels/kernels_level.cpp, slip_level.cpp and relaxation_level.cpp was compiled into vectors
 # of the full width of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
 #
 # Reads the disassembly. A loop is what a jump leads back to from below. Each kernel must have one in which all of the
@@ -174,14 +174,43 @@ want_slip() {
     }' || status=1
 }
 
+# want_relaxation OBJECT LEVEL WIDTH: the same of the kernels of attenuation: five operations for each mechanism and part of
+# the stress, of which two may be fused, and those that take the stress apart.
+want_relaxation() {
+  loops "$1" | awk -F '\t' -v level="$2" -v width="$3" '
+    $1 !~ /^relax</ { next }
+    { seen[$1] = 1 }
+    $2 == width && $3 > most[$1] { most[$1] = $3 }
+    END {
+      for (kernel in seen) {
+        ++kernels
+        split(kernel, of, /[<,] ?/)
+        parts = of[3] == "false" ? 1 : of[2] == 2 ? 3 : 6
+        least = 5 * of[4] * parts
+        if (most[kernel] >= least) continue
+        printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
+        bad = 1
+      }
+      # Two dimensions, with and without shear, two to five mechanisms.
+      if (kernels != 2 * 2 * 2 * 4) {
+        printf "%s: %d kernels of attenuation, expected 32\n", level, kernels
+        bad = 1
+      }
+      if (!bad) printf "%s: %d kernels of attenuation on vectors of %d bits\n", level, kernels, width
+      exit bad
+    }' || status=1
+}
+
 for level in $levels; do
-  for of in kernels slip; do
+  for of in kernels slip relaxation; do
     object=$(find "$build/lib/solver" -path "*kernels_${level%=*}.dir*" -name "${of}_level.cpp.o")
     if [ -z "$object" ]; then
       echo "${level%=*}: no object of ${of}_level.cpp in $build"
       status=1
     elif [ "$of" = kernels ]; then
       want "$object" "${level%=*}" "${level#*=}"
+    elif [ "$of" = relaxation ]; then
+      want_relaxation "$object" "${level%=*}" "${level#*=}"
     else
       want_slip "$object" "${level%=*}" "${level#*=}"
     fi

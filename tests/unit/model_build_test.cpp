@@ -43,7 +43,8 @@ TEST(Layers, AreParsedStrictly) {
   EXPECT_DOUBLE_EQ(layer.top.at(100), 10 - 100 * std::tan(5 * std::acos(-1.0) / 180));
   EXPECT_EQ(layer.material, (Material{3000, 1500, 2000}));
   EXPECT_EQ(layer.gradient, Material{});
-  EXPECT_EQ(sentence_of([] { parse_layer("1:2:3"); }), "found '1:2:3', expected DEPTH:VP:VS:RHO[:DIP]");
+  EXPECT_EQ(sentence_of([] { parse_layer("1:2:3"); }),
+            "found '1:2:3', expected DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]");
 }
 
 TEST(GridOfSize, WantsWholeSteps) {

@@ -132,11 +132,11 @@ TEST(Prestress, GoesWithItsCellsToOtherGrids) {
   EXPECT_EQ(part.prestress_pa[1]({0, 0}), model.prestress_pa[1]({1, 5}));
 }
 
-TEST(SlipEffect, OfStaticStressAndOpeningCanBeTakenOut) {
+TEST(ModelEffect, OfStaticStressAndOpeningCanBeTakenOut) {
   auto model = fractured({{half, -half}, 1, 0, 0, true});
   set_prestress(model, 1, parse_prestress<2>("lithostatic"));
-  remove_effect(model, slip_effect_named("opening"));
+  remove_effect(model, model_effect_named("opening"));
   EXPECT_FALSE(model.fracture_sets[0].systems[0].opens);
-  remove_effect(model, slip_effect_named("prestress"));
+  remove_effect(model, model_effect_named("prestress"));
   EXPECT_TRUE(model.prestress_pa.empty());
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lab.hpp"
+#include "viscoelastic.hpp"
 
 namespace slipwave::solver {
 
@@ -23,8 +24,10 @@ struct LayerStack {
   double source_m = 0;            // b of the source, in no face; its a is 0
   bool explosion = true;          // of unit moment rate; else
   std::array<double, 2> force{};  // N/m along a and b
+  /// Of P and S waves of each layer, which makes the speeds above those of the reference frequency; empty:
+  /// none loses anything.
+  std::vector<std::array<ModulusOf, 2>> losses = {};
 
-  using Complex = std::complex<double>;
   /// A place whose motion is wanted.
   struct Receiver {
     double a, b;
@@ -82,7 +85,16 @@ struct LayerStack {
   bool has_top(std::size_t layer) const { return free_surface || layer > 0; }
   bool has_bottom(std::size_t layer) const { return layer + 1 < layers.size(); }
   double bottom(std::size_t layer) const { return top(layer + 1); }
-  static Complex decay(double c, Complex omega, double k) {
+  /// At a frequency, which may be complex.
+  Complex vp(std::size_t layer, Complex omega) const {
+    const auto loss = losses.empty() ? 1. : losses[layer][0](omega / (2 * std::numbers::pi));
+    return layers[layer].vp * std::sqrt(loss);
+  }
+  Complex vs(std::size_t layer, Complex omega) const {
+    const auto loss = losses.empty() ? 1. : losses[layer][1](omega / (2 * std::numbers::pi));
+    return layers[layer].vs * std::sqrt(loss);
+  }
+  static Complex decay(Complex c, Complex omega, double k) {
     return std::sqrt(k * k - omega * omega / (c * c));
   }
 
@@ -90,8 +102,7 @@ struct LayerStack {
     const Complex i(0, 1);
     const Rock& rock = layers[layer];
     if (fluid(layer)) return {-i * k * of.p, of.dp, -rock.rho * omega * omega * of.p, 0};
-    const double mu = rock.mu();
-    const auto q = 2 * k * k - omega * omega / (rock.vs * rock.vs);
+    const auto c = vs(layer, omega), mu = rock.rho * c * c, q = 2 * k * k - omega * omega / (c * c);
     return {-i * k * of.p - of.ds, of.dp - i * k * of.s, mu * (q * of.p - 2. * i * k * of.ds),
             mu * (-2. * i * k * of.dp - q * of.s)};
   }
@@ -108,8 +119,7 @@ struct LayerStack {
 
   /// A wave of potential 1 at the face that it leaves.
   Fields wave(const Unknown& of, Complex omega, double k, double b) const {
-    const Rock& rock = layers[of.layer];
-    const auto m = decay(of.shear ? rock.vs : rock.vp, omega, k);
+    const auto m = decay(of.shear ? vs(of.layer, omega) : vp(of.layer, omega), omega, k);
     const auto value = std::exp(-m * (of.down ? b - top(of.layer) : bottom(of.layer) - b));
     const auto slope = (of.down ? -1. : 1.) * m * value;
     return of.shear ? fields(of.layer, omega, k, {0, 0, value, slope})
@@ -122,12 +132,12 @@ struct LayerStack {
     const auto layer = layer_of(source_m);
     const Rock& rock = layers[layer];
     const double sign = b >= source_m ? 1 : -1, away = std::abs(b - source_m);
-    const auto m = decay(rock.vp, omega, k), g = std::exp(-m * away) / (2. * m);
+    const auto c_p = vp(layer, omega), m = decay(c_p, omega, k), g = std::exp(-m * away) / (2. * m);
     if (explosion) {
-      const auto p = -g / (rock.rho * rock.vp * rock.vp);
+      const auto p = -g / (rock.rho * c_p * c_p);
       return fields(layer, omega, k, {p, -sign * m * p, 0, 0});
     }
-    const auto l = decay(rock.vs, omega, k), gs = std::exp(-l * away) / (2. * l);
+    const auto l = decay(vs(layer, omega), omega, k), gs = std::exp(-l * away) / (2. * l);
     const auto c = 1. / (rock.rho * omega * omega);
     const auto p = c * (force[1] * sign * m * g + force[0] * i * k * g);
     const auto s = c * (force[1] * i * k * gs - force[0] * sign * l * gs);
@@ -239,6 +249,18 @@ struct LayerStack {
     return sum;
   }
 
+  Motion lossy_direct(std::size_t layer, double omega, double a, double b) const {
+    if (omega == 0) return {};
+    const LossyRock rock(layers[layer], omega, losses[layer][0], losses[layer][1]);
+    std::array<Complex, 2> v{};
+    if (explosion) v = lossy_explosion<2>(rock, omega, {a, b});
+    for (const int along : {0, 1})
+      if (!explosion) {
+        const auto one = lossy_force<2>(rock, omega, {a, b}, along);
+        for (std::size_t row = 0; row < 2; ++row) v[row] += force[std::size_t(along)] * one[row];
+      }
+    return {v[0], v[1]};
+  }
   void add_direct(double peak_hz, double interval_s, const Receiver& receiver,
                   std::array<std::vector<double>, 2>& traces) const {
     const auto layer = layer_of(source_m);
@@ -246,6 +268,7 @@ struct LayerStack {
     const double b = receiver.b - source_m;
     const auto direct_wave =
         ricker_response(peak_hz, interval_s, std::int64_t(traces[0].size()), [&](double omega) {
+          if (!losses.empty()) return lossy_direct(layer, omega, receiver.a, b);
           if (explosion) return explosion_motion(layers[layer], omega, receiver.a, b);
           Motion sum{};
           for (const int along : {0, 1}) {

@@ -41,7 +41,8 @@ struct EffectDeclaration {
   ActsOn acts_on = ActsOn::nothing;
   bool filters_sweeps = false;  // changes what sweeps add to the fields
   unsigned reads = 0, writes = 0;
-  bool retains = false;  // has memory from one step to the next
+  bool retains = false;         // has memory from one step to the next
+  bool between_sweeps = false;  // acts inside the step (apply_between())
 };
 template <int D>
 constexpr unsigned all_velocities = (1U << D) - 1;
@@ -98,6 +99,9 @@ class Effect {
   virtual void apply(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
   /// Acts on them after recording: the next step begins with this.
   virtual void apply_after_record(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
+
+  /// Acts on them inside the step, after a sweep along the last axis.
+  virtual void apply_between(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
 
   // What it does within sweeps, where it declares so.
   /// Cells of these whose changes by a sweep along `axis` it filters: up to two ranges in order, else empty.

@@ -22,6 +22,14 @@ PointSource<D, Real>::PointSource(State<D, Real>& state, const Domain<D>& domain
   find_rows();
   std::stable_sort(values_.begin(), values_.end(),
                    [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
+  const double dt_s = time_step_s(scene);
+  double given = 0;
+  for (StepTime time{0, dt_s}; active(time) && time.end_s() <= scene.recording.duration_s + dt_s;
+       ++time.step) {
+    given_.push_back(given);
+    given += unit * dt_s * wavelet_(time.end_s() - delay_s_);
+  }
+  given_.push_back(given);
   if (scene.slip_diary) work_.assign(std::size_t(state.layout.lines()), 0);
 }
 
@@ -72,17 +80,40 @@ template <int D, class Real>
 void PointSource<D, Real>::apply(const StepTime& time, const RowFields<Real>& fields,
                                  const IndexRange& cells) {
   if (!active(time)) return;
-  auto value = std::lower_bound(values_.begin(), values_.end(), fields.row,
-                                [](const ValueWeight& one, std::int64_t at) { return one.line < at; });
-  if (value == values_.end() || value->line != fields.row) return;
+  const auto values = values_of(fields.row);
+  if (values.empty()) return;
   const double amount = unit_ * 0.5 * time.dt_s * wavelet_(time.end_s() - delay_s_);
   const bool counts = !work_.empty() && domain_.owns(state_.layout.line_index(fields.row)[D - 1]);
   const double before = counts ? energy_of(fields.row, cells) : 0;
-  for (; value != values_.end() && value->line == fields.row; ++value) {
-    const std::int64_t x = state_.layout.column(value->place);
-    if (x >= cells.first && x < cells.last) fields.first[value->place] += Real(amount * value->weight);
+  for (const auto& value : values) {
+    const std::int64_t x = state_.layout.column(value.place);
+    if (x >= cells.first && x < cells.last) fields.first[value.place] += Real(amount * value.weight);
   }
   if (counts) work_[std::size_t(fields.row)] += energy_of(fields.row, cells) - before;
+}
+
+template <int D, class Real>
+std::span<const ValueWeight> PointSource<D, Real>::values_of(std::int64_t row) const {
+  const auto [first, last] = std::equal_range(
+      values_.begin(), values_.end(), ValueWeight{.line = row},
+      [](const ValueWeight& one, const ValueWeight& other) { return one.line < other.line; });
+  return {first, last};
+}
+
+template <int D, class Real>
+bool PointSource<D, Real>::add_stress_before(std::int64_t step, const RowFields<Real>& fields,
+                                             const IndexRange& cells, double times) const {
+  const double given = times * given_[std::min(std::size_t(step), given_.size() - 1)];
+  if (given == 0) return false;
+  bool any = false;
+  for (const auto& value : values_of(fields.row)) {
+    const std::int64_t x = state_.layout.column(value.place);
+    if (x < cells.first || x >= cells.last) continue;
+    if (value.place < FieldRows<D>::normal_stress(0) * state_.layout.row_pitch()) continue;
+    fields.first[value.place] += Real(given * value.weight);
+    any = true;
+  }
+  return any;
 }
 
 /// Of the cells of these columns that the source may reach.

@@ -39,6 +39,10 @@ class PointSource : public Effect<D, Real> {
                           const IndexRange& cells) override {
     apply(time, fields, cells);
   }
+  /// Adds `times` all that the steps before that one have put into the stress of these cells; false where
+  /// that was nothing.
+  bool add_stress_before(std::int64_t step, const RowFields<Real>& fields, const IndexRange& cells,
+                         double times) const;
   void serialize(Archive& archive) override { archive.fixed(work_); }
   /// The energy put into the waves so far, J (2-D: J per metre); 0 unless the scene keeps a diary.
   void report(ShotReport& report) const override;
@@ -50,6 +54,7 @@ class PointSource : public Effect<D, Real> {
   bool add_smoothly(const Source<D>& source, double strength);
   void add(const std::vector<ValueWeight>& weights, int rows_on, double strength);
   void find_rows();
+  std::span<const ValueWeight> values_of(std::int64_t row) const;
   double energy_of(std::int64_t row, const IndexRange& cells) const;
 
   State<D, Real>& state_;
@@ -63,7 +68,8 @@ class PointSource : public Effect<D, Real> {
   std::vector<ValueWeight> values_;
   std::vector<std::int64_t> rows_;
   unsigned writes_ = 0;
-  std::vector<double> work_;  // by line; empty: not counted
+  std::vector<double> given_;  // per unit of weight by all steps before each, up to the last that gives
+  std::vector<double> work_;   // by line; empty: not counted
 };
 
 }  // namespace slipwave::solver

@@ -76,6 +76,13 @@ GapKernel<Real> gap_kernel(int dimensions) {
   return dimensions == 2 ? tables.open_2d : tables.open_3d;
 }
 
+template <class Real>
+RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechanisms) {
+  return best_tables<Real>().relaxation(Real()).of(dimensions, shear, mechanisms);
+}
+
+template RelaxationKernel<float> relaxation_kernel<float>(int, bool, int);
+template RelaxationKernel<double> relaxation_kernel<double>(int, bool, int);
 template SlipKernels<float> slip_kernels<float>(const SlipCase&);
 template SlipKernels<double> slip_kernels<double>(const SlipCase&);
 template GapKernel<float> gap_kernel<float>(int);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "solver/kernels/kernels.hpp"
+#include "solver/kernels/relaxation_tables.hpp"
 #include "solver/kernels/slip_tables.hpp"
 
 namespace slipwave::solver {
@@ -13,6 +14,7 @@ struct KernelTables {
   PmlKernels<Real> pml;
   SpongeKernels<Real> damp;
   const SlipTables<Real>& (*slip)(Real);
+  const RelaxationTables<Real>& (*relaxation)(Real);
 };
 
 }  // namespace slipwave::solver

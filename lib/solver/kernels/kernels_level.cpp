@@ -10,6 +10,9 @@ namespace slipwave::solver {
 // Of the same level, in slip_level.cpp.
 const SlipTables<float>& SLIPWAVE_SLIP_LEVEL(float);
 const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
+// In relaxation_level.cpp.
+const RelaxationTables<float>& SLIPWAVE_RELAXATION_LEVEL(float);
+const RelaxationTables<double>& SLIPWAVE_RELAXATION_LEVEL(double);
 
 namespace {
 
@@ -189,7 +192,8 @@ constexpr KernelTables<Real> tables = {of_order<false, Real>,
                                        {filter_along<Real>, filter_across<Real>},
                                        {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
                                          {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
-                                       SLIPWAVE_SLIP_LEVEL};
+                                       SLIPWAVE_SLIP_LEVEL,
+                                       SLIPWAVE_RELAXATION_LEVEL};
 
 }  // namespace
 

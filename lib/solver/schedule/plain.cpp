@@ -30,12 +30,20 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
     step_.begin(time);
     for (std::size_t k = 1; k + 1 < sweeps.size(); ++k) {
       sweeps_.along(sweeps[k].axis, Real(sweeps[k].fraction));
+      after_sweep(k, time);
       if (sweeps[k].axis == D - 1) swept_ += state_.layout.shape()[0] * state_.layout.lines();
     }
     end_of_step(time);
     step_.finish(time);
   }
   return last;
+}
+
+template <int D, class Real>
+void PlainExecutor<D, Real>::after_sweep(std::size_t sweep, const StepTime& time) {
+  if (!step_.acts_after_sweep(sweep)) return;
+  for (std::int64_t row = 0; row < state_.layout.lines(); ++row)
+    step_.apply_after_sweep(sweep, time, state_.row_fields(row), {0, state_.layout.shape()[0]});
 }
 
 /// Rows along x do not depend on each other, except for the velocities that corrections at free sides read.

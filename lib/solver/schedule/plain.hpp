@@ -21,6 +21,7 @@ class PlainExecutor : public Executor {
   std::int64_t swept_cells() const override { return swept_; }
 
  private:
+  void after_sweep(std::size_t sweep, const StepTime& time);
   void end_of_step(const StepTime& time);
   void split_row(const StepTime& time, std::int64_t row);
   void merged_row(const StepTime& time, std::int64_t row);

@@ -98,6 +98,7 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
       const int axis = step_.sweeps()[n].axis;
       const auto kind = axis == 0 ? Stage::along_x : axis == D - 1 ? Stage::along_z : Stage::along_y;
       all.push_back({kind, Real(step_.sweeps()[n].fraction), {step, step_.dt_s()}});
+      all.back().sweep = n;
     }
     all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
   }
@@ -381,7 +382,10 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
     sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
     if (done < 0 || done >= rows_) return;
-    mark_active(line_of(done, at[D - 2]), across);
+    const auto line = line_of(done, at[D - 2]);
+    if (step_.acts_after_sweep(stage.sweep))
+      step_.apply_after_sweep(stage.sweep, stage.time, state_.row_fields(line), across);
+    mark_active(line, across);
     worker.swept += across.count();
   };
   if constexpr (D == 2) {

@@ -57,6 +57,7 @@ class TiledExecutor : public Executor {
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
     int end = 0;              // the same of the ends of steps
+    std::size_t sweep = 0;    // which of the step's sweeps it is, of one along the last axis
     Box needed{};             // what it does elsewhere affects no record
   };
   struct TileInProgress {

@@ -18,8 +18,12 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
       all_needed_(all_needed),
       steps_(steps) {
   for (const auto& entry : entries_) {
-    if (const auto* sweep = std::get_if<Sweep<D, Real>>(&entry))
+    if (const auto* sweep = std::get_if<Sweep<D, Real>>(&entry)) {
       sweeps_.push_back({sweep->axis, sweep->fraction});
+      between_.emplace_back();
+    }
+    if (const auto* between = std::get_if<Between<D, Real>>(&entry))
+      between_.back().push_back(between->effect);
     if (const auto* read = std::get_if<Read<D, Real>>(&entry)) records_.push_back(read->record);
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry); apply && !apply->after_record)
       effects_.push_back(apply->effect);
@@ -49,6 +53,7 @@ std::vector<std::string> TimeStep<D, Real>::text() const {
     if (const auto* apply = std::get_if<Apply<D, Real>>(&entry))
       lines.push_back(apply->effect->name() + (apply->after_record ? ", after recording" : ""));
     if (std::holds_alternative<Read<D, Real>>(entry)) lines.emplace_back("record");
+    if (const auto* between = std::get_if<Between<D, Real>>(&entry)) lines.push_back(between->effect->name());
   }
   return lines;
 }

@@ -31,8 +31,13 @@ template <int D, class Real>
 struct Read {
   Record<D, Real>* record;
 };
+/// An effect inside the step, after a sweep along the last axis.
 template <int D, class Real>
-using Entry = std::variant<Sweep<D, Real>, Apply<D, Real>, Read<D, Real>>;
+struct Between {
+  Effect<D, Real>* effect;
+};
+template <int D, class Real>
+using Entry = std::variant<Sweep<D, Real>, Apply<D, Real>, Read<D, Real>, Between<D, Real>>;
 
 /// One time step as a list of sweeps, effects and records in order, and the rules by which executors may
 /// execute it. Built once from the scene (StepBuilder), independent of how it is executed.
@@ -72,6 +77,13 @@ class TimeStep {
   void apply(const StepTime& time, Cells of, const RowFields<Real>& fields, const IndexRange& cells) const {
     for (auto* effect : acting_[0][std::size_t(of)]) effect->apply(time, fields, cells);
   }
+  /// Whether an effect acts between that sweep, one of sweeps(), and the next.
+  bool acts_after_sweep(std::size_t sweep) const { return !between_[sweep].empty(); }
+  /// Those effects.
+  void apply_after_sweep(std::size_t sweep, const StepTime& time, const RowFields<Real>& fields,
+                         const IndexRange& cells) const {
+    for (auto* effect : between_[sweep]) effect->apply_between(time, fields, cells);
+  }
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) const;
   /// The effects after the records.
   void apply_after_record(const StepTime& time, Cells of, const RowFields<Real>& fields,
@@ -100,7 +112,8 @@ class TimeStep {
   double dt_s_;
   std::vector<Entry<D, Real>> entries_;
   std::vector<SweepFraction> sweeps_;
-  std::vector<Effect<D, Real>*> effects_;  // that act at the end of a step
+  std::vector<std::vector<Effect<D, Real>*>> between_;  // [sweep before them]
+  std::vector<Effect<D, Real>*> effects_;               // that act at the end of a step
   std::vector<Record<D, Real>*> records_;
   Patches<D> patches_;
   bool all_needed_;

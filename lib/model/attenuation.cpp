@@ -1,0 +1,286 @@
+#include "model/attenuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Q is wanted within this; a qp is capped without a word by less.
+constexpr double wanted_error = 0.03;
+/// Rates are spread for a Q at which shares are small.
+constexpr double weak_quality = 100;
+constexpr int frequencies = 64;
+
+/// Frequency number n of the band, evenly by logarithm.
+double frequency(int n, double low_hz, double high_hz) {
+  return low_hz * std::pow(high_hz / low_hz, double(n) / (frequencies - 1));
+}
+
+/// 1/(1 + i f/rate): what a mechanism takes from the modulus (Q1).
+std::complex<double> relaxed(double hz, double rate) {
+  return 1. / std::complex<double>(1, 2 * std::numbers::pi * hz / rate);
+}
+
+/// The P modulus is the bulk modulus and this many times the shear modulus.
+template <int D>
+constexpr double of_shear = D == 2 ? 1. : 4. / 3;
+
+/// Largest qp of a cell: shear loss alone (Q6).
+template <int D>
+double most_qp(double vp, double vs, double qs) {
+  if (vs == 0 || std::isinf(qs)) return infinite;
+  return qs * vp * vp / (of_shear<D> * vs * vs);
+}
+
+struct Qualities {
+  double p = infinite, s = infinite;
+};
+
+template <int D>
+Qualities qualities(const Medium<D>& medium, std::size_t cell) {
+  if (medium.is_void(cell)) return {};
+  const auto of = [&](Property property) {
+    const double q = medium.value(property, cell);
+    return q < double(elastic_quality) ? q : infinite;
+  };
+  return {of(Property::qp), medium.is_fluid(cell) ? infinite : of(Property::qs)};
+}
+
+}  // namespace
+
+Mechanisms::Mechanisms(int count, double low_hz, double high_hz)
+    : count_(count), low_hz_(low_hz), high_hz_(high_hz) {
+  if (count < fewest_mechanisms || count > most_mechanisms)
+    throw Error("found " + std::to_string(count) + " mechanisms, expected " +
+                    std::to_string(fewest_mechanisms) + " to " + std::to_string(most_mechanisms),
+                ErrorKind::usage);
+  if (!(low_hz > 0) || !(high_hz > low_hz) || !std::isfinite(high_hz))
+    throw Error("found a band of " + shown(low_hz) + " to " + shown(high_hz) +
+                    " Hz, expected two frequencies above 0, the lower one first",
+                ErrorKind::usage);
+  // By how much of the band's half width the outer rates are off its middle: the best of these.
+  double best = infinite, width = 0;
+  for (int n = 20; n < 100; ++n) {
+    const double part = 0.02 * n;
+    spread(part);
+    const double error = largest_error(weak_quality);
+    if (error < best) best = error, width = part;
+  }
+  spread(width);
+  error_limit_ = std::max(wanted_error, 2 * best);
+  double fitted = weak_quality, failing = 0.5;
+  while (fitted - failing > 1e-3 * fitted) {
+    const double middle = (fitted + failing) / 2;
+    (largest_error(middle) <= error_limit_ ? fitted : failing) = middle;
+  }
+  least_quality_ = fitted;
+}
+
+/// Chooses the rates and sums up the normal equations.
+void Mechanisms::spread(double half_width) {
+  const double middle = std::sqrt(low_hz_ * high_hz_), ratio = std::sqrt(high_hz_ / low_hz_);
+  for (int l = 0; l < count_; ++l)
+    rates_[std::size_t(l)] =
+        2 * std::numbers::pi * middle * std::pow(ratio, half_width * (2 * double(l) / (count_ - 1) - 1));
+  squares_ = products_ = ones_ = {};
+  sum_of_losses_ = sum_of_stores_ = {};
+  for (int n = 0; n < frequencies; ++n) {
+    std::array<std::complex<double>, most_mechanisms> of{};
+    for (std::size_t l = 0; l < std::size_t(count_); ++l)
+      of[l] = relaxed(frequency(n, low_hz_, high_hz_), rates_[l]);
+    for (std::size_t l = 0; l < std::size_t(count_); ++l) {
+      sum_of_losses_[l] -= of[l].imag();
+      sum_of_stores_[l] += of[l].real();
+      for (std::size_t m = 0; m < std::size_t(count_); ++m) {
+        squares_[l][m] += of[l].imag() * of[m].imag();
+        products_[l][m] -= of[l].imag() * of[m].real() + of[l].real() * of[m].imag();
+        ones_[l][m] += of[l].real() * of[m].real();
+      }
+    }
+  }
+}
+
+/// By Cholesky's elimination.
+RelaxedShares Mechanisms::shares(double q) const {
+  RelaxedShares y{};
+  if (std::isinf(q)) return y;
+  const auto size = std::size_t(count_);
+  Matrix a{};
+  for (std::size_t l = 0; l < size; ++l) {
+    y[l] = q * sum_of_losses_[l] + sum_of_stores_[l];
+    for (std::size_t m = 0; m < size; ++m)
+      a[l][m] = q * q * squares_[l][m] + q * products_[l][m] + ones_[l][m];
+  }
+  for (std::size_t l = 0; l < size; ++l)
+    for (std::size_t row = l + 1; row < size; ++row) {
+      const double factor = a[row][l] / a[l][l];
+      for (std::size_t m = l; m < size; ++m) a[row][m] -= factor * a[l][m];
+      y[row] -= factor * y[l];
+    }
+  for (std::size_t l = size; l-- > 0;) {
+    for (std::size_t m = l + 1; m < size; ++m) y[l] -= a[l][m] * y[m];
+    y[l] /= a[l][l];
+  }
+  return y;
+}
+
+std::complex<double> Mechanisms::modulus(const RelaxedShares& shares, double hz) const {
+  std::complex<double> modulus = 1;
+  for (std::size_t l = 0; l < std::size_t(count_); ++l) modulus -= shares[l] * relaxed(hz, rates_[l]);
+  return modulus;
+}
+
+double Mechanisms::quality(const RelaxedShares& shares, double hz) const {
+  const auto of = modulus(shares, hz);
+  return of.real() / of.imag();
+}
+
+double Mechanisms::largest_error(double q) const {
+  const auto of = shares(q);
+  double sum = 0;
+  for (const double share : of) sum += share;
+  if (!(sum < 1) || *std::min_element(of.begin(), of.end()) < 0) return infinite;
+  double largest = 0;
+  for (int n = 0; n < frequencies; ++n)
+    largest = std::max(largest, std::abs(quality(of, frequency(n, low_hz_, high_hz_)) / q - 1));
+  return largest;
+}
+
+template <int D>
+bool attenuates(const Medium<D>& medium, std::size_t cell) {
+  const auto [p, s] = qualities(medium, cell);
+  return std::isfinite(p) || std::isfinite(s);
+}
+
+template <int D>
+std::int64_t attenuating_cells(const Medium<D>& medium) {
+  if (!medium.has(Property::qp) && !medium.has(Property::qs)) return 0;
+  std::int64_t count = 0;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) count += attenuates(medium, cell);
+  return count;
+}
+
+namespace {
+
+/// Refuses a Q that is not fitted.
+template <int D>
+void check_fit(const Medium<D>& medium, std::size_t cell, const Mechanisms& mechanisms, Property property,
+               double q) {
+  if (q >= mechanisms.least_quality()) return;
+  throw Error(row_of(property).name + " at " + place_of(medium.grid(), std::int64_t(cell)) + " is " +
+              shown(q) + ", too low: " + std::to_string(mechanisms.count()) + " mechanisms give Q within " +
+              shown(100 * mechanisms.error_limit(), 2) + " % from " + shown(mechanisms.least_quality(), 3) +
+              " up" +
+              (mechanisms.count() < most_mechanisms
+                   ? "; raise it or use --q-mechanisms " + std::to_string(mechanisms.count() + 1)
+                   : "; raise it"));
+}
+
+}  // namespace
+
+template <int D>
+std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
+  if (attenuating_cells(medium) == 0) return {};
+  const auto& mechanisms = attenuation.mechanisms;
+  const double reference_hz = attenuation.reference_hz;
+  for (const auto property : {Property::qp, Property::qs})
+    if (!medium.has(property)) medium[property] = Field<D>(medium.grid(), float(infinite));
+  std::int64_t lowered = 0;
+  std::string first;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (!attenuates(medium, cell)) continue;
+    const auto given = qualities(medium, cell);
+    check_fit(medium, cell, mechanisms, Property::qp, given.p);
+    check_fit(medium, cell, mechanisms, Property::qs, given.s);
+    const double vp = medium.vp[cell], vs = medium.vs[cell], most = most_qp<D>(vp, vs, given.s);
+    if (std::isfinite(given.p) && given.p > (1 + wanted_error) * most && lowered++ == 0)
+      first = "qp at " + place_of(medium.grid(), std::int64_t(cell)) + " is " + shown(given.p, 4) +
+              ", more than its qs of " + shown(given.s, 4) + " allows: " + shown(most, 4);
+    medium[Property::qp][cell] = float(std::min(given.p, most));
+    const auto factor = [&](double q) {
+      return std::pow(mechanisms.modulus(mechanisms.shares(q), reference_hz), -0.5).real();
+    };
+    medium.vp[cell] = float(vp * factor(std::min(given.p, most)));
+    medium.vs[cell] = float(vs * factor(given.s));
+  }
+  if (lowered == 0) return {};
+  return first + " is used" +
+         (lowered > 1 ? ", and as much as qs allows in " + std::to_string(lowered - 1) + " more cells" : "");
+}
+
+template <int D>
+StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms,
+                                          double interval_s)
+    : medium_(&medium), mechanisms_(mechanisms), interval_s_(interval_s) {
+  for (int l = 0; l < mechanisms.count(); ++l) {
+    const double half = mechanisms.rate(l) * interval_s / 2;
+    parts_[std::size_t(l)] = half > 0 ? std::tanh(half) / half : 1;
+  }
+}
+
+/// Those of a medium that relaxes all the time.
+template <int D>
+CellShares StepwiseRelaxation<D>::continuous(std::size_t cell) const {
+  const auto [qp, qs] = qualities(*medium_, cell);
+  CellShares shares{mechanisms_.shares(qp), mechanisms_.shares(qs)};
+  const double vp = medium_->vp[cell], vs = medium_->vs[cell], p = vp * vp, s = of_shear<D> * vs * vs;
+  if (vs == 0) return shares;
+  // Least squares for two Q differ a little in shape: no mechanism may give energy.
+  for (std::size_t l = 0; l < shares.bulk.size(); ++l)
+    shares.bulk[l] = std::max(0., (p * shares.bulk[l] - s * shares.shear[l]) / (p - s));
+  return shares;
+}
+
+/// The modulus that is left of an unrelaxed one.
+template <int D>
+double StepwiseRelaxation<D>::kept(const RelaxedShares& shares) const {
+  double kept = 1;
+  for (std::size_t l = 0; l < shares.size(); ++l) kept -= shares[l] * (1 - parts_[l]);
+  return kept;
+}
+
+template <int D>
+CellShares StepwiseRelaxation<D>::shares(std::size_t cell) const {
+  auto shares = continuous(cell);
+  for (auto* of : {&shares.bulk, &shares.shear}) {
+    const double left = kept(*of);
+    for (std::size_t l = 0; l < of->size(); ++l) (*of)[l] *= parts_[l] / left;
+  }
+  return shares;
+}
+
+template <int D>
+Medium<D> StepwiseRelaxation<D>::medium() const {
+  auto medium = *medium_;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
+    if (!attenuates(medium, cell)) continue;
+    const auto shares = continuous(cell);
+    const double vp = medium.vp[cell], vs = medium.vs[cell], s = of_shear<D> * vs * vs;
+    medium.vp[cell] = float(std::sqrt((vp * vp - s) * kept(shares.bulk) + s * kept(shares.shear)));
+    medium.vs[cell] = float(vs * std::sqrt(kept(shares.shear)));
+  }
+  return medium;
+}
+
+template <int D>
+double StepwiseRelaxation<D>::decay(int l) const {
+  return -std::expm1(-mechanisms_.rate(l) * interval_s_);
+}
+
+template class StepwiseRelaxation<2>;
+template class StepwiseRelaxation<3>;
+template bool attenuates(const Medium<2>&, std::size_t);
+template bool attenuates(const Medium<3>&, std::size_t);
+template std::int64_t attenuating_cells(const Medium<2>&);
+template std::int64_t attenuating_cells(const Medium<3>&);
+template std::string unrelax(Medium<2>&, const Attenuation&);
+template std::string unrelax(Medium<3>&, const Attenuation&);
+
+}  // namespace slipwave

@@ -1,0 +1,110 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "model/medium.hpp"
+
+namespace slipwave {
+
+inline constexpr int fewest_mechanisms = 2, most_mechanisms = 5;
+
+/// What the mechanisms of a modulus relax, Y_l of theory.md (Q1), as shares of the unrelaxed modulus; the
+/// first `count` count.
+using RelaxedShares = std::array<double, most_mechanisms>;
+
+/// Mechanisms of a generalised standard linear solid that together lose the same share of the energy per
+/// cycle all over a band: their rates are spread over it once, their shares follow from Q by least squares
+/// (theory.md (Q2), (Q3)).
+class Mechanisms {
+ public:
+  /// fewest_mechanisms to most_mechanisms of them for 0 < low_hz < high_hz. Throws a usage Error.
+  Mechanisms(int count, double low_hz, double high_hz);
+
+  int count() const { return count_; }
+  double low_hz() const { return low_hz_; }
+  double high_hz() const { return high_hz_; }
+  /// Of mechanism l, 1/s.
+  double rate(int l) const { return rates_[std::size_t(l)]; }
+  /// Least squares for a constant Q; all zero where it is infinite.
+  RelaxedShares shares(double q) const;
+  /// The modulus at a frequency over the unrelaxed one (Q1).
+  std::complex<double> modulus(const RelaxedShares& shares, double hz) const;
+  /// The quality factor at a frequency.
+  double quality(const RelaxedShares& shares, double hz) const;
+  /// The largest relative deviation of Q from the wanted one in the band.
+  double largest_error(double q) const;
+  /// Largest deviation that is let through: 3 %, or twice that of weak attenuation where it is more.
+  double error_limit() const { return error_limit_; }
+  /// The smallest Q that is fitted so.
+  double least_quality() const { return least_quality_; }
+
+ private:
+  using Matrix = std::array<std::array<double, most_mechanisms>, most_mechanisms>;
+  void spread(double half_width);
+
+  int count_;
+  double low_hz_, high_hz_, error_limit_ = 0, least_quality_ = 0;
+  std::array<double, most_mechanisms> rates_{};
+  // Normal equations of (Q2): (Q^2 squares_ + Q products_ + ones_) Y = Q sum_of_losses_ + sum_of_stores_.
+  Matrix squares_{}, products_{}, ones_{};
+  RelaxedShares sum_of_losses_{}, sum_of_stores_{};
+};
+
+/// How a medium attenuates: the mechanisms, and the frequency at which waves have the speeds given.
+struct Attenuation {
+  Mechanisms mechanisms;
+  double reference_hz;
+};
+
+/// What stands for an infinite Q in files whose values are finite: from here on a cell is elastic.
+inline constexpr float elastic_quality = 1e9F;
+
+/// Whether a cell has a finite qp or qs.
+template <int D>
+bool attenuates(const Medium<D>& medium, std::size_t cell);
+/// How many do.
+template <int D>
+std::int64_t attenuating_cells(const Medium<D>& medium);
+
+/// Turns speeds at the reference frequency into those of the unrelaxed medium, the highest of any frequency
+/// (Q4). Where qp is larger than shear loss alone makes it, it becomes that (Q6); absent or infinite it may
+/// be. Returns a sentence on cells whose finite qp was lowered by more than 3 %, empty where there are none.
+/// Throws Error naming cell, value and remedy where qp or qs is below least_quality().
+template <int D>
+std::string unrelax(Medium<D>& medium, const Attenuation& attenuation);
+
+/// What of the bulk and of the shear modulus of a cell relaxes (Q5). In 2-D the bulk modulus is that of plane
+/// strain, lambda + mu.
+struct CellShares {
+  RelaxedShares bulk{}, shear{};
+};
+
+/// An unrelaxed medium whose stress relaxes at one moment of every `interval_s`, for all of that time: its
+/// speeds and shares are such that waves have the moduli of a medium that relaxes all the time (Q8). With an
+/// interval of 0 it is that medium.
+template <int D>
+class StepwiseRelaxation {
+ public:
+  /// Keeps a reference.
+  StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
+  /// Its own shares.
+  CellShares shares(std::size_t cell) const;
+  /// The medium with its own speeds.
+  Medium<D> medium() const;
+  /// 1 - exp(-rate interval): how far mechanism l comes in an interval.
+  double decay(int l) const;
+
+ private:
+  CellShares continuous(std::size_t cell) const;
+  double kept(const RelaxedShares& shares) const;
+
+  const Medium<D>* medium_;
+  Mechanisms mechanisms_;
+  double interval_s_;
+  std::array<double, most_mechanisms> parts_{};  // of the shares, that relax by steps
+};
+
+}  // namespace slipwave

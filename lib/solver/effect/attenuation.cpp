@@ -1,0 +1,140 @@
+#include "solver/effect/attenuation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "parallel/threads.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Whether any cell of the whole model carries S waves: neighbouring subdomains retain the same of a cell.
+template <int D>
+bool has_shear(const Domain<D>& domain) {
+  return domain.shear() || domain.subdomain.shear;
+}
+
+template <class Real>
+void clear(Buffer<Real>& buffer) {
+  std::fill(buffer.data(), buffer.data() + buffer.size(), Real(0));
+}
+
+}  // namespace
+
+template <int D, class Real>
+RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>& domain,
+                                        const Scene<D>& scene, double dt_s,
+                                        std::vector<const PointSource<D, Real>*> sources)
+    : layout_(layout),
+      sources_(std::move(sources)),
+      every_(relaxation_steps(scene.numerics)),
+      mechanisms_(scene.attenuation->mechanisms.count()),
+      parts_(relaxing_parts(D, has_shear(domain))),
+      moduli_(has_shear(domain) ? 2 : 1),
+      relax_(relaxation_kernel<Real>(D, has_shear(domain), mechanisms_)) {
+  find_segments(domain, scene.model.medium);
+  fill_shares(domain, relaxation_by_steps(scene, dt_s));
+}
+
+template <int D, class Real>
+std::size_t RelaxingStress<D, Real>::model_cell(const Domain<D>& domain, std::int64_t line,
+                                                std::int64_t x) const {
+  auto at = layout_.line_index(line);
+  at[0] = x;
+  return std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+}
+
+template <int D, class Real>
+void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Medium<D>& medium) {
+  constexpr auto block = relaxation_block;
+  static_assert(block == Layout<D>::block, "columns end between two blocks");
+  const std::int64_t nx = layout_.shape()[0];
+  for (std::int64_t line = 0; line < layout_.lines(); ++line) {
+    starts_.push_back(segments_.size());
+    for (std::int64_t first = 0; first < nx; first += block) {
+      std::int64_t here = 0;
+      for (std::int64_t x = first; x < std::min(first + block, nx); ++x)
+        here += attenuates(medium, model_cell(domain, line, x));
+      cells_ += here;
+      if (here == 0) continue;
+      if (segments_.size() > starts_.back() && segments_.back().last == first)
+        segments_.back().last += block;
+      else
+        segments_.push_back({first, first + block, stored_});
+      stored_ += block;
+    }
+  }
+  starts_.push_back(segments_.size());
+}
+
+template <int D, class Real>
+void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation) {
+  for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(relaxation.decay(l));
+  memory_ = Buffer<Real>(stored_ * mechanisms_ * parts_);
+  shares_ = Buffer<Real>(stored_ * mechanisms_ * moduli_);
+  clear(memory_);
+  clear(shares_);
+  parallel_for(layout_.lines(), 16, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto line = begin; line < end; ++line)
+      for (const auto& segment : segments(line)) {
+        for (auto x = segment.first; x < std::min(segment.last, layout_.shape()[0]); ++x) {
+          const auto of = relaxation.shares(model_cell(domain, line, x));
+          for (int l = 0; l < mechanisms_; ++l) {
+            const double decay = relaxation.decay(l);
+            const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;
+            Real* const share =
+                shares_.data() + (place - lane) * mechanisms_ * moduli_ + l * relaxation_block + lane;
+            *share = Real(decay * of.bulk[std::size_t(l)]);
+            if (moduli_ == 2) share[mechanisms_ * relaxation_block] = Real(decay * of.shear[std::size_t(l)]);
+          }
+        }
+      }
+  });
+}
+
+/// Columns end between two vectors or with the row.
+template <int D, class Real>
+void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowFields<Real>& fields,
+                                            const IndexRange& columns) {
+  const auto of_row = segments(fields.row);
+  if (of_row.empty() || time.step % every_ != every_ - 1) return;
+  bool injected = false;
+  for (const auto* source : sources_) injected |= source->add_stress_before(time.step, fields, columns, -1);
+  const std::int64_t end = columns.last == layout_.shape()[0] ? layout_.padded_nx() : columns.last;
+  for (const auto& segment : of_row) {
+    const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
+    if (first >= last) continue;
+    auto rows = rows_;
+    rows.stress = fields.field(FieldRows<D>::normal_stress(0)) + first;
+    rows.pitch = fields.pitch;
+    const auto place = segment.place + (first - segment.first);
+    rows.memory = memory_.data() + place * mechanisms_ * parts_;
+    rows.shares = shares_.data() + place * mechanisms_ * moduli_;
+    relax_(last - first, rows);
+  }
+  if (!injected) return;
+  for (const auto* source : sources_) source->add_stress_before(time.step, fields, columns, 1);
+}
+
+template <int D, class Real>
+void RelaxingStress<D, Real>::exchange(const IndexRange& rows,
+                                       const std::function<void(Real*, std::int64_t)>& to) {
+  const auto lines_a_row = layout_.lines() / layout_.shape()[D - 1];
+  for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
+    for (const auto& segment : segments(line))
+      to(memory_.data() + segment.place * mechanisms_ * parts_,
+         (segment.last - segment.first) * mechanisms_ * parts_);
+}
+
+template <int D, class Real>
+std::string RelaxingStress<D, Real>::name() const {
+  return "attenuation, " + std::to_string(mechanisms_) + " mechanisms";
+}
+
+template class RelaxingStress<2, float>;
+template class RelaxingStress<2, double>;
+template class RelaxingStress<3, float>;
+template class RelaxingStress<3, double>;
+
+}  // namespace slipwave::solver

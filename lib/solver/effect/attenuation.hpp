@@ -1,0 +1,72 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "solver/effect/effect.hpp"
+#include "solver/effect/point_source.hpp"
+#include "solver/kernels/relaxation_kernels.hpp"
+#include "solver/sweep/domain.hpp"
+
+namespace slipwave::solver {
+
+/// Every so many steps stress relaxes: in steps of second order every other one, which keeps it cheap, in
+/// those of fourth order, which are long, in each.
+inline int relaxation_steps(const Numerics& numerics) { return numerics.time_order == 2 ? 2 : 1; }
+/// Of a scene that attenuates; it keeps a reference to its medium.
+template <int D>
+StepwiseRelaxation<D> relaxation_by_steps(const Scene<D>& scene, double dt_s) {
+  return {scene.model.medium, scene.attenuation->mechanisms, relaxation_steps(scene.numerics) * dt_s};
+}
+
+/// Relaxation of stress in cells with a finite qp or qs (theory.md (Q1)-(Q8)), at the strain of one moment
+/// inside the step. It keeps what each mechanism has relaxed so far; cells outside the model relax as the
+/// nearest one of the model. Keeps references.
+template <int D, class Real>
+class RelaxingStress : public Effect<D, Real> {
+ public:
+  /// The medium of the scene must be unrelaxed (unrelax()), that of the domain StepwiseRelaxation::medium().
+  /// What `sources` put into the stress is no strain and does not relax.
+  RelaxingStress(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
+                 std::vector<const PointSource<D, Real>*> sources);
+
+  EffectDeclaration declaration() const override {
+    return {ActsOn::nothing, false, all_stresses<D>, all_stresses<D>, true, true};
+  }
+  std::string name() const override;
+  std::int64_t cells() const override { return cells_; }
+  void apply_between(const StepTime& time, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void serialize(Archive& archive) override { archive.fixed(memory_.data(), std::size_t(memory_.size())); }
+  void exchange(const IndexRange& rows,
+                const std::function<void(Real* values, std::int64_t count)>& to) override;
+  std::int64_t memory_bytes() const override {
+    return std::int64_t(sizeof(Real)) * (memory_.size() + shares_.size());
+  }
+
+ private:
+  /// Neighbouring cells of a row, whole blocks of them, from column `first` on; `place` cells are stored
+  /// before them.
+  struct Segment {
+    std::int64_t first, last, place;
+  };
+  std::span<const Segment> segments(std::int64_t line) const {
+    return {segments_.data() + starts_[std::size_t(line)],
+            starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
+  }
+  void find_segments(const Domain<D>& domain, const Medium<D>& medium);
+  void fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation);
+  std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
+
+  const Layout<D>& layout_;
+  std::vector<const PointSource<D, Real>*> sources_;
+  int every_, mechanisms_, parts_, moduli_;
+  std::int64_t cells_ = 0, stored_ = 0;
+  std::vector<Segment> segments_;
+  std::vector<std::size_t> starts_;  // of each line, and the end
+  Buffer<Real> memory_, shares_;     // [block][mechanism, part][cell], [block][modulus, mechanism][cell]
+  RelaxationRows<Real> rows_{};      // what all cells have in common
+  RelaxationKernel<Real> relax_;
+};
+
+}  // namespace slipwave::solver

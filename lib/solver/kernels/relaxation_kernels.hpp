@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "model/attenuation.hpp"
+
+namespace slipwave::solver {
+
+/// Cells whose memory lies together: the widest vector.
+inline constexpr std::int64_t relaxation_block = 16;
+
+/// Whole blocks of neighbouring cells of a row, from the first one on. Stresses are taken apart into their
+/// mean, of which the bulk modulus relaxes shares, and what is left, of which the shear modulus does: in 2-D
+/// half the difference of the normal stresses and sxz; in 3-D sxx and syy less the mean, sxy, sxz and syz.
+template <class Real>
+struct RelaxationRows {
+  Real* stress;  // first component, the others `pitch` apart
+  std::int64_t pitch;
+  Real* memory;        // block after block: of mechanism l and part c in row l * parts + c of the block
+  const Real* shares;  // the same: c_l times what of the bulk modulus mechanism l relaxes, then of the shear
+                       // modulus
+  Real decays[most_mechanisms];  // c_l = 1 - exp(-rate_l time)
+};
+
+/// Parts of the stress that relax.
+constexpr int relaxing_parts(int dimensions, bool shear) { return !shear ? 1 : dimensions == 2 ? 3 : 6; }
+
+/// Relaxes n neighbouring cells of a row, a multiple of relaxation_block, at constant strain (theory.md
+/// (Q7)).
+template <class Real>
+using RelaxationKernel = void (*)(std::int64_t n, const RelaxationRows<Real>& rows);
+
+/// The kernel for the best instruction set of this processor. Without shear only the mean relaxes.
+template <class Real>
+RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechanisms);
+
+}  // namespace slipwave::solver

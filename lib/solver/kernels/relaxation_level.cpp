@@ -1,0 +1,108 @@
+// The inner loops of attenuation, compiled once for each instruction set as kernels_level.cpp is, under the
+// same rules.
+#include <utility>
+
+#include "solver/kernels/relaxation_tables.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// What one part of the stress loses: each mechanism comes nearer to its share of the stress that the strain
+/// would make at once, which is the stress and all that has relaxed of it.
+template <int Mechanisms, int Parts, class Real>
+[[gnu::always_inline]] inline Real loss(Real stress, Real* memory, const Real* shares, const Real* decays) {
+  constexpr std::int64_t block = relaxation_block;
+  Real relaxed[Mechanisms], at_once = stress, sum = 0;
+#pragma GCC unroll 5
+  for (int l = 0; l < Mechanisms; ++l) {
+    relaxed[l] = memory[l * Parts * block];
+    at_once += relaxed[l];
+  }
+#pragma GCC unroll 5
+  for (int l = 0; l < Mechanisms; ++l) {
+    const Real change = shares[l * block] * at_once - decays[l] * relaxed[l];
+    memory[l * Parts * block] = relaxed[l] + change;
+    sum += change;
+  }
+  return sum;
+}
+
+/// Block after block, whose memory lies together: rows of their own would be as many streams, a page apart.
+template <int D, bool Shear, int Mechanisms, class Real>
+[[gnu::noinline]] void relax(std::int64_t n, const RelaxationRows<Real>& rows) {
+  constexpr std::int64_t block = relaxation_block;
+  constexpr int parts = relaxing_parts(D, Shear);
+  const std::int64_t pitch = rows.pitch;
+  Real decays[Mechanisms];
+  for (int l = 0; l < Mechanisms; ++l) decays[l] = rows.decays[l];
+  constexpr Real of_mean = D == 2 ? Real(0.5) : Real(1) / 3;
+  Real* __restrict stress = rows.stress;
+  Real* __restrict memory = rows.memory;
+  const Real* __restrict bulk = rows.shares;
+  for (std::int64_t first = 0; first < n; first += block) {
+    const Real* const shear = bulk + Mechanisms * block;
+#pragma omp simd
+    for (std::int64_t i = 0; i < block; ++i) {
+      const Real xx = stress[i], yy = stress[pitch + i], zz = D == 2 ? yy : stress[2 * pitch + i];
+      const Real mean = of_mean * (D == 2 ? xx + zz : xx + yy + zz);
+      const auto lost = [&](int part, Real of, const Real* shares) __attribute__((always_inline)) {
+        return loss<Mechanisms, parts>(of, memory + part * block + i, shares + i, decays);
+      };
+      const Real all = lost(0, mean, bulk);
+      if constexpr (!Shear) {
+        stress[i] = xx - all;
+        stress[pitch + i] = yy - all;
+        if constexpr (D == 3) stress[2 * pitch + i] = zz - all;
+      } else if constexpr (D == 2) {
+        const Real half = lost(1, Real(0.5) * (xx - zz), shear);
+        stress[i] = xx - (all + half);
+        stress[pitch + i] = zz - (all - half);
+        const Real xz = stress[2 * pitch + i];
+        stress[2 * pitch + i] = xz - lost(2, xz, shear);
+      } else {
+        const Real of_xx = lost(1, xx - mean, shear), of_yy = lost(2, yy - mean, shear);
+        stress[i] = xx - (all + of_xx);
+        stress[pitch + i] = yy - (all + of_yy);
+        stress[2 * pitch + i] = zz - (all - of_xx - of_yy);
+        const Real xy = stress[3 * pitch + i], xz = stress[4 * pitch + i], yz = stress[5 * pitch + i];
+        stress[3 * pitch + i] = xy - lost(3, xy, shear);
+        stress[4 * pitch + i] = xz - lost(4, xz, shear);
+        stress[5 * pitch + i] = yz - lost(5, yz, shear);
+      }
+    }
+    stress += block;
+    memory += Mechanisms * parts * block;
+    bulk += (Shear ? 2 : 1) * Mechanisms * block;
+  }
+}
+
+template <int D, bool Shear, class Real>
+RelaxationKernel<Real> of_count(int mechanisms) {
+  switch (mechanisms) {
+    case 2:
+      return relax<D, Shear, 2, Real>;
+    case 3:
+      return relax<D, Shear, 3, Real>;
+    case 4:
+      return relax<D, Shear, 4, Real>;
+    default:
+      return relax<D, Shear, 5, Real>;
+  }
+}
+
+template <class Real>
+RelaxationKernel<Real> of(int dimensions, bool shear, int mechanisms) {
+  if (dimensions == 2)
+    return shear ? of_count<2, true, Real>(mechanisms) : of_count<2, false, Real>(mechanisms);
+  return shear ? of_count<3, true, Real>(mechanisms) : of_count<3, false, Real>(mechanisms);
+}
+
+template <class Real>
+constexpr RelaxationTables<Real> tables = {of<Real>};
+
+}  // namespace
+
+const RelaxationTables<float>& SLIPWAVE_RELAXATION_LEVEL(float) { return tables<float>; }
+const RelaxationTables<double>& SLIPWAVE_RELAXATION_LEVEL(double) { return tables<double>; }
+
+}  // namespace slipwave::solver

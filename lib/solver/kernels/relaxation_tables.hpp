@@ -1,0 +1,13 @@
+#pragma once
+
+#include "solver/kernels/relaxation_kernels.hpp"
+
+namespace slipwave::solver {
+
+/// What one instruction set offers for attenuation.
+template <class Real>
+struct RelaxationTables {
+  RelaxationKernel<Real> (*of)(int dimensions, bool shear, int mechanisms);
+};
+
+}  // namespace slipwave::solver

@@ -1,0 +1,193 @@
+#include "model/attenuation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "model/averaging.hpp"
+#include "model/layers.hpp"
+#include "model/model.hpp"
+#include "model/relations.hpp"
+#include "refusal.hpp"
+
+namespace slipwave {
+namespace {
+
+constexpr double peak_hz = 20, infinite = PropertyRow::infinite;
+
+Medium<2> one_cell(double vp, double vs, double qp, double qs) {
+  const Grid<2> grid{{1, 1}, 5, {0, 0}};
+  Medium<2> medium(Field<2>(grid, float(vp)), Field<2>(grid, float(vs)), Field<2>(grid, 2000));
+  medium[Property::qp] = Field<2>(grid, float(qp));
+  medium[Property::qs] = Field<2>(grid, float(qs));
+  return medium;
+}
+
+/// Q and phase speed over the unrelaxed one, of the sum of mechanisms itself.
+struct Wave {
+  double q, speed;
+};
+Wave wave_of(const Mechanisms& mechanisms, const RelaxedShares& shares, double hz) {
+  std::complex<double> modulus = 1;
+  for (int l = 0; l < mechanisms.count(); ++l)
+    modulus -= shares[std::size_t(l)] /
+               (1. + std::complex<double>(0, 2 * std::numbers::pi * hz) / mechanisms.rate(l));
+  return {modulus.real() / modulus.imag(), 1 / (1. / std::sqrt(modulus)).real()};
+}
+
+TEST(Mechanisms, GiveTheQualityWantedWithinThreePercentOverTheBand) {
+  for (const int count : {3, 4, 5}) {
+    const Mechanisms mechanisms(count, peak_hz / 5, 2.5 * peak_hz);
+    double worst = 0;
+    for (const double q : {5., 8., 20., 50., 200., 1000.}) {
+      const auto shares = mechanisms.shares(q);
+      for (double hz = peak_hz / 5; hz <= 2.5 * peak_hz; hz *= 1.01)
+        worst = std::max(worst, std::abs(wave_of(mechanisms, shares, hz).q / q - 1));
+    }
+    EXPECT_LT(worst, count == 3 ? 0.03 : 0.01) << count;
+    EXPECT_GT(worst, 0);
+  }
+}
+
+TEST(Mechanisms, AreOfPositiveSharesBelowTheWholeModulus) {
+  for (const int count : {2, 3, 4, 5}) {
+    const Mechanisms mechanisms(count, 4, 50);
+    for (double q = mechanisms.least_quality(); q < 2000; q *= 1.3) {
+      const auto shares = mechanisms.shares(q);
+      double sum = 0;
+      for (int l = 0; l < count; ++l) {
+        EXPECT_GE(shares[std::size_t(l)], 0) << count << ' ' << q;
+        sum += shares[std::size_t(l)];
+      }
+      EXPECT_LT(sum, 1);
+    }
+    EXPECT_LE(mechanisms.least_quality(), count == 2 ? 8 : 5);
+  }
+}
+
+TEST(UnrelaxedMedium, HasTheSpeedsGivenAtTheReferenceFrequency) {
+  const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
+  auto medium = one_cell(3000, 1600, 40, 20);
+  EXPECT_EQ(unrelax(medium, attenuation), "");
+  const auto& mechanisms = attenuation.mechanisms;
+  EXPECT_NEAR(medium.vp[0] * wave_of(mechanisms, mechanisms.shares(40), 13).speed, 3000, 0.01);
+  EXPECT_NEAR(medium.vs[0] * wave_of(mechanisms, mechanisms.shares(20), 13).speed, 1600, 0.01);
+  EXPECT_GT(medium.vp[0], 3000);
+  // Dispersion of constant Q: c grows by ln(f2/f1)/(pi Q) (Aki & Richards 2002, eq. 5.88).
+  const auto shares = mechanisms.shares(100);
+  EXPECT_NEAR(wave_of(mechanisms, shares, 40).speed / wave_of(mechanisms, shares, 5).speed - 1,
+              std::log(8) / (100 * std::numbers::pi), 0.0008);
+}
+
+TEST(UnrelaxedMedium, LosesNoLessInPWavesThanShearDoes) {
+  const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
+  auto medium = one_cell(3000, 1500, 1000, 20);
+  EXPECT_EQ(unrelax(medium, attenuation),
+            "qp at x=2.5 z=2.5 is 1000, more than its qs of 20 allows: 80 is used");
+  EXPECT_EQ(medium[Property::qp][0], 80);
+  auto no_own = one_cell(3000, 1500, infinite, 20);
+  EXPECT_EQ(unrelax(no_own, attenuation), "");
+  EXPECT_EQ(no_own[Property::qp][0], 80);
+  for (const auto& shares : {StepwiseRelaxation<2>(medium, attenuation.mechanisms, 0).shares(0)})
+    for (const double share : shares.bulk) EXPECT_LT(share, 0.002);
+}
+
+TEST(UnrelaxedMedium, RefusesAQualityThatIsNotFitted) {
+  const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
+  for (const bool of_p : {true, false}) {
+    auto medium = one_cell(3000, 1500, of_p ? 1.5 : 5, of_p ? 50 : 1.5);
+    EXPECT_NE(refusal([&] { unrelax(medium, attenuation); })
+                  .find(std::string(of_p ? "qp" : "qs") +
+                        " at x=2.5 z=2.5 is 1.5, too low: 3 mechanisms give Q within 3 % from "),
+              std::string::npos);
+  }
+  EXPECT_NE(refusal([] { Mechanisms(6, 4, 50); }).find("found 6 mechanisms, expected 2 to 5"),
+            std::string::npos);
+  EXPECT_NE(refusal([] { Mechanisms(3, 50, 4); }).find("found a band of 50 to 4 Hz"), std::string::npos);
+}
+
+TEST(StepwiseRelaxation, LeavesTheModulusAtRestAndTakesOfTheUnrelaxedOne) {
+  const Mechanisms mechanisms(3, 4, 50);
+  auto medium = one_cell(3000, 1600, 20, 15);
+  const StepwiseRelaxation<2> always(medium, mechanisms, 0), by_steps(medium, mechanisms, 0.003);
+  const auto sum = [](const RelaxedShares& shares) { return shares[0] + shares[1] + shares[2]; };
+  const auto stepped = by_steps.medium();
+  const double mu = std::pow(medium.vs[0], 2), mu_stepped = std::pow(stepped.vs[0], 2);
+  EXPECT_LT(mu_stepped, mu);
+  EXPECT_NEAR(mu_stepped * (1 - sum(by_steps.shares(0).shear)), mu * (1 - sum(always.shares(0).shear)),
+              1e-6 * mu);
+  const double bulk = std::pow(medium.vp[0], 2) - mu, bulk_stepped = std::pow(stepped.vp[0], 2) - mu_stepped;
+  EXPECT_NEAR(bulk_stepped * (1 - sum(by_steps.shares(0).bulk)), bulk * (1 - sum(always.shares(0).bulk)),
+              1e-6 * bulk);
+}
+
+TEST(QualityRules, FollowTheirSources) {
+  const Grid<2> grid{{3, 1}, 5, {0, 0}};
+  Medium<2> medium(grid);
+  const float vs[] = {0, 1000, 2000};
+  for (std::size_t cell = 0; cell < 3; ++cell)
+    medium.vp[cell] = 2 * vs[cell] + 1500, medium.vs[cell] = vs[cell], medium.rho[cell] = 2000;
+  add_q_from_vs(medium, "vs/10");
+  EXPECT_EQ(medium[Property::qs][0], infinite);
+  EXPECT_EQ(medium[Property::qp][0], infinite);
+  EXPECT_EQ(medium[Property::qs][1], 100);
+  EXPECT_EQ(medium[Property::qp][1], 200);
+  add_q_from_vs(medium, "olsen");
+  EXPECT_FLOAT_EQ(medium[Property::qs][1], 20);
+  EXPECT_FLOAT_EQ(medium[Property::qp][1], 30);
+  EXPECT_FLOAT_EQ(medium[Property::qs][2], 200);
+  add_q_from_vs(medium, "brocher");
+  EXPECT_FLOAT_EQ(medium[Property::qs][1], -16 + 104.13 - 25.225 + 8.2184);
+  EXPECT_NE(refusal([&] { add_q_from_vs(medium, "vs/0"); }).find("found 'vs/0', expected vs/N"),
+            std::string::npos);
+  add_constant(medium, Property::qs, 40);
+  EXPECT_EQ(medium[Property::qs][0], infinite);
+  EXPECT_EQ(medium[Property::qs][1], 40);
+}
+
+TEST(LayerText, NamesFurtherProperties) {
+  for (const char* text : {"100:3000:1500:2200 qp=80 qs=40", "100:3000:1500:2200:qp=80:qs=40",
+                           "100:3000:1500:2200:5 qs=40 qp=80"}) {
+    const auto layer = parse_layer(text);
+    EXPECT_EQ(layer.material.rho, 2200) << text;
+    EXPECT_EQ(layer.value(Property::qp), 80) << text;
+    EXPECT_EQ(layer.value(Property::qs), 40) << text;
+  }
+  EXPECT_EQ(parse_layer("0:1:0:1 qp=inf").value(Property::qp), infinite);
+  EXPECT_EQ(parse_layer("0:1:0:1").value(Property::qp), infinite);
+  EXPECT_NE(refusal([] {
+              parse_layer("0:1:0:1 colour=3");
+            }).find("found 'colour=3', expected NAME=VALUE, NAME one of qp, qs"),
+            std::string::npos);
+  EXPECT_NE(refusal([] { parse_layer("0:1:0:1 qp=3 qp=4"); }).find("found qp twice"), std::string::npos);
+  EXPECT_NE(refusal([] { parse_layer("0:1:0:1 qp=many"); }).find("found 'many', expected a number"),
+            std::string::npos);
+}
+
+TEST(LayeredMedium, AveragesLossesOfTheLayersThatCutACell) {
+  const auto grid = grid_of_size<2>({10, 20}, 10);
+  const auto medium =
+      layered_medium(grid, {parse_layer("0:3000:1500:2200 qs=40"), parse_layer("5:3000:1500:2200 qs=20"),
+                            parse_layer("10:2000:1000:2200")});
+  EXPECT_FLOAT_EQ(medium[Property::qs][0], float(2 / (1 / 40. + 1 / 20.)));
+  EXPECT_EQ(medium[Property::qs][1], infinite);
+  EXPECT_FALSE(medium.has(Property::qp));
+}
+
+TEST(ModelCheck, KnowsWhereQualityFactorsMayBe) {
+  Model<2> model;
+  model.medium = one_cell(3000, 1500, 50, 40);
+  check(model);
+  model.medium[Property::qp][0] = 0;
+  EXPECT_EQ(refusal([&] { check(model); }),
+            "qp at x=2.5 z=2.5 is 0, expected a number of at least 1, or inf");
+  model.medium[Property::qp][0] = float(infinite);
+  check(model);
+  model.medium.vs[0] = 0;
+  EXPECT_EQ(refusal([&] { check(model); }),
+            "qs at x=2.5 z=2.5 is 40, expected inf in fluid, which carries no S waves");
+}
+
+}  // namespace
+}  // namespace slipwave
