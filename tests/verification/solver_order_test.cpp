@@ -36,8 +36,8 @@ double& cell(L& lab, const Kind& kind, L::Row row, std::int64_t n) {
 
 /// Relative error of a Gaussian pulse exp(-(x/w)^2) of 100 m after 400 m of way; h divides 10 m.
 double error_of_a_pulse(const Kind& kind, int order, double h, bool backwards) {
-  const double width = 100, from = backwards ? 900 : 500, way = backwards ? -400 : 400, courant = 0.8;
-  const auto n = std::int64_t(1400 / h);
+  const double width = 100, from = backwards ? 1200 : 800, way = backwards ? -400 : 400, courant = 0.8;
+  const auto n = std::int64_t(2000 / h);  // its tails at the ends are below rounding
   L lab = line(kind, n, h, order, courant);
   const double z = rock.rho * kind.speed();
   // Averages over cells are what the fields hold.
