@@ -66,6 +66,34 @@ TEST_F(Exchange, SegyioFindsTheSortingOfCubes) {
             "[1, 2, 3, 4] 6 [0] (4, 6, 3)\nTrue\n");
 }
 
+TEST_F(Exchange, SegyioFindsTheSortingOfLinesAndWells) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  const std::string program =
+      "import segyio\n"
+      "def show(name):\n"
+      "    with segyio.open(name) as f:\n"
+      "        print(list(f.ilines), list(f.xlines), list(f.offsets)[:2], segyio.tools.cube(f).shape)\n"
+      "        whole = segyio.open(name, ignore_geometry=True)\n"
+      "        last = f.gather[f.ilines[-1], f.xlines[-1], f.offsets[-1]]\n"
+      "        assert (last == whole.trace[-1]).all()\n";
+  const std::string wave = "--wavelet ricker:30 --time 0.1 -q ";
+  done("sw-layers --size 300x200 --step 10 --layer 0:2500:1250:2200 -o m.nc");
+  // A shot into a line, several components; a spread that moves; a well.
+  done("sw-shoot m.nc --source 100,20 " + wave + "--receivers 0:300:50,10 --record vz,vx -o a.sgy");
+  done("sw-shoot m.nc --source 100,20 --source 200,20 " + wave + "--receivers +20:+80:20,10 -o b.sgy");
+  done("sw-shoot m.nc --source 100,20 " + wave + "--receivers 200,20:100:20 --record vz,vx -o c.sgy");
+  EXPECT_EQ(python(program + "for name in ('a', 'b', 'c'): show(name + '.sgy')\n"),
+            "[1] [12, 14] [-100, -50] (1, 2, 7, 101)\n"
+            "[1, 2] [12, 14, 11] [20, 40] (2, 3, 4, 101)\n"
+            "[12, 14] [1, 2, 3, 4, 5] [100] (2, 5, 101)\n");
+  // A line in 3-D; and one component of it.
+  done("sw-layers --size 200x120x100 --step 10 --layer 0:2500:1250:2200 -o m3.nc");
+  done("sw-shoot m3.nc --source 95,65,85 " + wave + "--receivers 20:180:40,65,5 --record vx,vy,vz -o d.sgy");
+  done("sw-select d.sgy --where component=vy -o e.sgy");
+  EXPECT_EQ(python(program + "show('d.sgy'); show('e.sgy')\n"),
+            "[1] [14, 13, 12] [-75, -35] (1, 3, 5, 101)\n[1] [13] [-75, -35] (1, 1, 5, 101)\n");
+}
+
 TEST_F(Exchange, RecipeOfOpendtectSortsOneComponentByMidpointAndOffset) {
   if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
   done("sw-select gather.sgy --where component=vz | sw-sort --key cdp,offset -o line.sgy");
