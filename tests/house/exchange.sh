@@ -19,11 +19,13 @@ installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = i
 
 # Blocks in order, NN.block, of the section and kind in NN.section; what a section says of itself.
 mkdir "$work/blocks" "$work/folder"
+: > "$work/blocks/run"
+: > "$work/blocks/not-run"
 awk -v base="$work/blocks" '
   BEGIN { section = "files" }
   !block && /^## / { section = substr($0, 4) }
-  !block && /^Run by the tests/ { print section "\t" $0 > (base "/run") }
-  !block && /not run here\.$/ { print section > (base "/not-run") }
+  !block && /^Run by the tests/ { print section "\t" $0 >> (base "/run") }
+  !block && /not run here\.$/ { print section >> (base "/not-run") }
   /^```/ && block { block = 0; close(name); next }
   /^```/ {
     block = 1; name = sprintf("%s/%02d.block", base, ++count)
@@ -102,6 +104,21 @@ fi
 if installed udunits-bin && installed python3-netcdf4; then
   /usr/bin/python3 "$root/tests/house/netcdf_conventions.py" model.nc hills.nc volume.nc waves.nc \
     hills-waves.nc slice.nc spectrum.nc spectra.nc fk.nc || broken 'netCDF files break conventions'
+  # One of each kind of fault is noticed.
+  /usr/bin/python3 - <<'PYTHON'
+import netCDF4, shutil
+faults = {"unit": lambda file: file["vp"].setncattr("units", "m per s and a bit"), "flags": lambda file: file["fracture"].setncattr("flag_meanings", "intact"),
+          "axis": lambda file: file["z"].delncattr("positive"), "sgrid": lambda file: file["grid"].setncattr("node_dimensions", "x z_face"),
+          "range": lambda file: file["vp"].setncattr("actual_range", file["vp"].actual_range * 2), "coordinate": lambda file: file["vs"].setncattr("coordinates", "elsewhere")}
+for name, spoil in faults.items():
+    shutil.copy("hills.nc" if name == "sgrid" else "model.nc", f"spoilt-{name}.nc")
+    with netCDF4.Dataset(f"spoilt-{name}.nc", "a") as file:
+        spoil(file)
+PYTHON
+  for name in unit flags axis sgrid range coordinate; do
+    /usr/bin/python3 "$root/tests/house/netcdf_conventions.py" "spoilt-$name.nc" >/dev/null 2>&1 &&
+      broken "the check of conventions does not notice a wrong $name"
+  done
 else
   leave_out 'CF and SGRID: udunits-bin or python3-netcdf4 is not installed'
 fi
