@@ -61,7 +61,7 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
              0});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  const bool finer = finer_model(scene.model, own_m).has_value();
+  const bool finer = has_finer_geometry(scene);
   const WavesOfScene waves(scene, finer);
   const Candidate* best = nullptr;
   const auto in = [&](const AccuracySetting& setting) {
@@ -98,7 +98,7 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
   auto setting = choice.setting;
   setting.spacing_m = own_m;
   auto chosen = with_setting(scene, setting);
-  auto finer = finer_model(scene.model, spacing_m);
+  auto finer = finer_model(scene, spacing_m);
   if (!finer) return with_setting(scene, choice.setting);
   chosen.model = std::move(*finer);
   return chosen;

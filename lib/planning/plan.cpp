@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "accuracy/dispersion.hpp"
-#include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
@@ -91,9 +90,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  if constexpr (D == 2)
-    plan.error =
-        WavesOfScene(scene, finer_model(scene.model, scene.model.grid().spacing_m).has_value()).expected();
+  plan.error = expected_error(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -189,8 +186,8 @@ std::string cost_of_a_second(const Scene<D>& scene) {
 template <int D>
 Report summary_of(const Plan<D>& plan) {
   Report report;
-  if (D == 3) {
-    report.text("error", "not estimated in 3-D; cells per shortest wavelength: " + cells_text(plan));
+  if (D == 3 && !plan.error.promise) {
+    report.text("error", "not estimated; cells per shortest wavelength: " + cells_text(plan));
     report.text("mostly from", "loss of the slowest wave: " + shown(100 * plan.loss_per_wavelength, 2) +
                                    " % of its amplitude per wavelength");
   } else {
@@ -221,7 +218,7 @@ Report report_of(const Plan<D>& plan) {
   report.text("cells per shortest wavelength", cells_text(plan));
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
-  if (D == 2) report_promise(plan.error, report);
+  report_promise(plan.error, report);
   if (D == 2) {
     if (plan.error.direct) report_percent(report, "error in direct arrivals", *plan.error.direct);
     report_percent(report, "late error P", plan.error.p);

@@ -20,9 +20,16 @@ namespace slipwave::solver {
 /// and off faces, with and without a free surface, on fitted and on regular grids.
 class DrawnScene {
  public:
-  explicit DrawnScene(std::uint64_t seed) : engine_(seed) {
+  /// What it is drawn for: anything; sources just below a free surface of rock; sources beside an interface,
+  /// as likely in the fluid as in the solid where it is a sea floor; receivers just below a sea floor; a
+  /// cable below the surface of deep water.
+  enum class Kind { any, shallow, near_floor, on_floor, deep_water };
+  explicit DrawnScene(std::uint64_t seed, Kind kind = Kind::any) : engine_(seed), kind_(kind) {
     draw_layers();
-    draw_places();
+    if (kind == Kind::any)
+      draw_places();
+    else
+      draw_special_places();
     build();
   }
   const Scene<2>& scene() const { return scene_; }
@@ -58,19 +65,21 @@ class DrawnScene {
   }
 
   void draw_layers() {
-    const int count = 1 + int(uniform(0, 4));
-    free_surface_ = chance(0.3);
+    const bool floor = kind_ != Kind::any && kind_ != Kind::shallow;
+    const int count = (floor ? 2 : 1) + int(uniform(0, floor ? 2 : 4));
+    free_surface_ = kind_ == Kind::shallow || kind_ == Kind::deep_water || chance(0.3);
     for (int n = 0; n < count; ++n) {
-      const bool fluid = n + 1 < count && chance(n == 0 ? 0.45 : 0.15);
+      const bool fluid = kind_ == Kind::any ? n + 1 < count && chance(n == 0 ? 0.45 : 0.15) : floor && n == 0;
       rocks_.push_back(fluid ? Rock{1500, 0, 1000} : draw_rock());
     }
     if (free_surface_) faces_m_.push_back(0);
-    double at = free_surface_ ? uniform(120, 300) : 0;
+    double at = kind_ == Kind::deep_water ? uniform(380, 600) : free_surface_ ? uniform(120, 300) : 0;
     for (int n = 0; n + 1 < count; ++n) {
       faces_m_.push_back(at);
       at += chance(0.2) ? uniform(12, 40) : uniform(60, 220);
     }
-    dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, 45));
+    dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, kind_ == Kind::any ? 45 : 30));
+    if (kind_ == Kind::deep_water) dip_deg_ = 0;
     on_faces_ = dip_deg_ == 0 && chance(0.5);
     fitted_ = chance(0.6);
     cosine_ = std::cos(dip_deg_ * std::numbers::pi / 180);
@@ -105,10 +114,49 @@ class DrawnScene {
         if (std::hypot(a, b - source_b_) > 60) receivers_.push_back({a, b});
   }
 
-  void build() {
+  double spacing_m() const {
     double slowest = 1e30;
     for (const auto& rock : rocks_) slowest = std::min(slowest, rock.vs > 0 ? rock.vs : rock.vp);
-    const double h = slowest / peak_hz / cells_;
+    return slowest / peak_hz / cells_;
+  }
+
+  void draw_special_places() {
+    const double h = spacing_m();
+    double levels[2] = {};
+    if (kind_ == Kind::shallow) {
+      source_b_ = h * uniform(1, 7);
+      levels[0] = chance(0.5) ? h * uniform(0.6, 3) : 60 + uniform(0, 40);
+      levels[1] = faces_m_.size() > 1 ? across(faces_m_[1], faces_m_.back() + 150, 30) : 180;
+      force_ = chance(0.5);
+    }
+    const double floor = faces_m_.empty() ? 0 : faces_m_[free_surface_ ? 1 : 0];
+    if (kind_ == Kind::near_floor) {
+      const double away = h * uniform(0.7, 4);
+      const bool below = chance(0.6);
+      source_b_ = floor + (below ? away : -away);
+      force_ = below && chance(0.6);
+      levels[0] = floor - uniform(20, 100);
+      levels[1] = floor + (chance(0.5) ? h * uniform(0.6, 3) : uniform(20, 50));
+    }
+    if (kind_ == Kind::on_floor) {
+      const bool below = chance(0.4);
+      source_b_ = floor + (below ? uniform(15, 50) : -uniform(15, 100));
+      force_ = below && chance(0.6);
+      levels[0] = floor + h * uniform(0.3, 2);
+      levels[1] = chance(0.5) ? floor - h * uniform(0.3, 2) : floor + uniform(20, 50);
+    }
+    if (kind_ == Kind::deep_water) {
+      source_b_ = uniform(8, 25);
+      levels[0] = uniform(10, 30);
+      levels[1] = floor - uniform(10, 60);
+    }
+    for (const double b : levels)
+      for (const double a : {-250., -80., 90., 240., 400.})
+        if (std::hypot(a, b - source_b_) > 60) receivers_.push_back({a, b});
+  }
+
+  void build() {
+    const double h = spacing_m();
     // What lies where if (0, 0) of the frame of the layers is at the origin.
     double low[2] = {0, 0}, high[2] = {0, 0};
     const auto reach = [&](const LayerStack::Receiver& at) {
@@ -184,6 +232,7 @@ class DrawnScene {
   }
 
   std::mt19937_64 engine_;
+  Kind kind_;
   std::vector<Rock> rocks_;
   std::vector<double> faces_m_;
   std::vector<LayerStack::Receiver> receivers_;
