@@ -36,9 +36,9 @@ constexpr double drag_of_stairs = 1.5, drag_of_surface_stairs = 0.3;
 constexpr double share_of_offset = 0.6;
 /// By how much near fields are worse at order 3.
 constexpr double near_of_order_3 = 5;
-/// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope, of body
-/// waves and of waves bound to it.
-constexpr double bent_surface = 0.013, bent_surface_bound = 0.03;
+/// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
+/// water, of rock, and of waves bound to rock.
+constexpr double bent_water = 0.06, bent_rock = 0.02, bent_bound = 0.03;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
@@ -458,8 +458,8 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
   const auto& rock = stack.places.layers.front();
   const double depth = std::abs(stack.places.faces_m[0]),
                k = 2 * std::numbers::pi * nominal_hz / slowest_of(rock);
-  const double bound = rock.vs > 0 ? bent_surface_bound * std::exp(-bound_decay * k * depth) : 0;
-  const double share = (bent_surface + bound) * std::tan(radians(interface.steepest_deg));
+  const double all = rock.vs > 0 ? bent_rock + bent_bound * std::exp(-bound_decay * k * depth) : bent_water;
+  const double share = all * std::tan(radians(interface.steepest_deg));
   return share * share * energy;
 }
 

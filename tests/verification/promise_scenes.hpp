@@ -243,4 +243,79 @@ class DrawnScene {
   std::string name_;
 };
 
+/// Topography, a rolling sea floor, or that and a bed that rolls otherwise, drawn from a seed; no closed form
+/// has such traces, so scene(parts) gives the same in cells of a part of the size, whose geometry is as much
+/// finer.
+class BentScene {
+ public:
+  explicit BentScene(std::uint64_t seed) : engine_(seed) {
+    const int kind = int(uniform(0, 3));
+    hills_ = kind == 0;
+    double at = uniform(120, 160);
+    const auto add = [&](const Rock& rock, bool level) {
+      std::ostringstream text;
+      text << "sine," << at << ',' << (level ? 0 : uniform(5, 20)) << ',' << uniform(220, 500) << ':'
+           << rock.vp << ':' << rock.vs << ':' << rock.rho;
+      layers_.push_back(text.str());
+      slowest_ = std::min(slowest_, rock.vs > 0 ? rock.vs : rock.vp);
+    };
+    if (!hills_) {
+      layers_.emplace_back("-10:1500:0:1000");
+      slowest_ = 1500;
+    }
+    const double vp = uniform(2000, 3200);
+    add({vp, vp / uniform(1.7, 2.1), 2100}, false);
+    at += uniform(110, 160);
+    if (kind > 0) add({uniform(3300, 4300), uniform(1800, 2300), 2400}, kind == 1);
+    fitted_ = uniform(0, 1) < 0.7;
+    cells_ = std::round(uniform(9, 18));
+    order_ = uniform(0, 1) < 0.3 ? 7 : 5;
+    force_ = uniform(0, 1) < 0.4;
+    source_ = {uniform(250, 450), hills_ || force_ ? uniform(200, 330) : uniform(30, 330)};
+    const double upper = hills_ ? uniform(200, 240) : uniform(30, 90), lower = uniform(210, 400);
+    for (const double x : {120., 230., 340., 460., 560.})
+      for (const double depth : {upper, lower})
+        if (std::hypot(x - source_[0], depth - source_[1]) > 60) receivers_.push_back({x, depth});
+  }
+  std::string name() const {
+    std::ostringstream text;
+    for (const auto& layer : layers_) text << layer << ' ';
+    text << (fitted_ ? "fitted" : "regular") << (force_ ? ", force" : ", explosion") << ", order " << order_
+         << ", n " << cells_;
+    return text.str();
+  }
+  Scene<2> scene(int parts = 1) const {
+    const double wide_m = 700, h = wide_m / std::ceil(wide_m * 15 * cells_ / slowest_) / parts;
+    const Grid<2> regular{{std::llround(wide_m / h), std::llround(490 / h)}, h, {0, 0}};
+    std::vector<Layer> layers;
+    for (const auto& text : layers_) layers.push_back(parse_layer(text));
+    FitChoice choice;
+    choice.surfaces = choice.floors = choice.layers = fitted_ || parts > 1;
+    const auto fit = fit_layers<2>(regular, layers, choice);
+    Scene<2> scene;
+    scene.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+    scene.survey.sources = {
+        {source_, parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"), parse_wavelet("ricker:15"), 1e6}};
+    scene.survey.receivers_m = receivers_;
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    if (hills_) scene.edges[1][0] = EdgeLaw::free;
+    scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
+    scene.numerics.order = parts > 1 ? 7 : order_;
+    scene.numerics.zone_cells = 20 * parts;
+    check(scene);
+    return scene;
+  }
+
+ private:
+  double uniform(double low, double high) { return low + (high - low) * double(engine_() >> 11) * 0x1p-53; }
+
+  std::mt19937_64 engine_;
+  std::vector<std::string> layers_;
+  bool hills_ = false, fitted_ = true, force_ = false;
+  int order_ = 5;
+  double cells_ = 12, slowest_ = 1e30;
+  Point<2> source_{};
+  std::vector<Point<2>> receivers_;
+};
+
 }  // namespace slipwave::solver
