@@ -64,8 +64,10 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const bool finer = has_finer_geometry(scene);
   const WavesOfScene waves(scene, finer);
   const Candidate* best = nullptr;
+  // Rows of other cells have the heights of these, in cells.
+  const double stable_per_m = stable_time_step_s(scene) / own_m;
   const auto in = [&](const AccuracySetting& setting) {
-    const double time_step_s = setting.cfl * stable_time_step_s(scene) * setting.spacing_m / own_m;
+    const double time_step_s = setting.cfl * stable_per_m * setting.spacing_m;
     return waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order});
   };
   for (auto& candidate : candidates) {
