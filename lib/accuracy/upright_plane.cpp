@@ -49,7 +49,7 @@ class SliceOfCells {
     grid_.spacing_m = h;
     first_m_ = -(double(before) + part) * h;
     grid_.origin_m = {line.source_m[0] + first_m_, from.origin_m[2]};
-    if (from.rows) grid_.rows = rows();
+    if (from.rows) grid_.rows = std::make_shared<const RowDepths<2>>(rows());
   }
   const Grid<2>& grid() const { return grid_; }
   Medium<2> medium() const {
@@ -84,7 +84,7 @@ class SliceOfCells {
           0, from.shape[axis] - 1);
     return cell;
   }
-  std::shared_ptr<const RowDepths<2>> rows() const {
+  RowDepths<2> rows() const {
     const auto& from = medium_.grid();
     std::vector<double> corners;
     for (std::int64_t k = 0; k <= grid_.shape[1]; ++k)
@@ -93,7 +93,7 @@ class SliceOfCells {
         at[2] = double(k);
         corners.push_back(from.rows->row_is_level(k) ? from.rows->row(k)[0] : from.rows->depth(at));
       }
-    return std::make_shared<const RowDepths<2>>(grid_.shape, std::move(corners), from.rows->horizons());
+    return {grid_.shape, std::move(corners), from.rows->horizons()};
   }
 
   const Medium<3>& medium_;
