@@ -155,7 +155,7 @@ double near_error(NearField kind, double cells, double per_wave, double courant,
     case NearField::of_explosion_in_rock:
       return (order >= 7 ? 1.1 : 1.8) * cubed / cells * std::sqrt(shorter);
     case NearField::of_explosion_in_fluid:
-      return cubed * (1.3 / cells + 2.1 * std::max(0., 0.9 - courant));
+      return cubed * (1.3 / cells + 0.026 * per_wave * std::max(0., 0.9 - courant));
     case NearField::of_force:
       return 0.15 * cubed * std::min(3., std::pow(shorter, 1.3));
     case NearField::of_uneven_moment:
