@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "accuracy/dispersion.hpp"
-#include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
+#include "grid/longest_side.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
@@ -20,27 +20,48 @@ namespace {
 /// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
 
+/// Of all cells' slowest waves the one that fewest cells resolve; on a regular grid the slowest.
+template <int D>
+SlowestWave least_resolved(const Medium<D>& medium) {
+  if (!medium.grid().rows) return slowest_wave(medium);
+  SlowestWave least;
+  double per_second = 0;
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto cell = std::size_t(n);
+    if (medium.is_void(cell)) continue;
+    const double speed = medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell];
+    const double cells = speed / longest_side_m(medium.grid(), n);
+    if (per_second == 0 || cells < per_second) per_second = cells, least = {speed, n};
+  }
+  return least;
+}
+
 template <int D>
 double cells_a_wavelength(const Scene<D>& scene, const SlowestWave& slowest, double hz) {
-  return slowest.speed / hz / scene.model.grid().spacing_m;
+  return slowest.speed / hz / longest_side_m(scene.model.grid(), slowest.cell);
 }
 
 template <int D>
 double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) {
-  const double courant = slowest.speed * time_step_s(scene) / scene.model.grid().spacing_m;
+  const double courant =
+      slowest.speed * time_step_s(scene) / longest_side_m(scene.model.grid(), slowest.cell);
   // Waves shorter than two cells are not on the grid at all.
   if (cells <= 2) return 1;
   return loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
 }
 
-/// Slowest P wave anywhere, slowest S wave of solids (0: none).
+/// Cells that a second's way of P anywhere and of S in solids crosses at least (0: none), along their longest
+/// sides.
 template <int D>
-std::array<double, 2> slowest_of_each(const Medium<D>& medium) {
+std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
   std::array<double, 2> slowest = {std::numeric_limits<double>::infinity(), 0};
-  for (std::size_t n = 0; n < std::size_t(medium.grid().size()); ++n) {
+  for (std::size_t n = 0; n < std::size_t(grid.size()); ++n) {
     if (medium.is_void(n)) continue;
-    slowest[0] = std::min(slowest[0], double(medium.vp[n]));
-    if (medium.vs[n] > 0 && !(slowest[1] > 0 && slowest[1] < medium.vs[n])) slowest[1] = medium.vs[n];
+    const double side = longest_side_m(grid, std::int64_t(n));
+    const double p = medium.vp[n] / side, s = medium.vs[n] / side;
+    slowest[0] = std::min(slowest[0], p);
+    if (s > 0 && !(slowest[1] > 0 && slowest[1] < s)) slowest[1] = s;
   }
   return slowest;
 }
@@ -82,18 +103,15 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.interface_cells = step.sweeps().interface_stencil_cells();
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
-  plan.slowest = slowest_wave(scene.model.medium);
-  const auto [slowest_p, slowest_s] = slowest_of_each(scene.model.medium);
-  const double wave_to_cells = 1 / plan.highest_hz / scene.model.grid().spacing_m;
-  plan.cells_of_shortest_p = slowest_p * wave_to_cells;
-  if (slowest_s > 0) plan.cells_of_shortest_s = slowest_s * wave_to_cells;
+  plan.slowest = least_resolved(scene.model.medium);
+  const auto [cells_of_p, cells_of_s] = cells_of_a_second(scene.model.medium);
+  plan.cells_of_shortest_p = cells_of_p / plan.highest_hz;
+  if (cells_of_s > 0) plan.cells_of_shortest_s = cells_of_s / plan.highest_hz;
   plan.loss_per_wavelength =
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  if constexpr (D == 2)
-    plan.error =
-        WavesOfScene(scene, finer_model(scene.model, scene.model.grid().spacing_m).has_value()).expected();
+  plan.error = expected_error(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -179,18 +197,18 @@ std::string cost_of_a_second(const Scene<D>& scene) {
   double cells = 1;
   for (const auto n : scene.model.grid().shape) cells *= double(n + zone);
   const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
-  const auto slowest = slowest_wave(scene.model.medium);
+  const auto slowest = least_resolved(scene.model.medium);
   return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
          shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
-         " MiB; waves up to " + shown(slowest.speed / (fewest_cells * scene.model.grid().spacing_m), 2) +
-         " Hz";
+         " MiB; waves up to " +
+         shown(slowest.speed / (fewest_cells * longest_side_m(scene.model.grid(), slowest.cell)), 2) + " Hz";
 }
 
 template <int D>
 Report summary_of(const Plan<D>& plan) {
   Report report;
-  if (D == 3) {
-    report.text("error", "not estimated in 3-D; cells per shortest wavelength: " + cells_text(plan));
+  if (D == 3 && !plan.error.promise) {
+    report.text("error", "not estimated; cells per shortest wavelength: " + cells_text(plan));
     report.text("mostly from", "loss of the slowest wave: " + shown(100 * plan.loss_per_wavelength, 2) +
                                    " % of its amplitude per wavelength");
   } else {
@@ -221,7 +239,7 @@ Report report_of(const Plan<D>& plan) {
   report.text("cells per shortest wavelength", cells_text(plan));
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
-  if (D == 2) report_promise(plan.error, report);
+  report_promise(plan.error, report);
   if (D == 2) {
     if (plan.error.direct) report_percent(report, "error in direct arrivals", *plan.error.direct);
     report_percent(report, "late error P", plan.error.p);
@@ -245,7 +263,7 @@ Report report_of(const Plan<D>& plan) {
 
 template <int D>
 std::vector<std::string> warnings(const Scene<D>& scene) {
-  const auto slowest = slowest_wave(scene.model.medium);
+  const auto slowest = least_resolved(scene.model.medium);
   const double highest = highest_frequency_hz(scene.survey);
   const double cells = cells_a_wavelength(scene, slowest, highest);
   if (cells >= fewest_cells) return {};

@@ -30,7 +30,7 @@ struct Plan {
   std::string instruction_set;
 };
 
-/// In 3-D errors are not expected.
+/// In 3-D errors are those of all traces only (expected_error()).
 /// Builds the first shot and runs a few of its steps to see how long they take.
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
