@@ -139,7 +139,7 @@ void ShotSimulation<D, Real>::serialize(Archive& archive) {
   archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
   executor_->serialize(archive);
   for (const auto& effect : effects_) effect->serialize(archive);
-  recorder_.serialize(archive);
+  recorder_.serialize(archive, done_);
 }
 
 template <int D, class Real>
