@@ -6,6 +6,8 @@ namespace slipwave::solver {
 
 /// Steps of which series are weighed together: the widest vector of doubles.
 inline constexpr int steps_together = 8;
+/// Values are brought together by so many.
+inline constexpr std::int64_t values_together = 16;
 
 /// Values next to each other that a series has weights for.
 struct SeriesTerm {
@@ -15,7 +17,7 @@ struct SeriesTerm {
 /// Loops of what receivers record (Recorder). Sums are rounded alike by all instruction sets.
 template <class Real>
 struct SeriesKernels {
-  /// Brings rows of n values, one row a step, together: [value][step].
+  /// Brings rows of n values, one row a step and n a multiple of values_together, together: [value][step].
   void (*bring_together)(std::int64_t n, const Real* const* steps, double* together);
   /// sums[step] = factor times the sum of weights times values over these terms, whose weights follow each
   /// other.

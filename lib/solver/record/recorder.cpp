@@ -12,38 +12,36 @@
 #include "solver/record/component_weights.hpp"
 
 namespace slipwave::solver {
-namespace {
 
-/// Neighbouring values of a line that a series has weights for.
-struct Stretch {
-  std::int64_t line, first, last;  // places on it
-  bool operator<(const Stretch& other) const {
-    return std::tie(line, first) < std::tie(other.line, other.first);
-  }
-};
-
-/// The stretches of weights in the order of their places, without the gaps.
-std::vector<Stretch> stretches_of(const std::vector<ValueWeight>& weights) {
-  std::vector<Stretch> stretches;
-  for (const auto& weight : weights) {
-    const bool continues =
-        !stretches.empty() && stretches.back().line == weight.line && stretches.back().last == weight.place;
-    if (!continues) stretches.push_back({weight.line, weight.place, weight.place});
-    ++stretches.back().last;
-  }
-  return stretches;
+/// Those that overlap or touch stand as one, and their values follow each other, `aligned` to multiples.
+Stretches::Stretches(std::vector<Stretch> stretches, std::int64_t aligned) {
+  std::sort(stretches.begin(), stretches.end());
+  for (const auto& one : stretches)
+    if (all_.empty() || all_.back().line != one.line || all_.back().last < one.first)
+      all_.push_back(one);
+    else
+      all_.back().last = std::max(all_.back().last, one.last);
+  values_.push_back(0);
+  for (const auto& one : all_)
+    values_.push_back(values_.back() + (one.last - one.first + aligned - 1) / aligned * aligned);
 }
 
-/// Stretches that overlap or touch as one, in their order.
-std::vector<Stretch> united(std::vector<Stretch> stretches) {
-  std::sort(stretches.begin(), stretches.end());
-  std::vector<Stretch> united;
-  for (const auto& one : stretches)
-    if (united.empty() || united.back().line != one.line || united.back().last < one.first)
-      united.push_back(one);
-    else
-      united.back().last = std::max(united.back().last, one.last);
-  return united;
+std::int64_t Stretches::value_of(const Stretch& part) const {
+  const auto in = std::upper_bound(all_.begin(), all_.end(), part) - all_.begin() - 1;
+  return values_[std::size_t(in)] + part.first - all_[std::size_t(in)].first;
+}
+
+namespace {
+
+/// Adds the stretches of weights in the order of their places, without the gaps.
+void add_stretches(const std::vector<ValueWeight>& weights, std::vector<Stretch>& all) {
+  const auto before = all.size();
+  for (const auto& weight : weights) {
+    const bool continues =
+        all.size() > before && all.back().line == weight.line && all.back().last == weight.place;
+    if (!continues) all.push_back({weight.line, weight.place, weight.place});
+    ++all.back().last;
+  }
 }
 
 }  // namespace
@@ -57,7 +55,8 @@ Recorder<D, Real>::Recorder(const Layout<D>& layout, const Domain<D>& domain, co
       last_(steps_needed(scene.recording, time_step_s(scene))) {
   auto weights = all_weights(layout, domain, scene, shot);
   find_spans(scene, shot);
-  history_.assign(std::size_t(remembered) * series(), 0);
+  const auto chunks = (series() + series_together - 1) / series_together;
+  history_.assign(chunks * std::size_t(kept) * series_together, 0);
   read_all(layout, std::move(weights));
   find_box(layout, domain.grid.first[D - 1]);
 }
@@ -181,7 +180,7 @@ template <int D, class Real>
 void Recorder<D, Real>::finish(const StepTime& time) {
   newest_ = time.step + 1;
   dt_s_ = time.dt_s;
-  if (newest_ - weighed_ == steps_together || newest_ == last_) catch_up();
+  if (newest_ - weighed_ == steps_at_once || newest_ == last_) catch_up();
 }
 
 /// Makes series of the steps that have ended, and all samples whose eight steps are then there.
@@ -189,32 +188,40 @@ template <int D, class Real>
 void Recorder<D, Real>::catch_up() {
   if (weighed_ == newest_) return;
   bool wanted = false;
-  std::array<const Real*, steps_together> steps;
-  for (int n = 0; n < steps_together; ++n) {
-    const auto step = std::min(weighed_ + n, newest_ - 1);
-    steps[std::size_t(n)] = values_of(step);
-    wanted = wanted || wants({step, dt_s_});
-  }
-  if (wanted) kernels_.bring_together(values_a_step_, steps.data(), together_.data());
+  for (auto step = weighed_; step < newest_; ++step) wanted = wanted || wants({step, dt_s_});
   find_arrivals();
-  for (std::size_t first = 0; first < series(); first += series_together) {
-    const auto last = std::min(first + series_together, series());
-    if (wanted) weigh(first, last);
+  for (std::size_t chunk = 0; chunk * series_together < series(); ++chunk) {
+    const auto first = chunk * series_together, last = std::min(first + series_together, series());
+    double* const before = history_.data() + chunk * kept * series_together;
+    std::copy(before, before + kept * series_together, recent_.data());
+    if (wanted) weigh(chunk, first, last);
     interpolate(first, last);
+    const auto* const from = recent_.data() + (newest_ - weighed_) * std::int64_t(series_together);
+    std::copy(from, from + kept * series_together, before);
   }
   weighed_ = newest_;
 }
 
 template <int D, class Real>
-void Recorder<D, Real>::weigh(std::size_t first, std::size_t last) {
+void Recorder<D, Real>::weigh(std::size_t chunk, std::size_t first, std::size_t last) {
+  std::array<const Real*, steps_together> steps;
   std::array<double, steps_together> sums;
-  for (auto one = first; one < last; ++one) {
-    // The unit is a power of two.
-    kernels_.weigh(together_.data(), terms_.data() + first_term_[one], terms_.data() + first_term_[one + 1],
-                   weights_.data() + first_weight_[one], 1 / unit_, sums.data());
-    for (auto instant = weighed_ + 1; instant <= newest_; ++instant)
-      history_[std::size_t(instant % remembered) * series() + one] =
-          sums[std::size_t(instant - weighed_ - 1)];
+  for (auto done = weighed_; done < newest_; done += steps_together) {
+    const auto count = std::min<std::int64_t>(steps_together, newest_ - done);
+    for (auto piece = first_piece_[chunk]; piece < first_piece_[chunk + 1]; ++piece) {
+      for (int n = 0; n < steps_together; ++n)
+        steps[std::size_t(n)] = values_of(std::min(done + n, newest_ - 1)) + pieces_[piece].value;
+      kernels_.bring_together(pieces_[piece].count, steps.data(),
+                              together_.data() + pieces_[piece].at * steps_together);
+    }
+    double* const rows = recent_.data() + (done - weighed_ + kept) * std::int64_t(series_together);
+    for (auto one = first; one < last; ++one) {
+      // The unit is a power of two.
+      kernels_.weigh(together_.data(), terms_.data() + first_term_[one], terms_.data() + first_term_[one + 1],
+                     weights_.data() + first_weight_[one], 1 / unit_, sums.data());
+      for (std::int64_t n = 0; n < count; ++n)
+        rows[std::size_t(n) * series_together + one - first] = sums[std::size_t(n)];
+    }
   }
 }
 
@@ -262,7 +269,8 @@ void Recorder<D, Real>::combine(const TimeWeights& weights, std::size_t first, s
   for (int n = 0; n < weights.count; ++n) {
     const std::int64_t instant = weights.first + n;
     if (instant < 0) continue;
-    rows[std::size_t(count)] = history_.data() + std::size_t(instant % remembered) * series() + first;
+    rows[std::size_t(count)] =
+        recent_.data() + std::size_t(instant - weighed_ + kept - 1) * series_together + first;
     factors[std::size_t(count++)] = weights.weights[std::size_t(n)];
   }
   kernels_.combine(std::int64_t(last - first), count, factors.data(), rows.data(), sums);
@@ -281,14 +289,14 @@ void Recorder<D, Real>::interpolate(std::size_t first, std::size_t last) {
   for (const auto& arrival : arrivals_) {
     for (auto n = arrival.first_sample; n < arrival.last_sample; ++n, now += series_together)
       of_spans([&](InTime what, std::size_t from, std::size_t to) {
-        combine(sample_weights_[n][std::size_t(what)], from, to, now + (from - first));
+        combine(sample_weights_[n][std::size_t(what)], from - first, to - first, now + (from - first));
         if (what != InTime::integral) return;
         for (auto one = from; one < to; ++one) now[one - first] += integrals_[one];
       });
     if (!arrival.advances) continue;
     of_spans([&](InTime what, std::size_t from, std::size_t to) {
       if (what != InTime::integral) return;
-      combine(arrival.advance, from, to, sums.data());
+      combine(arrival.advance, from - first, to - first, sums.data());
       for (auto one = from; one < to; ++one) integrals_[one] += sums[one - from];
     });
   }
@@ -318,39 +326,53 @@ void Recorder<D, Real>::serialize(Archive& archive, std::int64_t done) {
 /// Finds the cells to read and where among their values those of each trace stand.
 template <int D, class Real>
 void Recorder<D, Real>::read_all(const Layout<D>& layout, std::vector<std::vector<ValueWeight>> of_traces) {
-  std::vector<Stretch> stretches;
+  std::vector<Stretch> all;
   for (auto& weights : of_traces) {
     std::stable_sort(weights.begin(), weights.end(), [](const ValueWeight& one, const ValueWeight& other) {
       return std::tie(one.line, one.place) < std::tie(other.line, other.place);
     });
-    const auto of_trace = stretches_of(weights);
-    stretches.insert(stretches.end(), of_trace.begin(), of_trace.end());
+    add_stretches(weights, all);
   }
-  stretches = united(std::move(stretches));
-  std::vector<std::int64_t> values;  // place of the first of a stretch among those of a step
-  for (const auto& [line, first, last] : stretches) {
+  const Stretches cells(std::move(all), 1);
+  values_a_step_ = cells.values();
+  for (std::size_t n = 0; n < cells.all().size(); ++n) {
+    const auto& [line, first, last] = cells.all()[n];
     const int row = int(first / layout.row_pitch());
     const bool same_line = starts_.size() == std::size_t(line) + 1;
     if (!same_line) starts_.resize(std::size_t(line) + 1, rows_.size());
     if (!same_line || rows_.back().row != row) rows_.push_back({row, runs_.size(), runs_.size()});
-    runs_.push_back({layout.column(first), layout.column(first) + last - first, values_a_step_});
+    runs_.push_back({layout.column(first), layout.column(first) + last - first, cells.value(n)});
     rows_.back().last = runs_.size();
-    values.push_back(values_a_step_);
-    values_a_step_ += last - first;
   }
   starts_.resize(std::size_t(layout.lines()) + 1, rows_.size());
-  values_.assign(std::size_t(slots * values_a_step_), 0);
-  together_ = Buffer<double>(steps_together * values_a_step_);
-  for (const auto& weights : of_traces) {
+  for (std::size_t first = 0; first < of_traces.size(); first += series_together)
+    add_chunk(std::span(of_traces).subspan(first, std::min(series_together, of_traces.size() - first)),
+              cells);
+  first_term_.push_back(terms_.size());
+  first_piece_.push_back(pieces_.size());
+  // Whole vectors are brought together.
+  values_.assign(std::size_t(slots * values_a_step_ + values_together), 0);
+}
+
+/// Finds the values that these series need, and their weights.
+template <int D, class Real>
+void Recorder<D, Real>::add_chunk(std::span<const std::vector<ValueWeight>> of_series,
+                                  const Stretches& cells) {
+  std::vector<Stretch> all;
+  for (const auto& weights : of_series) add_stretches(weights, all);
+  const Stretches here(std::move(all), values_together);
+  first_piece_.push_back(pieces_.size());
+  for (std::size_t n = 0; n < here.all().size(); ++n)
+    pieces_.push_back({cells.value_of(here.all()[n]), here.value(n + 1) - here.value(n), here.value(n)});
+  if (together_.size() < here.values() * steps_together)
+    together_ = Buffer<double>(here.values() * steps_together);
+  for (const auto& weights : of_series) {
     first_term_.push_back(terms_.size());
-    for (const auto& [line, first, last] : stretches_of(weights)) {
-      const auto after = std::upper_bound(stretches.begin(), stretches.end(), Stretch{line, first, last});
-      const auto in = std::size_t(after - stretches.begin()) - 1;
-      terms_.push_back({values[in] + first - stretches[in].first, last - first});
-    }
+    add_stretches(weights, all);
+    for (const auto& stretch : all) terms_.push_back({here.value_of(stretch), stretch.last - stretch.first});
+    all.clear();
     add_weights(weights);
   }
-  first_term_.push_back(terms_.size());
 }
 
 /// Components often have the same weights at a receiver, which then stand once.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <span>
+#include <tuple>
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
@@ -12,6 +14,30 @@
 #include "solver/sweep/point_weights.hpp"
 
 namespace slipwave::solver {
+
+/// Values next to each other on a line: places first <= n < last.
+struct Stretch {
+  std::int64_t line, first, last;
+  bool operator<(const Stretch& other) const {
+    return std::tie(line, first) < std::tie(other.line, other.first);
+  }
+};
+
+/// Stretches in their order, without overlaps, and where their values stand when they follow each other.
+class Stretches {
+ public:
+  /// Each begins at a multiple of `aligned`.
+  Stretches(std::vector<Stretch> stretches, std::int64_t aligned);
+  const std::vector<Stretch>& all() const { return all_; }
+  std::int64_t value(std::size_t n) const { return values_[n]; }
+  std::int64_t values() const { return values_.back(); }
+  /// Of the first value of a part of one of them.
+  std::int64_t value_of(const Stretch& part) const;
+
+ private:
+  std::vector<Stretch> all_;
+  std::vector<std::int64_t> values_;  // and the end
+};
 
 /// Samples the fields at the receivers at the end of every step and interpolates the traces to their own
 /// sampling interval by eight steps round each sample, whatever the time step (theory.md (A3)); integrals and
@@ -44,16 +70,17 @@ class Recorder : public Record<D, Real> {
   Gather take();
 
  private:
-  static constexpr std::int64_t kept = 8;                            // steps the interpolation uses
-  static constexpr std::int64_t remembered = kept + steps_together;  // in history_
+  static constexpr std::int64_t kept = 8;  // steps the interpolation uses
+  static constexpr std::int64_t steps_at_once = 2 * steps_together;
+  static constexpr std::size_t series_together = 64;
   /// Steps whose values are still to be made series, and those that are in progress.
-  static constexpr std::int64_t slots = Effect<D, Real>::most_steps_in_progress + steps_together;
-  static constexpr std::size_t series_together = 32;
+  static constexpr std::int64_t slots = Effect<D, Real>::most_steps_in_progress + steps_at_once;
   /// Weights of the first series of each trace, and of further ones where a trace is the sum of two.
   std::vector<std::vector<ValueWeight>> all_weights(const Layout<D>& layout, const Domain<D>& domain,
                                                     const Scene<D>& scene, std::size_t shot);
   void find_spans(const Scene<D>& scene, std::size_t shot);
   void read_all(const Layout<D>& layout, std::vector<std::vector<ValueWeight>> of_traces);
+  void add_chunk(std::span<const std::vector<ValueWeight>> of_series, const Stretches& cells);
   void add_weights(const std::vector<ValueWeight>& weights);
   void find_box(const Layout<D>& layout, std::int64_t rows_before);
   /// Whether any sample is interpolated from the end of that step.
@@ -67,7 +94,7 @@ class Recorder : public Record<D, Real> {
   }
   void catch_up();
   void find_arrivals();
-  void weigh(std::size_t first, std::size_t last);
+  void weigh(std::size_t chunk, std::size_t first, std::size_t last);
   void interpolate(std::size_t first, std::size_t last);
   void combine(const TimeWeights& weights, std::size_t first, std::size_t last, double* sums) const;
   /// The samples of a series: those of its trace, or kept beside it until both ends of a fibre are known.
@@ -87,6 +114,10 @@ class Recorder : public Record<D, Real> {
   struct RowRuns {
     int row;
     std::size_t first, last;  // in runs_
+  };
+  /// Values that a chunk of series needs: among those of a step, in together_.
+  struct Piece {
+    std::int64_t value, count, at;
   };
   /// What samples and integrals are made of once an instant is there, by what is recorded.
   struct Arrival {
@@ -126,9 +157,13 @@ class Recorder : public Record<D, Real> {
   std::vector<std::size_t> starts_;        // of each line in rows_, and the end
   Box box_;
   std::int64_t values_a_step_ = 0;
-  std::vector<Real> values_;       // [step modulo slots][value]
-  Buffer<double> together_;        // [value][step], of those that are made series
-  std::vector<double> history_;    // [instant modulo remembered][series], of the instants that samples need
+  std::vector<Real> values_;              // [step modulo slots][value]
+  std::vector<Piece> pieces_;             // by chunk of series
+  std::vector<std::size_t> first_piece_;  // of each chunk, and the end
+  Buffer<double> together_;               // [value][step], those of a chunk
+  std::vector<double> history_;           // [chunk][last instants][series], of the instants that samples need
+  std::array<double, std::size_t(kept + steps_at_once) * series_together>
+      recent_{};                   // and those since, of a chunk
   std::vector<Arrival> arrivals_;  // of the instants that are made series
   std::vector<WeightsOfKinds> sample_weights_;
   std::vector<double> new_samples_;        // [sample][series of those together]
