@@ -322,6 +322,18 @@ void Recorder<D, Real>::serialize(Archive& archive, std::int64_t done) {
   }
 }
 
+template <int D, class Real>
+std::int64_t Recorder<D, Real>::memory_bytes() const {
+  const auto doubles = weights_.size() + history_.size() + std::size_t(together_.size()) +
+                       series() * std::size_t(gather_.axis.count);
+  // The heap keeps what weights took when they were found.
+  std::int64_t weights = 0;
+  for (const auto& term : terms_) weights += term.count;
+  return std::int64_t(doubles * sizeof(double) + values_.size() * sizeof(Real) +
+                      terms_.size() * sizeof(SeriesTerm)) +
+         weights * std::int64_t(sizeof(ValueWeight));
+}
+
 /// Finds the cells to read and where among their values those of each trace stand.
 template <int D, class Real>
 void Recorder<D, Real>::read_all(const Layout<D>& layout, std::vector<std::vector<ValueWeight>> of_traces) {

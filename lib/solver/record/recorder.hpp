@@ -59,6 +59,8 @@ class Recorder : public Record<D, Real> {
   void read(const StepTime& time, const RowFields<const Real>& fields, const IndexRange& cells) override;
   void finish(const StepTime& time) override;
   std::int64_t cells() const { return std::int64_t(weights_.size()); }
+  /// Weights and values, and the samples once all are there.
+  std::int64_t memory_bytes() const;
   /// Writes or reads what it retains when so many steps are done and none is in progress: the samples so far
   /// and the steps that the next ones are interpolated from.
   void serialize(Archive& archive, std::int64_t done);
