@@ -112,9 +112,7 @@ void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
   const auto planned = plan(scene);
   const auto side_by_side = shots_at_once(options.output, scene);
   // Traces of all shots stand in memory until they are written to one file.
-  const bool one_file = !holds(options.output.traces, "{shot}");
-  auto report =
-      summary_of(planned, {side_by_side, one_file ? scene.survey.sources.size() - side_by_side : 0});
+  auto report = summary_of(planned, {side_by_side, scene.survey.sources.size() - side_by_side});
   if constexpr (D == 2)
     if (!options.wanted_error) report.append(setting_for_1_percent(scene));
   if (options.details || options.json) report.append(report_of(planned));
