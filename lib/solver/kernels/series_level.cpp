@@ -27,21 +27,22 @@ template <class Real>
 /// Each sum of products is four sums that do not wait for each other.
 [[gnu::noinline]] void weigh(const double* together, const SeriesTerm* first, const SeriesTerm* last,
                              const double* weights, double factor, double* sums) {
+  constexpr std::ptrdiff_t next = steps_together;
   Steps sum0{}, sum1{}, sum2{}, sum3{}, at;
   for (; first != last; ++first) {
     const double* values = together + first->value * steps_together;
     const double* const end = weights + first->count;
-    for (; end - weights >= 4; weights += 4, values += std::ptrdiff_t{4} * steps_together) {
+    for (; end - weights >= 4; weights += 4, values += 4 * next) {
       load(at, values);
       sum0 += weights[0] * at;
-      load(at, values + steps_together);
+      load(at, values + next);
       sum1 += weights[1] * at;
-      load(at, values + 2 * steps_together);
+      load(at, values + 2 * next);
       sum2 += weights[2] * at;
-      load(at, values + 3 * steps_together);
+      load(at, values + 3 * next);
       sum3 += weights[3] * at;
     }
-    for (; weights != end; ++weights, values += steps_together) {
+    for (; weights != end; ++weights, values += next) {
       load(at, values);
       sum0 += *weights * at;
     }

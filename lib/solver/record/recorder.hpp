@@ -73,7 +73,7 @@ class Recorder : public Record<D, Real> {
 
  private:
   static constexpr std::int64_t kept = 8;  // steps the interpolation uses
-  static constexpr std::int64_t steps_at_once = 4 * steps_together;
+  static constexpr std::int64_t steps_at_once = std::int64_t{4} * steps_together;
   static constexpr std::size_t series_together = 64;
   /// Steps whose values are still to be made series, and those that are in progress.
   static constexpr std::int64_t slots = Effect<D, Real>::most_steps_in_progress + steps_at_once;
