@@ -86,6 +86,27 @@ double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
   return *middle;
 }
 
+/// What the program and its libraries have resident before they read a model.
+constexpr std::int64_t program_bytes = std::int64_t{28} << 20;
+
+template <int D>
+std::int64_t shared_bytes(const Scene<D>& scene) {
+  const auto& model = scene.model;
+  const auto fields = model.medium.properties().size() + model.prestress_pa.size();
+  return program_bytes + model.grid().size() * std::int64_t(fields * sizeof(float)) +
+         std::int64_t(model.fracture.size());
+}
+
+/// Of the shot that records most.
+template <int D>
+std::int64_t trace_bytes(const Scene<D>& scene) {
+  std::size_t most = 0;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    most = std::max(most, scene.survey.receiver_count(shot));
+  return std::int64_t(most * scene.recording.components.size()) * scene.recording.samples() *
+         std::int64_t(sizeof(double));
+}
+
 template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
   // Steps are timed as they are when waves are everywhere.
@@ -101,7 +122,10 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.steps = step.steps();
   plan.entries = step.planned();
   plan.interface_cells = step.sweeps().interface_stencil_cells();
-  plan.memory_bytes = step.memory_bytes();
+  plan.trace_bytes = trace_bytes(scene);
+  plan.memory_bytes = step.memory_bytes() + step.record_bytes();
+  plan.building_bytes = step.building_bytes();
+  plan.shared_bytes = shared_bytes(scene);
   plan.highest_hz = highest_frequency_hz(scene.survey);
   plan.slowest = least_resolved(scene.model.medium);
   const auto [cells_of_p, cells_of_s] = cells_of_a_second(scene.model.medium);
@@ -136,7 +160,17 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
   return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
 }
 
+template <int D>
+std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held) {
+  // Samples are written when what was only needed to build the shot is gone.
+  const auto building = std::max<std::int64_t>(0, plan.building_bytes - plan.trace_bytes);
+  return plan.shared_bytes + std::int64_t(held.side_by_side) * (plan.memory_bytes + building) +
+         std::int64_t(held.retained) * plan.trace_bytes;
+}
+
 namespace {
+
+std::string mebibytes(std::int64_t bytes) { return shown(double(bytes) / (1 << 20), 3) + " MiB"; }
 
 /// Causes that make less of the whole are left out.
 constexpr double least_cause = 0.1;
@@ -205,7 +239,7 @@ std::string cost_of_a_second(const Scene<D>& scene) {
 }
 
 template <int D>
-Report summary_of(const Plan<D>& plan) {
+Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
   Report report;
   if (D == 3 && !plan.error.promise) {
     report.text("error", "not estimated; cells per shortest wavelength: " + cells_text(plan));
@@ -223,7 +257,10 @@ Report summary_of(const Plan<D>& plan) {
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
   report.text("time", shown(plan.seconds, 2) + " s of processor time" + threads);
-  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB a shot");
+  report.text("memory",
+              mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
+                  " a shot" +
+                  (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
   return report;
 }
 
@@ -251,6 +288,8 @@ Report report_of(const Plan<D>& plan) {
       shown(100 * plan.computed_share, 2) +
           " % (cells that no wave has reached, or that can no longer affect a receiver, are skipped)");
   report.number("memory of a shot", double(plan.memory_bytes) / (1 << 20), "MiB");
+  report.number("memory of model and program", double(plan.shared_bytes) / (1 << 20), "MiB");
+  report.number("memory of the traces of a shot", double(plan.trace_bytes) / (1 << 20), "MiB");
   report.number("processor time", plan.seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
@@ -278,15 +317,17 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
 }
 
 template Plan<2> plan(const Scene<2>&);
+template std::int64_t memory_of_run_bytes(const Plan<2>&, const ShotsHeld&);
+template std::int64_t memory_of_run_bytes(const Plan<3>&, const ShotsHeld&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template std::string cost_of_a_second(const Scene<2>&);
-template Report summary_of(const Plan<2>&);
+template Report summary_of(const Plan<2>&, const ShotsHeld&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
 template Plan<3> plan(const Scene<3>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
 template std::string cost_of_a_second(const Scene<3>&);
-template Report summary_of(const Plan<3>&);
+template Report summary_of(const Plan<3>&, const ShotsHeld&);
 template Report report_of(const Plan<3>&);
 template std::vector<std::string> warnings(const Scene<3>&);
 

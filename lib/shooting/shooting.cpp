@@ -110,7 +110,9 @@ Report setting_for_1_percent(const Scene<2>& scene) {
 template <int D>
 void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
   const auto planned = plan(scene);
-  auto report = summary_of(planned);
+  const auto side_by_side = shots_at_once(options.output, scene);
+  // Traces of all shots stand in memory until they are written to one file.
+  auto report = summary_of(planned, {side_by_side, scene.survey.sources.size() - side_by_side});
   if constexpr (D == 2)
     if (!options.wanted_error) report.append(setting_for_1_percent(scene));
   if (options.details || options.json) report.append(report_of(planned));

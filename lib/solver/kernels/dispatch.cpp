@@ -81,6 +81,13 @@ RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechani
   return best_tables<Real>().relaxation(Real()).of(dimensions, shear, mechanisms);
 }
 
+template <class Real>
+const SeriesKernels<Real>& series_kernels() {
+  return best_tables<Real>().series(Real());
+}
+
+template const SeriesKernels<float>& series_kernels<float>();
+template const SeriesKernels<double>& series_kernels<double>();
 template RelaxationKernel<float> relaxation_kernel<float>(int, bool, int);
 template RelaxationKernel<double> relaxation_kernel<double>(int, bool, int);
 template SlipKernels<float> slip_kernels<float>(const SlipCase&);

@@ -2,6 +2,7 @@
 
 #include "solver/kernels/kernels.hpp"
 #include "solver/kernels/relaxation_tables.hpp"
+#include "solver/kernels/series_kernels.hpp"
 #include "solver/kernels/slip_tables.hpp"
 
 namespace slipwave::solver {
@@ -15,6 +16,7 @@ struct KernelTables {
   SpongeKernels<Real> damp;
   const SlipTables<Real>& (*slip)(Real);
   const RelaxationTables<Real>& (*relaxation)(Real);
+  const SeriesKernels<Real>& (*series)(Real);
 };
 
 }  // namespace slipwave::solver

@@ -13,6 +13,9 @@ const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
 // In relaxation_level.cpp.
 const RelaxationTables<float>& SLIPWAVE_RELAXATION_LEVEL(float);
 const RelaxationTables<double>& SLIPWAVE_RELAXATION_LEVEL(double);
+// In series_level.cpp.
+const SeriesKernels<float>& SLIPWAVE_SERIES_LEVEL(float);
+const SeriesKernels<double>& SLIPWAVE_SERIES_LEVEL(double);
 
 namespace {
 
@@ -193,7 +196,8 @@ constexpr KernelTables<Real> tables = {of_order<false, Real>,
                                        {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
                                          {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
                                        SLIPWAVE_SLIP_LEVEL,
-                                       SLIPWAVE_RELAXATION_LEVEL};
+                                       SLIPWAVE_RELAXATION_LEVEL,
+                                       SLIPWAVE_SERIES_LEVEL};
 
 }  // namespace
 

@@ -93,6 +93,10 @@ class Sweeps {
   Workspace<Real> make_workspace(std::int64_t widest) const;
   /// Cells with stencils of their own, beside strong interfaces, voids and contrasts: all axes and waves.
   std::int64_t interface_stencil_cells() const;
+  /// What it holds of each cell: stencils beside interfaces and the metric.
+  std::int64_t memory_bytes() const {
+    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes();
+  }
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
 
