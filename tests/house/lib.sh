@@ -16,7 +16,7 @@ commands_of() {
 # run_commands: $work/commands in $work/folder, where the test then stands; what they say is shown, and kept in $work/said.
 run_commands() {
   mkdir "$work/folder"
-  cd "$work/folder"
+  cd "$work/folder" || exit
   sh -eu "$work/commands" </dev/null >"$work/said" 2>&1 || { cat "$work/said"; echo 'a command failed'; exit 1; }
   cat "$work/said"
 }
