@@ -313,7 +313,7 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
           shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
           shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
           shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
-          " times the cost)" + (D == 2 ? " or --error" : "")};
+          " times the cost)" + (D == 2 ? " or --error" : " (--step of the model)")};
 }
 
 template Plan<2> plan(const Scene<2>&);
