@@ -61,11 +61,6 @@ const PmlKernels<Real>& pml_kernels() {
 }
 
 template <class Real>
-const SpongeKernels<Real>& sponge_kernels() {
-  return best_tables<Real>().damp;
-}
-
-template <class Real>
 SlipKernels<Real> slip_kernels(const SlipCase& of) {
   return best_tables<Real>().slip(Real()).of(of);
 }
@@ -91,7 +86,5 @@ template const Kernels<float>& kernels<float>(int, bool);
 template const Kernels<double>& kernels<double>(int, bool);
 template const PmlKernels<float>& pml_kernels<float>();
 template const PmlKernels<double>& pml_kernels<double>();
-template const SpongeKernels<float>& sponge_kernels<float>();
-template const SpongeKernels<double>& sponge_kernels<double>();
 
 }  // namespace slipwave::solver

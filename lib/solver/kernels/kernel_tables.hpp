@@ -12,7 +12,6 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   PmlKernels<Real> pml;
-  SpongeKernels<Real> damp;
   const SlipTables<Real>& (*slip)(Real);
   const RelaxationTables<Real>& (*relaxation)(Real);
 };

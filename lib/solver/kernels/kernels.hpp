@@ -208,21 +208,12 @@ struct PmlKernels {
                  Real* now, Real* phi, bool remember);
 };
 
-/// Loops of the sponge: now = target + factor (now - target).
-template <class Real>
-struct SpongeKernels {
-  /// [factor per cell, else one for all][the same of targets].
-  void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
-};
-
 /// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
 /// uniform runs, of which only the material of the first cell is read; they give the same bits.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);
 template <class Real>
 const PmlKernels<Real>& pml_kernels();
-template <class Real>
-const SpongeKernels<Real>& sponge_kernels();
 
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
 const char* instruction_set();
@@ -231,7 +222,5 @@ extern template const Kernels<float>& kernels<float>(int, bool);
 extern template const Kernels<double>& kernels<double>(int, bool);
 extern template const PmlKernels<float>& pml_kernels<float>();
 extern template const PmlKernels<double>& pml_kernels<double>();
-extern template const SpongeKernels<float>& sponge_kernels<float>();
-extern template const SpongeKernels<double>& sponge_kernels<double>();
 
 }  // namespace slipwave::solver

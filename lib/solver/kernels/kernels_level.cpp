@@ -156,16 +156,6 @@ void filter_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* p
   loop(n, of_all, Real(0), plates, before, now, phi);
 }
 
-template <bool FactorByCell, bool TargetByCell, class Real>
-void damp_in(std::int64_t n, const Real* __restrict factor, const Real* __restrict target,
-             Real* __restrict now) {
-#pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
-    const Real to = target[TargetByCell ? i : 0];
-    now[i] = to + factor[FactorByCell ? i : 0] * (now[i] - to);
-  }
-}
-
 template <bool Uniform, int D, bool Shear, class Real>
 constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 0, Real>,
                                          update<Uniform, D, Shear, Real>, update_uniform<D, Shear, Real>};
@@ -190,8 +180,6 @@ template <class Real>
 constexpr KernelTables<Real> tables = {of_order<false, Real>,
                                        of_order<true, Real>,
                                        {filter_along<Real>, filter_across<Real>},
-                                       {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
-                                         {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
                                        SLIPWAVE_SLIP_LEVEL,
                                        SLIPWAVE_RELAXATION_LEVEL};
 
