@@ -13,31 +13,16 @@
 namespace slipwave::solver {
 namespace {
 
-template <int D>
-using FieldValues = std::array<double, std::size_t(FieldRows<D>::count)>;
-
-/// Writes the values that `at(i, fields)` gives of cell i, one after another; it returns whether any is not
-/// zero. Returns whether any of all is.
-template <int D, class Real, class At>
-bool write_cells(std::int64_t count, Real* to, std::int64_t pitch, const At& at) {
-  bool any = false;
-  FieldValues<D> fields;
-  for (std::int64_t i = 0; i < count; ++i) {
-    fields.fill(0);
-    if (at(i, fields)) any = true;
-    for (std::size_t row = 0; row < fields.size(); ++row)
-      to[std::int64_t(row) * pitch + i] = Real(fields[row]);
-  }
-  return any;
-}
-
-/// Sets all cells to what `at(line, i, fields)` gives.
-template <int D, class Real, class At>
-void begin_with(const Grid<D>& grid, State<D, Real>& state, const At& at) {
+/// Sets all cells to a wave of one medium at t = 0.
+template <int D, class Real>
+void begin_with(const PlaneForm<D>& form, const Grid<D>& grid, const std::vector<double>& depths,
+                State<D, Real>& state) {
+  constexpr auto piece = CellsAlongX<Real>::most;
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
-    const auto index = state.layout.line_index(line);
-    write_cells<D>(grid.shape[0], state.field_row(index, 0), state.layout.row_pitch(),
-                   [&](std::int64_t i, FieldValues<D>& fields) { return at(index, i, fields); });
+    const auto at = state.layout.line_index(line);
+    for (std::int64_t i = 0; i < grid.shape[0]; i += piece)
+      form.cells(grid.centre(0, 0), grid.spacing_m, i, std::min(piece, grid.shape[0] - i),
+                 depths[std::size_t(at[D - 1])], 0, 0, state.field_row(at, 0) + i, state.layout.row_pitch());
   }
 }
 
@@ -58,11 +43,7 @@ class UniformWave : public IncidentWave<D, Real> {
         depths_(depths_of_rows(domain)),
         by_entry_only_(way.by_entry_only),
         entry_(way.entry_side) {}
-  void begin(State<D, Real>& state) override {
-    begin_with(grid_, state, [&](const Index<D>& line, std::int64_t i, FieldValues<D>& fields) {
-      return form_.fields(grid_.centre(0, i), depths_[std::size_t(line[D - 1])], 0, 0, fields);
-    });
-  }
+  void begin(State<D, Real>& state) override { begin_with(form_, grid_, depths_, state); }
   bool enters(int axis, int side) const override {
     return !by_entry_only_ || (axis == D - 1 && side == entry_);
   }
@@ -74,12 +55,8 @@ class UniformWave : public IncidentWave<D, Real> {
   }
   bool values(const Clocks<D>& clocks, int, int, const Index<D>& line, std::int64_t x_first,
               std::int64_t count, Real* to, std::int64_t pitch) const override {
-    const double z = depths_[std::size_t(line[D - 1])], t = clocks.axis_s[D - 1], ahead = ahead_s(clocks);
-    const double first = grid_.centre(0, x_first), last = grid_.centre(0, x_first + count - 1);
-    if (!form_.is_there({first, last}, z, t, ahead)) return false;
-    return write_cells<D>(count, to, pitch, [&](std::int64_t i, FieldValues<D>& fields) {
-      return form_.fields(grid_.centre(0, x_first + i), z, t, ahead, fields);
-    });
+    return form_.cells(grid_.centre(0, 0), grid_.spacing_m, x_first, count, depths_[std::size_t(line[D - 1])],
+                       clocks.axis_s[D - 1], ahead_s(clocks), to, pitch);
   }
 
  private:
@@ -139,14 +116,15 @@ class LyingEntry : public IncidentWave<2, Real> {
 
  private:
   bool write(double time_s, std::int64_t first, std::int64_t count, Real* to, std::int64_t pitch) const {
-    return write_cells<2>(count, to, pitch, [&](std::int64_t i, FieldValues<2>& fields) {
-      FieldValues<2> standing;
-      if (!form_.fields(form_.origin()[0], depths_[std::size_t(first + i)], time_s, 0, standing))
-        return false;
+    bool any = false;
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::array<Real, std::size_t(FieldRows<2>::count)> fields{};
+      any |= form_.cells(form_.origin()[0], 0, 0, 1, depths_[std::size_t(first + i)], time_s, 0,
+                         fields.data(), 1);
       for (int row = 0; row < FieldRows<2>::count; ++row)
-        fields[std::size_t(row_lying(row))] = standing[std::size_t(row)];
-      return true;
-    });
+        to[row_lying(row) * pitch + i] = fields[std::size_t(row)];
+    }
+    return any;
   }
   PlaneForm<2> form_;
   std::vector<double> depths_;
@@ -268,11 +246,7 @@ class VerticalWave : public IncidentWave<2, Real> {
             std::make_unique<Column<Real>>(scene, source, domain, side ? last : 0, form, dt_s, vp_max);
     for (const auto& sweep : splitting(2, scene.numerics.time_order)) along_z_ += sweep.axis == 1;
   }
-  void begin(State<2, Real>& state) override {
-    begin_with(grid_, state, [&](const Index<2>& line, std::int64_t i, FieldValues<2>& fields) {
-      return form_.fields(grid_.centre(0, i), depths_[std::size_t(line[1])], 0, 0, fields);
-    });
-  }
+  void begin(State<2, Real>& state) override { begin_with(form_, grid_, depths_, state); }
   void advance(const StepTime& time) override {
     for (auto& column : columns_)
       if (column) column->advance(time.step);
@@ -289,10 +263,8 @@ class VerticalWave : public IncidentWave<2, Real> {
   bool values(const Clocks<2>& clocks, int axis, int side, const Index<2>& line, std::int64_t x_first,
               std::int64_t count, Real* to, std::int64_t pitch) const override {
     if (axis == 1)
-      return write_cells<2>(count, to, pitch, [&](std::int64_t i, FieldValues<2>& fields) {
-        return form_.fields(grid_.centre(0, x_first + i), depths_[std::size_t(line[1])], clocks.axis_s[1], 0,
-                            fields);
-      });
+      return form_.cells(grid_.centre(0, 0), grid_.spacing_m, x_first, count, depths_[std::size_t(line[1])],
+                         clocks.axis_s[1], 0, to, pitch);
     const auto& column = *columns_[std::size_t(side)];
     const Real* const from = column.fields(clocks.along_last) + line[1];
     for (int row = 0; row < FieldRows<2>::count; ++row)

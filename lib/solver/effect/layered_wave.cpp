@@ -266,9 +266,12 @@ class LayeredWave : public IncidentWave<D, Real> {
     series_.push_back(std::move(series));
   }
   void begin(State<D, Real>& state) override {
+    constexpr auto piece = CellsAlongX<Real>::most;
     for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
       const auto at = state.layout.line_index(line);
-      values({}, 0, 0, at, 0, grid_.shape[0], state.field_row(at, 0), state.layout.row_pitch());
+      for (std::int64_t i = 0; i < grid_.shape[0]; i += piece)
+        values({}, 0, 0, at, i, std::min(piece, grid_.shape[0] - i), state.field_row(at, 0) + i,
+               state.layout.row_pitch());
     }
   }
   bool enters(int, int) const override { return true; }
@@ -287,29 +290,23 @@ class LayeredWave : public IncidentWave<D, Real> {
     const auto row = std::size_t(line[D - 1]);
     const auto& series = series_[row];
     const auto& medium = media_[row];
-    PlaneMoment moment{clocks.axis_s[D - 1], clocks.axis_s[0] - clocks.axis_s[D - 1], slowness_};
-    WavesAlongX late_s;
-    for (int n = 0; n < along_x_count; ++n)
-      late_s[std::size_t(n)] = moment.time_of(medium, n) - slowness_ * (grid_.centre(0, x_first) - x_m_);
-    const double step = -slowness_ * grid_.spacing_m;
+    const PlaneMoment moment{clocks.axis_s[D - 1], clocks.axis_s[0] - clocks.axis_s[D - 1], slowness_};
+    const double step_s = -slowness_ * grid_.spacing_m, of_first_s = -slowness_ * (grid_.centre(0, 0) - x_m_);
+    CellsAlongX<Real> waves;
     bool any = false;
-    for (std::size_t n = 0; n < series.size() && !any; ++n) {
-      const double end = late_s[n] + double(count - 1) * step;
-      any = !series[n].is_zero(std::min(late_s[n], end), std::max(late_s[n], end));
+    for (int n = 0; n < along_x_count; ++n) {
+      const auto& one = series[std::size_t(n)];
+      const double t_s = moment.time_of(medium, n) + of_first_s, begin_s = t_s + double(x_first) * step_s,
+                   end_s = t_s + double(x_first + count - 1) * step_s;
+      if (one.is_zero(std::min(begin_s, end_s), std::max(begin_s, end_s))) {
+        std::fill(waves.wave[n], waves.wave[n] + count, Real(0));
+        continue;
+      }
+      any = true;
+      one.values(t_s, step_s, x_first, count, 1, waves.wave[n]);
     }
-    if (!any) return false;
-    for (std::int64_t i = 0; i < count; ++i) {
-      // From the cell itself, whatever the first of the piece is.
-      const double later = -slowness_ * (grid_.centre(0, x_first + i) - x_m_);
-      WavesAlongX waves;
-      for (std::size_t n = 0; n < waves.size(); ++n)
-        waves[n] = series[n](moment.time_of(medium, int(n)) + later);
-      std::array<double, std::size_t(FieldRows<D>::count)> fields;
-      add_up<D>(medium, waves, fields);
-      for (std::size_t field = 0; field < fields.size(); ++field)
-        to[std::int64_t(field) * pitch + i] = Real(fields[field]);
-    }
-    return true;
+    if (any) add_up<D>(medium, waves, count, to, pitch);
+    return any;
   }
   std::int64_t memory_bytes() const override {
     std::int64_t bytes = 0;
@@ -340,10 +337,8 @@ PlaneStack stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domai
   for (std::int64_t k = 0; k < domain.grid.shape[z]; ++k) {
     auto cell = way.column;
     cell[z] = std::clamp<std::int64_t>(k - domain.low_zone[z], 0, domain.model_grid.shape[z] - 1);
-    Index<D> upper{}, lower{};
-    upper[z] = k, lower[z] = k + 1;
-    const double top = corner_depth(domain, upper) * domain.grid.spacing_m;
-    depth = corner_depth(domain, lower) * domain.grid.spacing_m;
+    const double top = top_of_row(domain, k);
+    depth = top_of_row(domain, k + 1);
     const PlaneStack::Layer layer{medium.vp(cell), medium.vs(cell), medium.rho(cell)};
     if (stack.layers.empty() || !(stack.layers.back() == layer)) {
       stack.layers.push_back(layer);

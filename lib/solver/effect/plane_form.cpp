@@ -29,51 +29,57 @@ WavesAlongX waves_along_x(const MotionAlongX& medium, const PlaneFields& fields)
           (fields[plane_vz] + s) / 2, fields[plane_szz] - medium.passive * fields[plane_sxx]};
 }
 
-template <int D>
-void add_up(const MotionAlongX& medium, const WavesAlongX& waves,
-            std::array<double, FieldRows<D>::count>& fields) {
+template <int D, class Real>
+void add_up(const MotionAlongX& medium, const CellsAlongX<Real>& waves, std::int64_t count, Real* to,
+            std::int64_t pitch) {
   using Rows = FieldRows<D>;
   constexpr int z = D - 1;
-  const double sxx = medium.zp * (waves[p_back] - waves[p_forth]),
-               across = waves[at_rest] + medium.passive * sxx;
-  fields.fill(0);
-  fields[Rows::velocity(0)] = waves[p_forth] + waves[p_back];
-  fields[Rows::velocity(z)] = waves[s_forth] + waves[s_back];
-  fields[Rows::normal_stress(0)] = sxx;
-  fields[Rows::normal_stress(z)] = across;
-  fields[Rows::shear_stress(0, z)] = medium.zs * (waves[s_back] - waves[s_forth]);
+  const auto zp = Real(medium.zp), zs = Real(medium.zs), passive = Real(medium.passive);
   // Plane strain: lambda (e_xx + e_zz).
-  if (D == 3) fields[Rows::normal_stress(1)] = medium.passive / (1 + medium.passive) * (sxx + across);
+  const auto along_y = Real(medium.passive / (1 + medium.passive));
+  const auto row = [&](int number) { return to + number * pitch; };
+  if (D == 3)
+    for (int number = 0; number < Rows::count; ++number) std::fill(row(number), row(number) + count, Real(0));
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto of = [&](int number) { return waves.wave[number][i]; };
+    const Real sxx = zp * (of(p_back) - of(p_forth)), szz = of(at_rest) + passive * sxx;
+    row(Rows::velocity(0))[i] = of(p_forth) + of(p_back);
+    row(Rows::velocity(z))[i] = of(s_forth) + of(s_back);
+    row(Rows::normal_stress(0))[i] = sxx;
+    row(Rows::normal_stress(z))[i] = szz;
+    row(Rows::shear_stress(0, z))[i] = zs * (of(s_back) - of(s_forth));
+    if (D == 3) row(Rows::normal_stress(1))[i] = along_y * (sxx + szz);
+  }
+}
+
+template <int D>
+double top_of_row(const Domain<D>& domain, std::int64_t row) {
+  const double h = domain.grid.spacing_m;
+  if (!domain.model_grid.rows) return domain.grid.centre(D - 1, row) - h / 2;
+  Index<D> corner{};
+  corner[D - 1] = row;
+  return corner_depth(domain, corner) * h;
 }
 
 template <int D>
 std::vector<double> depths_of_rows(const Domain<D>& domain) {
   std::vector<double> depths;
-  for (std::int64_t k = 0; k < domain.grid.shape[D - 1]; ++k) {
-    Index<D> upper{}, lower{};
-    upper[D - 1] = k, lower[D - 1] = k + 1;
-    depths.push_back(domain.row_heights.empty()
-                         ? domain.grid.centre(D - 1, k)
-                         : (corner_depth(domain, upper) + corner_depth(domain, lower)) / 2 *
-                               domain.grid.spacing_m);
-  }
+  for (std::int64_t k = 0; k < domain.grid.shape[D - 1]; ++k)
+    depths.push_back(domain.model_grid.rows ? (top_of_row(domain, k) + top_of_row(domain, k + 1)) / 2
+                                            : domain.grid.centre(D - 1, k));
   return depths;
 }
 
-double TimeSeries::operator()(double t_s) const {
-  constexpr std::int64_t before = 2, points = 6;
-  const double place = (t_s - first_s_) / interval_s_;
-  const auto count = std::int64_t(samples_.size());
-  if (!(place > -points) || !(place < double(count + points))) return 0;
-  const auto first = std::int64_t(std::floor(place)) - before;
-  if (first < 0 || first + points > count) return 0;
-  const double x = place - double(first);
-  // Lagrange, by the distances to the six samples.
-  const double d0 = x, d1 = x - 1, d2 = x - 2, d3 = x - 3, d4 = x - 4, d5 = x - 5;
-  const double d01 = d0 * d1, d23 = d2 * d3, d45 = d4 * d5;
-  const float* const u = samples_.data() + first;
-  return (d23 * d45 * (d0 * u[1] / 24 - d1 * u[0] / 120) + d01 * d45 * (d2 * u[3] - d3 * u[2]) / 12 +
-          d01 * d23 * (d4 * u[5] / 120 - d5 * u[4] / 24));
+template <class Real>
+void TimeSeries::values(double t_s, double step_s, std::int64_t first, std::int64_t count, double factor,
+                        Real* to) const {
+  if (samples_.size() < 6 || factor == 0) {
+    std::fill(to, to + count, Real(0));
+    return;
+  }
+  interpolation_kernel<Real>()(count, samples_.data(), std::int64_t(samples_.size()),
+                               (t_s - first_s_) / interval_s_, step_s / interval_s_, first, to);
+  for (std::int64_t i = 0; i < count && factor != 1; ++i) to[i] *= Real(factor);
 }
 
 template <int D>
@@ -107,22 +113,37 @@ bool PlaneForm<D>::is_there(const std::array<double, 2>& x, double z, double tim
 }
 
 template <int D>
-bool PlaneForm<D>::fields(double x, double z, double time_s, double ahead_s,
-                          std::array<double, FieldRows<D>::count>& fields) const {
-  if (!is_there({x, x}, z, time_s, ahead_s)) return false;
-  const double arrival = arrival_s(x, z);
+template <class Real>
+bool PlaneForm<D>::cells(double x, double spacing, std::int64_t first, std::int64_t count, double z,
+                         double time_s, double ahead_s, Real* to, std::int64_t pitch) const {
+  const double begin = x + double(first) * spacing, end = x + double(first + count - 1) * spacing;
+  if (!is_there({begin, end}, z, time_s, ahead_s)) return false;
+  const double arrival = arrival_s(x, z), step_s = -slowness_[0] * spacing;
   const PlaneMoment moment{time_s, ahead_s, slowness_[0]};
-  WavesAlongX waves;
-  const double here = ahead_s == 0 ? table_(time_s - arrival) : 0;
+  CellsAlongX<Real> waves;
   for (int n = 0; n < along_x_count; ++n)
-    waves[std::size_t(n)] =
-        waves_[std::size_t(n)] * (ahead_s == 0 ? here : table_(moment.time_of(medium_, n) - arrival));
-  add_up<D>(medium_, waves, fields);
+    table_.values(moment.time_of(medium_, n) - arrival, step_s, first, count, waves_[std::size_t(n)],
+                  waves.wave[n]);
+  add_up<D>(medium_, waves, count, to, pitch);
   return true;
 }
 
-template void add_up<2>(const MotionAlongX&, const WavesAlongX&, std::array<double, FieldRows<2>::count>&);
-template void add_up<3>(const MotionAlongX&, const WavesAlongX&, std::array<double, FieldRows<3>::count>&);
+template void add_up<2>(const MotionAlongX&, const CellsAlongX<float>&, std::int64_t, float*, std::int64_t);
+template void add_up<2>(const MotionAlongX&, const CellsAlongX<double>&, std::int64_t, double*, std::int64_t);
+template void add_up<3>(const MotionAlongX&, const CellsAlongX<float>&, std::int64_t, float*, std::int64_t);
+template void add_up<3>(const MotionAlongX&, const CellsAlongX<double>&, std::int64_t, double*, std::int64_t);
+template void TimeSeries::values(double, double, std::int64_t, std::int64_t, double, float*) const;
+template void TimeSeries::values(double, double, std::int64_t, std::int64_t, double, double*) const;
+template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, float*,
+                                  std::int64_t) const;
+template bool PlaneForm<2>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
+                                  std::int64_t) const;
+template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, double, double, double, float*,
+                                  std::int64_t) const;
+template bool PlaneForm<3>::cells(double, double, std::int64_t, std::int64_t, double, double, double, double*,
+                                  std::int64_t) const;
+template double top_of_row(const Domain<2>&, std::int64_t);
+template double top_of_row(const Domain<3>&, std::int64_t);
 template std::vector<double> depths_of_rows(const Domain<2>&);
 template std::vector<double> depths_of_rows(const Domain<3>&);
 template class PlaneForm<2>;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "acquisition/survey.hpp"
+#include "solver/kernels/kernels.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
@@ -39,12 +40,22 @@ struct PlaneMoment {
   }
 };
 
-/// The field rows of D dimensions from waves along x.
-template <int D>
-void add_up(const MotionAlongX& medium, const WavesAlongX& waves,
-            std::array<double, FieldRows<D>::count>& fields);
+/// Values of all waves along x in some cells at once.
+template <class Real>
+struct CellsAlongX {
+  static constexpr std::int64_t most = 64;
+  Real wave[along_x_count][most];
+};
 
-/// Depths of the centres of rows of the computed grid, all of them level, m.
+/// The field rows of D dimensions, `pitch` apart, of `count` cells of one row.
+template <int D, class Real>
+void add_up(const MotionAlongX& medium, const CellsAlongX<Real>& waves, std::int64_t count, Real* to,
+            std::int64_t pitch);
+
+/// Depth of the corners above a row of the computed grid, m; all rows are level.
+template <int D>
+double top_of_row(const Domain<D>& domain, std::int64_t row);
+/// Depths of the centres of rows, m.
 template <int D>
 std::vector<double> depths_of_rows(const Domain<D>& domain);
 
@@ -54,7 +65,10 @@ class TimeSeries {
   TimeSeries() = default;
   TimeSeries(std::vector<float> samples, double first_s, double interval_s)
       : samples_(std::move(samples)), first_s_(first_s), interval_s_(interval_s) {}
-  double operator()(double t_s) const;
+  /// `factor` times the values at t_s + (first + i) step_s, of i from 0 to count - 1.
+  template <class Real>
+  void values(double t_s, double step_s, std::int64_t first, std::int64_t count, double factor,
+              Real* to) const;
   /// Whether it is zero everywhere between two times.
   bool is_zero(double from_s, double to_s) const {
     return to_s < first_s_ || from_s > first_s_ + interval_s_ * double(samples_.size());
@@ -87,9 +101,12 @@ class PlaneForm {
   /// after.
   bool is_there(const std::array<double, 2>& x, double z, double time_s, double ahead_s,
                 double beside_s = 0) const;
-  /// The fields at x, z at such a moment; returns whether the wave is there.
-  bool fields(double x, double z, double time_s, double ahead_s,
-              std::array<double, FieldRows<D>::count>& fields) const;
+  /// All field rows, `pitch` apart, of `count` cells (CellsAlongX::most at most) from number `first` on, of
+  /// which cell 0 is at x and the next `spacing` further. Returns whether the wave is there; else nothing is
+  /// written.
+  template <class Real>
+  bool cells(double x, double spacing, std::int64_t first, std::int64_t count, double z, double time_s,
+             double ahead_s, Real* to, std::int64_t pitch) const;
 
  private:
   Wavelet wavelet_;

@@ -61,6 +61,11 @@ const PmlKernels<Real>& pml_kernels() {
 }
 
 template <class Real>
+InterpolationKernel<Real> interpolation_kernel() {
+  return best_tables<Real>().interpolate;
+}
+
+template <class Real>
 SlipKernels<Real> slip_kernels(const SlipCase& of) {
   return best_tables<Real>().slip(Real()).of(of);
 }
@@ -84,6 +89,8 @@ template GapKernel<float> gap_kernel<float>(int);
 template GapKernel<double> gap_kernel<double>(int);
 template const Kernels<float>& kernels<float>(int, bool);
 template const Kernels<double>& kernels<double>(int, bool);
+template InterpolationKernel<float> interpolation_kernel<float>();
+template InterpolationKernel<double> interpolation_kernel<double>();
 template const PmlKernels<float>& pml_kernels<float>();
 template const PmlKernels<double>& pml_kernels<double>();
 

@@ -12,6 +12,7 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   PmlKernels<Real> pml;
+  InterpolationKernel<Real> interpolate;
   const SlipTables<Real>& (*slip)(Real);
   const RelaxationTables<Real>& (*relaxation)(Real);
 };
