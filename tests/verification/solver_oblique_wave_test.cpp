@@ -144,6 +144,7 @@ TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
     const double middle = double(nx) * h / 2;
     auto scene = scene_of(medium, kind, {middle, top == EdgeLaw::free ? 700. : -300.}, 0.7);
     scene.edges[1][0] = top;
+    scene.survey.sources[0].wavelet = parse_wavelet("ricker:15");
     scene.survey.receivers_m = {{middle - 50, 52}, {middle + 50, 152}, {middle, 302}};
     check(scene);
     return samples_of(shoot(scene, 1));
@@ -151,7 +152,7 @@ TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   for (const auto& [kind, top] : {std::pair{std::string("plane:50"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane-s:40"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane:155"), EdgeLaw::free}})
-    EXPECT_LT(relative_error(gather(40, kind, top), gather(200, kind, top)), 0.01) << kind;
+    EXPECT_LT(relative_error(gather(40, kind, top), gather(100, kind, top)), 0.01) << kind;
 }
 
 TEST(ObliquePlaneWave, NeedsTheSameLayersAtBothSides) {
@@ -170,61 +171,64 @@ TEST(ObliquePlaneWave, NeedsTheSameLayersAtBothSides) {
 }
 
 TEST(ObliquePlaneWave, GivesTheBitsOfTilesInLayersToo) {
-  auto scene = scene_of(two_layers(130, 60, 5, 150), "plane:25", {300, -100}, 0.25);
+  auto scene = scene_of(two_layers(100, 50, 5, 150), "plane:25", {250, 0}, 0.12);
+  scene.numerics.zone_cells = 10;
   for (std::int64_t i = 50; i < 70; ++i) put(scene.model.medium, {i, 40}, upper);
-  scene.survey.receivers_m = {{300, 52}, {500, 202}};
+  scene.survey.receivers_m = {{300, 52}, {450, 202}};
   expect_same(scene);
   scene.edges[1][0] = EdgeLaw::free;
   scene.numerics.time_order = 4;
   scene.numerics.cfl = 1.5;
   scene.survey.sources[0].mechanism = parse_mechanism<2>("plane-s:200");
-  scene.survey.sources[0].position_m = {300, 500};
+  scene.survey.sources[0].position_m = {250, 300};
   expect_same(scene);
 }
 
 /// In 3-D, across y the same everywhere.
 TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
-  const auto flat = two_layers(40, 40, 5, 100);
-  for (const char* kind : {"plane:0", "plane:20", "plane-s:-30"})
-    for (const auto flanks : {EdgeLaw::mirror, EdgeLaw::absorbing}) {
-      auto scene = scene_of(flat, kind, {100, -150}, 0.3);
-      scene.survey.receivers_m = {{102.5, 52.5}, {52.5, 152.5}};
-      check(scene);
-      Scene<3> cube;
-      const Grid<3> grid{{40, 6, 40}, 5};
-      cube.model.medium = Medium<3>(grid, flat);
-      for (std::int64_t n = 0; n < grid.size(); ++n) {
-        const auto at = grid.index(n);
-        for (const auto property : flat.properties())
-          cube.model.medium[property][std::size_t(n)] = flat[property]({at[0], at[2]});
-      }
-      cube.model.fracture = Field<3, std::uint8_t>(grid);
-      cube.survey.sources = {{{100, 15, -150}, parse_mechanism<3>(kind), parse_wavelet("ricker:20"), 1}};
-      cube.survey.receivers_m = {{102.5, 12.5, 52.5}, {52.5, 17.5, 152.5}};
-      for (auto& law : cube.edges.law) law = {EdgeLaw::absorbing, EdgeLaw::absorbing};
-      cube.edges[1] = {flanks, flanks};
-      cube.recording = {{Component::vx, Component::vz}, 0.3, 0.001};
-      check(cube);
-      EXPECT_LT(relative_error(samples_of(shoot(cube, 1)), samples_of(shoot(scene, 1))), 2e-3)
-          << kind << (flanks == EdgeLaw::mirror ? ", mirrors" : ", PML");
+  const auto flat = two_layers(24, 40, 5, 100);
+  for (const auto& [kind, flanks] :
+       {std::pair{"plane:0", EdgeLaw::mirror}, std::pair{"plane:20", EdgeLaw::mirror},
+        std::pair{"plane-s:-30", EdgeLaw::absorbing}}) {
+    auto scene = scene_of(flat, kind, {60, -80}, 0.2);
+    scene.numerics.zone_cells = 12;
+    scene.survey.receivers_m = {{62.5, 52.5}, {32.5, 152.5}};
+    check(scene);
+    Scene<3> cube;
+    const Grid<3> grid{{24, 4, 40}, 5};
+    cube.model.medium = Medium<3>(grid, flat);
+    for (std::int64_t n = 0; n < grid.size(); ++n) {
+      const auto at = grid.index(n);
+      for (const auto property : flat.properties())
+        cube.model.medium[property][std::size_t(n)] = flat[property]({at[0], at[2]});
     }
+    cube.model.fracture = Field<3, std::uint8_t>(grid);
+    cube.survey.sources = {{{60, 10, -80}, parse_mechanism<3>(kind), parse_wavelet("ricker:20"), 1}};
+    cube.survey.receivers_m = {{62.5, 7.5, 52.5}, {32.5, 12.5, 152.5}};
+    for (auto& law : cube.edges.law) law = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+    cube.edges[1] = {flanks, flanks};
+    cube.numerics.zone_cells = 12;
+    cube.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
+    check(cube);
+    EXPECT_LT(relative_error(samples_of(shoot(cube, 1)), samples_of(shoot(scene, 1))), 5e-3) << kind;
+  }
 }
 
 /// What a soft block scatters, recorded round it, in a model whose edges lie that far beyond the receivers.
 std::vector<double> scattered(const std::string& kind, double h, double margin_m) {
-  const double side = 300 + 2 * margin_m;
+  const double side = 600 + 2 * margin_m;
   const auto n = std::int64_t(std::llround(side / h));
   const Rock host{4500, 2250, 2500}, soft{3600, 1700, 2300};
   std::vector<double> samples[2];
   for (const bool with_block : {false, true}) {
     auto medium = uniform_medium(n, n, h, host);
-    const auto first = std::llround((margin_m + 100) / h), last = std::llround((margin_m + 200) / h);
+    const auto first = std::llround((margin_m + 200) / h), last = std::llround((margin_m + 400) / h);
     for (auto k = first; k < last && with_block; ++k)
       for (auto i = first; i < last; ++i) put(medium, {i, k}, soft);
-    auto scene = scene_of(medium, kind, {side / 2, side / 2 - 450}, 0.45);
-    scene.survey.sources[0].wavelet = parse_wavelet("ricker:15");
-    for (const double x : {30., 150., 270.})
-      for (const double z : {30., 270.}) scene.survey.receivers_m.push_back({margin_m + x, margin_m + z});
+    auto scene = scene_of(medium, kind, {side / 2, side / 2 - 900}, 0.9);
+    scene.survey.sources[0].wavelet = parse_wavelet("ricker:7.5");
+    for (const double x : {60., 300., 540.})
+      for (const double z : {60., 540.}) scene.survey.receivers_m.push_back({margin_m + x, margin_m + z});
     check(scene);
     samples[with_block] = samples_of(shoot(scene, 1));
   }
@@ -235,14 +239,14 @@ std::vector<double> scattered(const std::string& kind, double h, double margin_m
 TEST(PlaneWaveEdges, AddTheLessToAScatteredFieldTheFinerTheCells) {
   for (const char* kind : {"plane:0", "plane:30"}) {
     double before = 0;
-    for (const double h : {10., 5., 2.5}) {
-      const double error = relative_error(scattered(kind, h, 0), scattered(kind, h, 400));
-      RecordProperty(std::string(kind) + " at " + std::to_string(h), std::to_string(error));
-      std::printf("%s %g %g\n", kind, h, error);
-      if (before > 0) EXPECT_LT(error, 0.6 * before) << kind << ", " << h << " m";
+    for (const double h : {40., 20., 10.}) {
+      const double error = relative_error(scattered(kind, h, 0), scattered(kind, h, 800));
+      if (before > 0) {
+        EXPECT_LT(error, 0.6 * before) << kind << ", " << h << " m";
+      }
       before = error;
     }
-    EXPECT_LT(before, 3e-3) << kind;
+    EXPECT_LT(before, 5e-3) << kind;
   }
 }
 
