@@ -100,7 +100,7 @@ void PlaneStackResponse::list_waves() {
 
 std::vector<Complex> PlaneStackResponse::solve(Complex omega) const {
   const auto unknowns = waves_.size() - 1, count = stack_.layers.size();
-  BandSystem system(unknowns);
+  BandSystem equations(unknowns);
   std::size_t row = 0;
   const double unit = stack_.layers.front().rho * stack_.layers.front().vp;
   const auto value = [&](const Wave& wave, std::size_t field, double z) {
@@ -112,8 +112,8 @@ std::vector<Complex> PlaneStackResponse::solve(Complex omega) const {
                        std::initializer_list<std::pair<std::size_t, double>> of) {
     for (const auto& [layer, sign] : of) {
       for (auto n = first_wave_[layer]; n < first_wave_[layer + 1]; ++n)
-        system.at(row, n) += sign * value(waves_[n], field, z);
-      if (waves_.back().layer == layer) system.right(row) -= sign * value(waves_.back(), field, z);
+        equations.at(row, n) += sign * value(waves_[n], field, z);
+      if (waves_.back().layer == layer) equations.right(row) -= sign * value(waves_.back(), field, z);
     }
     ++row;
   };
@@ -135,7 +135,7 @@ std::vector<Complex> PlaneStackResponse::solve(Complex omega) const {
     }
   }
   add_end(count - 1, stack_.ends[1], stack_.depths_m.back());
-  auto amplitudes = system.solve();
+  auto amplitudes = equations.solve();
   amplitudes.emplace_back(1);
   return amplitudes;
 }
