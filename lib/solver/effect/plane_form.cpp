@@ -77,8 +77,16 @@ void TimeSeries::values(double t_s, double step_s, std::int64_t first, std::int6
     std::fill(to, to + count, Real(0));
     return;
   }
-  interpolation_kernel<Real>()(count, samples_.data(), std::int64_t(samples_.size()),
-                               (t_s - first_s_) / interval_s_, step_s / interval_s_, first, to);
+  // Whole blocks, whatever the piece: its last cells would round differently.
+  constexpr std::int64_t block = 16;
+  const double place = (t_s - first_s_) / interval_s_, step = step_s / interval_s_;
+  for (auto from = first / block * block; from < first + count; from += block) {
+    Real values[block];
+    interpolation_kernel<Real>()(block, samples_.data(), std::int64_t(samples_.size()), place, step, from,
+                                 values);
+    const auto begin = std::max(from, first), end = std::min(from + block, first + count);
+    std::copy(values + (begin - from), values + (end - from), to + (begin - first));
+  }
   for (std::int64_t i = 0; i < count && factor != 1; ++i) to[i] *= Real(factor);
 }
 
@@ -107,7 +115,7 @@ template <int D>
 bool PlaneForm<D>::is_there(const std::array<double, 2>& x, double z, double time_s, double ahead_s,
                             double beside_s) const {
   const double one = arrival_s(x[0], z), other = arrival_s(x[1], z),
-               apart = std::abs(slowness_[0] * medium_.vp * ahead_s) + beside_s;
+               apart = std::abs(slowness_[0] * medium_.vp * ahead_s) + beside_s + table_.beside_s();
   return time_s + apart >= std::min(one, other) &&
          time_s - apart <= std::max(one, other) + wavelet_.duration_s();
 }

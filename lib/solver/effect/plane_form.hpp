@@ -73,6 +73,8 @@ class TimeSeries {
   bool is_zero(double from_s, double to_s) const {
     return to_s < first_s_ || from_s > first_s_ + interval_s_ * double(samples_.size());
   }
+  /// What interpolation may spread a value by.
+  double beside_s() const { return 6 * interval_s_; }
   std::int64_t memory_bytes() const { return std::int64_t(samples_.capacity() * sizeof(float)); }
 
  private:
