@@ -13,7 +13,7 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   PmlKernels<Real> pml;
-  SpongeKernels<Real> damp;
+  InterpolationKernel<Real> interpolate;
   const SlipTables<Real>& (*slip)(Real);
   const RelaxationTables<Real>& (*relaxation)(Real);
   const SeriesKernels<Real>& (*series)(Real);

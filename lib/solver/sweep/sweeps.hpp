@@ -33,7 +33,7 @@ class Sweeps {
   static constexpr std::size_t most_filters = 2;
 
   /// A whole sweep along any axis, distributed to threads.
-  void along(int axis, Real scale);
+  void along(int axis, Real scale, const SweepTime& time = {});
 
   /// A piece of a sweep along x: advances columns `columns` of a row. Pieces of a row follow each other from
   /// cell 0 to the last, `boundary` passes values from one to the next. 2 * lag further cells must not change
