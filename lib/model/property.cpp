@@ -1,6 +1,12 @@
 #include "model/property.hpp"
 
 namespace slipwave {
+namespace {
+
+/// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
+constexpr double least_thomsen = -0.5;
+
+}  // namespace
 
 std::vector<PropertyRow> property_rows() {
   const std::vector<std::string> m_s = {"m s-1", "m/s", "m s^-1"}, km_s = {"km s-1", "km/s", "km s^-1"},
@@ -47,7 +53,25 @@ std::vector<PropertyRow> property_rows() {
            .si = {"1", ""},
            .least = 1,
            .mean = Mean::harmonic,
-           .if_absent = PropertyRow::infinite}};
+           .if_absent = PropertyRow::infinite},
+          {.name = "epsilon",
+           .long_name = "Thomsen's epsilon about the vertical, 0 = isotropic",
+           .help = "Thomsen's epsilon of rock layered flat, a file or a number",
+           .units = "1",
+           .shown_unit = "",
+           .si = {"1", ""},
+           .least = least_thomsen,
+           .mean = Mean::elastic,
+           .if_absent = 0},
+          {.name = "delta",
+           .long_name = "Thomsen's delta about the vertical, 0 = isotropic",
+           .help = "Thomsen's delta of rock layered flat, a file or a number",
+           .units = "1",
+           .shown_unit = "",
+           .si = {"1", ""},
+           .least = least_thomsen,
+           .mean = Mean::elastic,
+           .if_absent = 0}};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/record/recorder.hpp"
@@ -55,7 +56,7 @@ class Arrivals {
       const auto cell = std::size_t(medium.grid().flat(in_model));
       if (medium.is_void(cell)) continue;
       auto& slowest = slowness_[std::size_t(blocks_.flat(at))];
-      slowest = std::min(slowest, 1 / double(medium.vp[cell]));
+      slowest = std::min(slowest, 1 / fastest_p_speed(material_of(medium, cell)));
     }
   }
   void start_at(const Point<D>& source) {

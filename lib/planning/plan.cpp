@@ -10,6 +10,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
+#include "model/anisotropy.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
 #include "solver/shot_simulation.hpp"
@@ -83,7 +84,9 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.memory_bytes = step.memory_bytes();
   plan.highest_hz = highest_frequency_hz(scene.survey);
   plan.slowest = slowest_wave(scene.model.medium);
-  const auto [slowest_p, slowest_s] = slowest_of_each(scene.model.medium);
+  const auto [slowest_p, slowest_s] =
+      slowest_of_each(anisotropic_cells(scene.model.medium) > 0 ? in_slowest_directions(scene.model.medium)
+                                                                : scene.model.medium);
   const double wave_to_cells = 1 / plan.highest_hz / scene.model.grid().spacing_m;
   plan.cells_of_shortest_p = slowest_p * wave_to_cells;
   if (slowest_s > 0) plan.cells_of_shortest_s = slowest_s * wave_to_cells;
@@ -115,7 +118,8 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
     widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
   for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
   const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
-  return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
+  const bool anisotropic = scene.subdomain.anisotropic || anisotropic_cells(scene.model.medium) > 0;
+  return cells * value * (solver::FieldRows<D>::count + solver::material_rows_of(anisotropic));
 }
 
 namespace {

@@ -44,6 +44,16 @@ RowVector<D, Real> traction_of_motion_along(const RowVector<D, Real>& normal, Re
   }
 }
 
+/// The same on a level face of an anisotropic medium: c13 in place of lambda (theory.md (V4)).
+template <int D, class Real>
+RowVector<D, Real> traction_on_level_face(Real c13, Real mu,
+                                          const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {
+  if constexpr (D == 2)
+    return {c13 * along[0].x, mu * along[0].z};
+  else
+    return {c13 * (along[0].x + along[1].y), mu * along[0].z, mu * along[1].z};
+}
+
 /// The part of a vector along N times one factor and the rest times another.
 template <int D, class Real>
 RowVector<D, Real> scaled(const RowVector<D, Real>& normal, Real along, Real across,
