@@ -7,6 +7,12 @@
 #include "base/error.hpp"
 
 namespace slipwave {
+namespace {
+
+/// Directions from the vertical to the horizontal among which the largest and smallest are searched.
+constexpr int directions = 180;
+
+}  // namespace
 
 Stiffness stiffness_of(const Material& material) {
   const double c33 = material.rho * material.vp * material.vp, c55 = material.rho * material.vs * material.vs;
@@ -50,7 +56,6 @@ namespace {
 /// Calls what(speeds) for directions from the vertical to the horizontal.
 template <class What>
 void for_directions(const Material& material, const What& what) {
-  constexpr int directions = 180;
   const auto stiffness = stiffness_of(material);
   for (int n = 0; n <= directions; ++n)
     what(phase_speeds(stiffness, material.rho, n * std::numbers::pi / 2 / directions));
@@ -72,6 +77,24 @@ double fastest_p_speed(const Material& material) {
   if (!material.is_anisotropic()) return fastest;
   for_directions(material, [&](const PlaneSpeeds& speeds) { fastest = std::max(fastest, speeds.p); });
   return fastest;
+}
+
+double largest_turning(const Stiffness& stiffness, bool vertical) {
+  const auto& [c11, c13, c33, c55] = stiffness;
+  double most = 0;
+  for (int n = 1; n < directions; ++n) {
+    const double angle = n * std::numbers::pi / 2 / directions, x = std::sin(angle), z = std::cos(angle);
+    const double xx = c11 * x * x + c55 * z * z, zz = c55 * x * x + c33 * z * z, xz = (c13 + c55) * x * z;
+    const double mean = (xx + zz) / 2, half = std::hypot((xx - zz) / 2, xz);
+    for (const double inertia : {mean + half, mean - half}) {
+      // Motion (a, b) of that wave; the energy of the group moves with the derivative of omega by k.
+      const double size = std::hypot(xz, inertia - xx), a = xz / size, b = (inertia - xx) / size;
+      const double group = vertical ? c55 * z * a * a + (c13 + c55) * x * a * b + c33 * z * b * b
+                                    : c11 * x * a * a + (c13 + c55) * z * a * b + c55 * x * b * b;
+      most = std::max(most, -(vertical ? z : x) * group / inertia);
+    }
+  }
+  return most < 1e-9 ? 0 : most;
 }
 
 template <int D>
@@ -98,21 +121,21 @@ std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material) {
   if (vs == 0) {
     const auto of = epsilon != 0 ? Property::epsilon : Property::delta;
     return AnisotropyFault{of,
-                           "is " + shown(epsilon != 0 ? epsilon : delta) +
+                           "is " + shown(epsilon != 0 ? epsilon : delta, 6) +
                                ", expected 0 in fluid, which is isotropic; set it to 0 or vs above 0 there"};
   }
   // (c13 + c55)^2 must not be negative, and c11 c33 must be more than c13^2.
   const double ratio = vs * vs / (vp * vp), least_delta = (ratio - 1) / 2;
   if (!(delta >= least_delta))
     return AnisotropyFault{Property::delta,
-                           "is " + shown(delta) + ", expected at least -(1 - (vs/vp)^2)/2 = " +
+                           "is " + shown(delta, 6) + ", expected at least -(1 - (vs/vp)^2)/2 = " +
                                shown(least_delta, 4) + " with vp " + shown(vp) + " and vs " + shown(vs)};
   const auto stiffness = stiffness_of(material);
   const double share = stiffness.c13 / stiffness.c33, least = (share * share - 1) / 2;
   if (!(epsilon > least))
     return AnisotropyFault{Property::epsilon,
-                           "is " + shown(epsilon) + ", expected above " + shown(least, 4) +
-                               " with a delta of " + shown(delta) +
+                           "is " + shown(epsilon, 6) + ", expected above " + shown(least, 4) +
+                               " with a delta of " + shown(delta, 6) +
                                ": c11 c33 must be more than c13^2, or the rock would give " +
                                "energy; raise epsilon or lower delta"};
   return {};

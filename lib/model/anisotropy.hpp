@@ -13,6 +13,7 @@ namespace slipwave {
 /// sxx = c11 exx + c13 ezz, szz = c13 exx + c33 ezz, sxz = 2 c55 exz.
 struct Stiffness {
   double c11 = 0, c13 = 0, c33 = 0, c55 = 0;
+  bool operator==(const Stiffness&) const = default;
 };
 
 /// From the speeds along the vertical and Thomsen's (1986) epsilon and delta (theory.md (V2)); those of an
@@ -53,6 +54,11 @@ double fastest_p_speed(const Material& material);
 /// shorter.
 template <int D>
 Medium<D> in_slowest_directions(const Medium<D>& medium);
+
+/// How far waves turn: the largest share of its phase speed at which energy moves back along an axis (the
+/// vertical, or x) while the front of the wave moves on along it, -k_a g_a/omega (theory.md (V6)); 0 where
+/// none does, as in any isotropic rock.
+double largest_turning(const Stiffness& stiffness, bool vertical);
 
 /// A property that no rock has, and what follows its place in an error: "is 0.1, expected ...".
 struct AnisotropyFault {

@@ -38,8 +38,8 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   const auto& model = scene.model;
   const auto refuse = [&](const std::string& what) {
     throw Error("the cell at " + place_of(model.grid(), std::int64_t(cell)) + " is anisotropic (epsilon " +
-                shown(model.medium.value(Property::epsilon, cell)) + ", delta " +
-                shown(model.medium.value(Property::delta, cell)) + ") and " + what);
+                shown(model.medium.value(Property::epsilon, cell), 6) + ", delta " +
+                shown(model.medium.value(Property::delta, cell), 6) + ") and " + what);
   };
   if (scene.attenuation && attenuates(model.medium, cell))
     refuse("attenuates, expected one of both; use --without attenuation" + std::string(isotropic_instead));

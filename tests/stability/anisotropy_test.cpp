@@ -46,6 +46,27 @@ TEST(EnergyOfAnisotropicRock, NeverRises) {
       }
 }
 
+TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
+  const ThreadLimit one_thread(1);
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  const std::vector<Point<2>> level{{0, 1}}, upright{{1, 0}}, both{{1, 0}, {0, 1}};
+  for (const auto& normals : {level, upright, both})
+    for (const auto correction :
+         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+      Lab<double>::Setup setup;
+      setup.medium = of_rocks(24, [&](int, int) { return random_anisotropic(random); });
+      FractureSet<2> set{"all", {}};
+      for (const auto& normal : normals) set.systems.push_back({normal, 0.3, 1000, 0});
+      setup.fracture_sets = {set};
+      setup.fracture = Field<2, std::uint8_t>(setup.medium.grid(), 1);
+      setup.correction = correction;
+      setup.edges = all_edges(EdgeLaw::rigid);
+      Lab<double>(setup).expect_no_growth(600, rounding<double>());
+    }
+}
+
 TEST(EnergyOfAnisotropicRock, BetweenFreeEdgesFallsOverThousandsOfSteps) {
   // Corrected free surfaces and interfaces of water (theory.md (E11), (E11a)): the energy falls in the long
   // run.

@@ -17,13 +17,13 @@ namespace {
 /// A random wave field inside a PML of few cells: the harder the thinner.
 class InLayer {
  public:
-  InLayer(const Scene<2>& scene, int order, int layer_cells)
+  InLayer(const Scene<2>& scene, int order, int layer_cells, double slow_hz = 30)
       : scene_(scene),
         domain_(solver::make_domain(scene_.model.medium, scene_.edges, layer_cells)),
         dt_s_(scene_.model.grid().spacing_m / fastest_speed(scene_.model.medium)),
         state_(solver::make_state<2, double>(domain_.grid.shape, domain_.anisotropic())),
         sweeps_(state_, domain_, order),
-        layer_(state_.layout, domain_, dt_s_, fastest_speed(scene_.model.medium), 30) {
+        layer_(state_.layout, domain_, dt_s_, fastest_speed(scene_.model.medium), slow_hz) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);
     sweeps_.use(&layer_);
     if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, double>>(state_, domain_, scene_, dt_s_);
@@ -147,18 +147,21 @@ std::vector<Material> turning_media() {
           {3200, 1700, 2400, -0.05, 0.2}};
 }
 
+/// The lower the frequency of the source, the longer the layer feeds what turns: at 30 Hz nothing grows
+/// anyway.
 TEST(PmlOfAnisotropicRock, StaysBounded) {
   const ThreadLimit one_thread(1);
   int number = 0;
   for (const auto& medium : turning_media()) {
     SCOPED_TRACE(number++);
     for (const EdgeLaw top : {EdgeLaw::absorbing, EdgeLaw::free})
-      for (const int cells : {8, 20}) {
+      for (const double slow_hz : {1., 30.}) {
+        if (top == EdgeLaw::free && slow_hz == 30) continue;
         Scene<2> scene;
         scene.model.medium = of_rocks(12, [&](int, int) { return medium; });
         scene.edges = all_edges(EdgeLaw::absorbing);
         scene.edges[1][0] = top;
-        expect_to_last(InLayer(scene, 5, cells));
+        expect_to_last(InLayer(scene, 5, 20, slow_hz));
       }
   }
 }

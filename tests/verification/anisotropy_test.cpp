@@ -1,11 +1,11 @@
 // Waves in anisotropic rock against plane-wave (wave number) solutions, symmetry and each other.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "lab.hpp"
 #include "layer_stack.hpp"
 #include "model/anisotropy.hpp"
+#include "plain_and_tiled.hpp"
+#include "shared_out.hpp"
 #include "solver/simulation.hpp"
 #include "vti_stack.hpp"
 
@@ -30,7 +30,7 @@ struct Stack {
   double source_m = 0;
   std::vector<VtiStack::Receiver> receivers;  // x from the source
   double duration_s = 0.4;
-  double cells = 16;  // per wavelength of the slowest wave at the peak
+  double cells = 24;  // per wavelength of the slowest wave at the peak
   int order = 5;
   double cfl = 0.9;
   double depth_m = 1000, width_m = 1200;
@@ -130,12 +130,11 @@ TEST(VtiStack, OfIsotropicLayersIsThatOfPotentials) {
 TEST(Anisotropy, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
   for (const auto& rock : {shale, sandstone, crossed, elliptical})
     for (const std::string kind : {"force:0.6,0.8", "explosion", "moment:0,0,1"}) {
+      if (rock == sandstone && kind != "explosion") continue;
       Stack space;
       space.layers = {rock}, space.kind = kind;
       space.source_m = 500 + space.spacing() / 2, space.receivers = around(space.source_m, 350);
-      const double error = space.error();
-      std::printf("%g %g %s %.3f %%\n", rock.epsilon, rock.delta, kind.c_str(), 100 * error);
-      EXPECT_LT(error, 0.01) << rock.epsilon << ' ' << rock.delta << ' ' << kind;
+      EXPECT_LT(space.error(), 0.007) << rock.epsilon << ' ' << rock.delta << ' ' << kind;
     }
 }
 
@@ -144,9 +143,7 @@ TEST(Anisotropy, OfTwoRocksReflectsAndTransmitsAsPlaneWaves) {
     Stack stack;
     stack.layers = {over, under}, stack.tops_m = {560}, stack.source_m = 400 + stack.spacing() / 2;
     stack.receivers = {{250, 300}, {0, 480}, {300, 500}, {200, 640}, {-250, 800}};
-    const double error = stack.error();
-    std::printf("interface %.3f %%\n", 100 * error);
-    EXPECT_LT(error, 0.01);
+    EXPECT_LT(stack.error(), 0.008);
   }
 }
 
@@ -155,18 +152,115 @@ TEST(Anisotropy, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
     Stack surface;
     surface.layers = {rock}, surface.free_surface = true, surface.source_m = 100, surface.depth_m = 600;
     surface.receivers = {{250, 20}, {-150, 40}, {100, 300}, {300, 60}};
-    double error = surface.error();
-    std::printf("surface %.3f %%\n", 100 * error);
-    EXPECT_LT(error, 0.01);
+    EXPECT_LT(surface.error(), 0.01);
     Stack sea;
     sea.layers = {water, rock}, sea.tops_m = {200}, sea.free_surface = true, sea.source_m = 100,
     sea.depth_m = 700;
     sea.kind = "explosion";
     sea.receivers = {{250, 150}, {-150, 260}, {100, 400}, {300, 240}};
-    error = sea.error();
-    std::printf("sea %.3f %%\n", 100 * error);
-    EXPECT_LT(error, 0.02);
+    EXPECT_LT(sea.error(), 0.01);
   }
+}
+
+TEST(Anisotropy, ConvergesAsIsotropicRockDoes) {
+  Stack coarse;
+  coarse.layers = {crossed}, coarse.cells = 12, coarse.order = 7, coarse.cfl = 0.9;
+  coarse.free_surface = true, coarse.source_m = 100, coarse.depth_m = 600;
+  coarse.receivers = {{250, 20}, {-150, 40}, {100, 300}};
+  auto fine = coarse;
+  fine.cells = 24;
+  const double h = coarse.spacing() / fine.spacing();
+  EXPECT_GT(std::log(coarse.error() / fine.error()) / std::log(h), 1.9);
+}
+
+TEST(Anisotropy, OfNoneIsIsotropicRock) {
+  // The same rock by the loops of anisotropic media, since one cell far away is anisotropic.
+  Stack stack;
+  stack.layers = {{3000, 1600, 2300}, {2500, 1200, 2100}}, stack.tops_m = {300}, stack.free_surface = true;
+  stack.cells = 10, stack.source_m = 100, stack.receivers = {{250, 60}, {-150, 340}}, stack.depth_m = 500;
+  auto scene = stack.scene();
+  const auto isotropic = shoot(scene, 1);
+  scene.model.medium[Property::epsilon][0] = 1e-6F;
+  const auto found = shoot(scene, 1);
+  for (std::size_t n = 0; n < found.traces.size(); ++n)
+    EXPECT_LT(relative_error(found.traces[n].samples, isotropic.traces[n].samples), 1e-5);
+}
+
+TEST(Anisotropy, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
+  Stack stack;
+  stack.layers = {shale}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 500;
+  stack.receivers = {{150, 0}, {300, 0}};
+  auto scene = stack.scene();
+  scene.recording.components = {Component::exx, Component::ezz};
+  const auto gather = shoot(scene, 1);
+  const auto c = stiffness_of(shale);
+  for (std::size_t n = 0; n < 2; ++n) {
+    auto wanted = gather.traces[n].samples;
+    for (auto& value : wanted) value *= -c.c13 / c.c33;
+    EXPECT_LT(relative_error(gather.traces[2 + n].samples, wanted), 1e-4);
+  }
+}
+
+/// Blocks of any anisotropic rock, void and water, sources and slip among them.
+Scene<2> blocks(std::int64_t nx = 150, std::int64_t nz = 90) {
+  const Grid<2> grid{{nx, nz}, 5, {0, 0}};
+  Scene<2> scene;
+  Medium<2> medium(grid);
+  medium[Property::epsilon] = medium[Property::delta] = Field<2>(grid);
+  scene.model.fracture = Field<2, std::uint8_t>(grid);
+  const Material kinds[] = {shale, crossed, sandstone, {3000, 1500, 2200}};
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto [i, k] = grid.index(n);
+    const bool sea = k < 12;
+    put(medium, std::size_t(n), sea ? water : kinds[i < 20 ? 3 : (i / 11 * (k / 40) + k / 30) % 3]);
+    scene.model.fracture[std::size_t(n)] = k >= 40 && k < 50 && i >= 30 && i < 90;
+  }
+  scene.model.medium = medium;
+  scene.model.fracture_sets = {{"cracks", {{{0, 1}, 0.5, 1000, 0}}}};
+  scene.survey.sources = {{{302, 160}, parse_mechanism<2>("force:1,1"), parse_wavelet("ricker:40"), 1e9}};
+  scene.survey.receivers_m = {{250, 130}, {400, 261.3}, {40, 362}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.08, 0.001};
+  return scene;
+}
+
+TEST(Anisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
+  for (const int time_order : {2, 4}) {
+    SCOPED_TRACE(std::to_string(time_order));
+    auto scene = blocks();
+    scene.numerics.time_order = time_order;
+    scene.numerics.double_precision = time_order == 4;
+    scene.numerics.order = time_order == 4 ? 7 : 5;
+    expect_same(scene);
+  }
+}
+
+TEST(Anisotropy, GivesTheBitsOfOneProcessOnSeveral) {
+  // The first ones hold water and isotropic rock only.
+  auto scene = blocks(100, 200);
+  auto& medium = scene.model.medium;
+  for (std::size_t cell = 0; cell < std::size_t(100 * 120); ++cell)
+    medium[Property::epsilon][cell] = medium[Property::delta][cell] = 0;
+  const auto alone = all_samples(shoot(scene, 1));
+  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
+}
+
+TEST(Anisotropy, DoesNotDependOnWhichWayItIsShot) {
+  // Reciprocity of forces, through water and blocks of rock.
+  auto scene = blocks();
+  scene.with_slip = false;
+  scene.numerics.double_precision = true;
+  scene.recording.components = {Component::vx, Component::vz};
+  scene.recording.duration_s = 0.2;
+  const Point<2> one{302.5, 162.5}, other{427.5, 352.5};
+  const auto shot = [&](const Point<2>& from, const Point<2>& to, const std::string& kind) {
+    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<2>(kind);
+    scene.survey.receivers_m = {to};
+    return shoot(scene, 1);
+  };
+  const auto there = shot(one, other, "force:1,0"), back = shot(other, one, "force:0,1");
+  EXPECT_LT(relative_error(there.traces[1].samples, back.traces[0].samples), 0.01);
 }
 
 }  // namespace
