@@ -6,6 +6,18 @@ namespace {
 /// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
 constexpr double least_thomsen = -0.5;
 
+PropertyRow thomsen(const std::string& name) {
+  return {.name = name,
+          .long_name = "Thomsen's " + name + " about the vertical, 0 = isotropic",
+          .help = "Thomsen's " + name + " of rock layered flat, a file or a number",
+          .units = "1",
+          .shown_unit = "",
+          .si = {"1", ""},
+          .least = least_thomsen,
+          .mean = Mean::elastic,
+          .if_absent = 0};
+}
+
 }  // namespace
 
 std::vector<PropertyRow> property_rows() {
@@ -54,24 +66,8 @@ std::vector<PropertyRow> property_rows() {
            .least = 1,
            .mean = Mean::harmonic,
            .if_absent = PropertyRow::infinite},
-          {.name = "epsilon",
-           .long_name = "Thomsen's epsilon about the vertical, 0 = isotropic",
-           .help = "Thomsen's epsilon of rock layered flat, a file or a number",
-           .units = "1",
-           .shown_unit = "",
-           .si = {"1", ""},
-           .least = least_thomsen,
-           .mean = Mean::elastic,
-           .if_absent = 0},
-          {.name = "delta",
-           .long_name = "Thomsen's delta about the vertical, 0 = isotropic",
-           .help = "Thomsen's delta of rock layered flat, a file or a number",
-           .units = "1",
-           .shown_unit = "",
-           .si = {"1", ""},
-           .least = least_thomsen,
-           .mean = Mean::elastic,
-           .if_absent = 0}};
+          thomsen("epsilon"),
+          thomsen("delta")};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

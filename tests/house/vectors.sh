@@ -114,7 +114,7 @@ want() {
           # Two pairs, meet and update, of which the first product is one.
           need("fused_row<" (2 * reach + 1) ", false, " real ">", 2 * (sums + weights) + 20 + 21)
           # Of anisotropic media: the same, with what couples stresses in place of a difference.
-          need("fused_row<" (2 * reach + 1) ", true, " real ">", 2 * (sums + weights) + 20 + 21)
+          need("fused_row<" (2 * reach + 1) ", true, " real ">", 2 * (sums + weights) + 20 + 20)
         }
         # By S pairs.
         need("solve_riemann<true, 0, " real ">", 6); need("solve_riemann<false, 0, " real ">", 9)

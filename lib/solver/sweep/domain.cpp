@@ -274,11 +274,12 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool carries = !ghost && !medium.is_void(cell);
-    const double values[material_rows_of(true)] = {carries ? courant / double(medium.rho[cell]) : 0,
-                                                   p_factor * wave_impedance(medium, cell, D - 1, wave_p),
-                                                   s_factor * wave_impedance(medium, cell, D - 1, wave_s),
-                                                   p_factor * wave_impedance(medium, cell, 0, wave_p),
-                                                   state.anisotropic ? wave_coupling(medium, cell) : 0};
+    const double values[material_rows_of(true)] = {
+        carries ? courant / double(medium.rho[cell]) : 0,
+        p_factor * wave_impedance(medium, cell, D - 1, wave_p),
+        s_factor * wave_impedance(medium, cell, D - 1, wave_s),
+        state.anisotropic ? p_factor * wave_impedance(medium, cell, 0, wave_p) : 0,
+        state.anisotropic ? wave_coupling(medium, cell) : 0};
     Index<D> line = at;
     line[0] = 0;
     for (int row = 0; row < material_rows_of(state.anisotropic); ++row)
