@@ -13,9 +13,9 @@ const char* const isotropic_instead = " or --without anisotropy";
 
 /// Whether stencils of a row reach corners of cells that are not level.
 template <int D>
-bool near_bent_rows(const Grid<D>& grid, std::int64_t row) {
+bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
   const std::int64_t last = grid.rows->cells()[D - 1];
-  for (auto n = row - max_reach; n <= row + max_reach + 1; ++n)
+  for (auto n = row - near; n <= row + near + 1; ++n)
     if (!grid.rows->row_is_level(std::clamp<std::int64_t>(n, 0, last))) return true;
   return false;
 }
@@ -74,7 +74,8 @@ void check_anisotropy(const Scene<D>& scene) {
           ErrorKind::usage);
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-    const bool near_bent = grid.rows && near_bent_rows(grid, row + grid.first[D - 1]);
+    const bool near_bent =
+        grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
   }

@@ -28,7 +28,7 @@ class FittedLab {
  public:
   FittedLab(const Medium<D>& medium, const EdgeLaws<D>& edges, const Numbers& numbers)
       : medium_(medium),
-        domain_(solver::make_domain(medium_, edges, numbers.zone_cells)),
+        domain_(solver::make_domain(medium_, edges, numbers.zone_cells, {}, numbers.order)),
         dt_s_(numbers.cfl * medium_.grid().spacing_m / fastest_across_cells(medium_)),
         state_(solver::make_filled_state<D, Real>(domain_, medium_, dt_s_)),
         sweeps_(state_, domain_, numbers.order),

@@ -49,7 +49,7 @@ Lab<Real>::Lab(const Setup& setup)
   model.fracture_sets = setup.fracture_sets;
   model.prestress_pa = setup.prestress_pa;
   scene_.numerics.correction = setup.correction;
-  domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells);
+  domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
   state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.anisotropic());
   solver::fill_material(state_, domain_, model.medium, dt_s_);

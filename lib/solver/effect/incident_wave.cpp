@@ -13,8 +13,6 @@ namespace {
 constexpr double zone_leak = 0.2;
 /// Growth of the damping rate into the zone.
 constexpr double zone_power = 2.5;
-/// The outermost cells are set to the incident wave: that is how it enters.
-constexpr std::int64_t prescribed_cells = max_reach;
 
 using Rows = FieldRows<2>;
 
@@ -144,7 +142,7 @@ class Column {
   Column(const Scene<2>& scene, int zone_cells, std::int64_t x, const PlaneForm& form,
          const std::vector<double>& depths, double dt_s, double vp_max)
       : medium_(column_of(scene.model.medium, x)),
-        domain_(make_domain(medium_, edges_of(scene), zone_cells)),
+        domain_(make_domain(medium_, edges_of(scene), zone_cells, {}, scene.numerics.order)),
         state_(make_filled_state<2, Real>(domain_, medium_, dt_s)),
         sweeps_(state_, domain_, scene.numerics.order),
         work_(sweeps_.make_workspace(state_.layout.padded_nx())),
@@ -291,7 +289,8 @@ std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s,
     for (std::int64_t j = 0; j < width; ++j) {
       const double depth = (double(j) + 0.5) / double(width);
       const auto cell = side ? domain.grid.shape[axis] - width + j : width - 1 - j;
-      const bool prescribed = width - j <= prescribed_cells;
+      // The outermost cells, all that the next ones read, are set to the incident wave: that is how it enters.
+      const bool prescribed = width - j <= nearness_of(domain.order);
       factors[std::size_t(cell)] = prescribed ? 0 : std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
     }
   }

@@ -220,7 +220,7 @@ struct SpongeKernels {
   void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
 };
 
-/// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
+/// Kernels of that order for the best instruction set of this processor. `uniform`: those for
 /// uniform runs, of which only the material of the first cell is read; they give the same bits.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);

@@ -11,9 +11,9 @@ namespace slipwave::solver {
 /// over two and over four cells, which damps what alternates from cell to cell.
 inline constexpr std::array<int, 4> offsets_along = {-2, -1, 1, 2};
 inline constexpr std::array<double, 4> weights_along = {-0.125, -0.25, 0.25, 0.125};
-/// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it may reach
-/// another extension.
-inline constexpr auto fewest_across = std::int64_t(2) * max_reach;
+/// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it, by
+/// most_reach_at_mirrors at most, may reach another extension.
+inline constexpr auto fewest_across = std::int64_t(2) * most_reach_at_mirrors;
 
 /// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
 /// free.
