@@ -130,7 +130,7 @@ TEST(VtiStack, OfIsotropicLayersIsThatOfPotentials) {
 TEST(Anisotropy, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
   for (const auto& rock : {shale, sandstone, crossed, elliptical})
     for (const std::string kind : {"force:0.6,0.8", "explosion", "moment:0,0,1"}) {
-      if (rock == sandstone && kind != "explosion") continue;
+      if ((rock == sandstone || rock == elliptical) && kind != "explosion") continue;
       Stack space;
       space.layers = {rock}, space.kind = kind;
       space.source_m = 500 + space.spacing() / 2, space.receivers = around(space.source_m, 350);
@@ -175,25 +175,22 @@ TEST(Anisotropy, ConvergesAsIsotropicRockDoes) {
 
 TEST(Anisotropy, LeavesThroughAPmlWhereWavesTurn) {
   // Medium III of Becache, Fauqueux & Joly (2003), whose S waves carry energy back while their fronts move
-  // on, and one with delta above epsilon. A wave as long as the model is what layers feed: without damping
-  // (V6) the first blows up within this time.
-  const auto third = material_of_stiffness({4e9, 7.5e9, 20e9, 2e9}, 2500);
-  for (const auto& rock : {third, crossed}) {
-    Stack space;
-    space.layers = {rock}, space.kind = "force:0.6,0.8";
-    space.depth_m = space.width_m = 750, space.source_m = 375, space.receivers = {{30, 405}};
-    space.cells = 5 * slowest_speeds(rock).s / (peak_hz * 25);
-    auto scene = space.scene();
-    scene.survey.sources[0].wavelet = parse_wavelet("ricker:1");
-    scene.recording.duration_s = 6000 * time_step_s(scene);
-    scene.recording.interval_s = 0.01;
-    const auto gather = shoot(scene, 1);
-    const auto& vx = gather.traces[0].samples;
-    double largest = 0, late = 0;
-    for (std::size_t n = 0; n < vx.size(); ++n)
-      (n < vx.size() / 2 ? largest : late) = std::max(n < vx.size() / 2 ? largest : late, std::abs(vx[n]));
-    EXPECT_LT(late, 1e-3 * largest);
-  }
+  // on. A wave as long as the model is what layers feed: without damping (V6) it blows up within this time.
+  const auto rock = material_of_stiffness({4e9, 7.5e9, 20e9, 2e9}, 2500);
+  Stack space;
+  space.layers = {rock}, space.kind = "force:0.6,0.8";
+  space.depth_m = space.width_m = 750, space.source_m = 375, space.receivers = {{30, 405}};
+  space.cells = 5 * slowest_speeds(rock).s / (peak_hz * 25);
+  auto scene = space.scene();
+  scene.survey.sources[0].wavelet = parse_wavelet("ricker:1");
+  scene.recording.duration_s = 6000 * time_step_s(scene);
+  scene.recording.interval_s = 0.01;
+  const auto gather = shoot(scene, 1);
+  const auto& vx = gather.traces[0].samples;
+  double largest = 0, late = 0;
+  for (std::size_t n = 0; n < vx.size(); ++n)
+    (n < vx.size() / 2 ? largest : late) = std::max(n < vx.size() / 2 ? largest : late, std::abs(vx[n]));
+  EXPECT_LT(late, 1e-3 * largest);
 }
 
 TEST(Anisotropy, OfNoneIsIsotropicRock) {
