@@ -65,11 +65,13 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
              0});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-  const bool finer = finer_model(scene.model, own_m).has_value();
+  const bool finer = has_finer_geometry(scene);
   const WavesOfScene waves(scene, finer);
   const Candidate* best = nullptr;
+  // Rows of other cells have the heights of these, in cells.
+  const double stable_per_m = stable_time_step_s(scene) / own_m;
   const auto in = [&](const AccuracySetting& setting) {
-    const double time_step_s = setting.cfl * stable_time_step_s(scene) * setting.spacing_m / own_m;
+    const double time_step_s = setting.cfl * stable_per_m * setting.spacing_m;
     return waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order});
   };
   for (auto& candidate : candidates) {
@@ -102,7 +104,7 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
   auto setting = choice.setting;
   setting.spacing_m = own_m;
   auto chosen = with_setting(scene, setting);
-  auto finer = finer_model(scene.model, spacing_m);
+  auto finer = finer_model(scene, spacing_m);
   if (!finer) return with_setting(scene, choice.setting);
   chosen.model = std::move(*finer);
   return chosen;

@@ -5,11 +5,17 @@
 #include <limits>
 #include <numbers>
 
+#include "accuracy/finer_model.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 
 namespace slipwave {
 namespace {
+
+template <int D>
+Discretisation discretisation_of(const Scene<D>& scene) {
+  return {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order};
+}
 
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
 constexpr std::size_t receivers_followed = 48, shots_followed = 4;
@@ -215,10 +221,6 @@ Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
   return trains;
 }
 
-}  // namespace
-
-namespace {
-
 /// What stands for a scene: an isotropic one, as slow everywhere as its slowest directions.
 Scene<2> isotropic(Scene<2> scene) {
   scene.model.medium = in_slowest_directions(scene.model.medium);
@@ -228,9 +230,8 @@ Scene<2> isotropic(Scene<2> scene) {
 }  // namespace
 
 WavesOfScene::WavesOfScene(const Scene<2>& scene, bool finer_geometry)
-    : WavesOfScene(
-          {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order},
-          anisotropic_cells(scene.model.medium) > 0 ? isotropic(scene) : scene, finer_geometry) {
+    : WavesOfScene(discretisation_of(scene),
+                   anisotropic_cells(scene.model.medium) > 0 ? isotropic(scene) : scene, finer_geometry) {
   anisotropic_ = anisotropic_cells(scene.model.medium) > 0;
 }
 
@@ -250,6 +251,18 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
   if (anisotropic_)
     error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
   if (sources_.any()) error.promise = sources_.promised(cells);
+  return error;
+}
+
+ExpectedError expected_error(const Scene<2>& scene) {
+  return WavesOfScene(scene, has_finer_geometry(scene)).expected();
+}
+
+ExpectedError expected_error(const Scene<3>& scene) {
+  const ErrorSources sources(scene);
+  ExpectedError error;
+  error.not_covered = sources.not_covered();
+  if (sources.any()) error.promise = sources.promised(discretisation_of(scene));
   return error;
 }
 

@@ -62,7 +62,8 @@ template <int D>
 void check_anisotropy(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  if (anisotropic_cells(medium) == 0) return;
+  // Ranks with other rows refuse what concerns the whole model, too.
+  if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
   if (D == 3)
     throw Error("found epsilon or delta in a model in 3-D, expected them in 2-D; use --without anisotropy",
                 ErrorKind::usage);

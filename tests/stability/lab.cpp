@@ -5,7 +5,6 @@
 #include <random>
 
 #include "solver/effect/slip.hpp"
-#include "solver/effect/sponge.hpp"
 #include "whole_effect.hpp"
 
 namespace slipwave {
@@ -61,8 +60,7 @@ Lab<Real>::Lab(const Setup& setup)
                                                     setup.time_order);
     sweeps_->use(layer_.get());
   } else if (zones) {
-    passes_.push_back(
-        std::make_unique<solver::Sponge<2, Real>>(state_.layout, domain_, dt_s_, vp_max, nullptr));
+    sponge_ = std::make_unique<Sponge<2, Real>>(domain_, dt_s_, vp_max);
   }
   if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, Real>>(state_, domain_, scene_, dt_s_);
 
@@ -97,9 +95,8 @@ void Lab<Real>::step() {
   for (const auto& sweep : splitting_)
     if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
-  for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_);
+  if (sponge_) sponge_->damp(state_);
   if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });
-  for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_);
   if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_); });
   ++steps_;
 }

@@ -31,7 +31,8 @@ void SlipGroup<D, Real>::find_segments(const Layout<D>& layout, const Domain<D>&
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (model.fracture[cell] != number_ + 1) continue;
     const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
-    blocks.emplace_back(layout.line_number(at), at[0] / block);
+    const std::pair in{layout.line_number(at), at[0] / block};
+    if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
     ++cells_;
   }
   std::sort(blocks.begin(), blocks.end());
@@ -282,6 +283,17 @@ void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real
     for (std::size_t k = 0; Law::has_state && k < slips_m_.size(); ++k) slips_m_[k][at] = slip_m[k];
     for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
   }
+}
+
+template <int D, class Real>
+std::int64_t SlipGroup<D, Real>::memory_bytes() const {
+  std::size_t values = 0;
+  for (const auto* of_systems : {&relaxation_, &gaps_, &slips_m_})
+    for (const auto& of_system : *of_systems) values += of_system.size();
+  for (const auto* row :
+       {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
+    values += row->size();
+  return std::int64_t(values * sizeof(Real) + segments_.size() * sizeof(Segment));
 }
 
 template class SlipGroup<2, float>;

@@ -13,7 +13,7 @@
 
 namespace slipwave::solver {
 
-/// The computed grid: the model and, outside its absorbing edges, zones (of the PML or the sponge) with the
+/// The computed grid: the model and, outside its absorbing edges, zones (of the PML) with the
 /// medium of the edge.
 template <int D>
 class Domain {

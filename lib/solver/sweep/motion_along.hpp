@@ -26,6 +26,17 @@ bool ends_free(const Domain<D>& domain, int along) {
   return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
 }
 
+/// Whether two cells carry the same waves without a strong interface between them.
+template <int D>
+bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s})
+    for (const int axis : {D - 1, 0}) {
+      const double a = domain.impedance(wave, axis)(one), b = domain.impedance(wave, axis)(other);
+      if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
+    }
+  return true;
+}
+
 /// The rate of the traction on a face with the vector N (its z is 1) of the stresses that motion along the
 /// face alone builds up: N . C : (e (x) dv/dx), with the differences dv/dx of velocity over a cell along x,
 /// in 3-D also y, and the moduli lambda + 2 mu and mu (theory.md (E11a)).
