@@ -104,11 +104,11 @@ want() {
       split("float double", reals, " ")
       for (r = 1; r <= 2; ++r) {
         real = reals[r]
-        for (reach = 0; reach <= 3; ++reach) {
+        for (reach = 0; reach <= 5; ++reach) {
           # Of the two fields of a pair: the own value, then of each neighbour sum, difference and their parts. Of the
           # weights: the Courant number 2, then as reconstruction.hpp makes them.
           sums = reach == 0 ? 3 : 2 * 6 * reach + 6
-          weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : 32)
+          weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : reach == 3 ? 32 : reach == 4 ? 48 : 70)
           need("reconstruct<" (2 * reach + 1) ", true, " real ">", sums)
           need("reconstruct<" (2 * reach + 1) ", false, " real ">", sums + weights)
           # Two pairs, meet and update, of which the first product is one.
@@ -143,8 +143,6 @@ want() {
         for (way = 0; way <= 1; ++way) {
           along = way ? "true" : "false"
           need("filter_in<" along ", true, " real ">", 11); need("filter_in<" along ", false, " real ">", 8)
-          # One factor and target a cell, or one of all.
-          need("damp_in<" along ", true, " real ">", 3); need("damp_in<" along ", false, " real ">", 3)
         }
       }
       if (!bad) printf "%s: %d kernels on vectors of %d bits\n", level, kernels, width
