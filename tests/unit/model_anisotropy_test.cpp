@@ -4,12 +4,14 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "model/coefficients.hpp"
 #include "model/fracture.hpp"
 #include "model/import.hpp"
 #include "model/layers.hpp"
 #include "model/model.hpp"
+#include "model/model_report.hpp"
 #include "model/relations.hpp"
 #include "refusal.hpp"
 #include "scene/anisotropy_check.hpp"
@@ -182,6 +184,21 @@ TEST(ModelEffect, OfAnisotropyCanBeTakenOut) {
   remove_effect(model, model_effect_named("anisotropy"));
   EXPECT_FALSE(model.medium.has(Property::epsilon));
   EXPECT_FALSE(model.medium.has(Property::delta));
+}
+
+TEST(ModelReport, SaysTheSlowestSpeedOfAllDirections) {
+  // Of SV waves where vp and the vertical vs are 3000 and 1500 m/s: at 45 degrees (V3) is
+  // 2 rho c^2 = (c11 + c33)/2 + c55 - sqrt(((c11 - c33)/2)^2 + (c13 + c55)^2), in units of rho of c33 = 9.
+  const double c11 = 9 * 0.8, c33 = 9, c55 = 2.25,
+               coupled = std::sqrt(2 * c33 * (c33 - c55) * 0.2 + 6.75 * 6.75);
+  const double at_45 = 1000 * std::sqrt(((c11 + c33) / 2 + c55 - std::hypot((c11 - c33) / 2, coupled)) / 2);
+  const auto report = report_of(one_cell({3000, 1500, 2200, -0.1, 0.2})).lines();
+  const std::string name = "slowest wave";
+  const auto place = report.find(name);
+  ASSERT_NE(place, std::string::npos);
+  const double said = std::stod(report.substr(place + name.size()));
+  EXPECT_LE(said, at_45);
+  EXPECT_GT(said, 0.98 * at_45);
 }
 
 Scene<2> scene_of(const Material& of) {
