@@ -79,6 +79,7 @@ inline void declare_numerics(cli::Options& options, SceneOptions& s) {
   options.add_choice("order", s.order, texts_of(orders), "order of the scheme in space");
   options.add_choice("time-order", s.time_order, texts_of(time_orders),
                      "order in time; 4: six times the work per step, --cfl up to 2");
+  options.add("monotone", s.monotone, "no overshoots: keep waves to the criterion of monotonicity");
   options.add_choice("correction", s.correction, {"first", "second", "exponential"},
                      "time integration of slip: first order, second order, or exact per step");
   options.add("cfl", s.cfl, "C", "Courant number: time step over h/vp_max");

@@ -18,7 +18,7 @@ namespace {
 struct Settings {
   SceneOptions shot;
   std::string built_in, orders = "5,7", time_orders = "2", cfls = "0.9,0.5", steps, corrections = "second",
-                        reference;
+                        limits = "none", reference;
   std::optional<double> wanted;
   std::string output;
   bool json = false;
@@ -33,6 +33,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("cfls", s.cfls, "LIST", "Courant numbers, up to 1; with order 4 in time up to 2");
   options.add("time-orders", s.time_orders, "LIST", "orders in time: " + joined(texts_of(time_orders), ", "));
   options.add("corrections", s.corrections, "LIST", "time integration of slip: first, second, exponential");
+  options.add("limits", s.limits, "LIST",
+              "limits of outgoing waves: none, monotone (as sw-shoot --monotone)");
   options.add("reference", s.reference, "ORDER,CFL,STEP",
               "reference solution [7,0.4 and the finest of --steps]");
   options.add("error", s.wanted, "SHARE", "mark the cheapest setting with at most this error (0.01: 1 %)");
@@ -43,8 +45,8 @@ void declare(cli::Options& options, Settings& s) {
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "case", "steps",
                   "orders", "cfls", "reference", "error", "output", "json"});
   // A configuration of sw-shoot says what is shot; how is varied here.
-  options.pass_over(
-      {"order", "time-order", "cfl", "time-step", "correction", "snapshots", "every", "fields", "slice"});
+  options.pass_over({"order", "time-order", "cfl", "time-step", "correction", "monotone", "snapshots",
+                     "every", "fields", "slice"});
 }
 
 double number_in(const char* option, const std::string& text) {
@@ -78,6 +80,11 @@ SlipCorrection correction_of(const std::string& name) {
   throw Error("--corrections: found " + name + ", expected first, second or exponential", ErrorKind::usage);
 }
 
+bool is_monotone(const std::string& limit) {
+  if (limit == "none" || limit == "monotone") return limit == "monotone";
+  throw Error("--limits: found " + limit + ", expected none or monotone", ErrorKind::usage);
+}
+
 /// All combinations, cheap ones first; without --steps the model's cells and cells of twice the size.
 std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene) {
   const double own = scene.model.grid().spacing_m;
@@ -91,8 +98,9 @@ std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene)
       for (const double cfl : numbers_of("--cfls", s.cfls))
         for (const double time_order : numbers_of("--time-orders", s.time_orders))
           for (const auto& correction : corrections)
-            ladder.push_back({one_of("--orders", order, orders), cfl, step, correction_of(correction),
-                              one_of("--time-orders", time_order, time_orders)});
+            for (const auto& limit : split(s.limits, ','))
+              ladder.push_back({one_of("--orders", order, orders), cfl, step, correction_of(correction),
+                                one_of("--time-orders", time_order, time_orders), is_monotone(limit)});
   return ladder;
 }
 

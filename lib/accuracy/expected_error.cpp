@@ -17,6 +17,9 @@ Discretisation discretisation_of(const Scene<D>& scene) {
   return {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order};
 }
 
+/// What --monotone leaves unknown.
+constexpr const char* flattened_extrema = "what --monotone takes from crests and troughs";
+
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
 constexpr std::size_t receivers_followed = 48, shots_followed = 4;
 /// Directions of travel over which waves of unknown direction are averaged.
@@ -233,6 +236,7 @@ WavesOfScene::WavesOfScene(const Scene<2>& scene, bool finer_geometry)
     : WavesOfScene(discretisation_of(scene),
                    anisotropic_cells(scene.model.medium) > 0 ? isotropic(scene) : scene, finer_geometry) {
   anisotropic_ = anisotropic_cells(scene.model.medium) > 0;
+  monotone_ = scene.numerics.monotone;
 }
 
 WavesOfScene::WavesOfScene(const Discretisation& own, const Scene<2>& scene, bool finer_geometry)
@@ -250,6 +254,7 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
   ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered()};
   if (anisotropic_)
     error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
+  if (monotone_) error.not_covered.emplace_back(flattened_extrema);
   if (sources_.any()) error.promise = sources_.promised(cells);
   return error;
 }
@@ -262,6 +267,7 @@ ExpectedError expected_error(const Scene<3>& scene) {
   const ErrorSources sources(scene);
   ExpectedError error;
   error.not_covered = sources.not_covered();
+  if (scene.numerics.monotone) error.not_covered.emplace_back(flattened_extrema);
   if (sources.any()) error.promise = sources.promised(discretisation_of(scene));
   return error;
 }

@@ -46,7 +46,7 @@ class WavesOfScene {
   WavesOfScene(const Discretisation& own, const Scene<2>& isotropic, bool finer_geometry);
 
   Discretisation own_;
-  bool anisotropic_ = false;
+  bool anisotropic_ = false, monotone_ = false;
   ErrorSources sources_;
   std::vector<WaveTrain> direct_, longest_p_, longest_s_;
 };

@@ -32,13 +32,15 @@ Scene<2> with_setting(const Scene<2>& scene, const AccuracySetting& setting) {
   changed.numerics.time_step_s.reset();
   changed.numerics.correction = setting.correction;
   changed.numerics.time_order = setting.time_order;
+  changed.numerics.monotone = setting.monotone;
   return changed;
 }
 
 std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
   std::string name = "order " + std::to_string(setting.order) +
                      (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
-                     ", Courant " + shown(setting.cfl) + ", " + shown(setting.spacing_m, 4) + " m";
+                     (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl) + ", " +
+                     shown(setting.spacing_m, 4) + " m";
   if (scene.slips())
     name += setting.correction == SlipCorrection::first    ? ", first-order slip"
             : setting.correction == SlipCorrection::second ? ", second-order slip"

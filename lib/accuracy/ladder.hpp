@@ -13,6 +13,7 @@ struct AccuracySetting {
   double spacing_m = 0;
   SlipCorrection correction = SlipCorrection::second;
   int time_order = 2;
+  bool monotone = false;
 };
 
 /// The same scene computed so: the same geology in other cells (regridded()), survey and recording untouched.

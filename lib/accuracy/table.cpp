@@ -24,6 +24,7 @@ Report report_of(const AccuracyRow& row) {
   Report report;
   report.count("order", row.order);
   report.count("time order", row.time_order);
+  if (row.monotone) report.count("monotone", row.monotone);
   report.number("courant", row.courant, "");
   report.number("step", row.spacing_m, "m");
   if (row.slip_order > 0) report.count("slip order", row.slip_order);
@@ -68,13 +69,13 @@ std::string text_of(const AccuracyTable& table) {
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
     const auto& row = table.rows[n];
     char line[240];
-    std::snprintf(line, sizeof line, "%7d %4d %7.3g %8.4g %4d %10lld %6lld %8s %8s %10s %8s %10s %8s%s\n",
+    std::snprintf(line, sizeof line, "%7d %4d %7.3g %8.4g %4d %10lld %6lld %8s %8s %10s %8s %10s %8s%s%s\n",
                   row.order, row.time_order, row.courant, row.spacing_m, row.slip_order,
                   static_cast<long long>(row.cells), static_cast<long long>(row.steps),
                   percent(row.error).c_str(), percent(row.late_error).c_str(),
                   percent(row.predicted_error).c_str(), figure(row.seconds).c_str(),
                   figure(row.predicted_seconds).c_str(), figure(row.memory_bytes / (1 << 20)).c_str(),
-                  table.chosen == n ? "  <" : "");
+                  row.monotone ? "  monotone" : "", table.chosen == n ? "  <" : "");
     text += line;
   }
   if (table.wanted_error)

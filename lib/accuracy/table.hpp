@@ -16,6 +16,7 @@ class NetcdfFile;
 struct AccuracyRow {
   int order = 5;           // of the reconstruction in space
   int time_order = 2;      // of the splitting
+  int monotone = 0;        // 1: sweeps keep to the criterion of monotonicity
   double courant = 0;      // vp_max dt/h
   double spacing_m = 0;    // cell size
   int slip_order = 0;      // of the slip correction, 3: exponential; 0: nothing slips

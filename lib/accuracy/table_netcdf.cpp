@@ -1,5 +1,6 @@
 #include "accuracy/table.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -28,6 +29,9 @@ constexpr Column<int> whole_numbers[] = {
     {"slip_order", "order of the slip correction, 3 = exponential, 0 where nothing slips", "1",
      &AccuracyRow::slip_order},
 };
+/// Only where a row is.
+constexpr Column<int> monotone = {"monotone", "1: kept to the criterion of monotonicity", "1",
+                                  &AccuracyRow::monotone};
 // Counts are stored as doubles: exact to 2^53, which int is not.
 constexpr Column<std::int64_t> counts[] = {
     {"cells", "cells computed, absorbing zones included", "1", &AccuracyRow::cells},
@@ -89,6 +93,8 @@ void write_accuracy_table(OutputFile& out, const AccuracyTable& table, const std
   if (table.chosen) file.put_attribute("", "chosen", std::vector<int>{int(*table.chosen)});
   file.define_dimension(dimension, table.rows.size());
   for (const auto& column : whole_numbers) put<int>(file, column, Type::i32, table.rows);
+  if (std::any_of(table.rows.begin(), table.rows.end(), [](const auto& row) { return row.monotone; }))
+    put<int>(file, monotone, Type::i32, table.rows);
   for (const auto& column : counts) put<double>(file, column, Type::f64, table.rows);
   for (const auto& column : numbers) put<double>(file, column, Type::f64, table.rows);
   file.close();
@@ -106,6 +112,7 @@ AccuracyTable read_accuracy_table(const NetcdfFile& file) {
                 ", expected a table of sw-accuracy");
   AccuracyTable table;
   for (const auto& column : whole_numbers) get<int>(file, column, *rows, table.rows);
+  if (file.has_variable(monotone.name)) get<int>(file, monotone, *rows, table.rows);
   for (const auto& column : counts) get<double>(file, column, *rows, table.rows);
   for (const auto& column : numbers) get<double>(file, column, *rows, table.rows);
   table.title = file.text_attribute("", "title").value_or("");

@@ -25,12 +25,15 @@ AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, cons
   AccuracyRow row;
   row.order = setting.order;
   row.time_order = setting.time_order;
+  row.monotone = setting.monotone;
   row.courant = setting.cfl;  // that of the plan differs by rounding
   row.spacing_m = setting.spacing_m;
   if (scene.slips()) row.slip_order = int(setting.correction) + 1;
   row.cells = expected.computed.size();
   row.steps = expected.steps;
-  row.predicted_error = expected.error.overall();
+  // What the criterion takes from extrema is not known beforehand.
+  row.predicted_error =
+      setting.monotone ? std::numeric_limits<double>::quiet_NaN() : expected.error.overall();
   row.predicted_seconds = expected.seconds;
   row.memory_bytes = double(expected.memory_bytes);
   auto gathers = shoot_all(changed, row.seconds, progress);

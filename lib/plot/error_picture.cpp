@@ -162,7 +162,8 @@ Drawing arrange(const std::vector<AccuracyTable>& tables, bool overlay) {
     auto& panel = drawing.panels.back();
     for (auto& one : series[t]) {
       const bool apart = overlay && tables.size() > 1;
-      const Method variant{0, one.method.time_order, one.method.slip_order, one.method.courant};
+      const Method variant{0, one.method.time_order, one.method.slip_order, one.method.courant,
+                           one.method.monotone};
       const Curve curve{one, line_colour(index_in(orders, one.method.order)),
                         marker_of(index_in(variants, std::pair(apart ? t : 0, variant)))};
       panel.curves.push_back(curve);

@@ -10,7 +10,7 @@ std::vector<ErrorSeries> series_of(const AccuracyTable& table) {
   std::vector<ErrorSeries> all;
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
     const auto& row = table.rows[n];
-    const Method method{row.order, row.time_order, row.slip_order, row.courant};
+    const Method method{row.order, row.time_order, row.slip_order, row.courant, row.monotone};
     auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.method == method; });
     if (series == all.end()) series = all.insert(all.end(), {method, {}});
     series->points.push_back({row.spacing_m, row.seconds, 100 * row.error, row.predicted_seconds,
@@ -34,6 +34,7 @@ std::string name_of(const Method& method, const std::vector<Method>& methods) {
     name += method.slip_order == 0   ? ", no slip"
             : method.slip_order == 3 ? ", exponential slip"
                                      : ", slip order " + std::to_string(method.slip_order);
+  if (method.monotone) name += ", monotone";
   if (differ(&Method::courant)) name += ", Courant " + shown(method.courant);
   return name;
 }

@@ -13,6 +13,7 @@ namespace slipwave::plot {
 struct Method {
   int order = 0, time_order = 0, slip_order = 0;
   double courant = 0;
+  int monotone = 0;
   bool operator==(const Method&) const = default;
 };
 

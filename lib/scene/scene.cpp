@@ -219,6 +219,21 @@ int zone_cells(const Scene<D>& scene, const Source<D>& source) {
   return int(std::clamp(cells, double(usual), 10000.)) + reach_of(scene.numerics.order) + 1;
 }
 
+/// Sweeps back in time, and waves that turn with their row, have no criterion of monotonicity.
+template <int D>
+void check_monotone(const Scene<D>& scene) {
+  if (scene.numerics.time_order != 2)
+    throw Error("found --monotone with --time-order " + std::to_string(scene.numerics.time_order) +
+                    ", expected --time-order 2: sweeps back in time have no criterion of monotonicity",
+                ErrorKind::usage);
+  const auto& rows = scene.model.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
+    if (!rows->row_is_level(row))
+      throw Error("found --monotone in a model whose row " + std::to_string(row) +
+                      " follows a horizon, expected level rows; build the model with --fit none",
+                  ErrorKind::usage);
+}
+
 template <int D>
 void check(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
@@ -255,6 +270,7 @@ void check(const Scene<D>& scene) {
     throw Error(
         "found time order " + std::to_string(numerics.time_order) + ", expected " + alternatives(time_orders),
         ErrorKind::usage);
+  if (numerics.monotone) check_monotone(scene);
   const double limit = stable_time_step_s(scene), largest = largest_cfl(numerics);
   if (numerics.time_step_s) {
     check_positive(*numerics.time_step_s, "--time-step", "s");

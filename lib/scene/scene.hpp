@@ -39,7 +39,8 @@ struct Numerics {
   int zone_cells = 0;  // width of the absorbing layers; 0: as their kind needs, see zone_cells()
   SlipCorrection correction = SlipCorrection::second;
   bool double_precision = false;
-  int time_order = 2;  // of the splitting in time: one of `time_orders`
+  int time_order = 2;     // of the splitting in time: one of `time_orders`
+  bool monotone = false;  // sweeps keep to the criterion of monotonicity
   Tiling tiling;
 };
 

@@ -119,6 +119,7 @@ Scene<D> SceneOptions::without_model() const {
   scene.numerics.double_precision = precision == "double";
   scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);
+  scene.numerics.monotone = monotone;
   for (const auto effect : effects_without()) scene.with_slip &= effect != ModelEffect::slip;
   return scene;
 }

@@ -26,6 +26,7 @@ struct SceneOptions {
   int q_mechanisms = AttenuationChoice().mechanisms;
   std::string q_band;
   int edge_width = 0;
+  bool monotone = false;
   MediumLimits limits;
 
   /// The scene, its model not yet read and its survey not yet placed in it. Throws a usage Error naming the

@@ -74,6 +74,7 @@ template <int D, class Real>
 TimeStep<D, Real> StepBuilder<D, Real>::time_step(Sweeps<D, Real>& sweeps, const Effects<D, Real>& effects,
                                                   const std::vector<Record<D, Real>*>& records,
                                                   std::int64_t steps) const {
+  if (scene.numerics.monotone) sweeps.keep_monotone();
   std::vector<Effect<D, Real>*> filters;
   std::vector<Entry<D, Real>> before, after, between, step;
   for (const auto& effect : effects) {

@@ -53,6 +53,7 @@ Lab<Real>::Lab(const Setup& setup)
   state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.anisotropic());
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
+  if (setup.monotone) sweeps_->keep_monotone();
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
   const double vp_max = fastest_speed(model.medium);
   if (zones && setup.layer_hz > 0) {

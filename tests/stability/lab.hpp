@@ -59,6 +59,7 @@ class Lab {
     /// In place of random values, before `amplitude` is put on them.
     std::function<CellFields(int i, int k)> fields;
     bool along_z_only = false;  // no sweeps along x
+    bool monotone = false;      // sweeps keep to the criterion of monotonicity
     unsigned seed = 1;
   };
   explicit Lab(const Setup& setup);

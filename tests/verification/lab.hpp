@@ -50,6 +50,7 @@ class Lab {
   const Domain<2>& domain() const { return domain_; }
   double energy() const { return solver::energy(*state_, domain_, medium_); }
 
+  void keep_monotone() { sweeps_.keep_monotone(); }
   void sweep(int axis, double part) { sweeps_.along(axis, Real(part)); }
   /// The step of (E3) or (E16).
   void step() {

@@ -47,6 +47,15 @@ TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
     }
 }
 
+TEST(PlainExecutor, GivesTheBitsOfTilesWhereWavesStayMonotone) {
+  for (const int order : {3, 7}) {
+    auto scene = sea();
+    scene.numerics.order = order;
+    scene.numerics.monotone = true;
+    expect_same(scene);
+  }
+}
+
 TEST(PlainExecutor, GivesTheBitsOfTilesWithSnapshotsAndADiary) {
   auto scene = sea();
   scene.snapshot_every_s = 0.03;

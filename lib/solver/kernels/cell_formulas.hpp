@@ -13,6 +13,39 @@ namespace slipwave::solver {
 /// and normal.
 inline constexpr double none = 1e-15;
 
+/// The criterion of monotonicity for one outgoing wave (theory.md (C1)): `wave` within what keeps the new
+/// invariant between its old value and that of the cell it comes from. own, from, to: the invariant in this
+/// cell, in the one before it on its way and in the next. Where own is an extremum the wave is own.
+template <class Real>
+[[gnu::always_inline]] inline Real limited(Real wave, Real own, Real from, Real to, Real over_courant) {
+  const Real gained = own - from, left = to - own, most = from + gained * over_courant;
+  const Real rising = gained > 0 ? Real(1) : Real(-1);
+  // Times `rising` the bounds lie above own.
+  const Real bound = rising * most < rising * to ? most : to;
+  const Real below_bound = rising * wave < rising * bound ? wave : bound;
+  const Real within = rising * below_bound > rising * own ? below_bound : own;
+  return gained * left > 0 ? within : own;
+}
+/// The wave that would enter a cell from its neighbour if both were uniform: the Riemann solution of the
+/// neighbour's outgoing wave and the cell's own, in the impedance of the cell.
+template <class Real>
+[[gnu::always_inline]] inline Real entering(Real z, Real z_from, Real outgoing_from, Real own_outgoing) {
+  return (2 * z * outgoing_from + (z - z_from) * own_outgoing) / (z + z_from + Real(none));
+}
+/// Both outgoing waves of a cell; v, s and z, its impedance, with those of its neighbours a stride away.
+template <class Real>
+[[gnu::always_inline]] inline void limit_cell(const Real* v, const Real* s, long stride, const Real* z,
+                                              long z_stride, Real courant, Real& up, Real& down) {
+  const Real over_courant = 1 / (courant + Real(none));
+  const Real own = z[0], z_lo = z[-z_stride], z_hi = z[z_stride];
+  const Real v_lo = v[-stride], v_hi = v[stride], s_lo = s[-stride], s_hi = s[stride];
+  const Real own_up = own * v[0] - s[0], own_down = own * v[0] + s[0];
+  up =
+      limited(up, own_up, entering(own, z_lo, z_lo * v_lo - s_lo, own_down), own * v_hi - s_hi, over_courant);
+  down = limited(down, own_down, entering(own, z_hi, z_hi * v_hi + s_hi, own_up), own * v_lo + s_lo,
+                 over_courant);
+}
+
 /// 1/(Z_lo + Z_hi) of P and S waves, with one division for both. Without shear that of P alone.
 template <bool Shear, class Real>
 [[gnu::always_inline]] inline void riemann_shares(Real p_lo, Real p_hi, Real s_lo, Real s_hi, Real& share_p,

@@ -190,6 +190,10 @@ struct Kernels {
   /// up = Z F_up[v] - F_up[s], down = Z F_down[v] + F_down[s]; scale = fraction of the step.
   void (*reconstruct)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s,
                       const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
+  /// Limits these outgoing waves by the criterion of monotonicity (C1), for steps forward in time.
+  /// Material is read of neighbours, too, z_stride apart.
+  void (*limit)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, std::int64_t z_stride,
+                const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   InterfaceKernels<Real> face[2][2];
   /// Of anisotropic media, in 2-D.

@@ -43,6 +43,15 @@ void reconstruct(std::int64_t n, std::int64_t stride, const Real* v, const Real*
     reconstruct_in<Order, Uniform, 1>(n, stride, v, s, impedance, b, scale, up, down);
 }
 
+template <class Real>
+void limit(std::int64_t n, std::int64_t stride, const Real* __restrict v, const Real* __restrict s,
+           std::int64_t z_stride, const Real* __restrict impedance, const Real* __restrict b, Real scale,
+           Real* __restrict up, Real* __restrict down) {
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i)
+    limit_cell(v + i, s + i, stride, impedance + i, z_stride, scale * (impedance[i] * b[i]), up[i], down[i]);
+}
+
 /// For the P pair and so many S pairs.
 template <bool Uniform, int Shears, class Real>
 void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
@@ -197,6 +206,7 @@ constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 
 template <int Order, bool Uniform, class Real>
 constexpr Kernels<Real> table = {
     reconstruct<Order, Uniform, Real>,
+    limit<Real>,
     {{face<Uniform, 2, false, false, Real>, face<Uniform, 2, true, false, Real>},
      {face<Uniform, 3, false, false, Real>, face<Uniform, 3, true, false, Real>}},
     face<Uniform, 2, true, true, Real>,

@@ -62,6 +62,12 @@ void Sweeps<D, Real>::use(Effect<D, Real>* filter) {
 }
 
 template <int D, class Real>
+void Sweeps<D, Real>::keep_monotone() {
+  if (metric_.any_bent()) throw std::logic_error("no criterion of monotonicity on bent rows");
+  monotone_ = reach_ > 0;
+}
+
+template <int D, class Real>
 Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
   return Workspace<Real>(widest, FieldRows<D>::count, D);
 }
@@ -134,16 +140,21 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
         part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
         pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up + from, down + from);
   };
+  const auto material = state_.material_from(line, columns.first, axis);
   for (int p = 0; p < pair_count(); ++p) {
     const Pair& pair = pairs_[axis][p];
     Real* const up = outgoing.up(p);
     Real* const down = outgoing.down(p);
+    const Real *const v = fields + pair.v * pitch + columns.first, *const s = fields + pair.s * pitch +
+                                                                              columns.first;
     reconstruct(pair, whole, up, down);
     reconstruct(pair, {whole.last, columns.last}, up, down);
-    stencils_[axis][pair.wave].correct(
-        order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first, axis), scale, up,
-        down, corrections_of(axis, p));
+    stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, up, down,
+                                       corrections_of(axis, p));
+    // After the stencils beside interfaces: their waves keep to the criterion, too.
+    if (monotone_)
+      kernels_[false]->limit(columns.count(), stride, v, s, state_.material_layout.stride(axis),
+                             pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up, down);
     prefetch.prefetch_one();
   }
 }
@@ -643,7 +654,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
                                 Real scale, Ring<Real>& ring, Workspace<Real>& work) {
   const auto& layout = state_.layout;
   const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
-  if (D != 2 || !shear_ || done < 0 || row >= layout.shape()[axis]) return false;
+  if (D != 2 || !shear_ || monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto number = layout.line_number(here);

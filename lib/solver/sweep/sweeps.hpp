@@ -31,6 +31,9 @@ class Sweeps {
   /// most_filters.
   void use(Effect<D, Real>* filter);
   static constexpr std::size_t most_filters = 2;
+  /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
+  /// rows are bent.
+  void keep_monotone();
 
   /// A whole sweep along any axis, distributed to threads.
   void along(int axis, Real scale, const SweepTime& time = {});
@@ -175,7 +178,7 @@ class Sweeps {
   std::vector<Effect<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
-  bool shear_, anisotropic_;
+  bool shear_, anisotropic_, monotone_ = false;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
   InterfaceCorrections<D, Real> corrections_;

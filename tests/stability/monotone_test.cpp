@@ -1,0 +1,34 @@
+// The criterion of monotonicity in hard media.
+#include <algorithm>
+
+#include "lab.hpp"
+#include "media.hpp"
+
+namespace slipwave {
+namespace {
+
+template <class Real>
+void expect_bounded(const std::string& medium, int order, double cfl, EdgeLaw edges) {
+  SCOPED_TRACE(medium + ", order " + std::to_string(order) + ", Courant " + std::to_string(cfl));
+  typename Lab<Real>::Setup setup;
+  setup.medium = medium_named(medium, 24);
+  setup.edges = all_edges(edges);
+  setup.order = order;
+  setup.cfl = cfl;
+  setup.monotone = true;
+  Lab<Real>(setup).expect_no_growth(long_form() ? 16000 : 300, rounding<Real>());
+}
+
+}  // namespace
+
+TEST(EnergyOfMonotoneSweeps, NeverRisesInHardMedia) {
+  const ThreadLimit one_thread(1);
+  for (const auto& medium : medium_names())
+    for (const int order : {3, 5, 11})
+      for (const double cfl : {0.3, 1.}) {
+        expect_bounded<double>(medium, order, cfl, EdgeLaw::free);
+        if (order == 5) expect_bounded<float>(medium, order, cfl, EdgeLaw::rigid);
+      }
+}
+
+}  // namespace slipwave
