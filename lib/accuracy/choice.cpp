@@ -47,11 +47,6 @@ double cells_of(const Scene<2>& scene, int parts) {
 }  // namespace
 
 Choice cheapest_setting(const Scene<2>& scene, double wanted) {
-  if (scene.numerics.monotone)
-    throw Error(
-        "found --error with --monotone, whose error is not known beforehand; measure it with sw-accuracy "
-        "--limits none,monotone",
-        ErrorKind::usage);
   const double own_m = scene.model.grid().spacing_m;
   struct Candidate {
     AccuracySetting setting;

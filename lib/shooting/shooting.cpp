@@ -85,6 +85,11 @@ Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options
   const double wanted = *options.wanted_error;
   if (!(wanted > 0))
     throw Error("--error: found " + shown(wanted) + ", expected it above 0", ErrorKind::usage);
+  if (scene.numerics.monotone)
+    throw Error(
+        "found --error with --monotone, whose error is not known beforehand; measure it with sw-accuracy "
+        "--limits none,monotone",
+        ErrorKind::usage);
   if constexpr (D == 2) {
     const auto choice = cheapest_setting(scene, wanted);
     if (!choice.good_enough)
@@ -105,7 +110,8 @@ Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options
 Report setting_for_1_percent(const Scene<2>& scene) {
   Report report;
   const auto choice = cheapest_setting(scene, 0.01);
-  report.text("for 1 percent", (choice.good_enough ? "--error 0.01: " : "none is known; at best ") +
+  report.text("for 1 percent", std::string(scene.numerics.monotone ? "without --monotone: " : "") +
+                                   (choice.good_enough ? "--error 0.01: " : "none is known; at best ") +
                                    sentence_of(choice, scene) +
                                    (choice.reason.empty() ? "" : "; " + choice.reason));
   return report;

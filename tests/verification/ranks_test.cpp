@@ -152,6 +152,12 @@ TEST(Ranks, InDoublePrecisionAndUnderStaticStressToo) {
   EXPECT_TRUE(all_samples(shared_out(scene, 3)) == all_samples(shoot(scene, 1)));
 }
 
+TEST(Ranks, WhereWavesStayMonotoneToo) {
+  auto scene = reef();
+  scene.numerics.monotone = true;
+  EXPECT_TRUE(all_samples(shared_out(scene, 3)) == all_samples(shoot(scene, 1)));
+}
+
 TEST(Ranks, WhereSlipWeakensFrictionToo) {
   auto scene = reef();
   for (auto& set : scene.model.fracture_sets) {
