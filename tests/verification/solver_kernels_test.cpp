@@ -43,16 +43,15 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
     ++pair;
   }
   std::vector<std::vector<Real>> rows = {left_cells};
-  for (const auto& of_dimension : kernel.face)
-    for (const auto& face : of_dimension) {
-      auto met = six_rows();
-      const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
-      face.solve_riemann(n, all_left, all_left, material, material, hi);
-      face.update(n, scale, lo, hi, material,
-                  {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
-                   passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
-      rows.push_back(std::move(met));
-    }
+  for (const auto& face : {kernel.fluid_face, kernel.face[0], kernel.face[1]}) {
+    auto met = six_rows();
+    const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
+    face.solve_riemann(n, all_left, all_left, material, material, hi);
+    face.update(n, scale, lo, hi, material,
+                {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
+                 passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
+    rows.push_back(std::move(met));
+  }
   for (const auto* changed : {&vp, &sp, &passive, &passive2, &vs, &ss, &vs2, &ss2}) rows.push_back(*changed);
   std::vector<Real> all;
   for (const auto& values : rows) all.insert(all.end(), values.begin(), values.end());
