@@ -13,6 +13,7 @@
 #include "model/anisotropy.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
+#include "scene/subdomains.hpp"
 #include "solver/shot_simulation.hpp"
 
 namespace slipwave {
@@ -160,8 +161,14 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
     widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
   for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
   const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
-  const bool anisotropic = scene.subdomain.anisotropic || anisotropic_cells(scene.model.medium) > 0;
-  return cells * value * (solver::FieldRows<D>::count + solver::material_rows_of(anisotropic));
+  const auto& medium = scene.model.medium;
+  using solver::MaterialKind;
+  auto kind = MaterialKind::fluid;
+  if (scene.subdomain.anisotropic || anisotropic_cells(medium) > 0)
+    kind = MaterialKind::anisotropic;
+  else if (scene.subdomain.shear || has_shear(medium))
+    kind = MaterialKind::isotropic;
+  return cells * value * (solver::FieldRows<D>::of(kind) + solver::material_rows_of(kind));
 }
 
 template <int D>

@@ -20,16 +20,6 @@ constexpr std::int64_t beside_points = widest_stencil;
 /// corrected, whether rows are level. Every rank must decide alike.
 constexpr std::int64_t beside_refreshed = std::int64_t(2) * max_reach;
 
-template <int D>
-bool has_shear(const Medium<D>& medium) {
-  const auto& rows = medium.grid().rows;
-  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
-    if (!rows->row_is_level(row)) return true;
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-    if (medium.is_solid(cell)) return true;
-  return false;
-}
-
 template <class Value, int D>
 Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
   if (field.empty()) return field;
@@ -41,6 +31,16 @@ Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
 }
 
 }  // namespace
+
+template <int D>
+bool has_shear(const Medium<D>& medium) {
+  const auto& rows = medium.grid().rows;
+  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
+    if (!rows->row_is_level(row)) return true;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (medium.is_solid(cell)) return true;
+  return false;
+}
 
 int steps_of_a_tile(const Tiling& tiling) { return tiling.steps > 0 ? tiling.steps : usual_steps; }
 
@@ -154,6 +154,9 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
+
+template bool has_shear(const Medium<2>&);
+template bool has_shear(const Medium<3>&);
 
 template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
                                           const std::array<std::int64_t, 2>&);

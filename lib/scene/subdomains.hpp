@@ -10,6 +10,10 @@
 
 namespace slipwave {
 
+/// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are bent.
+template <int D>
+bool has_shear(const Medium<D>& medium);
+
 /// Steps of a time tile.
 int steps_of_a_tile(const Tiling& tiling);
 

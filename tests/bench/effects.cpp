@@ -85,6 +85,12 @@ void register_effects() {
   add("a snapshot every 20 steps",
       [](Case& what) { what.snapshot_every_s = 20 * time_step_s(make_scene(what)); });
   add("all fluid", [](Case& what) { what.fluid = true; });
+  // 6000 x 6000 m in cells of 4 m.
+  for (const bool fluid : {false, true})
+    add(std::string(fluid ? "all fluid" : "none") + ", 1500 x 1500 cells", [=](Case& what) {
+      what.nx = what.nz = 1500;
+      what.fluid = fluid;
+    });
   for (const double duration_s : {0.5, 1., 2.})
     for (const bool only_where_seen : {false, true}) {
       Case what;

@@ -42,7 +42,7 @@ enum class Subdomain { leave, meet, update, inside, sweep };
 template <class Real>
 void run(benchmark::State& state, Subdomain part, int order, bool uniform) {
   const auto& kernels = solver::kernels<Real>(order, uniform);
-  const auto& face = kernels.face[0][1];
+  const auto& face = kernels.face[0];
   Rows<Real> rows;
   const auto leave = [&](int v, int s, int z, int pair) {
     kernels.reconstruct(cells + 2, 1, rows.row(v) - 1, rows.row(s) - 1, rows.row(z) - 1, rows.row(5) - 1,

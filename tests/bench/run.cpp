@@ -56,13 +56,12 @@ int flops_a_cell_step(int order, bool uniform, bool fluid) {
   int others = 0;
   if (uniform) {
     // Differences of outgoing waves up and down, v* 2, v 3, stresses 2 each; of S v* 2, v 3, stress 2.
-    others = 11 + (fluid ? 0 : 9);
+    others = fluid ? 9 : 11 + 9;
   } else {
     // Riemann: v* 2, s* 4 a pair; sums of impedances 2 a pair, the common division 4 (of one pair 1).
     const int meet = 8 * pairs + (fluid ? 1 : 4);
-    // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one product for both), v_t 3, s_nt 3; the
-    // moduli.
-    others = meet + (fluid ? 7 + 4 : 14 + 8);
+    // Updates: v 3, difference of v* 1, stresses 2 each (of fluid one), v_t 3, s_nt 3; the moduli.
+    others = meet + (fluid ? 6 + 4 : 14 + 8);
   }
   // Sweeps along x of neighbouring steps are one: two sweeps per step.
   return 2 * (pairs * flops_of_leaving(order, uniform) + others);
@@ -70,7 +69,7 @@ int flops_a_cell_step(int order, bool uniform, bool fluid) {
 
 int bytes_a_cell_step(const Case& what) {
   const int real = what.double_precision ? 8 : 4;
-  const int fields = what.fluid ? 4 : 5;
+  const int fields = what.fluid ? 3 : 5;
   const int material = what.variety != Variety::random ? 0 : what.fluid ? 2 : 3;
   return real * (2 * fields + material);
 }

@@ -47,6 +47,7 @@ class AttenuatingBox {
         const double impedance = medium_.rho[cell] * medium_.vp[cell];
         for (int row = 0; row < FieldRows<2>::count; ++row) {
           const bool shear = row == FieldRows<2>::shear_stress(0, 1);
+          if (shear && state_.fluid) continue;
           const double size = medium_.is_void(cell) || (shear && !medium_.is_solid(cell)) ? 0
                               : row < 2                                                   ? 1
                                                                                           : impedance;

@@ -85,6 +85,7 @@ class FittedLab {
       const double z = double(medium_.rho[cell]) * medium_.vp[cell], pressure = z * uniform(engine);
       for (int row = 0; row < Rows::count; ++row) {
         double value = uniform(engine);
+        if (!Rows::is_stored(state_.layout, row)) continue;
         if (row >= D && row < 2 * D)
           value = solid ? z * value : pressure;
         else if (row >= 2 * D)

@@ -50,7 +50,7 @@ Lab<Real>::Lab(const Setup& setup)
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
-  state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.anisotropic());
+  state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.material_kind());
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   if (setup.monotone) sweeps_->keep_monotone();
@@ -78,7 +78,7 @@ Lab<Real>::Lab(const Setup& setup)
     };
     if (setup.fields) {
       const auto fields = setup.fields(int(at[0]), int(at[1]));
-      for (int row = 0; row < 5; ++row) set(row, fields[std::size_t(row)]);
+      for (int row = 0; row < state_.layout.rows(); ++row) set(row, fields[std::size_t(row)]);
       continue;
     }
     const double z = double(model.medium.rho[cell]) * model.medium.vp[cell];
@@ -87,7 +87,8 @@ Lab<Real>::Lab(const Setup& setup)
     set(1, uniform(engine));
     set(2, pressure);
     set(3, model.medium.is_solid(cell) ? z * uniform(engine) : pressure);
-    set(4, model.medium.is_solid(cell) ? 0.3 * z * uniform(engine) : 0);
+    const double shear = model.medium.is_solid(cell) ? 0.3 * z * uniform(engine) : 0;
+    if (!state_.fluid) set(4, shear);
   }
 }
 
@@ -147,7 +148,7 @@ double Lab<Real>::sum(Stress which) const {
       const auto cell = std::size_t(medium.grid().flat(domain_.model_cell({i, k})));
       double s[3];
       for (int c = 0; c < 3; ++c) {
-        s[c] = double(row[2 + c][i]);
+        s[c] = c == 2 && state_.fluid ? 0 : double(row[2 + c][i]);
         if (which == Stress::all && !still.empty()) s[c] += still[std::size_t(c)][cell];
       }
       total += h * h *

@@ -25,7 +25,7 @@ class Sponge {
         factor *= factors_[std::size_t(axis)][std::size_t(at[std::size_t(axis)])];
       const auto x = at[0];
       at[0] = 0;
-      for (int row = 0; row < solver::FieldRows<D>::count && factor < 1; ++row)
+      for (int row = 0; row < state.layout.rows() && factor < 1; ++row)
         state.field_row(at, row)[x] = Real(factor * double(state.field_row(at, row)[x]));
     }
   }

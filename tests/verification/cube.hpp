@@ -56,7 +56,8 @@ class Cube {
   Cube(const Medium<3>& medium, const EdgeLaws<3>& edges, int order, double dt_s, int time_order = 2)
       : medium_(medium),
         domain_(make_domain(medium_, edges, 1, {}, order)),
-        state_(std::make_unique<State<3, Real>>(make_state<3, Real>(domain_.grid.shape))),
+        state_(std::make_unique<State<3, Real>>(
+            make_state<3, Real>(domain_.grid.shape, domain_.material_kind()))),
         sweeps_(*state_, domain_, order),
         splitting_(splitting(3, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);
@@ -77,6 +78,7 @@ class Cube {
       const double z = medium_.rho[cell] * medium_.vp[cell], pressure = z * random(engine);
       for (int row = 0; row < Rows::count; ++row) {
         const double value = random(engine);
+        if (!Rows::is_stored(state_->layout, row)) continue;
         const bool normal = row >= 3 && row < 6;
         (*this)(row, at) = Real(empty ? 0 : row < 3 ? value : solid ? z * value : normal ? pressure : 0);
       }

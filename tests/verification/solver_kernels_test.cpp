@@ -43,16 +43,15 @@ std::vector<Real> written(int order, bool uniform, Real scale, std::int64_t n) {
     ++pair;
   }
   std::vector<std::vector<Real>> rows = {left_cells};
-  for (const auto& of_dimension : kernel.face)
-    for (const auto& face : of_dimension) {
-      auto met = six_rows();
-      const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
-      face.solve_riemann(n, all_left, all_left, material, material, hi);
-      face.update(n, scale, lo, hi, material,
-                  {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
-                   passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
-      rows.push_back(std::move(met));
-    }
+  for (const auto& face : {kernel.fluid_face, kernel.face[0], kernel.face[1]}) {
+    auto met = six_rows();
+    const InterfaceStates<Real> hi{met.data() + gap, pitch}, lo = hi.at(-1);
+    face.solve_riemann(n, all_left, all_left, material, material, hi);
+    face.update(n, scale, lo, hi, material,
+                {vp.data() + gap, sp.data() + gap, passive.data() + gap, vs.data() + gap, ss.data() + gap,
+                 passive2.data() + gap, vs2.data() + gap, ss2.data() + gap});
+    rows.push_back(std::move(met));
+  }
   for (const auto* changed : {&vp, &sp, &passive, &passive2, &vs, &ss, &vs2, &ss2}) rows.push_back(*changed);
   std::vector<Real> all;
   for (const auto& values : rows) all.insert(all.end(), values.begin(), values.end());
@@ -86,7 +85,8 @@ TEST(Kernels, OfOneMaterialGiveTheSameBits) {
 /// Fields after a sweep across some rows of random material, the first of them by separate loops.
 template <class Real>
 std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t n,
-                               bool anisotropic = false) {
+                               MaterialKind kind = MaterialKind::isotropic) {
+  const bool anisotropic = kind == MaterialKind::anisotropic, fluid = kind == MaterialKind::fluid;
   constexpr std::int64_t rows = 12, gap = 16;
   constexpr int field_rows = 5;
   const std::int64_t reach = reach_of(order), behind = std::max<std::int64_t>(reach, 1), pitch = n + gap;
@@ -115,18 +115,18 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
   };
   Ring<Real> ring(0, n, 2, int(behind) + 1, 2);
   const auto& kernel = kernels<Real>(order, false);
-  const auto& face = anisotropic ? kernel.anisotropic_face : kernel.face[0][1];
+  const auto& face = anisotropic ? kernel.anisotropic_face : fluid ? kernel.fluid_face : kernel.face[0];
   for (std::int64_t row = 0; row < rows; ++row) {
     const auto here = ring.outgoing(row, 0), above = ring.outgoing(row + 1, 0);
     const auto of = rows_of(row);
     const auto done = row - behind;
     if (at_once && done >= 0) {
       const auto faces = ring.faces(row, 0);
-      kernel.fused_row[anisotropic](
-          n, scale,
-          {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b, of.b,
-           rows_of(done).b, above.up(0), here.up(0), faces.first, ring.faces(done, 0).first,
-           ring.faces(done + 1, 0).first, rows_of(done).coupling});
+      const auto fused = fluid ? kernel.fused_fluid_row : kernel.fused_row[anisotropic];
+      fused(n, scale,
+            {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b, of.b,
+             rows_of(done).b, above.up(0), here.up(0), faces.first, ring.faces(done, 0).first,
+             ring.faces(done + 1, 0).first, rows_of(done).coupling});
       continue;
     }
     kernel.reconstruct(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up(0), here.down(0));
@@ -195,7 +195,10 @@ TEST(Kernels, OfAFusedRowGiveTheSameBits) {
     return swept_across<decltype(real)>(order, at_once, scale, n);
   });
   expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
-    return swept_across<decltype(real)>(order, at_once, scale, n, true);
+    return swept_across<decltype(real)>(order, at_once, scale, n, MaterialKind::anisotropic);
+  });
+  expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
+    return swept_across<decltype(real)>(order, at_once, scale, n, MaterialKind::fluid);
   });
 }
 
@@ -225,7 +228,8 @@ std::vector<double> brought_forward(int dimensions, bool shear, bool faces, Real
     for (std::int64_t i = 0; i < pitch; ++i) fields[std::size_t(velocity * pitch + i)] *= Real(1e-7F);
   const auto row = [&](int number) { return fields.data() + number * pitch + gap; };
   const SweptRows<Real> swept{row(0), row(1), row(2), row(3), row(4), row(5), row(6), row(7)};
-  const auto& kernel = kernels<Real>(5, true).face[dimensions - 2][shear];
+  const auto& all_kernels = kernels<Real>(5, true);
+  const auto& kernel = shear ? all_kernels.face[dimensions - 2] : all_kernels.fluid_face;
   if (faces) {
     std::vector<Real> met(std::size_t(6 * pitch));
     const InterfaceStates<Real> at{met.data() + gap, pitch};

@@ -124,6 +124,14 @@ TEST(Pauses, ChangeNoBitWithAnyCorrectionAndTimeOrder) {
     }
 }
 
+TEST(Pauses, ChangeNoBitWhereAllIsFluid) {
+  auto scene = reef();
+  scene.model.medium = uniform_medium(130, 120, 5, water);
+  scene.model.fracture = {};
+  scene.model.fracture_sets.clear();
+  expect_same(scene, "water");
+}
+
 TEST(Pauses, ChangeNoBitWhereSlipWeakensFriction) {
   auto scene = reef();
   // Blocks, one of which weakens, and crossing planes.

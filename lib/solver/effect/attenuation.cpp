@@ -9,10 +9,11 @@
 namespace slipwave::solver {
 namespace {
 
-/// Whether any cell of the whole model carries S waves: neighbouring subdomains retain the same of a cell.
+/// By what all subdomains hold: neighbours retain the same of a cell.
 template <int D>
-bool has_shear(const Domain<D>& domain) {
-  return domain.shear() || domain.subdomain.shear;
+Relaxing what_relaxes(const Domain<D>& domain) {
+  if (domain.material_kind() == MaterialKind::fluid) return Relaxing::pressure;
+  return domain.shear() || domain.subdomain.shear ? Relaxing::all : Relaxing::mean;
 }
 
 template <class Real>
@@ -30,9 +31,9 @@ RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>
       sources_(std::move(sources)),
       every_(relaxation_steps(scene.numerics)),
       mechanisms_(scene.attenuation->mechanisms.count()),
-      parts_(relaxing_parts(D, has_shear(domain))),
-      moduli_(has_shear(domain) ? 2 : 1),
-      relax_(relaxation_kernel<Real>(D, has_shear(domain), mechanisms_)) {
+      parts_(relaxing_parts(D, what_relaxes(domain))),
+      moduli_(what_relaxes(domain) == Relaxing::all ? 2 : 1),
+      relax_(relaxation_kernel<Real>(D, what_relaxes(domain), mechanisms_)) {
   find_segments(domain, scene.model.medium);
   fill_shares(domain, relaxation_by_steps(scene, dt_s));
 }

@@ -17,13 +17,11 @@ namespace {
 template <int D, class Real>
 void begin_with(const PlaneForm<D>& form, const Grid<D>& grid, const std::vector<double>& depths,
                 State<D, Real>& state) {
-  constexpr auto piece = CellsAlongX<Real>::most;
-  for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
-    const auto at = state.layout.line_index(line);
-    for (std::int64_t i = 0; i < grid.shape[0]; i += piece)
-      form.cells(grid.centre(0, 0), grid.spacing_m, i, std::min(piece, grid.shape[0] - i),
-                 depths[std::size_t(at[D - 1])], 0, 0, state.field_row(at, 0) + i, state.layout.row_pitch());
-  }
+  set_cells<D>(state,
+               [&](const Index<D>& at, std::int64_t first, std::int64_t count, Real* to, std::int64_t pitch) {
+                 return form.cells(grid.centre(0, 0), grid.spacing_m, first, count,
+                                   depths[std::size_t(at[D - 1])], 0, 0, to, pitch);
+               });
 }
 
 template <int D>
@@ -105,7 +103,8 @@ class LyingEntry : public IncidentWave<2, Real> {
   LyingEntry(const PlaneForm<2>& form, std::vector<double> depths, bool from_top)
       : form_(form), depths_(std::move(depths)), from_top_(from_top) {}
   void begin(State<2, Real>& state) override {
-    write(0, 0, std::int64_t(depths_.size()), state.field_row({0, 0}, 0), state.layout.row_pitch());
+    set_cells<2>(state, [&](const Index<2>&, std::int64_t first, std::int64_t count, Real* to,
+                            std::int64_t pitch) { return write(0, first, count, to, pitch); });
   }
   bool enters(int axis, int side) const override { return axis == 0 && side == (from_top_ ? 0 : 1); }
   bool reaches(const StepTime&, const Index<2>&) const override { return true; }
@@ -214,6 +213,7 @@ class Column {
   void store() {
     auto& slot = slots_[std::size_t(made_) % slots_.size()];
     for (int row = 0; row < FieldRows<2>::count; ++row) {
+      if (!FieldRows<2>::is_stored(state_.layout, row)) continue;
       const Real* const from = state_.field_row({0, 0}, row_lying(row));
       std::copy(from, from + cells_, slot.begin() + row * cells_);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
+#include "solver/effect/plane_form.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
@@ -60,6 +62,24 @@ class IncidentWave {
   virtual void serialize(Archive&) {}
   virtual std::int64_t memory_bytes() const { return 0; }
 };
+
+/// Sets the fields of all cells: `values` as IncidentWave::values(), without clocks and zone.
+template <int D, class Real, class Values>
+void set_cells(State<D, Real>& state, Values&& values) {
+  constexpr auto piece = CellsAlongX<Real>::most;
+  const auto& layout = state.layout;
+  std::vector<Real> cells(std::size_t(piece * FieldRows<D>::count));
+  for (std::int64_t line = 0; line < layout.lines(); ++line) {
+    const auto at = layout.line_index(line);
+    const auto fields = state.row_fields(line);
+    for (std::int64_t i = 0; i < layout.shape()[0]; i += piece) {
+      const auto count = std::min(piece, layout.shape()[0] - i);
+      if (!values(at, i, count, cells.data(), piece)) continue;
+      for (int row = 0; row < layout.rows(); ++row)
+        std::copy_n(cells.begin() + row * piece, count, fields.field(row) + i);
+    }
+  }
+}
 
 /// The incident wave of a scene with a plane wave that check(scene) has passed: of one medium in closed form;
 /// a vertical one along each side as the column of cells there lets it through, computed with the scheme

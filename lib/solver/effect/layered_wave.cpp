@@ -266,13 +266,8 @@ class LayeredWave : public IncidentWave<D, Real> {
     series_.push_back(std::move(series));
   }
   void begin(State<D, Real>& state) override {
-    constexpr auto piece = CellsAlongX<Real>::most;
-    for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
-      const auto at = state.layout.line_index(line);
-      for (std::int64_t i = 0; i < grid_.shape[0]; i += piece)
-        values({}, 0, 0, at, i, std::min(piece, grid_.shape[0] - i), state.field_row(at, 0) + i,
-               state.layout.row_pitch());
-    }
+    set_cells<D>(state, [&](const Index<D>& at, std::int64_t first, std::int64_t count, Real* to,
+                            std::int64_t pitch) { return values({}, 0, 0, at, first, count, to, pitch); });
   }
   bool enters(int, int) const override { return true; }
   bool reaches(const StepTime& time, const Index<D>& line) const override {

@@ -74,7 +74,7 @@ Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s,
         factors.added.push_back(Real(lost * d / sum * dt_s / time));
       }
     }
-    std::int64_t rows = FieldRows<D>::count;
+    std::int64_t rows = layout.rows();
     if (n > 0) rows *= axis.low + axis.high;
     for (int other = 1; other < D; ++other)
       if (other != n) rows *= layout.shape()[std::size_t(other)];
@@ -218,7 +218,7 @@ std::pair<Real*, std::int64_t> Pml<D, Real>::memory_of(int axis, const Index<D>&
              (own ? layer.slot(line[std::size_t(other)]) : line[std::size_t(other)]);
   }
   const auto pitch = axis == 0 ? layer.low + layer.high : layout_.padded_nx();
-  return {layer.memory.data() + number * FieldRows<D>::count * pitch, pitch};
+  return {layer.memory.data() + number * layout_.rows() * pitch, pitch};
 }
 
 template <int D, class Real>

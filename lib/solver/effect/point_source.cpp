@@ -43,10 +43,12 @@ void PointSource<D, Real>::weigh(const Source<D>& source) {
   const double volume = std::pow(domain_.grid.spacing_m, D);
   const bool fluid = domain_.impedance(wave_s)(centre_) == 0;
   const bool spread = injection.isotropic && add_smoothly(source, -injection.moment_rate(0, 0) / volume);
+  const int normal_stresses = Rows::normal_stresses(state_.layout);
   for (int i = 0; i < D; ++i) {
     add(source, Rows::velocity(i), Rows::velocity(i), injection.force[std::size_t(i)] / (rho * volume));
     const int like = injection.isotropic ? Rows::normal_stress(D - 1) : Rows::normal_stress(i);
-    if (!spread) add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
+    if (!spread && i < normal_stresses)
+      add(source, Rows::normal_stress(i), like, -injection.moment_rate(i, i) / volume);
     for (int j = i + 1; j < D && !fluid; ++j)
       add(source, Rows::shear_stress(i, j), Rows::shear_stress(i, j), -injection.moment_rate(i, j) / volume);
   }
@@ -140,8 +142,10 @@ void PointSource<D, Real>::report(ShotReport& report) const {
 /// Spreads `strength` over cells of `row` with the weights of a source in row `like`.
 template <int D, class Real>
 void PointSource<D, Real>::add(const Source<D>& source, int row, int like, double strength) {
+  using Rows = FieldRows<D>;
   if (strength != 0)
-    add(source_weights(state_.layout, domain_, source.position_m, like), row - like, strength);
+    add(source_weights(state_.layout, domain_, source.position_m, like),
+        Rows::stored(state_.layout, row) - Rows::stored(state_.layout, like), strength);
 }
 
 /// Spreads `strength` over all normal stresses, smoothly where that is possible.

@@ -77,8 +77,8 @@ GapKernel<Real> gap_kernel(int dimensions) {
 }
 
 template <class Real>
-RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechanisms) {
-  return best_tables<Real>().relaxation(Real()).of(dimensions, shear, mechanisms);
+RelaxationKernel<Real> relaxation_kernel(int dimensions, Relaxing what, int mechanisms) {
+  return best_tables<Real>().relaxation(Real()).of(dimensions, what, mechanisms);
 }
 
 template <class Real>
@@ -88,8 +88,8 @@ const SeriesKernels<Real>& series_kernels() {
 
 template const SeriesKernels<float>& series_kernels<float>();
 template const SeriesKernels<double>& series_kernels<double>();
-template RelaxationKernel<float> relaxation_kernel<float>(int, bool, int);
-template RelaxationKernel<double> relaxation_kernel<double>(int, bool, int);
+template RelaxationKernel<float> relaxation_kernel<float>(int, Relaxing, int);
+template RelaxationKernel<double> relaxation_kernel<double>(int, Relaxing, int);
 template SlipKernels<float> slip_kernels<float>(const SlipCase&);
 template SlipKernels<double> slip_kernels<double>(const SlipCase&);
 template GapKernel<float> gap_kernel<float>(int);

@@ -12,7 +12,7 @@ namespace {
 /// Reconstruction, Riemann solution and update of a row of a sweep across the rows in one loop: the same bits
 /// as the three loops (Kernels.OfAFusedRowGiveTheSameBits). Outgoing waves downwards and half of the new
 /// values stay in registers, and while one part waits for memory or the division the others continue.
-template <int Order, int Sign, bool Coupled, class Real>
+template <int Order, int Sign, bool Shear, bool Coupled, class Real>
 [[gnu::always_inline]] inline void fused_row_in(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   const Real size = Sign < 0 ? -scale : scale;
   const std::int64_t stride = rows.stride, m = rows.material_pitch, ups = rows.up_pitch, f = rows.face_pitch;
@@ -26,47 +26,53 @@ template <int Order, int Sign, bool Coupled, class Real>
   const Real *lo = rows.lo, *hi = rows.hi;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real b = here[i], p_hi = here[i + m], s_hi = here[i + 2 * m];
-    const Real p_lo = below[i + m], s_lo = below[i + 2 * m];
+    const Real b = here[i], p_hi = here[i + m], s_hi = Shear ? here[i + 2 * m] : Real(0);
+    const Real p_lo = below[i + m], s_lo = Shear ? below[i + 2 * m] : Real(0);
     Real up_p, down_p, up_s, down_s;
     reconstruct_cell<Order>(v + i, s + i, stride, Sign * p_hi, size * (p_hi * b), up_p, down_p);
-    reconstruct_cell<Order>(vt + i, st + i, stride, Sign * s_hi, size * (s_hi * b), up_s, down_s);
+    if constexpr (Shear)
+      reconstruct_cell<Order>(vt + i, st + i, stride, Sign * s_hi, size * (s_hi * b), up_s, down_s);
 
     Real share_p, share_s, v_p, s_p, v_s, s_s;
-    riemann_shares<true>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
-    const Real from_p = up_from[i], from_s = up_from[i + ups];
+    riemann_shares<Shear>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
+    const Real from_p = up_from[i];
     up_to[i] = up_p;
-    up_to[i + ups] = up_s;
     riemann(from_p, down_p, p_lo, p_hi, share_p, v_p, s_p);
-    riemann(from_s, down_s, s_lo, s_hi, share_s, v_s, s_s);
     faces[i] = v_p;
     faces[i + f] = s_p;
-    faces[i + 2 * f] = v_s;
-    faces[i + 3 * f] = s_s;
+    if constexpr (Shear) {
+      const Real from_s = up_from[i + ups];
+      up_to[i + ups] = up_s;
+      riemann(from_s, down_s, s_lo, s_hi, share_s, v_s, s_s);
+      faces[i + 2 * f] = v_s;
+      faces[i + 3 * f] = s_s;
+    }
 
     // At order 1, just one row behind, these are the faces behind the cell.
     const Real v_hi = behind == 1 ? v_p : hi[i], n_hi = behind == 1 ? s_p : hi[i + f];
-    const Real w_hi = behind == 1 ? v_s : hi[i + 2 * f], t_hi = behind == 1 ? s_s : hi[i + 3 * f];
     Real moved, p_modulus, s_modulus, along;
-    update_coefficients<true>(scale, size, done[i], done[i + m], done[i + 2 * m], moved, p_modulus,
-                              s_modulus);
+    update_coefficients<Shear>(scale, size, done[i], done[i + m], Shear ? done[i + 2 * m] : Real(0), moved,
+                               p_modulus, s_modulus);
     const std::int64_t at = i - behind * stride;
     if constexpr (Coupled)
       update_coupled_p(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, size * done[i] * coupling[i], v[at],
                        s[at], along);
     else
-      update_p<true>(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, s_modulus, v[at], s[at], along);
-    passive[at] += along;
-    update_s(w_hi - lo[i + 2 * f], t_hi - lo[i + 3 * f], moved, s_modulus, vt[at], st[at]);
+      update_p<Shear>(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, s_modulus, v[at], s[at], along);
+    if constexpr (Shear) {
+      const Real w_hi = behind == 1 ? v_s : hi[i + 2 * f], t_hi = behind == 1 ? s_s : hi[i + 3 * f];
+      passive[at] += along;
+      update_s(w_hi - lo[i + 2 * f], t_hi - lo[i + 3 * f], moved, s_modulus, vt[at], st[at]);
+    }
   }
 }
 
-template <int Order, bool Coupled, class Real>
+template <int Order, bool Shear, bool Coupled, class Real>
 void fused_row(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   if (scale < 0)
-    fused_row_in<Order, -1, Coupled>(n, scale, rows);
+    fused_row_in<Order, -1, Shear, Coupled>(n, scale, rows);
   else
-    fused_row_in<Order, 1, Coupled>(n, scale, rows);
+    fused_row_in<Order, 1, Shear, Coupled>(n, scale, rows);
 }
 
 }  // namespace

@@ -52,8 +52,8 @@ struct MaterialRows {
   const Real* coupling = nullptr;  // of anisotropic media: the density times c13
 };
 
-/// Fields of a range of cells that a sweep changes; those of S where no cell carries shear and those of
-/// the third axis in 2-D are not used.
+/// Fields of a range of cells that a sweep changes; those of the third axis in 2-D are not used, and where
+/// all is fluid none but the first two.
 template <class Real>
 struct SweptRows {
   Real *v, *s, *passive, *vt, *st;
@@ -86,7 +86,7 @@ struct InterfaceKernels {
                          const SweptRows<Real>& rows);
 };
 
-/// A row of a sweep across the rows in 2-D whose loops are fused into one. The row that is reconstructed: its
+/// A row of a sweep across the rows whose loops are fused into one. The row that is reconstructed: its
 /// `fields` and its material `here`, with `below` that of the row before; the outgoing waves upwards of that
 /// one (up_from) and of this one (up_to), P and, up_pitch further, S; the faces between both. The row `done`,
 /// which is updated, lies max(reach, 1) rows behind; lo and hi are the faces before and behind it. Pointers
@@ -194,13 +194,17 @@ struct Kernels {
   /// Material is read of neighbours, too, z_stride apart.
   void (*limit)(std::int64_t n, std::int64_t stride, const Real* v, const Real* s, std::int64_t z_stride,
                 const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
-  /// By dimension (2-D, 3-D) and whether any cell carries shear.
-  InterfaceKernels<Real> face[2][2];
+  /// By dimension (2-D, 3-D).
+  InterfaceKernels<Real> face[2];
+  /// Where all is fluid, in 2-D and 3-D: of the P pair alone, whose stress is that of all axes.
+  InterfaceKernels<Real> fluid_face;
   /// Of anisotropic media, in 2-D.
   InterfaceKernels<Real> anisotropic_face;
-  /// Reconstruction, Riemann solution and update of a row across in 2-D, with shear (null for uniform runs),
-  /// by whether the medium is anisotropic.
+  /// Reconstruction, Riemann solution and update of a row across in 2-D (null for uniform runs), by whether
+  /// the medium is anisotropic.
   void (*fused_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  /// The same where all is fluid, in 2-D and 3-D.
+  void (*fused_fluid_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.
   BentKernels<Real> bent[2];
 };

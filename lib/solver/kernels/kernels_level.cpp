@@ -76,7 +76,8 @@ void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real
   }
 }
 
-/// Coupled: the passive stress takes what MaterialRows says instead of lambda.
+/// Coupled: the passive stress takes what MaterialRows says instead of lambda. Without shear there is none:
+/// all normal stresses are one.
 template <bool Uniform, int D, bool Shear, bool Coupled, class Real>
 void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
             const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
@@ -100,8 +101,8 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
                        size * b_i * (Uniform ? coupling0 : coupling[i]), v[i], s[i], along);
     else
       update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
-    passive[i] += along;
-    if constexpr (D == 3) passive2[i] += along;
+    if constexpr (Shear) passive[i] += along;
+    if constexpr (Shear && D == 3) passive2[i] += along;
     if constexpr (Shear) update_s(w_hi[i] - w_lo[i], t_hi[i] - t_lo[i], moved, s_modulus, vt[i], st[i]);
     if constexpr (Shear && D == 3)
       update_s(w2_hi[i] - w2_lo[i], t2_hi[i] - t2_lo[i], moved, s_modulus, vt2[i], st2[i]);
@@ -131,8 +132,8 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
     const Real ups = up[i] - up_lo[i], downs = down_hi[i] - down[i], dv = (downs + ups) * over_zp;
     v[i] += moved * (downs - ups);
     s[i] += p_modulus * dv;
-    passive[i] += along * dv;
-    if constexpr (D == 3) passive2[i] += along * dv;
+    if constexpr (Shear) passive[i] += along * dv;
+    if constexpr (Shear && D == 3) passive2[i] += along * dv;
     if constexpr (Shear) {
       const Real s_ups = sup[i] - sup_lo[i], s_downs = sdown_hi[i] - sdown[i];
       vt[i] += moved_s * (s_downs - s_ups);
@@ -204,14 +205,15 @@ constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 
                                          update_uniform<D, Shear, Coupled, Real>};
 
 template <int Order, bool Uniform, class Real>
-constexpr Kernels<Real> table = {
-    reconstruct<Order, Uniform, Real>,
-    limit<Real>,
-    {{face<Uniform, 2, false, false, Real>, face<Uniform, 2, true, false, Real>},
-     {face<Uniform, 3, false, false, Real>, face<Uniform, 3, true, false, Real>}},
-    face<Uniform, 2, true, true, Real>,
-    {Uniform ? nullptr : fused_row<Order, false, Real>, Uniform ? nullptr : fused_row<Order, true, Real>},
-    {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
+constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
+                                 limit<Real>,
+                                 {face<Uniform, 2, true, false, Real>, face<Uniform, 3, true, false, Real>},
+                                 face<Uniform, 2, false, false, Real>,
+                                 face<Uniform, 2, true, true, Real>,
+                                 {Uniform ? nullptr : fused_row<Order, true, false, Real>,
+                                  Uniform ? nullptr : fused_row<Order, true, true, Real>},
+                                 Uniform ? nullptr : fused_row<Order, false, false, Real>,
+                                 {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 
 /// Those of the n-th order in the list, or of a later one.
 template <bool Uniform, class Real, int N = 0>

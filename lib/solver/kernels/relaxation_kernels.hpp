@@ -22,16 +22,21 @@ struct RelaxationRows {
   Real decays[most_mechanisms];  // c_l = 1 - exp(-rate_l time)
 };
 
+/// What relaxes: the pressure where it is all that is stored, the mean of the normal stresses, or all
+/// stresses.
+enum class Relaxing { pressure, mean, all };
 /// Parts of the stress that relax.
-constexpr int relaxing_parts(int dimensions, bool shear) { return !shear ? 1 : dimensions == 2 ? 3 : 6; }
+constexpr int relaxing_parts(int dimensions, Relaxing what) {
+  return what != Relaxing::all ? 1 : dimensions == 2 ? 3 : 6;
+}
 
 /// Relaxes n neighbouring cells of a row, a multiple of relaxation_block, at constant strain (theory.md
 /// (Q7)).
 template <class Real>
 using RelaxationKernel = void (*)(std::int64_t n, const RelaxationRows<Real>& rows);
 
-/// The kernel for the best instruction set of this processor. Without shear only the mean relaxes.
+/// The kernel for the best instruction set of this processor.
 template <class Real>
-RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechanisms);
+RelaxationKernel<Real> relaxation_kernel(int dimensions, Relaxing what, int mechanisms);
 
 }  // namespace slipwave::solver

@@ -28,10 +28,11 @@ template <int Mechanisms, int Parts, class Real>
 }
 
 /// Block after block, whose memory lies together: rows of their own would be as many streams, a page apart.
-template <int D, bool Shear, int Mechanisms, class Real>
+template <int D, Relaxing What, int Mechanisms, class Real>
 [[gnu::noinline]] void relax(std::int64_t n, const RelaxationRows<Real>& rows) {
   constexpr std::int64_t block = relaxation_block;
-  constexpr int parts = relaxing_parts(D, Shear);
+  constexpr int parts = relaxing_parts(D, What);
+  constexpr bool one = What == Relaxing::pressure;
   const std::int64_t pitch = rows.pitch;
   Real decays[Mechanisms];
   for (int l = 0; l < Mechanisms; ++l) decays[l] = rows.decays[l];
@@ -43,13 +44,16 @@ template <int D, bool Shear, int Mechanisms, class Real>
     const Real* const shear = bulk + Mechanisms * block;
 #pragma omp simd
     for (std::int64_t i = 0; i < block; ++i) {
-      const Real xx = stress[i], yy = stress[pitch + i], zz = D == 2 ? yy : stress[2 * pitch + i];
+      const Real xx = stress[i], yy = one ? xx : stress[pitch + i];
+      const Real zz = one || D == 2 ? yy : stress[2 * pitch + i];
       const Real mean = of_mean * (D == 2 ? xx + zz : xx + yy + zz);
       const auto lost = [&](int part, Real of, const Real* shares) __attribute__((always_inline)) {
         return loss<Mechanisms, parts>(of, memory + part * block + i, shares + i, decays);
       };
       const Real all = lost(0, mean, bulk);
-      if constexpr (!Shear) {
+      if constexpr (one) {
+        stress[i] = xx - all;
+      } else if constexpr (What == Relaxing::mean) {
         stress[i] = xx - all;
         stress[pitch + i] = yy - all;
         if constexpr (D == 3) stress[2 * pitch + i] = zz - all;
@@ -72,29 +76,34 @@ template <int D, bool Shear, int Mechanisms, class Real>
     }
     stress += block;
     memory += Mechanisms * parts * block;
-    bulk += (Shear ? 2 : 1) * Mechanisms * block;
+    bulk += (What == Relaxing::all ? 2 : 1) * Mechanisms * block;
   }
 }
 
-template <int D, bool Shear, class Real>
+template <int D, Relaxing What, class Real>
 RelaxationKernel<Real> of_count(int mechanisms) {
   switch (mechanisms) {
     case 2:
-      return relax<D, Shear, 2, Real>;
+      return relax<D, What, 2, Real>;
     case 3:
-      return relax<D, Shear, 3, Real>;
+      return relax<D, What, 3, Real>;
     case 4:
-      return relax<D, Shear, 4, Real>;
+      return relax<D, What, 4, Real>;
     default:
-      return relax<D, Shear, 5, Real>;
+      return relax<D, What, 5, Real>;
   }
 }
 
+template <int D, class Real>
+RelaxationKernel<Real> of_what(Relaxing what, int mechanisms) {
+  if (what == Relaxing::pressure) return of_count<D, Relaxing::pressure, Real>(mechanisms);
+  if (what == Relaxing::mean) return of_count<D, Relaxing::mean, Real>(mechanisms);
+  return of_count<D, Relaxing::all, Real>(mechanisms);
+}
+
 template <class Real>
-RelaxationKernel<Real> of(int dimensions, bool shear, int mechanisms) {
-  if (dimensions == 2)
-    return shear ? of_count<2, true, Real>(mechanisms) : of_count<2, false, Real>(mechanisms);
-  return shear ? of_count<3, true, Real>(mechanisms) : of_count<3, false, Real>(mechanisms);
+RelaxationKernel<Real> of(int dimensions, Relaxing what, int mechanisms) {
+  return dimensions == 2 ? of_what<2, Real>(what, mechanisms) : of_what<3, Real>(what, mechanisms);
 }
 
 template <class Real>

@@ -7,7 +7,7 @@ namespace slipwave::solver {
 /// What one instruction set offers for attenuation.
 template <class Real>
 struct RelaxationTables {
-  RelaxationKernel<Real> (*of)(int dimensions, bool shear, int mechanisms);
+  RelaxationKernel<Real> (*of)(int dimensions, Relaxing what, int mechanisms);
 };
 
 }  // namespace slipwave::solver

@@ -30,7 +30,7 @@ void SnapshotRecorder<D, Real>::read(const StepTime& time, const RowFields<const
                                      const IndexRange& cells) {
   if (time.step != step_) return;
   Real* const to = fields_.data() + layout_.line(layout_.line_index(fields.row));
-  for (int row = 0; row < FieldRows<D>::count; ++row)
+  for (int row = 0; row < layout_.rows(); ++row)
     std::copy(fields.field(row) + cells.first, fields.field(row) + cells.last,
               to + row * layout_.row_pitch() + cells.first);
 }
@@ -51,7 +51,8 @@ Field<D> SnapshotRecorder<D, Real>::field(Component component) const {
       for (std::int64_t i = 0; i < nx; ++i) {
         double value = count == 1 ? -0. : 0.;  // a field alone keeps the sign of its zeros
         for (const auto& term : terms)
-          value += cells[row_of<D>(term.field) * pitch + i] / Real(term.sign * count);
+          if (const int row = row_of<D>(term.field); FieldRows<D>::is_stored(layout_, row))
+            value += cells[FieldRows<D>::stored(layout_, row) * pitch + i] / Real(term.sign * count);
         out[std::size_t(i)] = float(value / unit_);
       }
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 
 namespace slipwave::solver {
 namespace {
@@ -16,18 +17,20 @@ template <int D, class Real>
 void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns) {
   using Bits = decltype(bits_of(Real()));
   char* const active = active_.data() + line * blocks_;
-  const std::int64_t last = std::min((columns.last + block - 1) / block, blocks_);
+  const std::int64_t first = columns.first / block,
+                     last = std::min((columns.last + block - 1) / block, blocks_);
+  if (last <= first || !std::memchr(active + first, 0, std::size_t(last - first))) return;
   const Real* const fields = state_.field_row(state_.layout.line_index(line), 0);
-  for (std::int64_t n = columns.first / block; n < last; ++n) {
+  for (std::int64_t n = first; n < last; ++n) {
     if (active[n]) continue;
     // The last block of a row holds ghost cells, too.
     const std::int64_t count = std::min(block, state_.layout.shape()[0] - n * block);
     Bits any = 0;
-    for (int row = 0; row < FieldRows<D>::count; ++row) {
+    for (int row = 0; row < state_.layout.rows() && any == 0; ++row) {
       const Real* const cells = fields + row * state_.layout.row_pitch() + n * block;
-      for (std::int64_t i = 0; i < count; ++i) any |= bits_of(cells[i]);
+      for (std::int64_t i = 0; i < count; ++i) any |= Bits(bits_of(cells[i]) << 1);  // all but the signs
     }
-    active[n] = Bits(any << 1) != 0;  // all but the signs
+    active[n] = any != 0;
   }
 }
 

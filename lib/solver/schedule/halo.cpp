@@ -29,8 +29,7 @@ void Halo<D, Real>::prepare(Side& side, int rank, State<D, Real>& state, const E
     const auto& layout = state.layout;
     const auto lines_a_row = layout.lines() / layout.shape()[D - 1];
     for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
-      add(state.field_row(layout.line_index(line), 0),
-          FieldRows<D>::count * layout.row_pitch() - Layout<D>::lead);
+      add(state.field_row(layout.line_index(line), 0), layout.rows() * layout.row_pitch() - Layout<D>::lead);
     memory(rows, add);
   };
   all_of(side.rows_out, side.out);

@@ -14,7 +14,7 @@ PlainExecutor<D, Real>::PlainExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       half_(Real(step.sweeps().front().fraction)),
       work_(sweeps.make_workspace(state.layout.padded_nx())),
       copy_pitch_(state.layout.row_pitch()) {
-  copy_ = Buffer<Real>(copy_pitch_ * FieldRows<D>::count);
+  copy_ = Buffer<Real>(copy_pitch_ * state.layout.rows());
 }
 
 /// A step is its list of sweeps but the last, along x, then end_of_step(), which contains that last half

@@ -10,8 +10,9 @@ namespace slipwave::solver {
 namespace {
 
 // Measured on grids from 10^4 to 10^8 cells (tests/bench, docs/performance.md).
-/// Columns of a stripe: their data stays in a first cache of 32 to 48 KiB.
-constexpr std::int64_t usual_stripe = 256;
+/// Columns of a stripe: their data stays in a first cache of 32 to 48 KiB. Where all is fluid it is half as
+/// much.
+constexpr std::int64_t usual_stripe = 256, stripe_in_fluid = 512;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
 constexpr std::int64_t usual_cells_of_a_plane = 1536;
@@ -20,7 +21,7 @@ constexpr std::int64_t fewest_band_rows = 32;
 
 template <int D>
 std::int64_t stripe_for(const Layout<D>& layout) {
-  if (D == 2) return usual_stripe;
+  if (D == 2) return layout.rows() < FieldRows<D>::count ? stripe_in_fluid : usual_stripe;
   return std::max<std::int64_t>(4, usual_cells_of_a_plane / layout.padded_nx());
 }
 
@@ -493,11 +494,11 @@ void TiledExecutor<D, Real>::make_patch_memory() {
   const auto ends = std::size_t(steps_per_tile_) * std::size_t(D == 2 ? boundaries_per_sweep() : 1);
   for (auto& worker : workers_) {
     worker.strip_pitch = worker.work.pitch() + 2 * PatchBoundary<Real>::width;
-    worker.strip = Buffer<Real>(worker.strip_pitch * FieldRows<D>::count);
+    worker.strip = Buffer<Real>(worker.strip_pitch * layout_.rows());
     std::fill(worker.strip.data(), worker.strip.data() + worker.strip.size(), Real(0));
     worker.patches.resize(ends);
     for (auto& boundary : worker.patches)
-      boundary.fields.resize(std::size_t(FieldRows<D>::count * PatchBoundary<Real>::width));
+      boundary.fields.resize(std::size_t(layout_.rows() * PatchBoundary<Real>::width));
   }
 }
 
@@ -545,7 +546,7 @@ std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Sta
   boundary.step = stage.time.step;
   boundary.next = second.last;
   if (second.last < nx && patches_reach(line, {second.last, nx}))
-    for (int row = 0; row < FieldRows<D>::count; ++row) {
+    for (int row = 0; row < layout_.rows(); ++row) {
       const Real* const from = strip.field(row) + second.last - behind;
       std::copy(from, from + first.last - second.last + behind,
                 boundary.fields.data() + row * PatchBoundary<Real>::width);
@@ -562,7 +563,7 @@ void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const In
   using Boundary = PatchBoundary<Real>;
   constexpr auto margin = Patches<D>::margin, beyond = Patches<D>::beyond;
   const auto fields = state_.row_fields(strip.row);
-  for (int row = 0; row < FieldRows<D>::count && !begins; ++row) {
+  for (int row = 0; row < layout_.rows() && !begins; ++row) {
     const Real* const left = boundary.fields.data() + row * Boundary::width;
     std::copy(left, left + first.first - second.first + Boundary::behind,
               strip.field(row) + second.first - Boundary::behind);
@@ -573,7 +574,7 @@ void TiledExecutor<D, Real>::load_patches(const RowFields<Real>& strip, const In
   for (const auto& patch : step_.patches().of(strip.row)) {
     const auto needed =
         common({patch.blocks.first - margin - beyond, patch.blocks.last + margin + beyond}, unchanged);
-    for (int row = 0; row < FieldRows<D>::count && !needed.empty(); ++row)
+    for (int row = 0; row < layout_.rows() && !needed.empty(); ++row)
       std::copy(fields.field(row) + needed.first, fields.field(row) + needed.last,
                 strip.field(row) + needed.first);
   }

@@ -166,8 +166,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx))
-        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first],
-                                      across.zp[first],
+        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first],
+                                      state.fluid ? Real(0) : material.zs[first], across.zp[first],
                                       state.anisotropic ? material.coupling[first] : Real(0)});
       first = x;
     }
@@ -266,6 +266,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   });
   domain.set_impedances(std::move(impedance));
   if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
+  domain.find_material_kind();
   return domain;
 }
 
@@ -276,7 +277,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool carries = !ghost && !medium.is_void(cell);
-    const double values[material_rows_of(true)] = {
+    const double values[material_rows_of(MaterialKind::anisotropic)] = {
         carries ? courant / double(medium.rho[cell]) : 0,
         p_factor * wave_impedance(medium, cell, D - 1, wave_p),
         s_factor * wave_impedance(medium, cell, D - 1, wave_s),
@@ -284,7 +285,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
         state.anisotropic ? wave_coupling(medium, cell) : 0};
     Index<D> line = at;
     line[0] = 0;
-    for (int row = 0; row < material_rows_of(state.anisotropic); ++row)
+    for (int row = 0; row < state.material_layout.rows(); ++row)
       state.material_row(line, row)[at[0]] = Real(values[row]);
   };
   const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
@@ -347,7 +348,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
     const double s = value(Rows::normal_stress(axis));
     squares += s * s;
     trace += s;
-    for (int other = axis + 1; other < D; ++other) {
+    for (int other = axis + 1; other < D && !state.fluid; ++other) {
       const double t = value(Rows::shear_stress(axis, other));
       shear += t * t;
     }

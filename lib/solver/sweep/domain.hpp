@@ -58,6 +58,14 @@ class Domain {
 
   /// Whether any cell carries S waves.
   bool shear() const;
+  /// That of all processes. What lies in bent rows does not count as fluid: they couple all fields.
+  MaterialKind material_kind() const { return material_kind_; }
+  void find_material_kind() {
+    const bool shears = subdomain.shear || !bent_rows.empty() || shear();
+    material_kind_ = anisotropic_ ? MaterialKind::anisotropic
+                     : shears     ? MaterialKind::isotropic
+                                  : MaterialKind::fluid;
+  }
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
   /// Rows of neighbouring subdomains that it holds on either side, at most.
   std::int64_t rows_beside() const { return std::max(own.first, grid.shape[D - 1] - own.last); }
@@ -82,6 +90,7 @@ class Domain {
   }
   std::array<Field<D>, 2> impedances_;
   bool anisotropic_ = false;
+  MaterialKind material_kind_ = MaterialKind::isotropic;
   Field<D> zp_across_, coupling_;
 };
 
@@ -103,7 +112,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
 /// A state with zero fields and that material.
 template <int D, class Real>
 State<D, Real> make_filled_state(const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
-  auto state = make_state<D, Real>(domain.grid.shape, domain.anisotropic());
+  auto state = make_state<D, Real>(domain.grid.shape, domain.material_kind());
   fill_material(state, domain, medium, dt_s);
   return state;
 }

@@ -135,7 +135,7 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       outward_(side ? -1 : 1),
       padded_nx_(layout.padded_nx()),
       shape_(layout.shape()) {
-  const Layout<D> material(shape_, material_rows_of(domain.anisotropic()));
+  const Layout<D> material(shape_, material_rows_of(domain.material_kind()));
   const int zp_row = domain.anisotropic() && axis < D - 1 ? row_zp_across : row_zp;
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;

@@ -141,9 +141,10 @@ template <int D>
 std::vector<ValueWeight> value_weights(const Layout<D>& layout, const std::vector<PointWeight<D>>& points,
                                        int field_row) {
   std::vector<ValueWeight> weights;
+  if (!FieldRows<D>::is_stored(layout, field_row)) return weights;
+  const auto row = FieldRows<D>::stored(layout, field_row) * layout.row_pitch();
   for (const auto& point : points)
-    weights.push_back(
-        {layout.line_number(point.cell), point.cell[0] + field_row * layout.row_pitch(), point.weight});
+    weights.push_back({layout.line_number(point.cell), point.cell[0] + row, point.weight});
   return weights;
 }
 

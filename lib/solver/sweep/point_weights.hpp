@@ -20,7 +20,7 @@ std::vector<std::int64_t> lines_of(const std::vector<ValueWeight>& values);
 
 /// Weights of the values of one field row round a point (theory.md (A1)-(A3)), from cells of the same kind
 /// (solid or fluid) as the one the point is in: nothing is read across a fluid-solid interface. At an edge of
-/// the grid the field is extended by the edge law.
+/// the grid the field is extended by the edge law. Empty for shear stresses that are not stored.
 template <int D>
 std::vector<ValueWeight> row_weights(const Layout<D>& layout, const Domain<D>& domain,
                                      const Point<D>& point_m, int field_row);

@@ -19,7 +19,7 @@ void prefer_large_pages(void* first, std::size_t bytes) {
 }
 
 template <int D>
-Layout<D>::Layout(const Index<D>& shape, int rows_a_line) : shape_(shape) {
+Layout<D>::Layout(const Index<D>& shape, int rows_a_line) : shape_(shape), rows_(rows_a_line) {
   padded_nx_ = rounded_up(shape[0], block);
   row_pitch_ = lead + padded_nx_ + block;
   // Rows a multiple of 4 KiB apart would fall into the same few sets of the cache.
@@ -60,11 +60,12 @@ void clear(Buffer<Real>& buffer, std::int64_t piece) {
 }
 
 template <int D, class Real>
-State<D, Real> make_state(const Index<D>& shape, bool anisotropic) {
+State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   State<D, Real> state;
-  state.anisotropic = anisotropic;
-  state.layout = Layout<D>(shape, FieldRows<D>::count);
-  state.material_layout = Layout<D>(shape, material_rows_of(anisotropic));
+  state.anisotropic = material == MaterialKind::anisotropic;
+  state.fluid = material == MaterialKind::fluid;
+  state.layout = Layout<D>(shape, FieldRows<D>::of(material));
+  state.material_layout = Layout<D>(shape, material_rows_of(material));
   state.fields = Buffer<Real>(state.layout.total());
   state.material = Buffer<Real>(state.material_layout.total());
   clear(state.fields, state.layout.stride(1));
@@ -75,9 +76,9 @@ State<D, Real> make_state(const Index<D>& shape, bool anisotropic) {
 
 template class Layout<2>;
 template class Layout<3>;
-template State<2, float> make_state<2, float>(const Index<2>&, bool);
-template State<2, double> make_state<2, double>(const Index<2>&, bool);
-template State<3, float> make_state<3, float>(const Index<3>&, bool);
-template State<3, double> make_state<3, double>(const Index<3>&, bool);
+template State<2, float> make_state<2, float>(const Index<2>&, MaterialKind);
+template State<2, double> make_state<2, double>(const Index<2>&, MaterialKind);
+template State<3, float> make_state<3, float>(const Index<3>&, MaterialKind);
+template State<3, double> make_state<3, double>(const Index<3>&, MaterialKind);
 
 }  // namespace slipwave::solver

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <new>
@@ -57,6 +58,8 @@ class Layout {
   Layout(const Index<D>& shape, int rows_a_line);
 
   const Index<D>& shape() const { return shape_; }
+  /// Rows of a line.
+  int rows() const { return rows_; }
   /// Cells of a row rounded up to whole vectors: what kernels are given.
   std::int64_t padded_nx() const { return padded_nx_; }
   std::int64_t row_pitch() const { return row_pitch_; }
@@ -84,25 +87,42 @@ class Layout {
   Index<D> shape_{};
   Index<D> strides_{};
   std::int64_t padded_nx_ = 0, row_pitch_ = 0, total_ = 0;
+  int rows_ = 0;
 };
 
-/// Rows of a line of the wave field: velocities, normal stresses, shear stresses (xz | xy, xz, yz).
+/// What the cells of a domain are: all fluid, or isotropic, or some are anisotropic.
+enum class MaterialKind { fluid, isotropic, anisotropic };
+
+/// Rows of a line of the wave field: velocities, normal stresses, shear stresses (xz | xy, xz, yz). Where all
+/// is fluid a line ends with the first normal stress: there all of them are the same, the pressure with its
+/// sign changed, and no shear stress is stored.
 template <int D>
 struct FieldRows {
-  static constexpr int count = D + D * (D + 1) / 2;
+  static constexpr int count = D + D * (D + 1) / 2, count_in_fluid = D + 1;
+  static constexpr int of(MaterialKind material) {
+    return material == MaterialKind::fluid ? count_in_fluid : count;
+  }
   static constexpr int velocity(int axis) { return axis; }
   static constexpr int normal_stress(int axis) { return D + axis; }
   static constexpr int shear_stress(int axis_a, int axis_b) {
     return D == 2 ? 4 : 5 + axis_a + axis_b;  // xy 6, xz 7, yz 8
   }
+  static bool is_stored(const Layout<D>& layout, int row) { return row < 2 * D || row < layout.rows(); }
+  /// The row of a line that holds one that is stored.
+  static int stored(const Layout<D>& layout, int row) { return std::min(row, layout.rows() - 1); }
+  /// How many normal stresses are stored.
+  static int normal_stresses(const Layout<D>& layout) { return layout.rows() == count ? D : 1; }
 };
 
 /// Rows of a line of the material: b = dt/(rho h) and the impedances rho c of P and S, 0 in cells that do not
 /// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h. Anisotropic media have
 /// two more: zp is that of sweeps along z, the next that of other sweeps, and the last is wave_coupling().
 enum MaterialRow : int { row_b, row_zp, row_zs, material_rows, row_zp_across = material_rows, row_coupling };
-/// How many there are.
-constexpr int material_rows_of(bool anisotropic) { return material_rows + (anisotropic ? 2 : 0); }
+/// How many there are; where all is fluid no zs.
+constexpr int material_rows_of(MaterialKind material) {
+  return material == MaterialKind::fluid ? row_zs
+                                         : material_rows + (material == MaterialKind::anisotropic ? 2 : 0);
+}
 
 /// A uniform run: cells first <= x < last of a row that have one material.
 template <class Real>
@@ -136,6 +156,7 @@ template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;
   bool anisotropic = false;  // its material has the rows of anisotropic media
+  bool fluid = false;        // it has the rows of fluid alone
   Buffer<Real> fields, material;
   /// Uniform runs, row after row, and where each row begins (fill_material). Sweeps over such a run read
   /// nothing else of the material.
@@ -144,11 +165,12 @@ struct State {
   /// By axis, of these runs.
   std::array<UniformInterior, D> uniform_interior;
 
+  /// Of a field row that is stored.
   Real* field_row(const Index<D>& at, int row) {
-    return fields.data() + layout.line(at) + row * layout.row_pitch();
+    return fields.data() + layout.line(at) + FieldRows<D>::stored(layout, row) * layout.row_pitch();
   }
   const Real* field_row(const Index<D>& at, int row) const {
-    return fields.data() + layout.line(at) + row * layout.row_pitch();
+    return fields.data() + layout.line(at) + FieldRows<D>::stored(layout, row) * layout.row_pitch();
   }
   RowFields<Real> row_fields(std::int64_t line) {
     return {line, field_row(layout.line_index(line), 0), layout.row_pitch()};
@@ -164,7 +186,8 @@ struct State {
   MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x, int axis = D - 1) const {
     const Real* b = material_row(line, row_b) + x;
     const auto pitch = material_layout.row_pitch();
-    return {b, b + zp_row(axis) * pitch, b + row_zs * pitch,
+    // The loops of fluid do not use zs.
+    return {b, b + zp_row(axis) * pitch, b + (fluid ? row_zp : row_zs) * pitch,
             anisotropic ? b + row_coupling * pitch : nullptr};
   }
   /// The row of the impedance of P in sweeps along an axis.
@@ -190,6 +213,6 @@ std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D,
 
 /// State with zero fields and zero material, memory touched first by the threads that own its lines.
 template <int D, class Real>
-State<D, Real> make_state(const Index<D>& shape, bool anisotropic = false);
+State<D, Real> make_state(const Index<D>& shape, MaterialKind material = MaterialKind::isotropic);
 
 }  // namespace slipwave::solver

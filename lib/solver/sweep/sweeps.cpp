@@ -26,8 +26,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       edges_(domain.edges),
       order_(order),
       reach_(reach_of(order)),
-      // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
-      shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
+      shear_(!state.fluid),
       anisotropic_(domain.anisotropic()),
       metric_(domain),
       corrections_(state, domain, metric_),
@@ -43,6 +42,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (auto n = begin; n < end; ++n) {
       const int axis = int(n / 2);
       const auto wave = Wave(n % 2);
+      if (wave == wave_s && !shear_) continue;
       SlotBefore<D> slot_before;
       if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
       const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
@@ -69,7 +69,7 @@ void Sweeps<D, Real>::keep_monotone() {
 
 template <int D, class Real>
 Workspace<Real> Sweeps<D, Real>::make_workspace(std::int64_t widest) const {
-  return Workspace<Real>(widest, FieldRows<D>::count, D);
+  return Workspace<Real>(widest, state_.layout.rows(), pair_count());
 }
 
 template <int D, class Real>
@@ -78,7 +78,7 @@ Ring<Real> Sweeps<D, Real>::make_ring(int axis, std::int64_t first, std::int64_t
   // Faces need the outgoing waves of two rows. Uniform runs need them until their row is updated.
   const int outgoing = state_.uniform_interior[std::size_t(axis)].empty() ? 2 : waiting + 2;
   // Bent faces have two velocities: what the cells on either side see.
-  const int pairs = axis == z_axis && metric_.any_bent() ? D + D / 2 + D % 2 : D;
+  const int pairs = axis == z_axis && metric_.any_bent() ? D + D / 2 + D % 2 : pair_count();
   return Ring<Real>(first, width, outgoing, waiting + 1, pairs);
 }
 
@@ -94,7 +94,7 @@ template <int D, class Real>
 auto Sweeps<D, Real>::make_pairs(int axis) const -> std::array<Pair, D> {
   using Rows = FieldRows<D>;
   std::array<Pair, D> all{};
-  all[0] = {wave_p, Rows::velocity(axis), Rows::normal_stress(axis)};
+  all[0] = {wave_p, Rows::velocity(axis), Rows::stored(state_.layout, Rows::normal_stress(axis))};
   int n = 1;
   for (int other = 0; other < D; ++other)
     if (other != axis)
@@ -225,6 +225,7 @@ BentUpdate<Real> Sweeps<D, Real>::bent_update(const Index<D>& line, std::int64_t
 template <int D, class Real>
 SweptRows<Real> Sweeps<D, Real>::swept_rows(int axis, Real* fields, std::int64_t pitch) const {
   const auto at = [&](int n) { return fields + changed_[axis][n] * pitch; };
+  if (!shear_) return {at(0), at(1), at(1), at(0), at(1)};
   if constexpr (D == 2) return {at(0), at(1), at(2), at(3), at(4)};
   if constexpr (D == 3) return {at(0), at(1), at(2), at(4), at(5), at(3), at(6), at(7)};
 }
@@ -248,7 +249,7 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
                              std::int64_t pitch, Real scale, const Flux& flux, Workspace<Real>& work,
                              bool remember) {
   const auto& rows = changed_[axis];
-  const int row_count = shear_ ? changed : changed_by_p;
+  const int row_count = shear_ ? changed : changed_in_fluid;
   const auto field = [&](int n) { return fields + rows[n] * pitch; };
   // Built in place: a copy would wait until all stores of the loops before this are done.
   std::array<std::array<IndexRange, 2>, most_filters> filtered;
@@ -364,10 +365,10 @@ void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& column
   const Index<D> at = state_.layout.line_index(line);
   prefetch.clear();
   prefetch.add(state_.field_row(at, 0) + columns.first, columns.count(), state_.layout.row_pitch(),
-               FieldRows<D>::count);
+               state_.layout.rows());
   if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
-                 state_.material_layout.row_pitch(), material_rows_of(anisotropic_));
+                 state_.material_layout.row_pitch(), state_.material_layout.rows());
   if (metric_.bent(line))
     prefetch.add(metric_.first_row(at) + columns.first, columns.count(), metric_.row_pitch(),
                  metric_.rows_of_line);
@@ -378,7 +379,7 @@ template <int D, class Real>
 void Sweeps<D, Real>::enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                                  OutgoingWaves<Real> entering) const {
   const EdgeLaw law = edges_[axis][side];
-  for (int p = 0; p < D; ++p)
+  for (int p = 0; p < pair_count(); ++p)
     enter(law, pairs_[axis][p].wave, n, side ? outgoing.up(p) : outgoing.down(p),
           side ? entering.down(p) : entering.up(p));
 }
@@ -410,7 +411,7 @@ void Sweeps<D, Real>::along_copy(const RowFields<Real>& copy, const IndexRange& 
 template <int D, class Real>
 void Sweeps<D, Real>::put(const RowFields<Real>& copy, const IndexRange& columns) {
   const auto to = state_.row_fields(copy.row);
-  for (int row = 0; row < FieldRows<D>::count; ++row)
+  for (int row = 0; row < state_.layout.rows(); ++row)
     std::copy(copy.field(row) + columns.first, copy.field(row) + columns.last, to.field(row) + columns.first);
 }
 
@@ -425,7 +426,7 @@ void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, 
   // Of the waiting cells their interface states, their outgoing waves and the one upwards of the cell before.
   const bool uniform_interior = !state_.uniform_interior[0].empty();
   const auto waiting = [&](std::int64_t from, auto&& copy) {
-    for (int p = 0; p < D; ++p) {
+    for (int p = 0; p < pair_count(); ++p) {
       copy(faces.v(p) + from, boundary.v[p]);
       copy(faces.s(p) + from, boundary.s[p]);
       if (uniform_interior) copy(outgoing.up(p) + from - 1, boundary.up[p]);
@@ -435,7 +436,7 @@ void Sweeps<D, Real>::advance_piece(const Piece& piece, bool begins, bool ends, 
   };
   // Of known size, so that it is inlined.
   if (!begins) waiting(0, [](Real* to, const auto& kept) { std::memcpy(to, kept, sizeof kept); });
-  for (int p = 0; begins && p < D && piece.reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
+  for (int p = 0; begins && p < pair_count() && piece.reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
   sweep_piece(piece, scale, work);
   if (ends) return;
   waiting(last - lag, [](const Real* from, auto& kept) { std::memcpy(kept, from, sizeof kept); });
@@ -448,12 +449,12 @@ void Sweeps<D, Real>::copy_ahead(const IndexRange& columns, Real scale, const Ro
   const IndexRange reconstructed{std::max<std::int64_t>(columns.first - lag, 0),
                                  columns.last + lag >= nx ? state_.layout.padded_nx() : columns.last + lag};
   const auto from = state_.row_fields(copy.row);
-  for (int row = 0; row < FieldRows<D>::count; ++row)
+  for (int row = 0; row < state_.layout.rows(); ++row)
     std::copy(from.field(row) + reconstructed.first - max_reach,
               from.field(row) + reconstructed.last + max_reach,
               copy.field(row) + reconstructed.first - max_reach);
   const auto outgoing = work.outgoing();
-  for (int p = 0; p < D && reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
+  for (int p = 0; p < pair_count() && reconstructed.first > 0; ++p) outgoing.up(p)[-1] = 0;
   sweep_piece({copy.row, reconstructed, columns, copy.first, copy.pitch, false}, scale, work);
 }
 
@@ -514,7 +515,7 @@ void Sweeps<D, Real>::sweep_piece(const Piece& piece, Real scale, Workspace<Real
   if (ends) {
     const auto beyond = first.at(nx - piece.reconstructed.first);
     with_faces.last += lag;  // where the row fills whole blocks its last face is in the next one
-    for (int p = 0; p < D; ++p)
+    for (int p = 0; p < pair_count(); ++p)
       for (Real* const zero : {beyond.up(p), beyond.down(p)})
         std::fill(zero, zero + with_faces.last - nx, Real(0));
     enter_grid(0, 1, 1, beyond.at(-1), beyond);
@@ -643,7 +644,7 @@ void Sweeps<D, Real>::skip(std::int64_t step, const IndexRange& columns, Ring<Re
   const auto outgoing = ring.outgoing(row, columns.first);
   const auto faces = ring.faces(row, columns.first);
   const auto clear = [&](Real* zero) { std::fill(zero, zero + last - columns.first, Real(0)); };
-  for (int p = 0; p < D; ++p)
+  for (int p = 0; p < pair_count(); ++p)
     for (Real* const zero : {outgoing.up(p), outgoing.down(p), faces.v(p), faces.s(p)}) clear(zero);
   for (int c = 0; c < D && ring.pairs() > D; ++c) clear(faces.v(D) + c * faces.pitch);
 }
@@ -654,7 +655,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
                                 Real scale, Ring<Real>& ring, Workspace<Real>& work) {
   const auto& layout = state_.layout;
   const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
-  if (D != 2 || !shear_ || monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
+  if ((D != 2 && shear_) || monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto number = layout.line_number(here);
@@ -668,30 +669,20 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   for (const auto& line : {here, below, advanced})
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
       if (run.first < columns.last && run.last > columns.first) return false;
-  for (const auto& stencils : stencils_[axis])
-    if (stencils.any(number, columns)) return false;
+  for (int wave = wave_p; wave <= (shear_ ? wave_s : wave_p); ++wave)
+    if (stencils_[axis][wave].any(number, columns)) return false;
   if (filters(axis, advanced, columns)) return false;
-  const auto field = [&](int n) { return state_.field_row(here, changed_[axis][n]) + x; };
   const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
   work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
-  kernels_[false]->fused_row[anisotropic_](
-      columns.count(), own_scale,
-      {{field(0), field(1), field(2), field(3), field(4)},
-       layout.stride(axis),
-       state_.material_layout.row_pitch(),
-       to.up(1) - to.up(0),
-       faces.pitch,
-       material(below),
-       material(here),
-       material(advanced),
-       from.up(0),
-       to.up(0),
-       faces.first,
-       ring.faces(done, x).first,
-       ring.faces(done + 1, x).first,
-       anisotropic_ ? material(advanced) + row_coupling * state_.material_layout.row_pitch() : nullptr});
+  const auto fused = shear_ ? kernels_[false]->fused_row[anisotropic_] : kernels_[false]->fused_fluid_row;
+  fused(columns.count(), own_scale,
+        {swept_rows(axis, state_.field_row(here, 0) + x, layout.row_pitch()), layout.stride(axis),
+         state_.material_layout.row_pitch(), to.up(1) - to.up(0), faces.pitch, material(below),
+         material(here), material(advanced), from.up(0), to.up(0), faces.first, ring.faces(done, x).first,
+         ring.faces(done + 1, x).first,
+         anisotropic_ ? material(advanced) + row_coupling * state_.material_layout.row_pitch() : nullptr});
   work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
   return true;
 }

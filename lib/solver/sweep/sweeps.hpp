@@ -24,7 +24,7 @@ namespace slipwave::solver {
 template <int D, class Real>
 class Sweeps {
  public:
-  /// Shear is left out of every loop when the domain holds no solid cell. Keeps a reference to the state
+  /// Where the state has the rows of fluid alone, all loops are of the P pair. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
   /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
@@ -139,7 +139,8 @@ class Sweeps {
   bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
   const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
-    return anisotropic_ ? kernels_[uniform]->anisotropic_face : kernels_[uniform]->face[D - 2][shear_];
+    const auto& all = *kernels_[uniform];
+    return anisotropic_ ? all.anisotropic_face : shear_ ? all.face[D - 2] : all.fluid_face;
   }
   /// What the update of cells reads, beginning with the first of them: the interface states before and behind
   /// them, the outgoing waves of them and their neighbours.
@@ -169,7 +170,7 @@ class Sweeps {
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
   /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs.
-  static constexpr int changed = 3 * D - 1, changed_by_p = D + 1;
+  static constexpr int changed = 3 * D - 1, changed_in_fluid = 2;
   std::array<int, changed> rows_changed(int axis) const;
   int pair_count() const { return shear_ ? D : 1; }
 
