@@ -161,7 +161,7 @@ double sustained_by_force(const Discretisation& cells, double away, double per_w
 }
 
 /// What an explosion in few cells sends out as S waves, `per_wave` being the cells per wavelength of P.
-double shear_of_explosion(double per_wave) { return 0.005 * std::pow(14.7 / per_wave, 6); }
+double shear_of_explosion(double per_wave) { return 0.006 * std::pow(14.7 / per_wave, 6); }
 
 /// Error of the near field `away` cells from a source in a medium of `per_wave` cells per wavelength and of
 /// this Courant number: near fields are static, so the longer waves are, the more counts that the smallest
@@ -459,11 +459,12 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
   const double steps = floor && !bent ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
   const double at_floor = stairs ? bound_to_stairs : bent ? bound_to_bent_floor : bound_to_floor;
+  const bool force = source_is_force();
   // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
-  const double finer = cells.order >= 9 ? 3 * std::pow(coarser, 2) : std::pow(coarser, 3);
+  const double finer =
+      cells.order >= 9 ? (bent && !force ? 1.8 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
   double rate =
       (floor ? at_floor : bound_to_surface) * finer * steps * (cells.order >= 7 ? bound_at_order_7 : 1);
-  const bool force = source_is_force();
   const auto& rock = places.layers[places.source_layer()];
   // An explosion in rock sends out less of them, the less the harder the rock is.
   if (!force && rock.vs > 0)
