@@ -25,7 +25,9 @@ constexpr std::size_t directions = 6;
 constexpr double dispersion_margin = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
 constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4;
-constexpr double order_7_on_faces = 0.5;
+/// At order 7 and above; orders 9 and 11 fall to 5 beside an interface, which is felt by the S waves of a
+/// force and at a free surface.
+constexpr double order_7_on_faces = 0.5, high_order_of_forces = 2, high_order_at_surfaces = 1.5;
 /// The same of other representations, in cells: with means, in stairs, and within less than two rows.
 constexpr double shift_of_means = 0.15, shift_of_gentle_means = 0.1, shift_of_stairs = 0.38,
                  shift_of_few_stairs = 0.3;
@@ -38,7 +40,7 @@ constexpr double share_of_offset = 0.6;
 constexpr double near_of_order_3 = 5;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
-constexpr double bent_water = 0.06, bent_rock = 0.02, bent_bound = 0.03;
+constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
@@ -147,19 +149,36 @@ double shallow_explosion(double depth, double aside) {
 /// Kinds of sources by their near fields: those of explosions in rock are balanced (theory.md (A8)).
 enum class NearField { of_explosion_in_rock, of_explosion_in_fluid, of_force, of_uneven_moment };
 
-/// Error of the near field `cells` from a source in a medium of `per_wave` cells per wavelength and of this
-/// Courant number: near fields are static, so the longer waves are, the more counts that the smallest lose.
-double near_error(NearField kind, double cells, double per_wave, double courant, int order) {
-  const double cubed = per_wave / std::pow(cells, 3), shorter = std::clamp(0.9 / courant, 1., 10.);
+/// Error of the short waves that long steps of fourth order in time sustain, `away` cells from a force: where
+/// they turn by a whole period in a step they follow the source as if they were static, and a reconstruction
+/// damps them the less the higher its order.
+double sustained_by_force(const Discretisation& cells, double away, double per_wave, double courant) {
+  if (cells.time_order < 4) return 0;
+  const double shorter = std::max(0., 1.9 - courant), of_order = cells.order <= 7   ? 0.2
+                                                                 : cells.order == 9 ? 0.22
+                                                                                    : 0.42;
+  return of_order * std::pow(10 / per_wave, 2) * std::exp(-3 * shorter - (0.16 + 0.5 * shorter) * away);
+}
+
+/// What an explosion in few cells sends out as S waves, `per_wave` being the cells per wavelength of P.
+double shear_of_explosion(double per_wave) { return 0.006 * std::pow(14.7 / per_wave, 6); }
+
+/// Error of the near field `away` cells from a source in a medium of `per_wave` cells per wavelength and of
+/// this Courant number: near fields are static, so the longer waves are, the more counts that the smallest
+/// lose.
+double near_error(NearField kind, double away, double per_wave, double courant, const Discretisation& cells) {
+  const double cubed = per_wave / std::pow(away, 3), shorter = std::clamp(0.9 / courant, 1., 10.);
   switch (kind) {
     case NearField::of_explosion_in_rock:
-      return (order >= 7 ? 1.1 : 1.8) * cubed / cells * std::sqrt(shorter);
+      return (cells.order >= 7 ? 1.1 : 1.8) * cubed / away * std::sqrt(shorter) *
+             (cells.time_order < 4 ? 1 : 1 + 1.5 * std::exp(-6 * std::max(0., 1.9 - courant)));
     case NearField::of_explosion_in_fluid:
-      return cubed * (1.3 / cells + 0.026 * per_wave * std::max(0., 0.9 - courant));
+      return cubed * (1.3 / away + 0.026 * per_wave * std::max(0., 0.9 - courant));
     case NearField::of_force:
-      return 0.15 * cubed * std::min(3., std::pow(shorter, 1.3));
+      return std::hypot(0.15 * cubed * std::min(3., std::pow(shorter, 1.3)),
+                        sustained_by_force(cells, away, per_wave, courant));
     case NearField::of_uneven_moment:
-      return 300 * cubed / cells;
+      return 300 * cubed / away;
   }
   return 0;
 }
@@ -234,13 +253,14 @@ struct ErrorSources::Shot {
   double bound_wave(std::size_t face, const Discretisation& cells) const;
   double bent_sides(const LocalInterface& interface) const;
   double shallow_source(const Discretisation& cells) const;
+  bool source_is_force() const { return stack.places.force[0] != 0 || stack.places.force[1] != 0; }
   bool explodes_in_rock() const {
     const auto& places = stack.places;
-    return places.force[0] == 0 && places.force[1] == 0 && places.layers[places.source_layer()].vs > 0;
+    return !source_is_force() && places.layers[places.source_layer()].vs > 0;
   }
   NearField near_kind() const {
     const auto& places = stack.places;
-    if (places.force[0] != 0 || places.force[1] != 0) return NearField::of_force;
+    if (source_is_force()) return NearField::of_force;
     if (!(places.layers[places.source_layer()].vs > 0)) return NearField::of_explosion_in_fluid;
     const auto& m = places.moment_rate;
     const double normal = std::abs(m(0, 0) - m(1, 1)), size = std::abs(m(0, 0)) + std::abs(m(1, 1));
@@ -391,6 +411,10 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   double by = shift.share * h * std::pow(per_wave, -shift.power);
   // Long stencils end at interfaces with less harm.
   if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
+  if (shift.power > 0 && cells.order >= 9)
+    by *= interface.kind == Kind::surface                      ? high_order_at_surfaces
+          : interface.kind == Kind::inner && source_is_force() ? high_order_of_forces
+                                                               : 1;
   // The long stairs of a plane surface scatter less where waves are longer.
   if (interface.representation == staircase && interface.kind == Kind::surface &&
       interface.steepest_deg < 14 && !interface.is_curved())
@@ -407,13 +431,17 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   const auto& rock = places.layers[places.source_layer()];
   const double h = cells.spacing_m, courant = rock.vp * cells.time_step_s / h;
   const double per_wave = slowest_of(rock) / nominal_hz / h;
+  // Of lower orders it is far less than dispersion.
+  const double sheared = cells.order >= 9 && near_kind() == NearField::of_explosion_in_rock
+                             ? shear_of_explosion(rock.vp / nominal_hz / h)
+                             : 0;
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
     const double way = std::max(std::hypot(at.a_m, at.b_m) / h, 1.);
-    const double share = near_error(near_kind(), way, per_wave, courant, cells.order) *
-                         (cells.order == 3 ? near_of_order_3 : 1);
-    sum += std::pow(std::min(1., share), 2) * energies[r];
+    const double share =
+        near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
+    sum += std::pow(std::min(1., std::hypot(share, sheared)), 2) * energies[r];
   }
   return sum;
 }
@@ -431,9 +459,12 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
   const double steps = floor && !bent ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
   const double at_floor = stairs ? bound_to_stairs : bent ? bound_to_bent_floor : bound_to_floor;
-  double rate = (floor ? at_floor : bound_to_surface) * std::pow(coarser, 3) * steps *
-                (cells.order >= 7 ? bound_at_order_7 : 1);
-  const bool force = places.force[0] != 0 || places.force[1] != 0;
+  const bool force = source_is_force();
+  // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
+  const double finer =
+      cells.order >= 9 ? (bent && !force ? 1.8 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
+  double rate =
+      (floor ? at_floor : bound_to_surface) * finer * steps * (cells.order >= 7 ? bound_at_order_7 : 1);
   const auto& rock = places.layers[places.source_layer()];
   // An explosion in rock sends out less of them, the less the harder the rock is.
   if (!force && rock.vs > 0)

@@ -11,8 +11,7 @@ namespace slipwave {
 namespace {
 
 /// Orders in space and time, and the Courant numbers that may pay with them (theory.md 1.1: time order 4 pays
-/// with orders from 7 on and long steps only). Orders 9 and 11 need so few cells that what is expected at
-/// interfaces and of near fields no longer holds there: they are for whoever asks for them.
+/// with orders from 7 on and long steps only; the longest sustain short waves near a force).
 struct Scheme {
   int order, time_order;
   double cost;  // of a step, over that of order 5 (tests/bench/orders.sh): what is chosen must not hang on
@@ -23,7 +22,11 @@ std::vector<Scheme> schemes() {
   return {{3, 2, 0.78, {0.9, 0.7, 0.5}},
           {5, 2, 1, {0.9, 0.7, 0.5, 0.35, 0.2}},
           {7, 2, 1.3, {0.9, 0.7, 0.5, 0.35, 0.2}},
-          {7, 4, 7.3, {1.9, 1.5}}};
+          {9, 2, 1.6, {0.9, 0.7, 0.5, 0.35, 0.2}},
+          {11, 2, 1.9, {0.9, 0.7, 0.5, 0.35, 0.2}},
+          {7, 4, 7.3, {1.9, 1.5}},
+          {9, 4, 9.1, {1.9, 1.5}},
+          {11, 4, 11.2, {1.9, 1.5}}};
 }
 
 /// Measured errors were up to 1.5 times the expected ones (docs/accuracy.md): this is the margin.

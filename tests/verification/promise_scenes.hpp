@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <sstream>
 #include <string>
@@ -16,6 +17,12 @@
 
 namespace slipwave::solver {
 
+/// How a drawn scene is computed.
+struct Scheme {
+  int order = 5, time_order = 2;
+  double cfl = 0.9, cells = 10;  // per dominant wavelength of the slowest wave
+};
+
 /// A scene drawn from a seed, and its exact traces: parallel layers of solid and fluid, flat or dipping, on
 /// and off faces, with and without a free surface, on fitted and on regular grids.
 class DrawnScene {
@@ -24,8 +31,10 @@ class DrawnScene {
   /// as likely in the fluid as in the solid where it is a sea floor; receivers just below a sea floor; a
   /// cable below the surface of deep water.
   enum class Kind { any, shallow, near_floor, on_floor, deep_water };
-  explicit DrawnScene(std::uint64_t seed, Kind kind = Kind::any) : engine_(seed), kind_(kind) {
+  explicit DrawnScene(std::uint64_t seed, Kind kind = Kind::any, std::optional<Scheme> scheme = {})
+      : engine_(seed), kind_(kind) {
     draw_layers();
+    if (scheme) scheme_ = *scheme;
     if (kind == Kind::any)
       draw_places();
     else
@@ -84,9 +93,9 @@ class DrawnScene {
     fitted_ = chance(0.6);
     cosine_ = std::cos(dip_deg_ * std::numbers::pi / 180);
     sine_ = std::sin(dip_deg_ * std::numbers::pi / 180);
-    order_ = int(one_of({5, 5, 5, 5, 7, 3}));
-    cfl_ = one_of({0.9, 0.9, 0.9, 0.5});
-    cells_ = one_of({10, 12, 16, 20, 24});
+    scheme_.order = int(one_of({5, 5, 5, 5, 7, 3}));
+    scheme_.cfl = one_of({0.9, 0.9, 0.9, 0.5});
+    scheme_.cells = one_of({10, 12, 16, 20, 24});
   }
 
   /// Place across the layers that is not within `away` of a face.
@@ -117,7 +126,7 @@ class DrawnScene {
   double spacing_m() const {
     double slowest = 1e30;
     for (const auto& rock : rocks_) slowest = std::min(slowest, rock.vs > 0 ? rock.vs : rock.vp);
-    return slowest / peak_hz / cells_;
+    return slowest / peak_hz / scheme_.cells;
   }
 
   void draw_special_places() {
@@ -213,8 +222,9 @@ class DrawnScene {
     scene_.edges = edges_all(EdgeLaw::absorbing);
     if (free_surface_) scene_.edges[1][0] = EdgeLaw::free;
     scene_.recording = {{Component::vx, Component::vz}, duration_s, interval_s};
-    scene_.numerics.order = order_;
-    scene_.numerics.cfl = cfl_;
+    scene_.numerics.order = scheme_.order;
+    scene_.numerics.time_order = scheme_.time_order;
+    scene_.numerics.cfl = scheme_.cfl;
     check(scene_);
     name(fit.summary.empty() ? "regular" : "fitted", fit.left_out.size());
   }
@@ -226,8 +236,8 @@ class DrawnScene {
       text << int(rocks_[n].vp) << '/' << int(rocks_[n].vs) << ' ';
     text << "dip " << dip_deg_ << (on_faces_ ? " on faces, " : " off faces, ") << grid;
     if (left_out > 0) text << " but " << left_out;
-    text << (force_ ? ", force" : ", explosion") << (near_ ? " near" : "") << ", order " << order_
-         << " Courant " << cfl_ << ", n " << cells_;
+    text << (force_ ? ", force" : ", explosion") << (near_ ? " near" : "") << ", order " << scheme_.order
+         << ',' << scheme_.time_order << " Courant " << scheme_.cfl << ", n " << scheme_.cells;
     name_ = text.str();
   }
 
@@ -237,8 +247,8 @@ class DrawnScene {
   std::vector<double> faces_m_;
   std::vector<LayerStack::Receiver> receivers_;
   bool free_surface_ = false, on_faces_ = false, fitted_ = false, force_ = false, near_ = false;
-  double dip_deg_ = 0, cosine_ = 1, sine_ = 0, cells_ = 10, cfl_ = 0.9, source_b_ = 0;
-  int order_ = 5;
+  double dip_deg_ = 0, cosine_ = 1, sine_ = 0, source_b_ = 0;
+  Scheme scheme_;
   Scene<2> scene_;
   std::string name_;
 };

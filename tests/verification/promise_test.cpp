@@ -71,6 +71,27 @@ TEST(Promise, HoldsForShallowSourcesNearFloorsOnFloorsAndInDeepWater) {
   EXPECT_LE(score.too_small, all ? 3 : 0);
 }
 
+/// High orders are for few cells: down to three per shortest wavelength.
+Scheme high_order(std::uint64_t n) {
+  constexpr double cells[] = {8, 10, 12, 9, 16};
+  Scheme scheme{n % 2 == 0 ? 11 : 9, n % 3 == 0 ? 2 : 4, 0.9, cells[n % 5]};
+  if (scheme.time_order == 4) scheme.cfl = n % 4 < 2 ? 1.9 : 1.5;
+  return scheme;
+}
+
+TEST(Promise, HoldsForOrders9And11InFewCells) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  using enum DrawnScene::Kind;
+  Score score;
+  for (const auto kind : {any, shallow, near_floor, on_floor, deep_water})
+    for (std::uint64_t n = 0; n < (all ? kind == any ? 50 : 15 : 2); ++n) {
+      const DrawnScene drawn(first_seed + n, kind, high_order(n));
+      score.add(std::to_string(int(kind)) + drawn.name(), promised_error(drawn), true_error(drawn));
+    }
+  EXPECT_GE(10 * score.within, 9 * score.scenes) << score.within << " of " << score.scenes;
+  EXPECT_LE(score.too_small, all ? 5 : 1);
+}
+
 TEST(Promise, HoldsForHillsAndFloorsThatRoll) {
   const bool all = std::getenv("SLIPWAVE_LONG");
   Score score;
