@@ -61,7 +61,16 @@ Point<D> unit_normal(const Point<D>& direction) {
   return normal;
 }
 
-std::string name_of(FrictionLaw law) { return law == FrictionLaw::coulomb ? "coulomb" : "slip-weakening"; }
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b) {
+  double product = 0;
+  for (std::size_t i = 0; i < D; ++i) product += a[i] * b[i];
+  return std::abs(product) < 1e-9;
+}
+
+std::string name_of(FrictionLaw law) {
+  return law == FrictionLaw::coulomb ? "coulomb" : law == FrictionLaw::none ? "none" : "slip-weakening";
+}
 
 template <int D>
 void set_friction_law(SlipSystem<D>& system, const std::string& text) {
@@ -113,11 +122,12 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 
 ModelEffect model_effect_named(const std::string& name) {
   const char* const names[] = {"slip",    "friction",  "viscosity",  "cohesion",
-                               "opening", "prestress", "attenuation"};
+                               "opening", "prestress", "attenuation", "compliance"};
+  constexpr int count = int(std::size(names));
   std::string all;
-  for (int n = 0; n < 7; ++n) {
+  for (int n = 0; n < count; ++n) {
     if (name == names[n]) return ModelEffect(n);
-    all += (n == 0 ? "" : n == 6 ? " or " : ", ") + std::string(names[n]);
+    all += (n == 0 ? "" : n == count - 1 ? " or " : ", ") + std::string(names[n]);
   }
   throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
 }
@@ -134,6 +144,7 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
       if (effect == ModelEffect::viscosity) system.viscosity_s = 0;
       if (effect == ModelEffect::cohesion) system.strength_pa = 0;
       if (effect == ModelEffect::opening) system.opens = false;
+      if (effect == ModelEffect::compliance) system.compliance = {};
     }
 }
 
@@ -183,6 +194,8 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
 
 template Point<2> unit_normal<2>(const Point<2>&);
 template Point<3> unit_normal<3>(const Point<3>&);
+template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
+template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
 template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
 template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
 template CriticalLength critical_length<2>(const Model<2>&, std::size_t);

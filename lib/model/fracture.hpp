@@ -29,7 +29,11 @@ DipAndAzimuth dip_and_azimuth_of(const Point<3>& normal);
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);
 
-/// "coulomb", "slip-weakening".
+/// Whether two unit normals are at right angles, as far as numbers in a file go.
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b);
+
+/// "coulomb", "slip-weakening", "none".
 std::string name_of(FrictionLaw law);
 
 /// Gives a system the law "coulomb" or "slip-weakening:QD:DC": friction falls from that of the system to QD
@@ -48,14 +52,14 @@ template <int D>
 CriticalLength critical_length(const Model<D>& model, std::size_t code);
 
 /// Effects of a model that can be left out of a run: slip, what it consists of, and attenuation.
-enum class ModelEffect { slip, friction, viscosity, cohesion, opening, prestress, attenuation };
+enum class ModelEffect { slip, friction, viscosity, cohesion, opening, prestress, attenuation, compliance };
 
 /// Throws a usage Error that lists the names.
 ModelEffect model_effect_named(const std::string& name);
 
 /// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
-/// planes that carry tension, no prestress, neither qp nor qs. `slip` leaves the model alone:
-/// Scene::with_slip.
+/// planes that carry tension, no prestress, neither qp nor qs, planes that do not give way as springs (where
+/// they do nothing else their cells are intact). `slip` leaves the model alone: Scene::with_slip.
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect);
 

@@ -12,6 +12,7 @@
 #include "base/processor_time.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
+#include "planning/expected_slip.hpp"
 #include "solver/shot_simulation.hpp"
 
 namespace slipwave {
@@ -94,6 +95,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   if constexpr (D == 2)
     plan.error =
         WavesOfScene(scene, finer_model(scene.model, scene.model.grid().spacing_m).has_value()).expected();
+  plan.slip = expected_slip(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -201,6 +203,7 @@ Report summary_of(const Plan<D>& plan) {
       text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
     if (!text.empty()) report.text("mostly from", text);
   }
+  if (!plan.slip.empty()) report.texts("slip", plan.slip);
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";

@@ -55,6 +55,9 @@ Lab<Real>::Lab(const Setup& setup)
     passes_.push_back(
         std::make_unique<solver::Sponge<2, Real>>(state_.layout, domain_, dt_s_, vp_max, nullptr));
   }
+  const auto& sets = model.fracture_sets;
+  if (std::any_of(sets.begin(), sets.end(), gives<2>))
+    springs_ = std::make_unique<solver::LinearSlip<2, Real>>(state_, domain_, scene_, dt_s_);
   if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, Real>>(state_, domain_, scene_, dt_s_);
 
   std::mt19937 engine(setup.seed);
@@ -89,9 +92,11 @@ void Lab<Real>::step() {
     if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
   for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_);
+  if (springs_) solver::run_everywhere(*springs_, time, state_);
   if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });
   for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_);
   if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_); });
+  if (springs_) solver::run_after_everywhere(*springs_, time, state_);
   ++steps_;
 }
 
@@ -153,7 +158,7 @@ double Lab<Real>::sum(Stress which) const {
 
 template <class Real>
 double Lab<Real>::energy() const {
-  return sum(Stress::of_waves);
+  return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0);
 }
 
 template <class Real>

@@ -49,13 +49,6 @@ void put_shear(const Point<D>& n, const Point<D>& m, Real* weights) {
 
 }  // namespace
 
-template <int D>
-bool at_right_angles(const Point<D>& a, const Point<D>& b) {
-  double product = 0;
-  for (std::size_t i = 0; i < D; ++i) product += a[i] * b[i];
-  return std::abs(product) < 1e-9;
-}
-
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
   FrictionConstants<Real> law;
@@ -81,8 +74,6 @@ SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double uni
   return planes;
 }
 
-template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
-template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
 template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
 template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
 template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);

@@ -7,10 +7,6 @@
 
 namespace slipwave::solver {
 
-/// Whether two unit normals are at right angles, as far as numbers in a file go.
-template <int D>
-bool at_right_angles(const Point<D>& a, const Point<D>& b);
-
 /// Constants of a system's friction law; stress is `unit` times Pa.
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
