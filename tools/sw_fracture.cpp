@@ -35,9 +35,10 @@ struct Settings {
 /// What the planes do. What is usual: docs/slip.md.
 void declare_laws(cli::Options& options, Settings& settings) {
   options.add("friction", settings.friction, "Q", "coefficient of friction; of rock 0.6 to 0.85");
-  options.add("viscosity", settings.viscosity_s, "ETA",
-              "viscosity of slip, s: above the strength by a share of 1 planes slip at 1/ETA; 0: dry friction; "
-              "see --for-frequency");
+  options.add(
+      "viscosity", settings.viscosity_s, "ETA",
+      "viscosity of slip, s: above the strength by a share of 1 planes slip at 1/ETA; 0: dry friction; "
+      "see --for-frequency");
   options.add("for-frequency", settings.for_hz, "HZ",
               "instead of --viscosity: that at which slip competes with waves of HZ and --strain-rate");
   options.add("strain-rate", settings.strain_rate, "RATE",
@@ -45,9 +46,10 @@ void declare_laws(cli::Options& options, Settings& settings) {
   options.add("strength", settings.strength_pa, "PA", "cohesion, Pa [0]");
   options.add("law", settings.law, "LAW",
               "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m [coulomb]");
-  options.add("compliance", settings.compliance.compliance, "ZN,ZT",
-              "planes give way like springs, below friction or without it: normal and tangential compliance of "
-              "a plane, m/Pa; usual 1e-14 to 1e-9");
+  options.add(
+      "compliance", settings.compliance.compliance, "ZN,ZT",
+      "planes give way like springs, below friction or without it: normal and tangential compliance of "
+      "a plane, m/Pa; usual 1e-14 to 1e-9");
   options.add("stiffness", settings.compliance.stiffness, "KN,KT", "or its stiffness, Pa/m");
   options.add("spacing", settings.compliance.spacing_m, "M", "distance between planes, m");
   options.add("dashpot", settings.compliance.dashpot, "DN,DT", "dashpots beside these springs, Pa s/m");
@@ -213,8 +215,9 @@ void check_friction(const Settings& s) {
     refuse("--viscosity is missing; expected --viscosity ETA, or --for-frequency HZ --strain-rate RATE");
   if (s.friction) return;
   if (!s.compliance.given())
-    refuse("--friction is missing; expected --friction Q, or planes that give way: --compliance ZN,ZT, "
-           "--stiffness KN,KT or --crack-density E");
+    refuse(
+        "--friction is missing; expected --friction Q, or planes that give way: --compliance ZN,ZT, "
+        "--stiffness KN,KT or --crack-density E");
   if (s.viscosity_s || proposed || s.strength_pa || !s.law.empty())
     refuse(std::string(s.viscosity_s   ? "--viscosity"
                        : proposed      ? "--for-frequency"
@@ -245,9 +248,10 @@ void put_viscosity(const Settings& settings, Model<D>& model, const cli::Context
     return competing_slip(model, code, {*settings.for_hz, *settings.strain_rate});
   });
   for (auto& system : model.fracture_sets[code - 1].systems) system.viscosity_s = found.competing_viscosity_s;
-  context.say("viscosity " + shown(found.competing_viscosity_s, 3) + " s, at which slip competes with waves of " +
-              shown(*settings.for_hz) + " Hz and " + shown(*settings.strain_rate) +
-              " 1/s (strength " + shown(found.strength_pa, 3) + " Pa); a tenth of it is near dry friction, ten "
+  context.say("viscosity " + shown(found.competing_viscosity_s, 3) +
+              " s, at which slip competes with waves of " + shown(*settings.for_hz) + " Hz and " +
+              shown(*settings.strain_rate) + " 1/s (strength " + shown(found.strength_pa, 3) +
+              " Pa); a tenth of it is near dry friction, ten "
               "times as much hardly slips");
 }
 
@@ -255,8 +259,7 @@ template <int D>
 void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
               const cli::Context& context) {
   FractureSet<D> set;
-  for (const auto& normal : normals_of<D>(settings))
-    set.systems.push_back(system_of<D>(settings, normal));
+  for (const auto& normal : normals_of<D>(settings)) set.systems.push_back(system_of<D>(settings, normal));
   const auto prestress = in_place("--prestress", [&] {
     return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
   });
@@ -302,7 +305,8 @@ int main(int argc, char** argv) {
   return cli::run_tool(
       argc, argv,
       {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
-       "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) (--friction Q --viscosity ETA | --compliance ZN,ZT "
+       "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) (--friction Q --viscosity ETA | --compliance "
+       "ZN,ZT "
        "--spacing M) [-o M]",
        "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 4e3 -o broken.nc"},
       [&](cli::Options& options) { declare(options, settings); },

@@ -9,9 +9,9 @@ namespace slipwave {
 
 /// Constants of one family of planes: either of each plane and their spacing, or of cracks.
 struct LinearCompliance {
-  double normal_m_per_pa = 0, tangential_m_per_pa = 0;            // of a plane, Z_N and Z_T
+  double normal_m_per_pa = 0, tangential_m_per_pa = 0;              // of a plane, Z_N and Z_T
   double normal_dashpot_pa_s_m = 0, tangential_dashpot_pa_s_m = 0;  // of a plane, Pa s/m
-  double spacing_m = 0;                                           // of planes
+  double spacing_m = 0;                                             // of planes
   double crack_density = 0;  // number of penny-shaped cracks in a unit volume times the cube of their radius
   double aspect = 0;         // thickness over diameter
   double fill_pa = 0;        // bulk modulus of what fills them, 0: dry
@@ -46,7 +46,7 @@ inline CellCompliance compliance_in(const LinearCompliance& of, double lambda, d
 namespace slip {
 
 /// Softer planes than this, times the stiffness of the rock, count as free.
-inline constexpr double most_compliance = 1e9;
+inline constexpr double most_compliance = 1e7;
 
 /// What a spring, with a dashpot beside it, in rock of modulus m takes off the traction at the end of a step
 /// in which the load grows steadily (S20): r' = left r + of_start t_s + of_end t_s', where t_s is the

@@ -28,8 +28,9 @@ double above_zero(const std::string& option, const std::optional<double>& value,
 
 LinearCompliance of_cracks(const ComplianceText& text) {
   if (!text.compliance.empty() || !text.stiffness.empty() || text.spacing_m || !text.dashpot.empty())
-    refuse("--crack-density says what --compliance, --stiffness, --spacing and --dashpot say of planes; "
-           "give cracks or planes");
+    refuse(
+        "--crack-density says what --compliance, --stiffness, --spacing and --dashpot say of planes; "
+        "give cracks or planes");
   LinearCompliance of;
   of.crack_density = above_zero("--crack-density", text.crack_density, "");
   if (text.fill_pa && !(*text.fill_pa >= 0))

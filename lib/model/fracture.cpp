@@ -121,7 +121,7 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 }
 
 ModelEffect model_effect_named(const std::string& name) {
-  const char* const names[] = {"slip",    "friction",  "viscosity",  "cohesion",
+  const char* const names[] = {"slip",    "friction",  "viscosity",   "cohesion",
                                "opening", "prestress", "attenuation", "compliance"};
   constexpr int count = int(std::size(names));
   std::string all;

@@ -146,10 +146,10 @@ void check_compliance(const SlipSystem<D>& system, const std::string& name) {
     if (!good) throw Error(name + ": " + what + " is " + shown(value) + ", expected " + rest);
   };
   const std::pair<const char*, double> constants[] = {
-      {"normal compliance", of.normal_m_per_pa},        {"tangential compliance", of.tangential_m_per_pa},
-      {"normal dashpot", of.normal_dashpot_pa_s_m},     {"tangential dashpot", of.tangential_dashpot_pa_s_m},
-      {"spacing of planes", of.spacing_m},              {"crack density", of.crack_density},
-      {"aspect ratio of cracks", of.aspect},            {"bulk modulus of the fill", of.fill_pa}};
+      {"normal compliance", of.normal_m_per_pa},    {"tangential compliance", of.tangential_m_per_pa},
+      {"normal dashpot", of.normal_dashpot_pa_s_m}, {"tangential dashpot", of.tangential_dashpot_pa_s_m},
+      {"spacing of planes", of.spacing_m},          {"crack density", of.crack_density},
+      {"aspect ratio of cracks", of.aspect},        {"bulk modulus of the fill", of.fill_pa}};
   for (const auto& [what, value] : constants)
     refuse_unless(value >= 0 && std::isfinite(value), what, value, "a finite number not below zero");
   if (of.normal_m_per_pa > 0 || of.tangential_m_per_pa > 0)
@@ -167,12 +167,11 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
   if (!gives(set) || set.systems.size() == 1) return;
   for (const auto& system : set.systems) {
     if (system.compliance.damped())
-      throw Error(name + ": dashpots need one family of planes, found " +
-                  std::to_string(set.systems.size()));
-    if (slides(set) &&
-        (D == 3 || !at_right_angles<D>(set.systems.front().normal, set.systems.back().normal)))
-      throw Error(name + ": friction together with compliance needs one family of planes, in 2-D or two at "
-                         "right angles; give the others a set of their own");
+      throw Error(name + ": dashpots need one family of planes, found " + std::to_string(set.systems.size()));
+    if (slides(set) && (D == 3 || !at_right_angles<D>(set.systems.front().normal, set.systems.back().normal)))
+      throw Error(name +
+                  ": friction together with compliance needs one family of planes, in 2-D or two at "
+                  "right angles; give the others a set of their own");
   }
 }
 

@@ -24,7 +24,8 @@ PlanesUnderWave planes_under(const Model<D>& model, std::size_t cell, const Slip
   PlanesUnderWave of;
   of.strength_pa = system.friction * pressed + system.strength_pa;
   of.traction_pa = mu * strain;
-  const double above_springs = mu / (1 + mu * compliance_in(system.compliance, modulus - 2 * mu, mu).tangential);
+  const double above_springs =
+      mu / (1 + mu * compliance_in(system.compliance, modulus - 2 * mu, mu).tangential);
   if (of.strength_pa > 0) of.competing_viscosity_s = above_springs / (omega * of.strength_pa);
   return of;
 }
@@ -40,8 +41,9 @@ PlanesUnderWave competing_slip(const Model<D>& model, std::size_t code, const Wa
     }
   }
   if (all.empty())
-    throw Error("planes without friction and cohesion have no strength; no viscosity makes slip compete there",
-                ErrorKind::usage);
+    throw Error(
+        "planes without friction and cohesion have no strength; no viscosity makes slip compete there",
+        ErrorKind::usage);
   const auto middle = all.begin() + std::ptrdiff_t(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end(), [](const auto& a, const auto& b) {
     return a.competing_viscosity_s < b.competing_viscosity_s;

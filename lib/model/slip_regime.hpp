@@ -11,8 +11,8 @@ struct WaveOnPlanes {
 
 /// What planes of a cell have against a wave.
 struct PlanesUnderWave {
-  double strength_pa = 0;  // S: under the prestress, or else under the wave's own pressure
-  double traction_pa = 0;  // the wave's shear traction, mu times its strain, at most
+  double strength_pa = 0;            // S: under the prestress, or else under the wave's own pressure
+  double traction_pa = 0;            // the wave's shear traction, mu times its strain, at most
   double competing_viscosity_s = 0;  // with which 2 pi f eta S = mu (S24); 0 without strength
 };
 

@@ -1,12 +1,12 @@
 #include "planning/expected_slip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "base/error.hpp"
-#include "grid/tensor.hpp"
 #include "model/slip_regime.hpp"
 
 namespace slipwave {
@@ -15,10 +15,11 @@ namespace {
 /// Beyond this, either way, planes stick or are dry, however rough the amplitude is.
 constexpr double far_from = 30;
 
-template <int D>
-double largest_of(const SymmetricTensor<D, double>& tensor) {
+/// The largest component of a force or a moment.
+template <std::size_t N>
+double largest_of(const std::array<double, N>& components) {
   double largest = 0;
-  for (const double value : tensor.values) largest = std::max(largest, std::abs(value));
+  for (const double value : components) largest = std::max(largest, std::abs(value));
   return largest;
 }
 
@@ -40,7 +41,7 @@ double strain_rate_at(const Scene<D>& scene, const Source<D>& source, std::size_
   const double distance = std::max(std::sqrt(square), 1 / k);
   const double spreading = D == 2 ? 0.25 * std::sqrt(2 / (std::numbers::pi * k * distance))
                                   : 1 / (4 * std::numbers::pi * distance);
-  const double force = largest_of<D>(injection->force), moment_rate = largest_of<D>(injection->moment_rate);
+  const double force = largest_of(injection->force), moment_rate = largest_of(injection->moment_rate.values);
   return k * (force * omega + moment_rate * k) * spreading / (rho * vp * vp);
 }
 
@@ -60,8 +61,8 @@ std::string sentence(const std::string& name, double viscosity_s, const Regime& 
   if (of.viscosity_over_competing > far_from)
     return set + "hardly slip: their viscosity of " + shown(viscosity_s, 3) + " s is too large" + remedy;
   if (of.viscosity_over_competing < 1 / far_from)
-    return set + "slip like dry friction: their viscosity of " + shown(viscosity_s, 3) + " s makes no difference" +
-           remedy;
+    return set + "slip like dry friction: their viscosity of " + shown(viscosity_s, 3) +
+           " s makes no difference" + remedy;
   return "";
 }
 

@@ -149,9 +149,10 @@ TEST(SpringCell, HasTheStiffnessOfRockAndPlanesTogether) {
       expect_effective_stiffness<2>(
           {spring<2>({0.6, 0.8}, soft / mu, 2 * soft / mu), spring<2>({1, 0}, 0.1 / mu, 0)}, correction);
       expect_effective_stiffness<3>({spring<3>({0.48, 0.64, 0.6}, soft / mu, 0.3 * soft / mu)}, correction);
-      expect_effective_stiffness<3>({spring<3>({0.48, 0.64, 0.6}, soft / mu, 0.3 / mu),
-                                     spring<3>({1, 0, 0}, 0, soft / mu), spring<3>({0, 0.6, 0.8}, 1 / mu, 1 / mu)},
-                                    correction);
+      expect_effective_stiffness<3>(
+          {spring<3>({0.48, 0.64, 0.6}, soft / mu, 0.3 / mu), spring<3>({1, 0, 0}, 0, soft / mu),
+           spring<3>({0, 0.6, 0.8}, 1 / mu, 1 / mu)},
+          correction);
     }
   }
 }
@@ -251,17 +252,19 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) { 
 
 TEST(SpringLimits, StiffPlanesAreRockAndSoftOnesCarryNothing) {
   const auto rock_alone = traces_of(scene_with({spring<2>({0.6, 0.8}, 0, 0)}));
-  for (const auto& other : {std::vector{spring<2>({0.6, 0.8}, 1e-9 / mu, 1e-9 / mu)},
-                            std::vector{spring<2>({0.6, 0.8}, 1e-9 / mu, 0), spring<2>({1, 0}, 0, 1e-9 / mu)}}) {
+  for (const auto& other :
+       {std::vector{spring<2>({0.6, 0.8}, 1e-9 / mu, 1e-9 / mu)},
+        std::vector{spring<2>({0.6, 0.8}, 1e-9 / mu, 0), spring<2>({1, 0}, 0, 1e-9 / mu)}}) {
     const double error = difference(traces_of(scene_with(other)), rock_alone);
     EXPECT_GT(difference(traces_of(scene_with({spring<2>({0.6, 0.8}, 1e-3 / mu, 0)})), rock_alone), 1e-5);
     EXPECT_LT(error, 1e-6);
   }
-  // The softest planes are dry ones without strength, but that they carry no compression either.
-  auto free = spring<2>({0.6, 0.8}, 0, 0);
-  free.law = FrictionLaw::coulomb;
-  const auto slides_freely = traces_of(scene_with({free}));
-  EXPECT_LT(difference(traces_of(scene_with({spring<2>({0.6, 0.8}, 0, 1e12 / mu)})), slides_freely), 0.15);
+  // Planes that are free to shear are planes without strength, where both act at the end of a step alone.
+  auto free = scene_with({spring<2>({0.6, 0.8}, 0, 0)}),
+       soft = scene_with({spring<2>({0.6, 0.8}, 0, 1e12 / mu)});
+  free.model.fracture_sets[0].systems[0].law = FrictionLaw::coulomb;
+  free.numerics.correction = soft.numerics.correction = SlipCorrection::first;
+  EXPECT_LT(difference(traces_of(soft), traces_of(free)), 1e-4);
   Cells<2> cells({spring<2>({0.6, 0.8}, 1e12 / mu, 1e12 / mu)}, SlipCorrection::second);
   Tensor<2> by, s;
   by.values = {1e-6, -2e-6, 3e-6};
@@ -275,7 +278,8 @@ TEST(SpringLimits, StiffSpringsLeaveFrictionAndEndlessFrictionLeavesSprings) {
     for (const bool blocks : {false, true}) {
       std::vector<SlipSystem<2>> friction = {spring<2>({0.6, 0.8}, 0, 0)};
       if (blocks) friction.push_back(spring<2>({-0.8, 0.6}, 0, 0));
-      for (auto& system : friction) system.law = FrictionLaw::coulomb, system.friction = 0.3, system.viscosity_s = 1;
+      for (auto& system : friction)
+        system.law = FrictionLaw::coulomb, system.friction = 0.3, system.viscosity_s = 1;
       auto both = friction, springs = friction, endless = friction;
       for (auto& system : both) system.compliance = {1e-30 / mu, 1e-30 / mu, 0, 0, 1};
       for (auto& system : springs) {
@@ -317,7 +321,7 @@ TEST(SpringScenes, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
     scene.numerics.time_order = number == 2 ? 4 : 2;
     SCOPED_TRACE(number);
     const auto alone = traces_of(scene);
-    EXPECT_TRUE(all_samples(shared_out(scene, 3)) == alone);
+    EXPECT_TRUE(all_samples(shared_out(scene, 2)) == alone);
     expect_same(scene);
     std::vector<char> kept;
     std::vector<double> found;
@@ -358,8 +362,9 @@ Waves waves_in(const std::vector<SlipSystem<2>>& systems) {
     const Point<2> a = {xz, value - xx}, b = {value - zz, xz};
     const auto& longer = std::hypot(a[0], a[1]) > std::hypot(b[0], b[1]) ? a : b;
     const double size = std::hypot(longer[0], longer[1]);
-    waves.along[n] =
-        size > 1e-9 * value ? Point<2>{longer[0] / size, longer[1] / size} : n ? Point<2>{0, 1} : Point<2>{1, 0};
+    waves.along[n] = size > 1e-9 * value ? Point<2>{longer[0] / size, longer[1] / size}
+                     : n                 ? Point<2>{0, 1}
+                                         : Point<2>{1, 0};
   }
   return waves;
 }
@@ -373,7 +378,7 @@ Travelled travel(const std::vector<SlipSystem<2>>& systems, int which, int cells
                  SlipCorrection correction = SlipCorrection::second) {
   constexpr std::int64_t nx = 4;
   constexpr double h = 5;
-  const std::int64_t nz = 40 * cells_a_wavelength;
+  const std::int64_t nz = 30 * cells_a_wavelength;
   Scene<2> scene;
   scene.model.medium = uniform_medium(nx, nz, h, rock);
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid(), 1);
@@ -387,7 +392,7 @@ Travelled travel(const std::vector<SlipSystem<2>>& systems, int which, int cells
   L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 7, step_s);
   LinearSlip<2, double> springs(lab.state(), lab.domain(), scene, step_s);
   for (std::int64_t n = 0; n < nz; ++n) {
-    const double z = double(n) - 12. * cells_a_wavelength;
+    const double z = double(n) - 11. * cells_a_wavelength;
     const double v = std::cos(k * z) * std::exp(-std::pow(z / (2.5 * cells_a_wavelength), 2) / 2);
     const double ezz = -along[1] * v / speed, twice_exz = -along[0] * v / speed;
     for (std::int64_t i = 0; i < nx; ++i) {
@@ -418,16 +423,17 @@ Travelled travel(const std::vector<SlipSystem<2>>& systems, int which, int cells
 }
 
 TEST(SpringMedium, HasTheSpeedsOfSchoenbergAndSayers) {
-  // Wavelengths of 20 cells, planes along, across and at 45 degrees to the wave; families that cross.
+  // Wavelengths of 30 cells, planes along, across and at 45 degrees to the wave; families that cross.
   for (const auto& systems :
-       {std::vector{spring<2>({0, 1}, 0.3 / mu, 0.5 / mu)}, std::vector{spring<2>({1, 0}, 0.3 / mu, 0.5 / mu)},
+       {std::vector{spring<2>({0, 1}, 0.3 / mu, 0.5 / mu)},
+        std::vector{spring<2>({1, 0}, 0.3 / mu, 0.5 / mu)},
         std::vector{spring<2>({std::sqrt(0.5), std::sqrt(0.5)}, 0.3 / mu, 0.5 / mu)},
         std::vector{spring<2>({0.6, 0.8}, 0.3 / mu, 0.5 / mu), spring<2>({1, 0}, 0.1 / mu, 0.4 / mu)}})
     for (const int which : {0, 1}) {
       const auto waves = waves_in(systems);
-      const auto found = travel(systems, which, 20);
+      const auto found = travel(systems, which, 30);
       SCOPED_TRACE(std::to_string(systems[0].normal[1]) + (which ? " P" : " S"));
-      EXPECT_NEAR(found.speed / waves.speed[which], 1, 0.003);
+      EXPECT_NEAR(found.speed / waves.speed[which], 1, 0.005);
       EXPECT_NEAR(found.left, 1, 0.03);
     }
 }
@@ -444,10 +450,12 @@ TEST(SpringMedium, ConvergesWithSecondOrder) {
 }
 
 TEST(SpringMedium, HasThomsensParametersOfWeakFractures) {
-  // Of level planes, in first order of their weaknesses (epsilon = 2 g (1 - g) D_N, delta = 2 g (D_N - D_T)): g = (vs/vp)^2.
+  // Of level planes, in first order of their weaknesses (epsilon = 2 g (1 - g) D_N, delta = 2 g (D_N - D_T)):
+  // g = (vs/vp)^2.
   const double g = 0.25, weak_n = 0.05, weak_t = 0.1;
   const auto at = [&](const Point<2>& normal, int which) {
-    return travel({spring<2>(normal, weak_n / (1 - weak_n) / modulus, weak_t / (1 - weak_t) / mu)}, which, 20).speed;
+    return travel({spring<2>(normal, weak_n / (1 - weak_n) / modulus, weak_t / (1 - weak_t) / mu)}, which, 20)
+        .speed;
   };
   const double along = at({1, 0}, 1), across = at({0, 1}, 1), half = at({std::sqrt(0.5), std::sqrt(0.5)}, 1);
   const double epsilon = (along * along / (across * across) - 1) / 2;

@@ -96,9 +96,7 @@ struct Setup {
 
   double kx() const { return pi / (double(nx) * h); }
   double omega() const { return 2 * pi * hz; }
-  double angle_deg() const {
-    return std::asin(kx() * (of_s ? rock.vs : rock.vp) / omega()) * 180 / pi;
-  }
+  double angle_deg() const { return std::asin(kx() * (of_s ? rock.vs : rock.vp) / omega()) * 180 / pi; }
 };
 
 /// vx and vz of the standing wave at that frequency, above and below the row.
@@ -186,9 +184,9 @@ Coefficients measured(const Setup& of, const Plane& plane) {
     const Complex vx = with.vx[side] - without.vx[side], vz = with.vz[side] - without.vz[side];
     const Wave in = wave_of(of.of_s, omega, kx, k_in);
     // By the larger component, at the depth of the row.
-    const Complex came = (std::abs(in.vx) > std::abs(in.vz) ? without.vx[side] / in.vx
-                                                            : without.vz[side] / in.vz) *
-                         std::exp(-i1 * k_in * (way * distance));
+    const Complex came =
+        (std::abs(in.vx) > std::abs(in.vz) ? without.vx[side] / in.vx : without.vz[side] / in.vz) *
+        std::exp(-i1 * k_in * (way * distance));
     const Wave of_p = wave_of(false, omega, kx, way * kp), of_s_wave = wave_of(true, omega, kx, way * ks);
     const Complex determinant = of_p.vx * of_s_wave.vz - of_p.vz * of_s_wave.vx;
     p[side] = (vx * of_s_wave.vz - vz * of_s_wave.vx) / determinant * std::exp(-i1 * kp * distance) / came;

@@ -166,10 +166,10 @@ void LinearSlip<D, Real>::each_segment(
       const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
       if (first >= last) continue;
       const auto place = segment.place + std::size_t(first - segment.first);
-      (group.kernels.*kernel)(last - first, group.planes,
-                              {stress + first, fields.pitch, group.memory.data() + place,
-                               group.coefficients.data() + place, std::int64_t(group.places.stored()),
-                               ahead_});
+      (group.kernels.*kernel)(
+          last - first, group.planes,
+          {stress + first, fields.pitch, group.memory.data() + place, group.coefficients.data() + place,
+           std::int64_t(group.places.stored()), ahead_});
     }
 }
 
@@ -256,8 +256,7 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
   at[0] = 0;
   for (std::size_t c = 0; c < off.values.size(); ++c) {
     const double even = c < D ? rock.lambda * trace / (D * rock.lambda + 2 * rock.mu) : 0;
-    const double stress =
-        double(state_.field_row(at, FieldRows<D>::normal_stress(0) + int(c))[x]) / unit_;
+    const double stress = double(state_.field_row(at, FieldRows<D>::normal_stress(0) + int(c))[x]) / unit_;
     energy += (c < D ? 0.5 : 1) * stress * (off.values[c] - even) / (2 * rock.mu);
   }
   return energy;

@@ -73,7 +73,7 @@ class SlipGroup {
   const FractureSet<D>* set_;
   double unit_;
   FractureCells<D> places_;
-  std::size_t count_;  // cells that are stored
+  std::size_t count_;          // cells that are stored
   SlipPlanes<Real> planes_{};  // of all systems, for s_n and opening
   SlipKernels<Real> kernels_{};
   GapKernel<Real> open_ = nullptr;

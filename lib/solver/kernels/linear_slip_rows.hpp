@@ -156,10 +156,10 @@ template <int D, bool Slides, class Real>
 template <int D, class Real>
 LinearSlipKernels<Real> linear_of_family(bool damped, bool slides) {
   if (damped)
-    return slides ? LinearSlipKernels<Real>{family_ends<D, true, true, Real>,
-                                            family_begins<D, true, true, Real>}
-                  : LinearSlipKernels<Real>{family_ends<D, true, false, Real>,
-                                            family_begins<D, true, false, Real>};
+    return slides
+               ? LinearSlipKernels<Real>{family_ends<D, true, true, Real>, family_begins<D, true, true, Real>}
+               : LinearSlipKernels<Real>{family_ends<D, true, false, Real>,
+                                         family_begins<D, true, false, Real>};
   return slides
              ? LinearSlipKernels<Real>{family_ends<D, false, true, Real>, family_begins<D, false, true, Real>}
              : LinearSlipKernels<Real>{family_ends<D, false, false, Real>,
