@@ -71,7 +71,7 @@ inline SpringStep spring_step(double modulus_pa, double compliance, double dampi
   return {left, share * (mean - left), of_end, time_s > 0 ? of_end / (1 - of_end) : soft};
 }
 
-/// Shear modulus of a cell for slip that goes on steadily through a step while springs in line with it give
+/// Shear modulus of a cell for slip that continues steadily through a step while springs in line with it give
 /// way: mu where there are none.
 inline double modulus_above_springs(double mu, double follows) { return mu / (1 + follows); }
 
