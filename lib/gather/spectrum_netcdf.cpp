@@ -65,6 +65,8 @@ class SpectrumNetcdf final : public SpectrumFile {
     if (components_.size() == 1)
       describe(quantity_, quantity_ + " of " + name_of(*components_.begin()),
                spectrum_unit(*components_.begin(), facts_.power));
+    else if (!components_.empty())
+      file_.put_attribute(quantity_, "long_name", quantity_ + " of the component of each trace, in its unit");
     file_.close();
     out_.commit();
   }

@@ -49,7 +49,7 @@ double spacing_of(const std::string& name, const std::vector<double>& values) {
   return raw;
 }
 
-const std::string bounds_name = "depth_bounds", horizon_prefix = "horizon_";
+const std::string bounds_name = "depth_bounds", horizon_prefix = "horizon_", topology_name = "grid";
 
 template <int D>
 std::vector<std::string> corner_dimensions() {
@@ -141,6 +141,42 @@ RowDepths<D> read_rows(const NetcdfFile& file, const Grid<D>& grid) {
                   [&] { return RowDepths<D>(grid.shape, std::move(corners), std::move(horizons)); });
 }
 
+/// What SGRID calls a cell.
+template <int D>
+std::string cell_name() {
+  return D == 2 ? "face" : "volume";
+}
+
+/// Which corners are those of a cell, by the SGRID conventions: one more than cells along each axis.
+template <int D>
+void define_topology(NetcdfFile& file) {
+  std::string nodes, cells, columns, node_columns;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const std::string name = axis_name(axis_names<D>()[axis]), node = name + "_face";
+    const std::string blank = axis == 0 ? "" : " ";
+    nodes += blank + node;
+    cells += blank + name + ": " + node + " (padding: none)";
+    if (axis + 1 == D) continue;
+    columns += name + " ";
+    node_columns += node + " ";
+    file.define_variable(node, NetcdfFile::Type::f64, {node});
+    file.put_attribute(node, "long_name", name + " of cell corners");
+    file.put_attribute(node, "units", "m");
+    file.put_attribute(node, "axis", axis == 0 ? "X" : "Y");
+  }
+  file.define_variable(topology_name, NetcdfFile::Type::i32, {});
+  const auto put = [&](const std::string& name, const std::string& text) {
+    file.put_attribute(topology_name, name, text);
+  };
+  put("cf_role", "grid_topology");
+  put("long_name", "cells and their corners");
+  file.put_attribute(topology_name, "topology_dimension", std::vector<int>{D});
+  put("node_dimensions", nodes);
+  put("node_coordinates", node_columns + bounds_name);
+  put(cell_name<D>() + "_dimensions", cells);
+  put(cell_name<D>() + "_coordinates", columns + "depth");
+}
+
 /// Variables of a fitted grid beside its coordinates.
 template <int D>
 void define_depths(NetcdfFile& file, const Grid<D>& grid) {
@@ -163,6 +199,7 @@ void define_depths(NetcdfFile& file, const Grid<D>& grid) {
     file.put_attribute(name, "role", horizon.role);
     file.put_attribute(name, "row", std::vector<int>{int(horizon.row)});
   }
+  define_topology<D>(file);
 }
 
 template <int D>
@@ -172,6 +209,9 @@ void put_depths(NetcdfFile& file, const Grid<D>& grid) {
     depths[std::size_t(cell)] = float(grid.depth(grid.index(cell)));
   file.put("depth", depths.data());
   file.put(bounds_name, grid.rows->corners_m().data());
+  for (std::size_t axis = 0; axis + 1 < D; ++axis)
+    file.put(axis_name(axis_names<D>()[axis]) + "_face",
+             centres(grid.shape[axis] + 1, grid.origin_m[axis] - grid.spacing_m / 2, grid.spacing_m).data());
   const std::int64_t columns = grid.size() / grid.shape[D - 1];
   for (const auto& horizon : grid.rows->horizons()) {
     std::vector<double> of_columns;
@@ -197,7 +237,15 @@ std::vector<std::string> field_dimensions() {
 
 template <int D>
 void put_coordinates(NetcdfFile& file, const Grid<D>& grid, const std::string& variable) {
-  if (is_fitted(grid)) file.put_attribute(variable, "coordinates", "depth");
+  if (!is_fitted(grid)) return;
+  file.put_attribute(variable, "coordinates", "depth");
+  file.put_attribute(variable, "grid", topology_name);
+  file.put_attribute(variable, "location", cell_name<D>());
+}
+
+template <int D>
+std::string conventions_of(const Grid<D>& grid) {
+  return is_fitted(grid) ? "CF-1.10 SGRID-0.3" : "CF-1.10";
 }
 
 template <int D>
@@ -297,5 +345,7 @@ template void put_grid(NetcdfFile&, const Grid<2>&);
 template void put_grid(NetcdfFile&, const Grid<3>&);
 template void put_coordinates(NetcdfFile&, const Grid<2>&, const std::string&);
 template void put_coordinates(NetcdfFile&, const Grid<3>&, const std::string&);
+template std::string conventions_of(const Grid<2>&);
+template std::string conventions_of(const Grid<3>&);
 
 }  // namespace slipwave

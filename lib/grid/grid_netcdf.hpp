@@ -23,7 +23,11 @@ void define_grid(NetcdfFile& file, const Grid<D>& grid);
 /// Writes the values of the coordinate variables.
 template <int D>
 void put_grid(NetcdfFile& file, const Grid<D>& grid);
-/// Writes the attribute `coordinates` of a field on a grid: the depth of cells, where that is fitted.
+/// The conventions that a file with this grid follows: CF, and SGRID where it is fitted.
+template <int D>
+std::string conventions_of(const Grid<D>& grid);
+/// Writes the attributes that tie a field to a fitted grid: `coordinates`, the depth of cells, and of SGRID
+/// `grid` and `location`. Nothing where the grid is regular.
 template <int D>
 void put_coordinates(NetcdfFile& file, const Grid<D>& grid, const std::string& variable);
 /// "z", ["y",] "x": the dimensions of a field, as netCDF orders them.

@@ -57,6 +57,8 @@ class NetcdfFile {
   void put_attribute(const std::string& variable, const std::string& name, const std::vector<double>& values);
   void put_attribute(const std::string& variable, const std::string& name, const std::vector<float>& values);
   void put_attribute(const std::string& variable, const std::string& name, const std::vector<int>& values);
+  void put_attribute(const std::string& variable, const std::string& name,
+                     const std::vector<std::uint8_t>& values);
 
   // Values. T: double, float, int, std::uint8_t; the library converts, out of range is an Error.
   /// A whole variable without unlimited dimension.

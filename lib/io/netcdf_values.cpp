@@ -70,6 +70,13 @@ void NetcdfFile::put_attribute(const std::string& variable, const std::string& n
                variable);
 }
 
+void NetcdfFile::put_attribute(const std::string& variable, const std::string& name,
+                               const std::vector<std::uint8_t>& values) {
+  impl_->check(nc_put_att_uchar(impl_->id, impl_->variable_id(variable), name.c_str(), NC_UBYTE,
+                                values.size(), values.data()),
+               variable);
+}
+
 template <class T>
 void NetcdfFile::put(const std::string& variable, const std::vector<std::size_t>& start,
                      const std::vector<std::size_t>& count, const T* values) {

@@ -1,6 +1,7 @@
 #include "model/model_netcdf.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <limits>
 
 #include "base/error.hpp"
@@ -137,6 +138,27 @@ void read_compliances(const NetcdfFile& file, std::vector<SlipSystem<D>>& system
   }
 }
 
+/// A blank ends a meaning in CF's flag_meanings.
+std::string flag_word(std::string name) {
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && std::string("_-.+@").find(c) == std::string::npos)
+      c = '_';
+  return name.empty() ? "_" : name;
+}
+
+/// What the codes 0, 1, 2, ... of a variable of type T mean, as CF has it.
+template <class T>
+void put_flags(NetcdfFile& file, const std::string& variable, const std::vector<std::string>& meanings) {
+  std::vector<T> values;
+  std::string words;
+  for (const auto& meaning : meanings) {
+    words += (values.empty() ? "" : " ") + flag_word(meaning);
+    values.push_back(T(values.size()));
+  }
+  file.put_attribute(variable, "flag_values", values);
+  file.put_attribute(variable, "flag_meanings", words);
+}
+
 template <int D>
 void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<FractureSet<D>>& sets) {
   std::size_t systems = 0;
@@ -144,9 +166,13 @@ void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<Fractu
   file.define_dimension("fracture_set", sets.size());
   file.define_dimension("slip_system", systems);
   file.define_dimension("axis", D);
-  file.define_variable("fracture", Type::u8, field_dimensions<D>());
+  // Not as bytes: readers of classic netCDF, ParaView's for one, know none without sign.
+  file.define_variable("fracture", Type::i32, field_dimensions<D>());
   file.put_attribute("fracture", "long_name",
                      "fracture set of the cell, 0 = intact, k = row k-1 of fracture_set");
+  std::vector<std::string> meanings = {"intact"};
+  for (const auto& set : sets) meanings.push_back(set.name);
+  put_flags<int>(file, "fracture", meanings);
   put_coordinates(file, grid, "fracture");
   file.define_variable("fracture_name", Type::text, {"fracture_set"});
   file.put_attribute("fracture_name", "long_name", "name of the fracture set");
@@ -163,13 +189,17 @@ void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<Fractu
   define("slip_friction", Type::f64, "coefficient of friction", "1");
   define("slip_viscosity", Type::f64, "viscosity of slip", "s");
   define("slip_strength", Type::f64, "cohesion", "Pa");
-  if (any_opens(sets)) define("slip_opening", Type::u8, "1: the planes part under tension", "");
+  if (any_opens(sets)) {
+    define("slip_opening", Type::u8, "1: the planes part under tension", "");
+    put_flags<std::uint8_t>(file, "slip_opening", {"stay_closed", "part_under_tension"});
+  }
   if (any_gives(sets))
     for (const auto& column : compliance_columns)
       define(column.name, Type::f64, column.long_name, column.units);
   if (!any_law(sets)) return;
   define("slip_law", Type::u8, "friction law: 0 Coulomb, 1 slip weakening, 2 none: the planes never slide",
          "");
+  put_flags<std::uint8_t>(file, "slip_law", {"Coulomb", "slip_weakening", "none"});
   define("slip_dynamic_friction", Type::f64, "coefficient of friction after weakening", "1");
   define("slip_distance", Type::f64, "slip over which friction falls to the dynamic one", "m");
 }
@@ -334,7 +364,7 @@ template <int D>
 void write_model(const Model<D>& model, OutputFile& out) {
   auto file = NetcdfFile::create(out.path_for_libraries(), out.shown_name());
   const bool fractured = !model.fracture.empty() && !model.fracture_sets.empty();
-  file.put_attribute("", "Conventions", "CF-1.10");
+  file.put_attribute("", "Conventions", conventions_of(model.grid()));
   if (!model.title.empty()) file.put_attribute("", "title", model.title);
   if (!model.source.empty()) file.put_attribute("", "source", model.source);
   if (!model.history.empty()) file.put_attribute("", "history", model.history);

@@ -100,7 +100,7 @@ SnapshotWriter<D>::SnapshotWriter(const std::string& path, const Grid<D>& grid,
       file_(NetcdfFile::create(out_.path_for_libraries(), out_.shown_name())),
       low_(fields_.size(), std::numeric_limits<float>::infinity()),
       high_(fields_.size(), -std::numeric_limits<float>::infinity()) {
-  file_.put_attribute("", "Conventions", "CF-1.10");
+  file_.put_attribute("", "Conventions", conventions_of(grid));
   for (const auto& [name, text] : {std::pair<const char*, const std::string&>{"title", history.title},
                                    {"source", history.source},
                                    {"history", history.history}})

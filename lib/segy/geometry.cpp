@@ -79,6 +79,47 @@ class Lines {
   std::set<double> places_;
 };
 
+/// Whole metres, negative where the receiver lies before the source.
+std::int64_t offset_word(const TraceHeader& header) {
+  const auto &source = header.source_m, &receiver = header.receiver_m;
+  const double along = receiver[0] != source[0] ? receiver[0] - source[0] : receiver[1] - source[1];
+  return std::llround(std::copysign(distance(source, receiver), along));
+}
+
+std::int64_t line_of(const TraceHeader& header, const SurveyLayout& layout) {
+  return bin_of((header.source_m[1] + header.receiver_m[1]) / 2, layout.bin_y_m);
+}
+
+Numbering numbering_of(std::span<const TraceHeader> headers, const SurveyLayout& layout) {
+  if (headers.empty()) return Numbering::bins;
+  bool one_offset = true, channels = false;
+  for (std::size_t i = 0; i < headers.size(); ++i) {
+    if (line_of(headers[i], layout) != line_of(headers.front(), layout)) return Numbering::bins;
+    one_offset = one_offset && offset_word(headers[i]) == offset_word(headers.front());
+    channels = channels || (i > 0 && headers[i].shot == headers[i - 1].shot &&
+                            headers[i].component == headers[i - 1].component);
+  }
+  return one_offset && channels ? Numbering::channels : Numbering::shots;
+}
+
+void set_lines(TraceWords& words, const TraceHeader& header, const SurveyLayout& layout) {
+  const auto component = code_of(header.component);
+  switch (layout.numbering) {
+    case Numbering::bins:
+      words.set("iline", line_of(header, layout));
+      words.set("xline", words.get("cdp"));
+      break;
+    case Numbering::shots:
+      words.set("iline", header.shot);
+      words.set("xline", component);
+      break;
+    case Numbering::channels:
+      words.set("iline", component);
+      words.set("xline", header.channel);
+      break;
+  }
+}
+
 std::int64_t unit_code(Component component) {
   const std::string unit = unit_of(component);
   if (unit == "Pa") return 1;
@@ -126,6 +167,7 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
     layout.bin_m = along_y.bin(spacing / 2);
     layout.bin_y_m = along_x.bin(spacing / 2);
   }
+  layout.numbering = numbering_of(headers, layout);
   return layout;
 }
 
@@ -140,7 +182,6 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   const auto word = [&](double metres) { return std::llround(metres * std::abs(layout.coordinate_scalar)); };
   const auto& [sx, sy, sz] = header.source_m;
   const auto& [gx, gy, gz] = header.receiver_m;
-  const double along = gx != sx ? gx - sx : gy - sy;
   const double mid_x = (sx + gx) / 2;
   const double mid_y = (sy + gy) / 2;
   TraceWords words;
@@ -153,7 +194,7 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("nvs", 1);
   words.set("nhs", 1);
   words.set("duse", 1);
-  words.set("offset", std::llround(std::copysign(distance(header.source_m, header.receiver_m), along)));
+  words.set("offset", offset_word(header));
   words.set("gelev", word(-gz));
   words.set("sdepth", word(sz));
   words.set("swdep", word(header.water_depth_source_m));
@@ -167,8 +208,7 @@ TraceWords words_from_si(const TraceHeader& header, const SurveyLayout& layout) 
   words.set("counit", 1);
   words.set("cdpx", word(mid_x));
   words.set("cdpy", word(mid_y));
-  words.set("iline", bin_of(mid_y, layout.bin_y_m));
-  words.set("xline", bin);
+  set_lines(words, header, layout);
   words.set("sp", header.shot);
   words.set("spscal", 1);
   words.set("unit", unit_code(header.component));

@@ -17,6 +17,14 @@ namespace slipwave::segy {
 std::int64_t code_of(Component component);
 Component component_of_code(std::int64_t code);
 
+/// What in-lines and cross-lines (bytes 189 and 193) of a gather count. Programs that know only regular
+/// cubes, offsets fastest, open a line or a well by them.
+enum class Numbering {
+  bins,      // midpoints spread over an area: bins of their y and x
+  shots,     // midpoints on a line: shot and component (trid), channels being the offsets
+  channels,  // one offset for all channels, as in a well: component and channel
+};
+
 /// What all trace headers of a file share.
 struct SurveyLayout {
   int coordinate_scalar = 1;         // 1, -10, -100 or -1000
@@ -24,12 +32,14 @@ struct SurveyLayout {
   double bin_y_m = 1;                // and along y
   std::int64_t traces_per_shot = 1;  // of the shot that has most
   std::int64_t traces = 0;           // 0: not known beforehand
+  Numbering numbering = Numbering::bins;
 };
 
 /// The coarsest scalar of 1, -10, -100, -1000 that keeps every coordinate, depth and midpoint exactly; where
 /// none does, the finest whose words fit 32 bits. Bins are half the smallest distance between receivers of
 /// consecutive traces of a shot (1 m where there is only one receiver), across lines of receivers at most
-/// half the smallest distance between two of them: no line has the number of another. Throws Error when a
+/// half the smallest distance between two of them: no line has the number of another. Numbering counts shots
+/// where all midpoints lie in one bin of y. Throws Error when a
 /// coordinate is not finite or does not fit 32 bits in whole metres.
 SurveyLayout layout_of(std::span<const TraceHeader> headers);
 

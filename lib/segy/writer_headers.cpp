@@ -150,6 +150,24 @@ std::vector<std::string> warnings_of(const FileInfo& info) {
   return warnings;
 }
 
+namespace {
+
+/// Bytes of what names a trace, in-line (189) and cross-line (193) among them.
+std::string places_of_numbers(Numbering numbering) {
+  const std::string midpoint = "  midpoint x 181 y 185, bin 21";
+  switch (numbering) {
+    case Numbering::bins:
+      break;
+    case Numbering::shots:
+      return midpoint + "; shot 9, 189; channel 13; component 29, 193";
+    case Numbering::channels:
+      return midpoint + "; shot 9; channel 13, 193; component 29, 189";
+  }
+  return midpoint + ", y 189, x 193; shot 9; channel 13; component 29";
+}
+
+}  // namespace
+
 std::vector<std::string> convention_entries(std::span<const Component> components, const SampleAxis& axis,
                                             const SurveyLayout& layout) {
   std::vector<std::string> entries;
@@ -168,7 +186,7 @@ std::vector<std::string> convention_entries(std::span<const Component> component
   entries.push_back("Sampling: " + std::to_string(axis.count) + " samples every " + shown(axis.interval_s) +
                     " s from " + shown(axis.start_s) + " s");
   entries.push_back("Bytes: source x 73 y 77 depth 49, receiver x 81 y 85 elevation 41,");
-  entries.push_back("  midpoint x 181 y 185, midpoint bin 21 and 193, shot 9, channel 13");
+  entries.push_back(places_of_numbers(layout.numbering));
   entries.push_back("Lengths in metres, scalar (bytes 69 and 71) " +
                     std::to_string(layout.coordinate_scalar) + ", midpoint bins of " + shown(layout.bin_m) +
                     (layout.bin_y_m == layout.bin_m ? "" : " x " + shown(layout.bin_y_m)) + " m");

@@ -138,6 +138,68 @@ TEST(SurveyLayout, GivesCloseLinesNumbersOfTheirOwn) {
     }
 }
 
+TEST(SurveyLayout, NumbersLinesByShotAndComponentWellsByChannelAreasByMidpoint) {
+  // Two shots into three receivers each, of two components.
+  const auto numbers_of = [](auto&& receiver) {
+    std::vector<TraceHeader> headers;
+    for (const int shot : {4, 7})
+      for (const Component component : {Component::vz, Component::p})
+        for (int n = 0; n < 3; ++n) {
+          headers.push_back(header_at(100. * shot, 0));
+          headers.back().shot = shot;
+          headers.back().channel = n + 1;
+          headers.back().component = component;
+          headers.back().receiver_m = receiver(shot, n);
+        }
+    const SurveyLayout layout = layout_of(headers);
+    std::vector<std::pair<std::int64_t, std::int64_t>> numbers;
+    for (const auto& header : headers) {
+      const TraceWords words = words_from_si(header, layout);
+      numbers.emplace_back(words.get("iline"), words.get("xline"));
+    }
+    return numbers;
+  };
+  using Numbers = std::vector<std::pair<std::int64_t, std::int64_t>>;
+  using Place = std::array<double, 3>;
+  EXPECT_EQ(numbers_of([](int, int n) {
+              return Place{25. * n, 0, 5};
+            }),
+            (Numbers{{4, 12},
+                     {4, 12},
+                     {4, 12},
+                     {4, 11},
+                     {4, 11},
+                     {4, 11},
+                     {7, 12},
+                     {7, 12},
+                     {7, 12},
+                     {7, 11},
+                     {7, 11},
+                     {7, 11}}));
+  EXPECT_EQ(numbers_of([](int shot, int n) {
+              return Place{100. * shot + 50, 0, 5. * n};
+            }),
+            (Numbers{{12, 1},
+                     {12, 2},
+                     {12, 3},
+                     {11, 1},
+                     {11, 2},
+                     {11, 3},
+                     {12, 1},
+                     {12, 2},
+                     {12, 3},
+                     {11, 1},
+                     {11, 2},
+                     {11, 3}}));
+  // Midpoints at x = 200 and 350 m, y = 0, 50 and 100 m, in bins of 50 m.
+  EXPECT_EQ(
+      numbers_of([](int, int n) {
+        return Place{0, 100. * n, 5};
+      }),
+      (Numbers{
+          {1, 5}, {2, 5}, {3, 5}, {1, 5}, {2, 5}, {3, 5}, {1, 8}, {2, 8}, {3, 8}, {1, 8}, {2, 8}, {3, 8}}));
+}
+
 TEST(SurveyLayout, TakesLinesFarApartAndSingleReceiversAsOneLine) {
   std::vector<TraceHeader> headers;
   for (const double y : {0., 100.})
