@@ -9,7 +9,7 @@ namespace slipwave {
 namespace {
 
 int cells() { return long_form() ? 30 : 16; }
-int steps() { return long_form() ? 20000 : 150; }
+int steps() { return long_form() ? 20000 : 80; }
 
 /// Compliance times the shear modulus of ordinary rock, normal and tangential, and the time in which dashpots
 /// let the springs give way, in time steps.
@@ -79,7 +79,7 @@ TEST_P(Springs, NeverAddEnergyHoweverStiffOrSoft) {
   const std::vector<Law> laws =
       GetParam().slides ? std::vector<Law>{{0.1, 0}, {0.1, 1e3}, {0, 1e3}} : std::vector<Law>{{0, 0}};
   for (const auto& cluster : clusters())
-    for (const double soft : {1e-6, 0.1, 1., 30., 1e3, 1e5, 1e7, 1e9})
+    for (const double soft : {1e-6, 1., 30., 1e9})
       for (const double dashpot : dashpots)
         for (const auto& law : laws)
           for (const double other : {0., 2.}) {

@@ -38,17 +38,14 @@ template <int D>
 Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Lame& rock) {
   Tensor<D> strain;
   for (const auto& system : set.systems) {
-    const auto of = compliance_in(system.compliance, rock.lambda, rock.mu);
+    const auto of = compliance_of<D>(system, slides(set), rock.lambda, rock.mu);
     const auto& n = system.normal;
     Point<D> tau;
     const double s_n = resolve<D, double>(n, stress, tau);
-    const double most = slip::most_compliance;
-    const double normal = std::min(of.normal, most / (rock.lambda + 2 * rock.mu)),
-                 tangential = std::min(of.tangential, most / rock.mu);
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t j = i; j < D; ++j)
         strain(int(i), int(j)) +=
-            normal * s_n * n[i] * n[j] + tangential * (tau[i] * n[j] + n[i] * tau[j]) / 2;
+            of.normal * s_n * n[i] * n[j] + of.tangential * (tau[i] * n[j] + n[i] * tau[j]) / 2;
   }
   return strain;
 }
@@ -108,7 +105,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
   for (const auto& [place, cell] : group.places.all(state_.layout, domain_, model_)) {
     const auto [lambda, mu] = lame_of(model_.medium, cell);
     const double modulus = lambda + 2 * mu;
-    const auto of = compliance_in(group.set->systems[0].compliance, lambda, mu);
+    const auto of = compliance_of<D>(group.set->systems[0], group.of.slides, lambda, mu);
     const auto normal = slip::spring_step(modulus, of.normal, of.normal_damping, dt_s);
     const auto tangential = slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s);
     std::size_t at = place;
@@ -239,10 +236,10 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
   };
   double energy = 0;
   if (group.of.one_family) {
-    const auto of = compliance_in(group.set->systems[0].compliance, rock.lambda, rock.mu);
+    const auto of = compliance_of<D>(group.set->systems[0], group.of.slides, rock.lambda, rock.mu);
     for (std::size_t k = 0; k < D; ++k) {
       const double modulus = k == 0 ? rock.lambda + 2 * rock.mu : rock.mu;
-      const double compliance = std::min(k == 0 ? of.normal : of.tangential, slip::most_compliance / modulus);
+      const double compliance = k == 0 ? of.normal : of.tangential;
       if (compliance > 0) energy += std::pow(taken(k) / modulus, 2) / compliance / 2;
     }
     return energy;

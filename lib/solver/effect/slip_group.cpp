@@ -17,7 +17,7 @@ double shear_modulus_above_springs(const std::vector<SlipSystem<D>>& systems, do
                                    double dt_s) {
   double follows = 0;
   for (const auto& system : systems) {
-    const auto of = compliance_in(system.compliance, lambda, mu);
+    const auto of = compliance_of<D>(system, true, lambda, mu);
     follows += slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s).follows;
   }
   return slip::modulus_above_springs(mu, follows);

@@ -16,4 +16,9 @@ FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
 template <int D, class Real>
 SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit = 1);
 
+/// Compliances of one family of planes of a cell. Below friction planes softer than a thousand times the rock
+/// count as that: what follows slip would else be rounding.
+template <int D>
+CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, double lambda, double mu);
+
 }  // namespace slipwave::solver
