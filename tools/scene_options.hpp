@@ -48,7 +48,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
                      "the same of the left and right boundaries, in 3-D of all four");
   options.add_choice("bottom", s.bottom, edges, "the same of the boundary at the bottom");
   options.add("edge-width", s.edge_width, "CELLS",
-              "width of the absorbing zones outside the model; 0: 20, or 40 for plane waves");
+              "width of the absorbing zones outside the model; 0: 20, for plane waves 2/3 wavelength");
   options.add("without", s.without, "LIST",
               "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress, attenuation");
   options.add("q-frequency", s.q_frequency_hz, "F",

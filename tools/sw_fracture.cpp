@@ -3,6 +3,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
 #include "model/compliance.hpp"
@@ -193,8 +194,9 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
 template <int D>
 void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
   const auto [length_m, cell] = critical_length(model, model.fracture_sets.size());
-  if (length_m > model.grid().spacing_m) return;
-  context.warn("cells of " + shown(model.grid().spacing_m) +
+  const double side_m = longest_side_m(model.grid(), cell);
+  if (length_m > side_m) return;
+  context.warn("cells of " + shown(side_m, 3) +
                " m are too large for slip weakening: friction falls to the dynamic one at once where the "
                "prestress presses most, at " +
                place_of(model.grid(), cell) + ". Use cells below " + shown(length_m, 3) +

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "accuracy/local_stack.hpp"
+#include "accuracy/upright_plane.hpp"
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -28,20 +29,26 @@ constexpr double order_7_on_faces = 0.5;
 /// The same of other representations, in cells: with means, in stairs, and within less than two rows.
 constexpr double shift_of_means = 0.15, shift_of_gentle_means = 0.1, shift_of_stairs = 0.38,
                  shift_of_few_stairs = 0.3;
-/// Fluid that stairs make resist motion of the solid along them, in cells.
-constexpr double drag_of_stairs = 1.5;
+/// Fluid that stairs make resist motion of the solid along them, and at a free surface the solid itself, in
+/// cells.
+constexpr double drag_of_stairs = 1.5, drag_of_surface_stairs = 0.3;
 /// Of an interface known to lie beside its face, the share of the way that counts.
 constexpr double share_of_offset = 0.6;
-/// Error at a distance of one cell from the source at Courant number 0.9; it falls with the fourth power of
-/// the distance, and is larger with shorter steps and for an explosion in rock.
-constexpr double near_share = 50, near_of_order_3 = 5, near_of_explosion = 4;
-/// What comes back along a fitted surface that dips from where it becomes level beyond the sides.
-constexpr double bent_surface = 0.008;
-/// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, at 24 cells
-/// per wavelength of the slower wave; it falls with their cube.
-constexpr double bound_to_surface = 0.015, bound_to_floor = 0.028;
-/// Of those of an explosion in rock, which sends out less of them.
-constexpr double bound_by_explosion = 0.4;
+/// By how much near fields are worse at order 3.
+constexpr double near_of_order_3 = 5;
+/// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
+/// water, of rock, and of waves bound to rock.
+constexpr double bent_water = 0.06, bent_rock = 0.02, bent_bound = 0.03;
+/// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
+/// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
+/// their cube.
+constexpr double bound_to_surface = 0.015, bound_to_stairs = 0.028, bound_to_floor = 0.011,
+                 bound_to_bent_floor = 0.018;
+/// Of those bound to stairs of a free surface, whose teeth slow them; in proportion to cells, and to the dip
+/// up to this one, degrees.
+constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
+/// Of those of an explosion in hard rock, and at order 7.
+constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
 /// Stairs that count as such, in rows.
@@ -74,7 +81,7 @@ Shift shift_of(const LocalInterface& interface) {
 
 bool has_drag(const LocalInterface& interface) {
   return interface.representation == staircase && interface.stairs >= few_stairs &&
-         interface.kind == Kind::fluid_solid;
+         interface.kind != Kind::inner;
 }
 
 double slowest_of(const UniformMedium& rock) { return rock.vs > 0 ? rock.vs : rock.vp; }
@@ -92,6 +99,7 @@ std::string percent(double share) { return shown(100 * share, 2) + " %"; }
 
 /// Where an interface is, for messages.
 std::string range_of(const LocalInterface& interface) {
+  if (!interface.x_is_known) return "";
   return " between x=" + shown(interface.from_x_m, 4) + " and " + shown(interface.to_x_m, 4);
 }
 
@@ -123,7 +131,7 @@ ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool b
 /// as measured for P waves (docs/accuracy.md): `mean_m` from the edge on average.
 double grazing_share(double along_m, double mean_m, double wavelength_m, double zone_m) {
   const double way = along_m / (5 * wavelength_m), width = zone_m / (0.5 * wavelength_m);
-  return std::min(0.5, 0.19 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
+  return std::min(0.5, 0.13 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
 }
 
 /// Error of what arrives straight above a shallow force in rock under a free surface, hardly less in smaller
@@ -136,6 +144,33 @@ double shallow_explosion(double depth, double aside) {
   return 0.27 * std::pow(std::max(depth, 0.5), -1.4) * std::exp(-0.5 * aside / std::max(depth, 0.5));
 }
 
+/// Kinds of sources by their near fields: those of explosions in rock are balanced (theory.md (A8)).
+enum class NearField { of_explosion_in_rock, of_explosion_in_fluid, of_force, of_uneven_moment };
+
+/// Error of the near field `cells` from a source in a medium of `per_wave` cells per wavelength and of this
+/// Courant number: near fields are static, so the longer waves are, the more counts that the smallest lose.
+double near_error(NearField kind, double cells, double per_wave, double courant, int order) {
+  const double cubed = per_wave / std::pow(cells, 3), shorter = std::clamp(0.9 / courant, 1., 10.);
+  switch (kind) {
+    case NearField::of_explosion_in_rock:
+      return (order >= 7 ? 1.1 : 1.8) * cubed / cells * std::sqrt(shorter);
+    case NearField::of_explosion_in_fluid:
+      return cubed * (1.3 / cells + 0.026 * per_wave * std::max(0., 0.9 - courant));
+    case NearField::of_force:
+      return 0.15 * cubed * std::min(3., std::pow(shorter, 1.3));
+    case NearField::of_uneven_moment:
+      return 300 * cubed / cells;
+  }
+  return 0;
+}
+
+template <int D>
+std::string name_of_edge(int axis, int side) {
+  if (axis == D - 1) return side == 0 ? "upper" : "lower";
+  if (axis == 0) return side == 0 ? "left" : "right";
+  return side == 0 ? "front" : "rear";
+}
+
 /// The error of the waves that slipping fractures send out, and their share of all: first estimates, from the
 /// figures of docs/accuracy.md.
 double slip_error(double cells_per_wavelength, double courant) {
@@ -146,16 +181,23 @@ constexpr double slip_share = 0.1;
 }  // namespace
 
 struct ErrorSources::Shot {
+  /// What a plane does not know of its scene.
+  struct Whole {
+    double stable_time_step_s;
+    bool slips, in_3d, x_is_known;
+  };
   LocalStack stack;
   StackResponse response;
   double nominal_hz, highest_hz;
   double own_spacing_m;
   bool finer_geometry;
+  std::vector<double> weights;           // of receivers, as waves spread besides
   std::vector<double> energies;          // of receivers
   double energy = 0;                     // of all
   std::vector<double> by_face, by_drag;  // squared error per squared metre, at nominal_hz
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
+  double fit_of_quality = 0;  // squared error, times the energy
   struct Edge {
     std::string name;
     double zone_cells;
@@ -164,23 +206,19 @@ struct ErrorSources::Shot {
   std::vector<Edge> edges;
 
   Shot(const Scene<2>& scene, std::size_t shot, bool finer)
-      : stack(local_stack(scene, shot, receivers_followed)),
-        response(stack.places, scene.survey.sources[shot].wavelet,
-                 scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
-        nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
-        highest_hz(scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
-        own_spacing_m(scene.model.grid().spacing_m),
-        finer_geometry(finer),
-        stable_speed(own_spacing_m / stable_time_step_s(scene)),
-        slips(scene.slips()) {
-    for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
-      energies.push_back(response.energy(response.motion(r)));
-      energy += energies.back();
-    }
-    for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
-    for (const int axis : {0, 1})
-      for (const int side : {0, 1})
-        if (scene.edges[axis][side] == EdgeLaw::absorbing) add_edge(scene, shot, axis, side);
+      : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
+    std::vector<Point<2>> receivers;
+    const auto all = scene.survey.receivers_of(shot + 1);
+    const std::size_t stride =
+        std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
+    for (std::size_t n = stride / 2; n < all.size() && receivers.size() < energies.size(); n += stride)
+      receivers.push_back(all[n].point_m);
+    add_edges(scene, scene.survey.sources[shot], receivers);
+  }
+  /// Of some receivers of a shot in 3-D.
+  Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
+      : Shot(plane.scene, 0, false, Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
+    add_edges(scene, scene.survey.sources[shot], plane.receivers_m);
   }
 
   struct Dispersion {
@@ -194,10 +232,20 @@ struct ErrorSources::Shot {
   double slip(const Discretisation& cells) const;
   /// Of waves bound to an interface, where source and receivers are near it.
   double bound_wave(std::size_t face, const Discretisation& cells) const;
+  double bent_sides(const LocalInterface& interface) const;
   double shallow_source(const Discretisation& cells) const;
   bool explodes_in_rock() const {
     const auto& places = stack.places;
     return places.force[0] == 0 && places.force[1] == 0 && places.layers[places.source_layer()].vs > 0;
+  }
+  NearField near_kind() const {
+    const auto& places = stack.places;
+    if (places.force[0] != 0 || places.force[1] != 0) return NearField::of_force;
+    if (!(places.layers[places.source_layer()].vs > 0)) return NearField::of_explosion_in_fluid;
+    const auto& m = places.moment_rate;
+    const double normal = std::abs(m(0, 0) - m(1, 1)), size = std::abs(m(0, 0)) + std::abs(m(1, 1));
+    if (normal > 1e-9 * size) return NearField::of_uneven_moment;
+    return m(0, 1) == 0 ? NearField::of_explosion_in_rock : NearField::of_force;
   }
   /// How far an interface is from the face that stands for it.
   double offset_m(std::size_t face, const Discretisation& cells) const {
@@ -210,8 +258,35 @@ struct ErrorSources::Shot {
   }
 
  private:
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer, const Whole& whole)
+      : stack(stack_of(scene, shot, whole)),
+        response(stack.places, scene.survey.sources[shot].wavelet,
+                 scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
+        highest_hz(scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        own_spacing_m(scene.model.grid().spacing_m),
+        finer_geometry(finer),
+        stable_speed(own_spacing_m / whole.stable_time_step_s),
+        slips(whole.slips) {
+    for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
+      const auto& at = stack.places.receivers[r];
+      weights.push_back(whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1);
+      energies.push_back(energy_of(response.motion(r), r));
+      energy += energies.back();
+    }
+    for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
+    if (scene.attenuates()) fit_of_quality = quality_error(*scene.attenuation);
+  }
+  static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole);
+  /// Of a spectrum at a receiver.
+  double energy_of(const MotionSpectrum& spectrum, std::size_t receiver) const {
+    return weights[receiver] * response.energy(spectrum);
+  }
   void add_face(std::size_t face);
-  void add_edge(const Scene<2>& scene, std::size_t shot, int axis, int side);
+  /// The absorbing edges, for the receivers that are followed.
+  template <int D>
+  void add_edges(const Scene<D>& scene, const Source<D>& source, const std::vector<Point<D>>& receivers);
+  double quality_error(const Attenuation& attenuation) const;
   /// What a step does to each wave: [direction][2 layer + wave][bin], the logarithm of the factor on it.
   using Steps = std::vector<std::vector<std::vector<Complex>>>;
   Steps steps(const Discretisation& cells) const;
@@ -226,31 +301,83 @@ void ErrorSources::Shot::add_face(std::size_t face) {
       const double by = std::pow(hz / nominal_hz, shift_of(stack.interfaces[face]).power);
       for (auto& part : change[bin]) part *= by;
     }
-    moved += response.energy(change);
-    if (has_drag(stack.interfaces[face])) dragged += response.energy(response.by_drag(face, r));
+    moved += energy_of(change, r);
+    if (has_drag(stack.interfaces[face])) dragged += energy_of(response.by_drag(face, r), r);
   }
   by_face.push_back(moved);
   by_drag.push_back(dragged);
 }
 
-void ErrorSources::Shot::add_edge(const Scene<2>& scene, std::size_t shot, int axis, int side) {
-  constexpr const char* names[2][2] = {{"left", "right"}, {"upper", "lower"}};
-  const auto& source = scene.survey.sources[shot];
-  Edge edge{names[axis][side], double(zone_cells(scene, source)), {}};
+template <int D>
+void ErrorSources::Shot::add_edges(const Scene<D>& scene, const Source<D>& source,
+                                   const std::vector<Point<D>>& receivers) {
   const auto& grid = scene.model.grid();
-  const auto across = std::size_t(axis);
-  const auto all = scene.survey.receivers_of(shot + 1);
-  const auto count = energies.size();
-  const std::size_t stride =
-      std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   const auto from = grid.row_coordinates(source.position_m);
-  const double place = side == 0 ? grid.origin_m[across] : grid.end(axis);
-  for (std::size_t n = stride / 2; n < all.size() && edge.along_and_mean_m.size() < count; n += stride) {
-    const auto to = grid.row_coordinates(all[n].point_m);
-    edge.along_and_mean_m.push_back({std::abs(to[1 - across] - from[1 - across]),
-                                     (std::abs(to[across] - place) + std::abs(from[across] - place)) / 2});
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1}) {
+      if (scene.edges[axis][side] != EdgeLaw::absorbing) continue;
+      const auto across = std::size_t(axis);
+      Edge edge{name_of_edge<D>(axis, side), double(zone_cells(scene, source)), {}};
+      const double place = side == 0 ? grid.origin_m[across] : grid.end(axis);
+      for (const auto& receiver : receivers) {
+        const auto to = grid.row_coordinates(receiver);
+        double square = 0;
+        for (std::size_t other = 0; other < D; ++other)
+          if (other != across) square += std::pow(to[other] - from[other], 2);
+        edge.along_and_mean_m.push_back(
+            {std::sqrt(square), (std::abs(to[across] - place) + std::abs(from[across] - place)) / 2});
+      }
+      edges.push_back(std::move(edge));
+    }
+}
+
+LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole) {
+  auto stack = local_stack(scene, shot, receivers_followed);
+  auto& places = stack.places;
+  places.point_source = whole.in_3d;
+  for (auto& interface : stack.interfaces) {
+    interface.x_is_known = whole.x_is_known;
+    places.drags.push_back(has_drag(interface));
   }
-  edges.push_back(std::move(edge));
+  if (scene.attenuates())
+    for (const auto& losses : stack.losses) {
+      auto& of = places.losses.emplace_back();
+      for (const std::size_t wave : {0, 1})
+        of[wave] = [mechanisms = scene.attenuation->mechanisms,
+                    shares = scene.attenuation->mechanisms.shares(1 / losses[wave])](double hz) {
+          return std::sqrt(mechanisms.modulus(shares, hz));
+        };
+    }
+  return stack;
+}
+
+/// Squared error, times the energy, of the difference between mechanisms and a Q that is the same at all
+/// frequencies (Kjartansson 1979), with the same speeds at the reference frequency.
+double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    MotionSpectrum wrong(response.bins());
+    for (std::size_t n = 0; n < 2 * stack.losses.size(); ++n) {
+      const double loss = stack.losses[n / 2][n % 2];
+      if (!(loss > 0)) continue;
+      const auto& factor = stack.places.losses[n / 2][n % 2];
+      const double power = std::atan(loss) / std::numbers::pi;
+      const auto constant = [&](double hz) {
+        return std::pow(Complex(0, hz / attenuation.reference_hz), power);
+      };
+      const auto speed_at = [](const Complex& complex) { return 1 / (1. / complex).real(); };
+      const double scale =
+          speed_at(factor(attenuation.reference_hz)) / speed_at(constant(attenuation.reference_hz));
+      const auto& change = response.by_speed(n / 2, int(n % 2), r);
+      for (std::size_t bin = 0; bin < wrong.size(); ++bin) {
+        const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
+        const auto faster = factor(hz) / (scale * constant(hz)) - 1.;
+        for (const std::size_t c : {0, 1}) wrong[bin][c] += faster * change[bin][c];
+      }
+    }
+    sum += energy_of(wrong, r);
+  }
+  return sum;
 }
 
 double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& cells) const {
@@ -270,20 +397,23 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
     by *= std::min(1., 10 / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
-  const double offset = share_of_offset * offset_m(face, cells), drag = drag_of_stairs * h;
+  const double offset = share_of_offset * offset_m(face, cells),
+               drag = (interface.kind == Kind::surface ? drag_of_surface_stairs : drag_of_stairs) * h;
   return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
 }
 
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  const auto& rock = places.layers[places.source_layer()];
+  const double h = cells.spacing_m, courant = rock.vp * cells.time_step_s / h;
+  const double per_wave = slowest_of(rock) / nominal_hz / h;
   double sum = 0;
-  const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double share = near_share * std::clamp(0.9 / courant, 1., 2.) *
-                       (cells.order == 3 ? near_of_order_3 : 1) *
-                       (explodes_in_rock() ? near_of_explosion : 1);
   for (std::size_t r = 0; r < energies.size(); ++r) {
-    const auto& at = stack.places.receivers[r];
-    const double way = std::max(std::hypot(at.a_m, at.b_m) / cells.spacing_m, 1.);
-    sum += std::pow(std::min(1., share / std::pow(way, 4)), 2) * energies[r];
+    const auto& at = places.receivers[r];
+    const double way = std::max(std::hypot(at.a_m, at.b_m) / h, 1.);
+    const double share = near_error(near_kind(), way, per_wave, courant, cells.order) *
+                         (cells.order == 3 ? near_of_order_3 : 1);
+    sum += std::pow(std::min(1., share), 2) * energies[r];
   }
   return sum;
 }
@@ -295,22 +425,42 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   if (interface.kind == Kind::inner || (interface.kind == Kind::surface && !(below.vs > 0))) return 0;
   const double wavelength = 0.93 * slowest_beside(places, face) / nominal_hz;
   const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
-  const bool floor = interface.kind == Kind::fluid_solid;
-  // Short steps make those along fluid worse.
+  const bool floor = interface.kind == Kind::fluid_solid, stairs = interface.representation == staircase;
+  const bool bent = !stairs && interface.steepest_deg > 1;
+  // Short steps make those along level fluid worse.
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double steps = floor ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
-  const double rate = (floor ? bound_to_floor : bound_to_surface) * std::pow(coarser, 3) * steps;
+  const double steps = floor && !bent ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
+  const double at_floor = stairs ? bound_to_stairs : bent ? bound_to_bent_floor : bound_to_floor;
+  double rate = (floor ? at_floor : bound_to_surface) * std::pow(coarser, 3) * steps *
+                (cells.order >= 7 ? bound_at_order_7 : 1);
   const bool force = places.force[0] != 0 || places.force[1] != 0;
-  const double sent = force || !(places.layers[places.source_layer()].vs > 0) ? 1 : bound_by_explosion;
+  const auto& rock = places.layers[places.source_layer()];
+  // An explosion in rock sends out less of them, the less the harder the rock is.
+  if (!force && rock.vs > 0)
+    rate *= floor ? std::clamp(std::pow(slowest_beside(places, face) / rock.vs, 2), bound_by_explosion, 1.)
+                  : bound_by_explosion;
+  if (stairs && !floor)
+    rate = std::max(
+        rate, bound_to_surface_stairs * coarser * std::min(1., interface.steepest_deg / steep_stairs_deg));
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
     const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
-    const double error = sent * rate * std::abs(at.a_m) / wavelength *
+    const double error = rate * std::abs(at.a_m) / wavelength *
                          std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
     sum += std::pow(saturated(error * error), 2) * energies[r];
   }
   return sum;
+}
+
+/// Where a fitted surface dips, what comes back from the sides.
+double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
+  const auto& rock = stack.places.layers.front();
+  const double depth = std::abs(stack.places.faces_m[0]),
+               k = 2 * std::numbers::pi * nominal_hz / slowest_of(rock);
+  const double all = rock.vs > 0 ? bent_rock + bent_bound * std::exp(-bound_decay * k * depth) : bent_water;
+  const double share = all * std::tan(radians(interface.steepest_deg));
+  return share * share * energy;
 }
 
 double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
@@ -401,9 +551,9 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
       }
       const double weight =
           (0.5 / directions + (n == direct ? 0.5 : 0)) * dispersion_margin * dispersion_margin;
-      sum.p += weight * response.energy(wrong[0]);
-      sum.s += weight * response.energy(wrong[1]);
-      sum.both += weight * response.energy(wrong[2]);
+      sum.p += weight * energy_of(wrong[0], r);
+      sum.s += weight * energy_of(wrong[1], r);
+      sum.both += weight * energy_of(wrong[2], r);
     }
   }
   return sum;
@@ -418,19 +568,46 @@ ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
       if (point_injection(sources[n])) shots_.push_back(std::make_unique<Shot>(scene, n, finer_geometry));
     if (shots_.empty()) not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
   }
+  note_left_out(scene.recording.duration_s);
+  if (scene.slips())
+    not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
+}
+
+ErrorSources::ErrorSources(const Scene<3>& scene) {
+  const auto& sources = scene.survey.sources;
+  bool across = false;
+  if (scene.survey.any_receiver()) {
+    const std::size_t stride =
+        std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
+    for (std::size_t n = stride / 2; n < sources.size(); n += stride)
+      for (const auto& plane : upright_planes(scene, n, receivers_followed)) {
+        across = across || plane.moves_across;
+        if (!plane.still) shots_.push_back(std::make_unique<Shot>(scene, n, plane));
+      }
+    if (shots_.empty() && !across)
+      not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
+  }
+  note_left_out(scene.recording.duration_s);
+  if (!shots_.empty()) not_covered_.emplace_back("slopes across the vertical planes of source and receivers");
+  if (across) not_covered_.emplace_back("SH waves");
+  if (scene.slips())
+    not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
+}
+
+/// What the layers round the sources do not tell.
+void ErrorSources::note_left_out(double duration_s) {
   std::size_t left_out = 0;
-  bool curved = false;
+  bool curved = false, cut = false;
   for (const auto& shot : shots_) {
     left_out = std::max(left_out, shot->stack.left_out);
     for (const auto& interface : shot->stack.interfaces) curved = curved || interface.is_curved();
-    if (shot->response.seconds() < 0.999 * scene.recording.duration_s && not_covered_.empty())
+    if (shot->response.seconds() < 0.999 * duration_s && !cut)
       not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
+    cut = cut || shot->response.seconds() < 0.999 * duration_s;
   }
   if (left_out > 0)
     not_covered_.push_back(std::to_string(left_out) + " weak interfaces or parts of gradients");
   if (curved) not_covered_.emplace_back("focusing by curved interfaces");
-  if (scene.slips())
-    not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
 }
 ErrorSources::~ErrorSources() = default;
 ErrorSources::ErrorSources(ErrorSources&&) noexcept = default;
@@ -500,13 +677,14 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     for (const auto& interface : shot->stack.interfaces)
       if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
         add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
-            bent_surface * bent_surface * shot->energy);
+            shot->bent_sides(interface));
     add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
         shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
           shot->edge_error(edge, cells));
+    add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot->fit_of_quality);
     slip += shot->slip(cells);
     add({"slip of fractures", "shorter time steps", 0, true}, shot->slip(cells));
   }

@@ -37,6 +37,9 @@ class ErrorSources {
   /// With `finer_geometry` smaller cells will be filled anew from the horizons of the model; otherwise they
   /// are parts of the cells that there are.
   explicit ErrorSources(const Scene<2>& scene, bool finer_geometry = false);
+  /// In 3-D each shot is taken in the vertical planes through its source and its receivers (UprightPlane),
+  /// with waves that spread as those of points.
+  explicit ErrorSources(const Scene<3>& scene);
   ~ErrorSources();
   ErrorSources(ErrorSources&&) noexcept;
   ErrorSources& operator=(ErrorSources&&) noexcept;
@@ -50,6 +53,7 @@ class ErrorSources {
 
  private:
   struct Shot;
+  void note_left_out(double duration_s);
   std::vector<std::unique_ptr<Shot>> shots_;
   std::vector<std::string> not_covered_;
 };

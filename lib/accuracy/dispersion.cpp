@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
+#include "scene/orders.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/reconstruction.hpp"
 
@@ -28,13 +30,17 @@ Complex flux(double courant, double phase) {
   return {up, up_imaginary};
 }
 
+/// flux() by the reach of the reconstruction, which grows by one from order to order.
+template <int... N>
+constexpr std::array<Complex (*)(double, double), sizeof...(N)> fluxes(std::integer_sequence<int, N...>) {
+  return {flux<orders[N]>...};
+}
+
 /// The factor of (E12) for a wave whose phase changes by `phase` from cell to cell and travels towards higher
 /// cells.
 Complex factor(int order, double courant, double phase) {
-  const auto f = order == 1   ? flux<1>(courant, phase)
-                 : order == 3 ? flux<3>(courant, phase)
-                 : order == 5 ? flux<5>(courant, phase)
-                              : flux<7>(courant, phase);
+  static constexpr auto flux_of = fluxes(std::make_integer_sequence<int, order_count>());
+  const auto f = flux_of[std::size_t(reach_of(order))](courant, phase);
   return 1.0 - courant * f * (1.0 - std::polar(1.0, -phase));
 }
 

@@ -5,10 +5,16 @@
 #include <limits>
 #include <numbers>
 
+#include "accuracy/finer_model.hpp"
 #include "grid/locate.hpp"
 
 namespace slipwave {
 namespace {
+
+template <int D>
+Discretisation discretisation_of(const Scene<D>& scene) {
+  return {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order};
+}
 
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
 constexpr std::size_t receivers_followed = 48, shots_followed = 4;
@@ -217,7 +223,7 @@ Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
 }  // namespace
 
 WavesOfScene::WavesOfScene(const Scene<2>& scene, bool finer_geometry)
-    : own_{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order},
+    : own_(discretisation_of(scene)),
       sources_(scene, finer_geometry),
       direct_(direct_waves(scene)),
       longest_p_(longest_waves(scene, WaveKind::p)),
@@ -230,6 +236,18 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
   };
   ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered()};
   if (sources_.any()) error.promise = sources_.promised(cells);
+  return error;
+}
+
+ExpectedError expected_error(const Scene<2>& scene) {
+  return WavesOfScene(scene, has_finer_geometry(scene)).expected();
+}
+
+ExpectedError expected_error(const Scene<3>& scene) {
+  const ErrorSources sources(scene);
+  ExpectedError error;
+  error.not_covered = sources.not_covered();
+  if (sources.any()) error.promise = sources.promised(discretisation_of(scene));
   return error;
 }
 

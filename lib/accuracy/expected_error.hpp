@@ -48,4 +48,9 @@ class WavesOfScene {
   std::vector<WaveTrain> direct_, longest_p_, longest_s_;
 };
 
+/// Of a scene as it is. In 3-D only what is promised of all traces, in the vertical planes through sources
+/// and receivers (ErrorSources).
+ExpectedError expected_error(const Scene<2>& scene);
+ExpectedError expected_error(const Scene<3>& scene);
+
 }  // namespace slipwave

@@ -33,7 +33,9 @@ std::vector<std::string> words_of(const std::string& command) {
 
 struct LayersCommand {
   std::string size, step;
+  std::vector<std::string> tops;
   std::vector<Layer> layers;
+  InputUnits units;
   FitChoice choice;
   bool average = true;
 };
@@ -58,19 +60,26 @@ std::optional<LayersCommand> command_of(const std::string& history) {
     }
     if (word == "--size") command.size = value;
     if (word == "--step") command.step = value;
-    if (word == "--layer") command.layers.push_back(parse_layer(value));
+    if (word == "--layer") command.tops.push_back(value);
+    if (word == "--units") command.units = InputUnits::parse(value);
     if (word == "--fit") command.choice = parse_fit(value);
   }
+  for (const auto& top : command.tops) command.layers.push_back(parse_layer(top, command.units));
   if (command.size.empty() || command.step.empty() || command.layers.empty()) return std::nullopt;
   return command;
 }
 
-Medium<2> medium_of(LayersCommand& command, double spacing_m) {
+Medium<2> medium_of(LayersCommand& command, double spacing_m, const Scene<2>& scene) {
   // What is left out is left out, and not an error, in other cells.
   command.choice.asked = false;
   const auto grid = grid_of_size<2>(parse_size<2>(command.size), spacing_m);
   const auto fit = fit_layers<2>(grid, command.layers, command.choice);
-  return layered_medium<2>(fit.grid, command.layers, command.average, fit.rows);
+  auto medium = layered_medium<2>(fit.grid, command.layers, command.average, fit.rows);
+  // Attenuation that was taken out (--without), and what was unrelaxed.
+  for (const auto quality : {Property::qp, Property::qs})
+    if (!scene.model.medium.has(quality)) medium[quality] = Field<2>();
+  if (scene.attenuation) unrelax(medium, *scene.attenuation);
+  return medium;
 }
 
 bool equal(const Medium<2>& a, const Medium<2>& b) {
@@ -84,20 +93,25 @@ bool equal(const Medium<2>& a, const Medium<2>& b) {
 
 }  // namespace
 
-std::optional<Model<2>> finer_model(const Model<2>& model, double spacing_m) {
+std::optional<Model<2>> finer_model(const Scene<2>& scene, double spacing_m) {
+  const auto& model = scene.model;
   if (!model.fracture_sets.empty() || !model.prestress_pa.empty()) return std::nullopt;
   std::optional<LayersCommand> command;
   try {
     command = command_of(model.history);
-    if (!command || !equal(medium_of(*command, parse_number(command->step)), model.medium))
+    if (!command || !equal(medium_of(*command, parse_number(command->step), scene), model.medium))
       return std::nullopt;
   } catch (const Error&) {
     return std::nullopt;
   }
   Model<2> finer = model;
-  finer.medium = medium_of(*command, spacing_m);
+  finer.medium = medium_of(*command, spacing_m, scene);
   finer.fracture = {};
   return finer;
+}
+
+bool has_finer_geometry(const Scene<2>& scene) {
+  return finer_model(scene, scene.model.grid().spacing_m).has_value();
 }
 
 }  // namespace slipwave

@@ -49,6 +49,12 @@ class Columns {
                                   : Matter::solid,
             medium_.vp[n], medium_.vs[n], medium_.rho[n]};
   }
+  /// 1/qp or 1/qs, the mean over rows of a column.
+  double loss(std::int64_t i, std::int64_t first, std::int64_t last, Property quality) const {
+    double sum = 0;
+    for (auto k = first; k < last; ++k) sum += 1 / medium_.value(quality, std::size_t(grid_.flat({i, k})));
+    return sum / double(last - first);
+  }
   /// Of the upper face of a row.
   double face(std::int64_t i, std::int64_t k) const {
     if (!grid_.rows) return grid_.origin_m[1] + double(grid_.first[1] + k) * grid_.spacing_m;
@@ -361,6 +367,9 @@ class Tracker {
     if (places.free_surface) add_interface(nothing, segments_.front().rock, segments_.front().first);
     for (const auto& segment : segments_) {
       places.layers.push_back({segment.rock.vp, segment.rock.vs, segment.rock.rho});
+      if (scene_.attenuates())
+        stack_.losses.push_back({columns_.loss(column_, segment.first, segment.last, Property::qp),
+                                 columns_.loss(column_, segment.first, segment.last, Property::qs)});
       if (&segment != &segments_.front()) add_interface((&segment)[-1].rock, segment.rock, segment.first);
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ struct LocalInterface {
   /// Cells a side that are alike, as after a model was split: what geometry is known to.
   std::int64_t block = 1;
   double from_x_m = 0, to_x_m = 0;  // where it was followed
+  bool x_is_known = true;           // that these are places of the model
   /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
   double true_depth_m = 0;
   double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
@@ -46,6 +48,8 @@ struct LocalStack {
   LayeredPlaces places;
   double dip_deg = 0;
   std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
+  /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
+  std::vector<std::array<double, 2>> losses;
 };
 
 /// Of a shot with a point source; at most `receivers` of its receivers, evenly chosen.

@@ -20,8 +20,15 @@ class PlaneProblem {
  public:
   PlaneProblem(const LayeredPlaces& places, Complex omega, double k)
       : places_(places), omega_(omega), k_(k), source_(places.source_layer()) {
-    for (const auto& rock : places.layers)
-      decay_.push_back({decay(rock.vp), rock.vs > 0 ? decay(rock.vs) : Complex()});
+    for (std::size_t layer = 0; layer < places.layers.size(); ++layer) {
+      const auto& rock = places.layers[layer];
+      const auto factor = [&](std::size_t wave) {
+        return places.losses.empty() ? Complex(1)
+                                     : places.losses[layer][wave](omega.real() / (2 * std::numbers::pi));
+      };
+      speeds_.push_back({rock.vp * factor(0), rock.vs > 0 ? rock.vs * factor(1) : Complex()});
+      decay_.push_back({decay(speeds_.back()[0]), rock.vs > 0 ? decay(speeds_.back()[1]) : Complex()});
+    }
     const auto count = places.layers.size();
     for (std::size_t layer = 0; layer < count; ++layer)
       for (const bool shear : {false, true})
@@ -50,7 +57,7 @@ class PlaneProblem {
     std::size_t layer;
     bool shear, down;
   };
-  Complex decay(double c) const { return std::sqrt(k_ * k_ - omega_ * omega_ / (c * c)); }
+  Complex decay(Complex c) const { return std::sqrt(k_ * k_ - omega_ * omega_ / (c * c)); }
   bool fluid(std::size_t layer) const { return !(places_.layers[layer].vs > 0); }
   bool has_top(std::size_t layer) const { return places_.free_surface || layer > 0; }
   double top(std::size_t layer) const { return places_.faces_m[places_.free_surface ? layer : layer - 1]; }
@@ -60,8 +67,8 @@ class PlaneProblem {
     const Complex i(0, 1);
     const auto& rock = places_.layers[layer];
     if (fluid(layer)) return {-i * k_ * p, dp, -rock.rho * omega_ * omega_ * p, 0};
-    const double mu = rock.mu();
-    const auto q = 2 * k_ * k_ - omega_ * omega_ / (rock.vs * rock.vs);
+    const auto vs = speeds_[layer][1], mu = rock.rho * vs * vs;
+    const auto q = 2 * k_ * k_ - omega_ * omega_ / (vs * vs);
     return {-i * k_ * p - ds, dp - i * k_ * s, mu * (q * p - 2. * i * k_ * ds),
             mu * (-2. * i * k_ * dp - q * s)};
   }
@@ -106,6 +113,17 @@ class PlaneProblem {
       if (layer == source_) row[waves_.size()] -= sign * scale * direct(b)[quantity];
     }
   }
+  /// The same at a free surface: inertia of the solid itself.
+  void add_drag_of_surface() {
+    if (places_.drag_m.empty() || places_.drag_m[0] == 0) return;
+    const auto& last = places_.layers.back();
+    const auto load =
+        omega_ * omega_ * places_.layers[0].rho * places_.drag_m[0] / (last.rho * last.vp * std::abs(omega_));
+    Complex* row = &matrix_[(rows_ - 1) * (waves_.size() + 1)];
+    for (std::size_t n = 0; n < waves_.size(); ++n)
+      if (waves_[n].layer == 0) row[n] += load * wave(waves_[n], top(0))[0];
+    if (source_ == 0) row[waves_.size()] -= load * direct(top(0))[0];
+  }
   /// To the last row, which says that no shear traction acts on a solid: inertia of fluid that resists its
   /// motion along the face.
   void add_drag(std::size_t solid, std::size_t other, double b, double sign) {
@@ -127,6 +145,7 @@ class PlaneProblem {
     if (places_.free_surface) {
       add_row(2, top(0), {{0, 1}});
       if (!fluid(0)) add_row(3, top(0), {{0, 1}});
+      if (!fluid(0)) add_drag_of_surface();
     }
     for (std::size_t n = 0; n + 1 < places_.layers.size(); ++n) {
       const double b = top(n + 1);
@@ -172,7 +191,7 @@ class PlaneProblem {
   Complex omega_;
   double k_;
   std::size_t source_, rows_ = 0;
-  std::vector<std::array<Complex, 2>> decay_;
+  std::vector<std::array<Complex, 2>> speeds_, decay_;  // of P and S waves by layer
   std::vector<Wave> waves_;
   std::vector<Complex> matrix_, solution_;
 };
@@ -238,7 +257,8 @@ StackResponse::StackResponse(const LayeredPlaces& places, const Wavelet& wavelet
     const Complex omega(2 * pi * (double(bin) + 0.5) / window_s, -damping / window_s);
     omega_.push_back(omega);
     const Complex source = wavelet.amplitude_spectrum(omega.real() / (2 * pi)) *
-                           std::exp(Complex(0, -1.5 / wavelet.nominal_hz()) * omega);
+                           std::exp(Complex(0, -1.5 / wavelet.nominal_hz()) * omega) *
+                           (places.point_source ? std::sqrt(omega.real()) : 1);
     const auto most = std::int64_t(largest_k(std::max(std::abs(omega), 1.)) / dk);
     for (std::int64_t n = -most; n <= most; ++n)
       add_wave_number(places, bin, double(n) * dk, source / period_m(window_s), slowest);
@@ -277,8 +297,7 @@ void StackResponse::add_wave_number(const LayeredPlaces& places, std::size_t bin
     changed.faces_m[face] += by;
     add_change(changed, by, by_face_[face]);
     changed.faces_m[face] = places.faces_m[face];
-    const auto below = places.free_surface ? face : face + 1;
-    if (below == 0 || (places.layers[below].vs > 0) == (places.layers[below - 1].vs > 0)) continue;
+    if (places.drags.empty() || !places.drags[face]) continue;
     changed.drag_m.assign(places.faces_m.size(), 0);
     changed.drag_m[face] = by;
     add_change(changed, by, by_drag_[face]);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <complex>
+#include <functional>
 #include <vector>
 
 #include "accuracy/full_space.hpp"
@@ -14,8 +15,11 @@ struct LayeredPlaces {
   std::vector<UniformMedium> layers;  // by increasing b; fluid where vs = 0
   /// b of the interfaces, m: before layer n + 1, or with a free surface before layer n.
   std::vector<double> faces_m;
-  /// At each interface, the thickness of fluid that resists motion of the solid along it, m; empty: none.
+  /// At each interface, the thickness of fluid that resists motion of the solid along it, of a free surface
+  /// that of the solid itself, m; empty: none.
   std::vector<double> drag_m;
+  /// Interfaces for which d motion / d drag is wanted; empty: none.
+  std::vector<bool> drags;
   bool free_surface = false;
   Point<2> force{};                          // along a and b, N/m
   SymmetricTensor<2, double> moment_rate{};  // in a and b
@@ -25,6 +29,10 @@ struct LayeredPlaces {
   };
   std::vector<Receiver> receivers;
   double duration_s = 0;  // of the traces
+  /// A point source in 3-D instead of a line: its waves along layers have a spectrum steeper by sqrt(f).
+  bool point_source = false;
+  /// Of P and S waves of each layer, the factor on their speed at a frequency, Hz; empty: 1.
+  std::vector<std::array<std::function<std::complex<double>(double)>, 2>> losses = {};
 
   std::size_t source_layer() const;
 };
@@ -49,7 +57,7 @@ class StackResponse {
   const MotionSpectrum& by_face(std::size_t face, std::size_t receiver) const {
     return by_face_[face][receiver];
   }
-  /// d motion / d drag of an interface, 1/m; zero where it is not one of fluid and solid.
+  /// d motion / d drag of an interface, 1/m; zero where it is not wanted.
   const MotionSpectrum& by_drag(std::size_t face, std::size_t receiver) const {
     return by_drag_[face][receiver];
   }

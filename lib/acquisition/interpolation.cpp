@@ -71,6 +71,17 @@ double mean_slope(double to, double x) {
   return to * (std::sin(phase) / phase - std::cos(phase)) / phase;
 }
 
+/// What the product of two weights counts in the mean square, by how many cells they are apart.
+std::array<double, std::size_t(most_unknowns)> products_of_weights(const Fit& fit) {
+  std::array<double, std::size_t(most_unknowns)> products;
+  for (std::size_t apart = 0; apart < products.size(); ++apart) {
+    products[apart] = mean_cosine(0, fit.passband, double(apart));
+    if (fit.suppression > 0)
+      products[apart] += fit.suppression * mean_cosine(fit.stopband, std::numbers::pi, double(apart));
+  }
+  return products;
+}
+
 enum class Wanted { value, slope };
 
 /// Weights on the cells `first` .. `first + count - 1` for the value, or the derivative per cell, at
@@ -79,14 +90,12 @@ enum class Wanted { value, slope };
 std::array<double, most_unknowns> fitted(double position, std::int64_t first, int count, int most_moments,
                                          const Fit& fit, Wanted wanted) {
   const int moments = std::min(count, most_moments), unknowns = count + moments;
+  static const auto to_read = products_of_weights(to_interpolate), to_add = products_of_weights(to_spread);
+  const auto& products = fit.suppression > 0 ? to_add : to_read;
   std::array<Row, most_unknowns> a{};
   for (int i = 0; i < count; ++i) {
     const double x = double(first + i) - position;
-    for (int j = 0; j < count; ++j) {
-      a[i][j] = mean_cosine(0, fit.passband, double(i - j));
-      if (fit.suppression > 0)
-        a[i][j] += fit.suppression * mean_cosine(fit.stopband, std::numbers::pi, double(i - j));
-    }
+    for (int j = 0; j < count; ++j) a[i][j] = products[std::size_t(std::abs(i - j))];
     a[i][i] += ridge;
     a[i][unknowns] = wanted == Wanted::value ? mean_cosine(0, fit.passband, x) : mean_slope(fit.passband, x);
     double power = 1;

@@ -212,7 +212,9 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
   }
   if (lowered == 0) return {};
   return first + " is used" +
-         (lowered > 1 ? ", and as much as qs allows in " + std::to_string(lowered - 1) + " more cells" : "");
+         (lowered > 1 ? ", and as much as qs allows in " + std::to_string(lowered - 1) + " more cells" : "") +
+         "; a lower qp or a higher qs of the model (sw-layers --layer, sw-import --qp --qs) is taken as it "
+         "is";
 }
 
 template <int D>

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "acquisition/fibre.hpp"
 #include "grid/locate.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/kernels.hpp"
@@ -31,7 +32,7 @@ double part_of_arrival(double cells) {
 }
 
 /// First arrivals by fast sweeping (Zhao 2005, first order) on blocks of cells, s from the source on. In a
-/// fitted grid places are row coordinates, as if all rows were as high as columns are wide.
+/// fitted grid places are row coordinates, and blocks along z as high as their rows on the whole.
 template <int D>
 class Arrivals {
  public:
@@ -43,6 +44,9 @@ class Arrivals {
     blocks_.spacing_m = double(block) * grid.spacing_m;
     for (std::size_t axis = 0; axis < D; ++axis) blocks_.shape[axis] = (grid.shape[axis] + block - 1) / block;
     slowness_.assign(std::size_t(blocks_.size()), infinity);
+    // The mean of its cells, over their width.
+    heights_.assign(slowness_.size(), 0);
+    std::vector<int> rows(slowness_.size(), 0);
     Index<D> zone{};
     for (std::size_t axis = 0; axis < D; ++axis)
       zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
@@ -54,9 +58,13 @@ class Arrivals {
       }
       const auto cell = std::size_t(medium.grid().flat(in_model));
       if (medium.is_void(cell)) continue;
-      auto& slowest = slowness_[std::size_t(blocks_.flat(at))];
+      const auto number = std::size_t(blocks_.flat(at));
+      auto& slowest = slowness_[number];
       slowest = std::min(slowest, 1 / double(medium.vp[cell]));
+      heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
+      ++rows[number];
     }
+    for (std::size_t n = 0; n < rows.size(); ++n) heights_[n] = rows[n] > 0 ? heights_[n] / rows[n] : 1;
   }
   void start_at(const Point<D>& source) {
     time_s_.assign(slowness_.size(), infinity);
@@ -85,30 +93,38 @@ class Arrivals {
   }
   bool improve(const Index<D>& at) {
     const std::int64_t n = blocks_.flat(at);
-    std::array<double, D> before{};  // the earlier of both neighbours along each axis
+    struct Neighbour {
+      double time, step;
+    };
+    std::array<Neighbour, D> before{};  // the earlier of both along each axis, and the time across the block
     std::int64_t pitch = 1;
     for (std::size_t axis = 0; axis < D; pitch *= blocks_.shape[axis++]) {
       const double low = at[axis] > 0 ? this->at(n - pitch) : infinity;
-      before[axis] = std::min(low, at[axis] + 1 < blocks_.shape[axis] ? this->at(n + pitch) : infinity);
+      const double earlier =
+          std::min(low, at[axis] + 1 < blocks_.shape[axis] ? this->at(n + pitch) : infinity);
+      const double length = blocks_.spacing_m * (axis == D - 1 ? heights_[std::size_t(n)] : 1);
+      before[axis] = {earlier, slowness_[std::size_t(n)] * length};
     }
-    std::sort(before.begin(), before.end());
+    std::sort(before.begin(), before.end(),
+              [](const Neighbour& a, const Neighbour& b) { return a.time < b.time; });
     double& time = time_s_[std::size_t(n)];
-    if (!(before[0] < time)) return false;
-    // A plane wave that comes to as many of the neighbours as are there before it is here.
-    const double step = slowness_[std::size_t(n)] * blocks_.spacing_m;
-    double arrival = infinity, sum = 0, squares = 0;
-    for (std::size_t count = 0; count < D && before[count] < arrival; ++count) {
-      const double late = before[count] - before[0], of = double(count + 1);
-      sum += late;
-      squares += late * late;
-      arrival = before[0] + (sum + std::sqrt(sum * sum - of * (squares - step * step))) / of;
+    if (!(before[0].time < time)) return false;
+    // A plane wave that comes to as many of the neighbours as are there before it is here:
+    // sum ((arrival - time)/step)^2 = 1.
+    double arrival = infinity, weights = 0, sum = 0, squares = 0;
+    for (std::size_t count = 0; count < D && before[count].time < arrival; ++count) {
+      const double late = before[count].time - before[0].time, weight = std::pow(before[count].step, -2);
+      weights += weight;
+      sum += weight * late;
+      squares += weight * late * late;
+      arrival = before[0].time + (sum + std::sqrt(sum * sum - weights * (squares - 1))) / weights;
     }
     if (!(arrival < time * (1 - 1e-9))) return false;
     time = arrival;
     return true;
   }
   Grid<D> blocks_;
-  std::vector<double> slowness_, time_s_;
+  std::vector<double> slowness_, heights_, time_s_;
 };
 
 /// The row coordinates that the receivers of a shot lie between.
@@ -122,12 +138,17 @@ Between<D> receivers_between(const Scene<D>& scene, std::size_t shot) {
   Between<D> between;
   between.low.fill(std::numeric_limits<double>::infinity());
   between.high.fill(-std::numeric_limits<double>::infinity());
-  for (const auto& one : scene.survey.receivers_of(shot)) {
-    const auto receiver = scene.model.grid().row_coordinates(one.point_m);
+  const auto add = [&](const Point<D>& place_m) {
+    const auto receiver = scene.model.grid().row_coordinates(place_m);
     for (std::size_t axis = 0; axis < D; ++axis) {
       between.low[axis] = std::min(between.low[axis], receiver[axis]);
       between.high[axis] = std::max(between.high[axis], receiver[axis]);
     }
+  };
+  for (const auto& one : scene.survey.receivers_of(shot)) {
+    add(one.point_m);
+    if (!scene.recording.fibre) continue;
+    for (const auto& end : gauge_ends<D>(*scene.recording.fibre, one.point_m)) add(end);
   }
   return between;
 }

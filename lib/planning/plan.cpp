@@ -6,10 +6,10 @@
 #include <limits>
 
 #include "accuracy/dispersion.hpp"
-#include "accuracy/finer_model.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
+#include "grid/longest_side.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
 #include "planning/expected_slip.hpp"
@@ -21,27 +21,48 @@ namespace {
 /// Fewer cells per wavelength than this are worth a warning.
 constexpr double fewest_cells = 4;
 
+/// Of all cells' slowest waves the one that fewest cells resolve; on a regular grid the slowest.
+template <int D>
+SlowestWave least_resolved(const Medium<D>& medium) {
+  if (!medium.grid().rows) return slowest_wave(medium);
+  SlowestWave least;
+  double per_second = 0;
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto cell = std::size_t(n);
+    if (medium.is_void(cell)) continue;
+    const double speed = medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell];
+    const double cells = speed / longest_side_m(medium.grid(), n);
+    if (per_second == 0 || cells < per_second) per_second = cells, least = {speed, n};
+  }
+  return least;
+}
+
 template <int D>
 double cells_a_wavelength(const Scene<D>& scene, const SlowestWave& slowest, double hz) {
-  return slowest.speed / hz / scene.model.grid().spacing_m;
+  return slowest.speed / hz / longest_side_m(scene.model.grid(), slowest.cell);
 }
 
 template <int D>
 double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) {
-  const double courant = slowest.speed * time_step_s(scene) / scene.model.grid().spacing_m;
+  const double courant =
+      slowest.speed * time_step_s(scene) / longest_side_m(scene.model.grid(), slowest.cell);
   // Waves shorter than two cells are not on the grid at all.
   if (cells <= 2) return 1;
   return loss_per_wavelength({scene.numerics.order, courant, 0, scene.numerics.time_order}, cells);
 }
 
-/// Slowest P wave anywhere, slowest S wave of solids (0: none).
+/// Cells that a second's way of P anywhere and of S in solids crosses at least (0: none), along their longest
+/// sides.
 template <int D>
-std::array<double, 2> slowest_of_each(const Medium<D>& medium) {
+std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
+  const auto& grid = medium.grid();
   std::array<double, 2> slowest = {std::numeric_limits<double>::infinity(), 0};
-  for (std::size_t n = 0; n < std::size_t(medium.grid().size()); ++n) {
+  for (std::size_t n = 0; n < std::size_t(grid.size()); ++n) {
     if (medium.is_void(n)) continue;
-    slowest[0] = std::min(slowest[0], double(medium.vp[n]));
-    if (medium.vs[n] > 0 && !(slowest[1] > 0 && slowest[1] < medium.vs[n])) slowest[1] = medium.vs[n];
+    const double side = longest_side_m(grid, std::int64_t(n));
+    const double p = medium.vp[n] / side, s = medium.vs[n] / side;
+    slowest[0] = std::min(slowest[0], p);
+    if (s > 0 && !(slowest[1] > 0 && slowest[1] < s)) slowest[1] = s;
   }
   return slowest;
 }
@@ -66,6 +87,27 @@ double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
   return *middle;
 }
 
+/// What the program and its libraries have resident before they read a model.
+constexpr std::int64_t program_bytes = std::int64_t{28} << 20;
+
+template <int D>
+std::int64_t shared_bytes(const Scene<D>& scene) {
+  const auto& model = scene.model;
+  const auto fields = model.medium.properties().size() + model.prestress_pa.size();
+  return program_bytes + model.grid().size() * std::int64_t(fields * sizeof(float)) +
+         std::int64_t(model.fracture.size());
+}
+
+/// Of the shot that records most.
+template <int D>
+std::int64_t trace_bytes(const Scene<D>& scene) {
+  std::size_t most = 0;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
+    most = std::max(most, scene.survey.receiver_count(shot));
+  return std::int64_t(most * scene.recording.components.size()) * scene.recording.samples() *
+         std::int64_t(sizeof(double));
+}
+
 template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
   // Steps are timed as they are when waves are everywhere.
@@ -81,20 +123,20 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.steps = step.steps();
   plan.entries = step.planned();
   plan.interface_cells = step.sweeps().interface_stencil_cells();
-  plan.memory_bytes = step.memory_bytes();
+  plan.trace_bytes = trace_bytes(scene);
+  plan.memory_bytes = step.memory_bytes() + step.record_bytes();
+  plan.building_bytes = step.building_bytes();
+  plan.shared_bytes = shared_bytes(scene);
   plan.highest_hz = highest_frequency_hz(scene.survey);
-  plan.slowest = slowest_wave(scene.model.medium);
-  const auto [slowest_p, slowest_s] = slowest_of_each(scene.model.medium);
-  const double wave_to_cells = 1 / plan.highest_hz / scene.model.grid().spacing_m;
-  plan.cells_of_shortest_p = slowest_p * wave_to_cells;
-  if (slowest_s > 0) plan.cells_of_shortest_s = slowest_s * wave_to_cells;
+  plan.slowest = least_resolved(scene.model.medium);
+  const auto [cells_of_p, cells_of_s] = cells_of_a_second(scene.model.medium);
+  plan.cells_of_shortest_p = cells_of_p / plan.highest_hz;
+  if (cells_of_s > 0) plan.cells_of_shortest_s = cells_of_s / plan.highest_hz;
   plan.loss_per_wavelength =
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  if constexpr (D == 2)
-    plan.error =
-        WavesOfScene(scene, finer_model(scene.model, scene.model.grid().spacing_m).has_value()).expected();
+  plan.error = expected_error(scene);
   plan.slip = expected_slip(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
@@ -120,7 +162,17 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
   return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
 }
 
+template <int D>
+std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held) {
+  // Samples are written when what was only needed to build the shot is gone.
+  const auto building = std::max<std::int64_t>(0, plan.building_bytes - plan.trace_bytes);
+  return plan.shared_bytes + std::int64_t(held.side_by_side) * (plan.memory_bytes + building) +
+         std::int64_t(held.retained) * plan.trace_bytes;
+}
+
 namespace {
+
+std::string mebibytes(std::int64_t bytes) { return shown(double(bytes) / (1 << 20), 3) + " MiB"; }
 
 /// Causes that make less of the whole are left out.
 constexpr double least_cause = 0.1;
@@ -181,18 +233,18 @@ std::string cost_of_a_second(const Scene<D>& scene) {
   double cells = 1;
   for (const auto n : scene.model.grid().shape) cells *= double(n + zone);
   const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
-  const auto slowest = slowest_wave(scene.model.medium);
+  const auto slowest = least_resolved(scene.model.medium);
   return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
          shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
-         " MiB; waves up to " + shown(slowest.speed / (fewest_cells * scene.model.grid().spacing_m), 2) +
-         " Hz";
+         " MiB; waves up to " +
+         shown(slowest.speed / (fewest_cells * longest_side_m(scene.model.grid(), slowest.cell)), 2) + " Hz";
 }
 
 template <int D>
-Report summary_of(const Plan<D>& plan) {
+Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
   Report report;
-  if (D == 3) {
-    report.text("error", "not estimated in 3-D; cells per shortest wavelength: " + cells_text(plan));
+  if (D == 3 && !plan.error.promise) {
+    report.text("error", "not estimated; cells per shortest wavelength: " + cells_text(plan));
     report.text("mostly from", "loss of the slowest wave: " + shown(100 * plan.loss_per_wavelength, 2) +
                                    " % of its amplitude per wavelength");
   } else {
@@ -208,7 +260,10 @@ Report summary_of(const Plan<D>& plan) {
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
   report.text("time", shown(plan.seconds, 2) + " s of processor time" + threads);
-  report.text("memory", shown(double(plan.memory_bytes) / (1 << 20), 3) + " MiB a shot");
+  report.text("memory",
+              mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
+                  " a shot" +
+                  (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
   return report;
 }
 
@@ -224,7 +279,7 @@ Report report_of(const Plan<D>& plan) {
   report.text("cells per shortest wavelength", cells_text(plan));
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
-  if (D == 2) report_promise(plan.error, report);
+  report_promise(plan.error, report);
   if (D == 2) {
     if (plan.error.direct) report_percent(report, "error in direct arrivals", *plan.error.direct);
     report_percent(report, "late error P", plan.error.p);
@@ -236,6 +291,8 @@ Report report_of(const Plan<D>& plan) {
       shown(100 * plan.computed_share, 2) +
           " % (cells that no wave has reached, or that can no longer affect a receiver, are skipped)");
   report.number("memory of a shot", double(plan.memory_bytes) / (1 << 20), "MiB");
+  report.number("memory of model and program", double(plan.shared_bytes) / (1 << 20), "MiB");
+  report.number("memory of the traces of a shot", double(plan.trace_bytes) / (1 << 20), "MiB");
   report.number("processor time", plan.seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
@@ -248,7 +305,7 @@ Report report_of(const Plan<D>& plan) {
 
 template <int D>
 std::vector<std::string> warnings(const Scene<D>& scene) {
-  const auto slowest = slowest_wave(scene.model.medium);
+  const auto slowest = least_resolved(scene.model.medium);
   const double highest = highest_frequency_hz(scene.survey);
   const double cells = cells_a_wavelength(scene, slowest, highest);
   if (cells >= fewest_cells) return {};
@@ -259,19 +316,21 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
           shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
           shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
           shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
-          " times the cost)" + (D == 2 ? " or --error" : "")};
+          " times the cost)" + (D == 2 ? " or --error" : " (--step of the model)")};
 }
 
 template Plan<2> plan(const Scene<2>&);
+template std::int64_t memory_of_run_bytes(const Plan<2>&, const ShotsHeld&);
+template std::int64_t memory_of_run_bytes(const Plan<3>&, const ShotsHeld&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<2>&);
 template std::string cost_of_a_second(const Scene<2>&);
-template Report summary_of(const Plan<2>&);
+template Report summary_of(const Plan<2>&, const ShotsHeld&);
 template Report report_of(const Plan<2>&);
 template std::vector<std::string> warnings(const Scene<2>&);
 template Plan<3> plan(const Scene<3>&);
 template std::int64_t memory_of_a_shot_bytes(const Scene<3>&);
 template std::string cost_of_a_second(const Scene<3>&);
-template Report summary_of(const Plan<3>&);
+template Report summary_of(const Plan<3>&, const ShotsHeld&);
 template Report report_of(const Plan<3>&);
 template std::vector<std::string> warnings(const Scene<3>&);
 

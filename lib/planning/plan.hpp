@@ -16,7 +16,9 @@ struct Plan {
   std::vector<PlannedEntry> entries;
   std::int64_t interface_cells =
       0;  // with stencils of their own beside strong interfaces and voids, all axes and waves
-  std::int64_t memory_bytes = 0;
+  /// Of a shot, with the traces of all components that it records; of those traces; of the model and the
+  /// program, which all shots share; and what a shot takes for a moment beside its fields, before it runs.
+  std::int64_t memory_bytes = 0, trace_bytes = 0, shared_bytes = 0, building_bytes = 0;
   double highest_hz = 0;
   SlowestWave slowest;
   double cells_of_shortest_p = 0;  // a wavelength of the slowest P wave at highest_hz
@@ -31,7 +33,7 @@ struct Plan {
   std::string instruction_set;
 };
 
-/// In 3-D errors are not expected.
+/// In 3-D errors are those of all traces only (expected_error()).
 /// Builds the first shot and runs a few of its steps to see how long they take.
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
@@ -46,9 +48,18 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene);
 template <int D>
 std::string cost_of_a_second(const Scene<D>& scene);
 
+/// Shots of a run: side by side, and those finished ones whose traces are retained.
+struct ShotsHeld {
+  std::size_t side_by_side = 1, retained = 0;
+};
+
+/// Memory of a run: its peak resident size, in bytes.
+template <int D>
+std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held);
+
 /// What a user decides by: error, what it comes from, time, memory. A line each.
 template <int D>
-Report summary_of(const Plan<D>& plan);
+Report summary_of(const Plan<D>& plan, const ShotsHeld& held = {});
 
 /// All the rest, and in numbers what the summary says in words.
 template <int D>

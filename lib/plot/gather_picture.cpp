@@ -200,7 +200,7 @@ PanelSpec spec_of(const Content& content, const Look& look) {
 void note_thinning(Picture& picture, std::size_t every) {
   if (every > 1)
     picture.notes.push_back("lines would touch each other: one in " + std::to_string(every) +
-                            " traces is drawn");
+                            " traces is drawn (--style density draws all)");
 }
 
 /// The data of a panel; gives of how many traces one line is drawn.

@@ -21,7 +21,7 @@ double length(const SymmetricTensor<D, double>& tensor) {
   return std::sqrt(sum);
 }
 
-/// Of the wavelet in a run: its integral, taken positive, and its largest value.
+/// Of the wavelet up to some time: its integral, taken positive, and its largest value.
 struct Strength {
   double integral_s = 0, largest = 0;
 };
@@ -56,8 +56,11 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
   double sum = 0;
   for (const auto* each : scene.survey.sources_of(shot)) {
     const auto& source = *each;
-    const auto strength = strength_of(source.wavelet, scene.recording.duration_s, dt_s);
-    if (const auto injection = point_injection(source)) {
+    const auto injection = point_injection(source);
+    // At t = 0 all of the wavelet may already stand in the model as a plane wave.
+    const auto strength = strength_of(
+        source.wavelet, injection ? scene.recording.duration_s : source.wavelet.duration_s(), dt_s);
+    if (injection) {
       if (scene.subdomain.owns(grid, source.position_m)) {
         const auto at = cell_of(grid, source.position_m);
         const auto cell = std::size_t(grid.flat(at));

@@ -13,6 +13,7 @@
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 #include "scene/model_ground.hpp"
+#include "scene/plane_wave.hpp"
 
 namespace slipwave {
 namespace {
@@ -78,95 +79,6 @@ void check_count(double duration_s, const char* what, double interval_s, const c
               ErrorKind::usage);
 }
 
-/// "vp 1500 vs 0 rho 1000 at x=5 z=10"
-template <int D>
-std::string described(const Medium<D>& medium, std::size_t cell) {
-  std::string text;
-  for (const Property property : medium.properties())
-    text += row_of(property).name + ' ' + shown(medium[property][cell]) + ' ';
-  return text + "at " + place_of(medium.grid(), std::int64_t(cell));
-}
-
-/// The medium of all cells along a boundary must be one for a plane wave to be known there; `needs` says so.
-template <int D>
-void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::string& needs,
-                        std::optional<std::size_t>& reference) {
-  const auto& medium = scene.model.medium;
-  const auto& grid = medium.grid();
-  for (std::int64_t n = 0; n < grid.size(); ++n) {
-    const auto at = grid.index(n);
-    if (at[std::size_t(axis)] != (side ? grid.shape[std::size_t(axis)] - 1 : 0)) continue;
-    const auto cell = std::size_t(n);
-    if (!reference) reference = cell;
-    if (medium.same(cell, *reference) && !medium.is_void(cell)) continue;
-    throw Error(needs + ", found " + described(medium, *reference) + " and " + described(medium, cell));
-  }
-}
-
-/// At t = 0 the wave stands on the near side of its front; that must lie in the medium it comes from.
-template <int D>
-void check_beginning(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave,
-                     std::size_t from) {
-  const auto& medium = scene.model.medium;
-  const auto& grid = medium.grid();
-  const double length = source.wavelet.duration_s() * wave.speed(medium.vp[from], medium.vs[from]);
-  for (std::int64_t n = 0; n < grid.size(); ++n) {
-    const auto at = grid.index(n);
-    double behind = 0;
-    for (std::size_t axis = 0; axis < D; ++axis) {
-      const double place_m = axis == D - 1 ? grid.depth(at) : grid.centre(int(axis), at[axis]);
-      behind += (source.position_m[axis] - place_m) * wave.direction[axis];
-    }
-    const auto cell = std::size_t(n);
-    if (behind < 0 || behind > length) continue;
-    if (medium.same(cell, from)) continue;
-    throw Error(
-        "at t = 0 the plane wave would already be in another material than that of the boundary it enters "
-        "by, at " +
-        place_of(grid, n) + "; move --source back against its direction of travel");
-  }
-}
-
-/// A vertical wave enters by the top or bottom edge, uniform in itself; the layers it reaches at the sides
-/// are followed there. An oblique one is known only where all absorbing edges lie in one medium.
-template <int D>
-void check_plane_wave(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave) {
-  if (scene.attenuates())
-    throw Error(
-        "found a plane wave in a model that attenuates, expected a point source or --without attenuation",
-        ErrorKind::usage);
-  constexpr int z = D - 1;
-  const double across = wave.direction[0], down = wave.direction[z];
-  const auto& rows = scene.model.grid().rows;
-  for (std::int64_t row = 0; rows && row <= rows->cells()[z]; ++row)
-    if (!rows->row_is_level(row))
-      throw Error(
-          "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
-          "model with --fit none");
-  const bool vertical = std::abs(across) < 1e-9;
-  const int entry = down > 0 ? 0 : 1;
-  const char* entry_name = entry == 0 ? "top" : "bottom";
-  if (std::abs(down) > 1e-9 && scene.edges[z][entry] != EdgeLaw::absorbing)
-    throw Error("the plane wave enters by the " + std::string(entry_name) + "; use --" + entry_name +
-                " absorbing");
-  if (std::abs(across) > 1e-9 && scene.edges[0][across > 0 ? 0 : 1] != EdgeLaw::absorbing)
-    throw Error("the plane wave enters by a side; use --sides absorbing");
-  std::optional<std::size_t> reference;
-  if (vertical)
-    check_uniform_edge(scene, z, entry,
-                       "a plane wave needs one solid or fluid along the boundary it enters by", reference);
-  for (int axis = 0; axis < D && !vertical; ++axis)
-    for (const int side : {0, 1})
-      if (scene.edges[axis][side] == EdgeLaw::absorbing)
-        check_uniform_edge(scene, axis, side,
-                           "an oblique plane wave needs one solid or fluid along all absorbing boundaries",
-                           reference);
-  if (wave.shear && !scene.model.medium.is_solid(*reference))
-    throw Error("a plane S wave needs rock along the boundary it enters by, found " +
-                described(scene.model.medium, *reference) + "; use --kind plane");
-  check_beginning(scene, source, wave, *reference);
-}
-
 /// Both ends of the gauge must be in the model, and in rock or fluid.
 template <int D>
 void check_fibre(const Scene<D>& scene) {
@@ -187,15 +99,13 @@ void check_fibre(const Scene<D>& scene) {
 template <int D>
 void check_source(const Scene<D>& scene, const Source<D>& source, const std::function<std::string()>& who) {
   const auto* wave = std::get_if<PlaneWave<D>>(&source.mechanism);
-  if (wave && D == 3)
-    throw Error("found a plane wave in 3-D, expected it in 2-D or a point source", ErrorKind::usage);
   if (wave && source.delay_s != 0)
     throw Error(who() + ": found a delay of " + shown(source.delay_s) +
                 " s of a plane wave, expected none; move its --source back instead");
   if (!(source.delay_s >= 0 && std::isfinite(source.delay_s)))
     throw Error(who() + ": found a delay of " + shown(source.delay_s) + " s, expected 0 or more");
   if (wave)
-    check_plane_wave(scene, source, *wave);
+    way_of_plane_wave(scene, source);
   else
     refuse_void<D>(scene, source.position_m, who);
   check_moment_in_fluid(scene, source);
@@ -293,10 +203,19 @@ double time_step_s(const Scene<D>& scene) {
 
 double largest_cfl(const Numerics& numerics) { return numerics.time_order == 4 ? 2 : 1; }
 
+/// Width of the PML of plane waves in wavelengths of the fastest wave at the frequency of the wavelet.
+constexpr double plane_zone_wavelengths = 2. / 3;
+
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source) {
+  constexpr int usual = 20;
   if (scene.numerics.zone_cells > 0) return scene.numerics.zone_cells;
-  return std::holds_alternative<PlaneWave<D>>(source.mechanism) ? 40 : 20;
+  if (!std::holds_alternative<PlaneWave<D>>(source.mechanism)) return usual;
+  const double wavelength_m =
+      std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest) / source.wavelet.nominal_hz();
+  const double cells = std::ceil(plane_zone_wavelengths * wavelength_m / scene.model.grid().spacing_m);
+  // The outermost hold the incident wave.
+  return int(std::clamp(cells, double(usual), 10000.)) + reach_of(scene.numerics.order) + 1;
 }
 
 template <int D>

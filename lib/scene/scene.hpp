@@ -97,8 +97,8 @@ double largest_cfl(const Numerics& numerics);
 template <int D>
 double time_step_s(const Scene<D>& scene);
 
-/// Width in cells of the absorbing layers of a shot: 20 for the PML, 40 for the zones of a plane
-/// wave, unless numerics say otherwise. Either reflects less than 2 % at up to 60 degrees of incidence.
+/// Width in cells of the PML of a shot, unless numerics say otherwise: 20; of a plane wave two thirds of a
+/// wavelength of the fastest wave, at least 20, and the cells that hold the incident wave (theory.md (E13)).
 template <int D>
 int zone_cells(const Scene<D>& scene, const Source<D>& source);
 

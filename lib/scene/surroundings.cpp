@@ -58,11 +58,10 @@ std::string interface_between(const Medium<D>& medium, std::size_t a, std::size_
   return largest >= strong_interface_ratio ? "an interface" : "";
 }
 
-/// The free, rigid or mirror edges of the whole model and its PML or sponge; `at` in cells of the model,
+/// The free, rigid or mirror edges of the whole model and its PML; `at` in cells of the model,
 /// beyond its ends in the layer outside it.
 template <int D>
-void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const Index<D>& at) {
-  const bool plane = !point_injection(scene.survey.sources[shot - 1]);
+void add_edges(Nearby& nearby, const Scene<D>& scene, const Index<D>& at) {
   const auto whole = scene.subdomain.whole(scene.model.grid());
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1}) {
@@ -71,7 +70,7 @@ void add_edges(Nearby& nearby, const Scene<D>& scene, std::size_t shot, const In
       const EdgeLaw law = scene.edges[axis][side];
       const std::string edge = law == EdgeLaw::rigid ? "a rigid edge" : "a mirror";
       if (law == EdgeLaw::absorbing)
-        nearby.add(plane ? "the sponge" : "the PML", std::max<std::int64_t>(past + 1, 0));
+        nearby.add("the PML", std::max<std::int64_t>(past + 1, 0));
       else
         nearby.add(law != EdgeLaw::free         ? edge
                    : axis == D - 1 && side == 0 ? "the free surface"
@@ -126,7 +125,7 @@ std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>
   Nearby nearby;
   Index<D> of_whole = at;
   of_whole[D - 1] += grid.first[D - 1];
-  add_edges(nearby, scene, shot, of_whole);
+  add_edges(nearby, scene, of_whole);
   add_cells(nearby, scene, at);
   const auto& source = scene.survey.sources[shot - 1];
   if (point_injection(source))

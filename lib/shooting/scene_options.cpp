@@ -175,6 +175,14 @@ std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const Ne
 }
 
 template <int D>
+void SceneOptions::place_again(Scene<D>& scene) const {
+  auto survey = make_survey<D>(*this);
+  if (!needs_ground(survey)) return;
+  scene.survey = std::move(survey);
+  place_on_model(scene);
+}
+
+template <int D>
 std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
                                                       Ranks* group) const {
   std::vector<std::string> warnings;
@@ -199,6 +207,8 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
 
 template Scene<2> SceneOptions::without_model() const;
 template Scene<3> SceneOptions::without_model() const;
+template void SceneOptions::place_again(Scene<2>&) const;
+template void SceneOptions::place_again(Scene<3>&) const;
 template std::vector<std::string> SceneOptions::read_part_into(Scene<2>&, const NetcdfFile&, Ranks&,
                                                                Ranks*) const;
 template std::vector<std::string> SceneOptions::read_part_into(Scene<3>&, const NetcdfFile&, Ranks&,

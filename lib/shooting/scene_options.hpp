@@ -36,8 +36,12 @@ struct SceneOptions {
   /// an Error naming the file.
   template <int D>
   std::vector<std::string> read_model_into(Scene<D>& scene, const NetcdfFile& file) const;
-  /// Collective: the same of the part that this process of `all` takes, as one of the `group` (may be null)
-  /// that shoots a shot together. Errors are thrown on all.
+  /// Places the survey anew where it is measured from the ground, as after the model has been made anew in
+  /// smaller cells. Throws an Error naming what can not be placed.
+  template <int D>
+  void place_again(Scene<D>& scene) const;
+  /// Collective: as read_model_into() the part that this process of `all` takes, as one of the `group` (may
+  /// be null) that shoots a shot together. Errors are thrown on all.
   template <int D>
   std::vector<std::string> read_part_into(Scene<D>& scene, const NetcdfFile& file, Ranks& all,
                                           Ranks* group) const;

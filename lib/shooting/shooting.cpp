@@ -39,7 +39,8 @@ void warn_of_projection(const Survey<D>& survey, const Messages& messages) {
   const double moved_m = survey.spreads ? survey.spreads->moved_m() : 0;
   if (moved_m > 0)
     messages.warn("the survey was moved onto the model's section, places by up to " + shown(moved_m, 3) +
-                  " m across it and offsets by up to " + shown(survey.spreads->offset_change_m(), 3) + " m");
+                  " m across it and offsets by up to " + shown(survey.spreads->offset_change_m(), 3) +
+                  " m; --origin and --azimuth choose the section, a model in 3-D keeps all places");
 }
 
 /// The scene without its model, all options checked.
@@ -80,7 +81,8 @@ void check_on_ranks(const ShootingOptions& options, int count) {
 
 /// The cheapest way to compute the scene with the error that is wanted.
 template <int D>
-Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages& messages) {
+Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options, const Messages& messages) {
+  const double wanted = *options.wanted_error;
   if (!(wanted > 0))
     throw Error("--error: found " + shown(wanted) + ", expected it above 0", ErrorKind::usage);
   if constexpr (D == 2) {
@@ -91,6 +93,8 @@ Scene<D> with_wanted_error(const Scene<D>& scene, double wanted, const Messages&
                   (choice.reason.empty() ? "" : "; " + choice.reason));
     messages.say("chose " + sentence_of(choice, scene));
     auto chosen = chosen_scene(scene, choice);
+    // Between columns the ground of smaller cells is a little higher or lower.
+    if (chosen.model.grid().spacing_m != scene.model.grid().spacing_m) options.scene.place_again(chosen);
     check(chosen);
     return chosen;
   }
@@ -110,7 +114,9 @@ Report setting_for_1_percent(const Scene<2>& scene) {
 template <int D>
 void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
   const auto planned = plan(scene);
-  auto report = summary_of(planned);
+  const auto side_by_side = shots_at_once(options.output, scene);
+  // Traces of all shots stand in memory until they are written to one file.
+  auto report = summary_of(planned, {side_by_side, scene.survey.sources.size() - side_by_side});
   if constexpr (D == 2)
     if (!options.wanted_error) report.append(setting_for_1_percent(scene));
   if (options.details || options.json) report.append(report_of(planned));
@@ -126,7 +132,7 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   auto scene = make_scene<D>(options);
   for (const auto& sentence : options.scene.read_model_into(scene, file)) messages.warn(sentence);
   file.close();
-  if (options.wanted_error) scene = with_wanted_error(scene, *options.wanted_error, messages);
+  if (options.wanted_error) scene = with_wanted_error(scene, options, messages);
   for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   warn_of_projection(scene.survey, messages);
   if (options.plan) return print_plan(scene, options);

@@ -5,11 +5,11 @@
 #include "base/error.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/attenuation.hpp"
+#include "solver/effect/incident_pml.hpp"
 #include "solver/effect/linear_slip.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/effect/point_source.hpp"
 #include "solver/effect/slip.hpp"
-#include "solver/effect/sponge.hpp"
 #include "solver/schedule/plain.hpp"
 #include "solver/schedule/tiled.hpp"
 
@@ -57,14 +57,17 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
   const double vp_max = std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest);
   const bool plane_wave = std::holds_alternative<PlaneWave<D>>(source.mechanism);
   Effects<D, Real> all;
-  if (absorbs(scene, source) && !plane_wave)
-    all.push_back(std::make_unique<Pml<D, Real>>(
-        state.layout, domain, dt_s, vp_max, source.wavelet.nominal_hz(), scene.numerics.time_order, ranks));
-  // Plane waves exist in 2-D only; check(scene) has made sure of it.
-  if constexpr (D == 2) {
+  if (absorbs(scene, source)) {
+    const auto settings = plane_wave ? pml_of_plane_wave(scene, source) : PmlSettings{};
+    auto pml = std::make_unique<Pml<D, Real>>(state.layout, domain, dt_s, vp_max, source.wavelet.nominal_hz(),
+                                              scene.numerics.time_order, ranks, settings);
     if (plane_wave)
-      all.push_back(std::make_unique<Sponge<D, Real>>(state.layout, domain, dt_s, vp_max,
-                                                      make_plane_wave<Real>(scene, source, domain, dt_s)));
+      all.push_back(std::make_unique<IncidentPml<D, Real>>(
+          state.layout, domain, std::move(pml), settings,
+          make_incident_wave<D, Real>(scene, source, domain, dt_s),
+          SweepClocks<D>(splitting(D, scene.numerics.time_order), dt_s)));
+    else
+      all.push_back(std::move(pml));
   }
   std::vector<const PointSource<D, Real>*> points;
   for (const auto* each : scene.survey.sources_of(shot)) {

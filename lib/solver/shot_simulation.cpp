@@ -79,7 +79,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       unit_(unit_of(scene, shot, dt_s_, ranks)),
       attenuating_(attenuating_medium(scene, dt_s_)),
       domain_(make_domain(medium(), scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
-                          scene.subdomain)),
+                          scene.subdomain, scene.numerics.order)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
       effects_(builder().effects(shot, unit_, ranks)),
@@ -139,7 +139,7 @@ void ShotSimulation<D, Real>::serialize(Archive& archive) {
   archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
   executor_->serialize(archive);
   for (const auto& effect : effects_) effect->serialize(archive);
-  recorder_.serialize(archive);
+  recorder_.serialize(archive, done_);
 }
 
 template <int D, class Real>
@@ -227,9 +227,19 @@ template <int D, class Real>
 std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
   std::int64_t bytes = (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
                        std::int64_t(state_.uniform_runs.size() * sizeof(UniformRun<Real>)) +
-                       executor_->memory_bytes() + (halo_ ? halo_->memory_bytes() : 0);
+                       sweeps_.memory_bytes() + executor_->memory_bytes() +
+                       (halo_ ? halo_->memory_bytes() : 0);
   for (const auto& effect : effects_) bytes += effect->memory_bytes();
   return bytes;
+}
+
+/// Impedances, and the medium whose stress relaxes by steps.
+template <int D, class Real>
+std::int64_t ShotSimulation<D, Real>::building_bytes() const {
+  const auto& medium = scene_->model.medium;
+  const std::int64_t of_medium =
+      scene_->attenuates() ? medium.grid().size() * std::int64_t(medium.properties().size()) : 0;
+  return (2 * domain_.grid.size() + of_medium) * std::int64_t(sizeof(float));
 }
 
 template class ShotSimulation<2, float>;

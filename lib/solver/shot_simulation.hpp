@@ -44,7 +44,11 @@ class ShotSimulation {
   ShotReport report() const;
   const Domain<D>& domain() const { return domain_; }
   const Sweeps<D, Real>& sweeps() const { return sweeps_; }
+  /// What it holds: while it runs all but the samples; of what it records, with them; and while it is built
+  /// beside fields and effects.
   std::int64_t memory_bytes() const;
+  std::int64_t record_bytes() const { return recorder_.memory_bytes() + snapshots_.memory_bytes(); }
+  std::int64_t building_bytes() const;
   /// Share of all cells in all steps so far that had to be computed.
   double computed_share() const;
 

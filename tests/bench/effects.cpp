@@ -71,6 +71,17 @@ void register_effects() {
     what.receivers = 1000;
     what.duration_s = 10;
   });
+  // Of all components, every step a sample, as line surveys record: against one receiver.
+  for (const int receivers : {1, 1000})
+    for (const bool pressure_alone : {true, false})
+      add(std::to_string(receivers) + (receivers > 1 ? " receivers of " : " receiver of ") +
+              (pressure_alone ? "p" : "vx, vz and p"),
+          [=](Case& what) {
+            what.receivers = receivers;
+            what.recorded = {Component::p};
+            if (!pressure_alone) what.recorded = {Component::vx, Component::vz, Component::p};
+            what.duration_s = 10;
+          });
   add("a snapshot every 20 steps",
       [](Case& what) { what.snapshot_every_s = 20 * time_step_s(make_scene(what)); });
   add("all fluid", [](Case& what) { what.fluid = true; });

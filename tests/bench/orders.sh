@@ -15,7 +15,7 @@ least() {
   done | sort -g | head -n 1
 }
 base=$(least 5 2)
-for scheme in '3 2' '5 2' '7 2' '7 4'; do
+for scheme in '3 2' '5 2' '7 2' '9 2' '11 2' '7 4' '9 4' '11 4'; do
   # shellcheck disable=SC2086
   least $scheme | awk -v scheme="$scheme" -v base="$base" '{ printf "order, time order %s: %.2f\n", scheme, $1 / base }'
 done

@@ -84,7 +84,7 @@ Scene<2> make_scene(const Case& what) {
   for (int n = 0; n < what.receivers; ++n)
     scene.survey.receivers_m.push_back({width * (0.1 + 0.8 * (n + 0.5) / what.receivers),
                                         what.at_the_surface ? 2 * spacing_m : depth * 0.3});
-  scene.recording = {{Component::vx, Component::vz}, what.duration_s, 0.001};
+  scene.recording = {what.recorded, what.duration_s, 0.001};
   if (what.receivers <= 1) scene.recording.interval_s = 0.01;
   if (what.snapshot_every_s > 0) scene.snapshot_every_s = what.snapshot_every_s;
   if (what.attenuating > 0) {

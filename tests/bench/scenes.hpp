@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "scene/scene.hpp"
 
@@ -31,7 +32,8 @@ struct Case {
   double slipping = 0;          // share of the cells, a box in the middle
   SlipCorrection correction = SlipCorrection::second;
   bool blocks = false, parting = false, under_stress = false;  // what else slip may be of
-  int receivers = 1;                                           // of vx and vz, spread over a line
+  int receivers = 1;                                           // spread over a line
+  std::vector<Component> recorded = {Component::vx, Component::vz};
   double snapshot_every_s = 0;
   double duration_s = 100;  // of the traces, which the run need not reach
 };

@@ -42,6 +42,20 @@ TEST_F(SurveyOfSea, DepthsFromSurfaceAndFloorAreThoseOfTheModel) {
       "--source 100,10 --receivers 0:600:50,95 --receivers 300,100 --receivers 300,0");
 }
 
+/// Between columns the ground of smaller cells is a little lower than that of the model: 30.6390 and 30.6400
+/// m at x = 760 m.
+TEST_F(SurveyOfSea, PlacesOnTheSurfaceFollowTheGroundOfCellsThatErrorChooses) {
+  write("hills.txt", "0 60\n250 75\n500 40\n750 30\n1000 70\n");
+  done("sw-layers -q --size 1000x500 --step 12.5 --layer smooth@hills.txt:1800:800:1900 -o hills.nc");
+  const auto ran =
+      run("sw-shoot hills.nc --source 300,surface+40 --wavelet ricker:8 --receivers 600:900:20,surface "
+          "--record vz --time 0.3 --error 0.1 -o hills.sgy");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  ASSERT_TRUE(has(ran.err, ", 6.25 m")) << ran.err;
+  EXPECT_TRUE(
+      has(done("sw-select hills.sgy --where receiver_x=760 | sw-info -"), "receiver z       30.64 m"));
+}
+
 TEST_F(SurveyOfSea, AStreamerMovesWithItsSource) {
   done("sw-shoot m.nc " + source + "--source 300:500:100,10 --receivers -250:-50:50,15 -o line.sgy");
   for (const std::string notation : {"-250:-50:50", "+-250:+-50:50"}) {
@@ -105,6 +119,7 @@ TEST_F(SurveyOfSea, ASurveyOnAMapIsTurnedIntoTheModel) {
                        "--geometry map.csv --origin 5000,90000 --azimuth 0 --record p -o map.sgy");
   EXPECT_EQ(ran.code, 0);
   EXPECT_TRUE(has(ran.err, "places by up to 40 m across it and offsets by up to 2.65 m")) << ran.err;
+  EXPECT_TRUE(has(ran.err, "--origin and --azimuth choose the section")) << ran.err;
   const auto text = info("map.sgy");
   EXPECT_TRUE(has(text, "source y         90100 m") && has(text, "receiver y       90300 to 90400 m"))
       << text;

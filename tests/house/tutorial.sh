@@ -12,8 +12,7 @@ SLIPWAVE=$root
 PATH=$build/bin:$PATH
 export MAKEFLAGS SLIPWAVE PATH
 
-awk '/^```sh$/ { inside = 1; print "echo \"--- block " ++block "\""; next } /^```/ { inside = 0 } inside' \
-  "$root/docs/tutorial.md" > "$work/as-written"
+commands_of "$root/docs/tutorial.md" > "$work/as-written"
 if [ "${SLIPWAVE_LONG-}" = 1 ]; then
   cp "$work/as-written" "$work/commands"
 else
@@ -23,10 +22,7 @@ else
     exit 1
   }
 fi
-mkdir "$work/folder"
-cd "$work/folder"
-sh -eu "$work/commands" </dev/null >"$work/said" 2>&1 || { cat "$work/said"; echo 'a command failed'; exit 1; }
-cat "$work/said"
+run_commands
 
 grep -oE '[a-z-]+\.(png|pdf|svg)\b' "$work/as-written" | sort -u > "$work/pictures"
 while IFS= read -r picture; do

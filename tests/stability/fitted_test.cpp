@@ -8,8 +8,6 @@
 #include "fitted_medium.hpp"
 #include "lab.hpp"
 #include "model/coefficients.hpp"
-#include "solver/effect/sponge.hpp"
-#include "whole_effect.hpp"
 
 namespace slipwave {
 namespace {
@@ -28,7 +26,7 @@ class FittedLab {
  public:
   FittedLab(const Medium<D>& medium, const EdgeLaws<D>& edges, const Numbers& numbers)
       : medium_(medium),
-        domain_(solver::make_domain(medium_, edges, numbers.zone_cells)),
+        domain_(solver::make_domain(medium_, edges, numbers.zone_cells, {}, numbers.order)),
         dt_s_(numbers.cfl * medium_.grid().spacing_m / fastest_across_cells(medium_)),
         state_(solver::make_filled_state<D, Real>(domain_, medium_, dt_s_)),
         sweeps_(state_, domain_, numbers.order),
@@ -40,17 +38,14 @@ class FittedLab {
                                                     numbers.time_order);
       sweeps_.use(pml_.get());
     } else if constexpr (D == 2) {
-      sponge_ = std::make_unique<solver::Sponge<D, Real>>(state_.layout, domain_, dt_s_, fastest, nullptr);
+      sponge_ = std::make_unique<Sponge<D, Real>>(domain_, dt_s_, fastest);
     }
     shake(numbers.seed);
   }
 
   void step() {
     for (const auto& sweep : splitting_) sweeps_.along(sweep.axis, Real(sweep.fraction));
-    const solver::StepTime time{steps_++, dt_s_};
-    if (!sponge_) return;
-    solver::run_everywhere(*sponge_, time, state_);
-    solver::run_after_everywhere(*sponge_, time, state_);
+    if (sponge_) sponge_->damp(state_);
   }
 
   /// With the sponge, whose cells it counts too; without it that of solver::energy().
@@ -107,9 +102,8 @@ class FittedLab {
   solver::State<D, Real> state_;
   solver::Sweeps<D, Real> sweeps_;
   std::unique_ptr<solver::Pml<D, Real>> pml_;
-  std::unique_ptr<solver::Effect<D, Real>> sponge_;
+  std::unique_ptr<Sponge<D, Real>> sponge_;
   std::vector<SweepFraction> splitting_;
-  std::int64_t steps_ = 0;
 };
 
 constexpr double h = 5;

@@ -5,7 +5,6 @@
 #include <random>
 
 #include "solver/effect/slip.hpp"
-#include "solver/effect/sponge.hpp"
 #include "whole_effect.hpp"
 
 namespace slipwave {
@@ -40,7 +39,7 @@ Lab<Real>::Lab(const Setup& setup)
   model.fracture_sets = setup.fracture_sets;
   model.prestress_pa = setup.prestress_pa;
   scene_.numerics.correction = setup.correction;
-  domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells);
+  domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
   state_ = solver::make_state<2, Real>(domain_.grid.shape);
   solver::fill_material(state_, domain_, model.medium, dt_s_);
@@ -52,8 +51,7 @@ Lab<Real>::Lab(const Setup& setup)
                                                     setup.time_order);
     sweeps_->use(layer_.get());
   } else if (zones) {
-    passes_.push_back(
-        std::make_unique<solver::Sponge<2, Real>>(state_.layout, domain_, dt_s_, vp_max, nullptr));
+    sponge_ = std::make_unique<Sponge<2, Real>>(domain_, dt_s_, vp_max);
   }
   const auto& sets = model.fracture_sets;
   if (std::any_of(sets.begin(), sets.end(), gives<2>))
@@ -91,10 +89,9 @@ void Lab<Real>::step() {
   for (const auto& sweep : splitting_)
     if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
-  for (const auto& pass : passes_) solver::run_everywhere(*pass, time, state_);
+  if (sponge_) sponge_->damp(state_);
   if (springs_) solver::run_everywhere(*springs_, time, state_);
   if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });
-  for (const auto& pass : passes_) solver::run_after_everywhere(*pass, time, state_);
   if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_); });
   if (springs_) solver::run_after_everywhere(*springs_, time, state_);
   ++steps_;

@@ -17,6 +17,7 @@
 #include "solver/effect/linear_slip.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/sweep/sweeps.hpp"
+#include "sponge.hpp"
 
 namespace slipwave {
 
@@ -33,8 +34,9 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 /// vx, vz, sxx, szz and sxz of a cell.
 using CellFields = std::array<double, 5>;
 
-/// A wave field of random values in every cell, that evolves freely: sweeps, sponge or PML and slip as a shot
-/// has them, without a source. Fields in the sponge start random too, in the PML at rest.
+/// A wave field of random values in every cell, that evolves freely: sweeps, PML and slip as a shot has
+/// them, without a source, or a sponge in place of the PML. Fields in the sponge start random too, in the PML
+/// at rest.
 template <class Real>
 class Lab {
  public:
@@ -83,7 +85,7 @@ class Lab {
   solver::State<2, Real> state_;
   std::unique_ptr<solver::Sweeps<2, Real>> sweeps_;
   std::unique_ptr<solver::Pml<2, Real>> layer_;
-  std::vector<std::unique_ptr<solver::Effect<2, Real>>> passes_;
+  std::unique_ptr<Sponge<2, Real>> sponge_;
   std::unique_ptr<solver::Effect<2, Real>> slip_;
   std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
   bool along_z_only_;

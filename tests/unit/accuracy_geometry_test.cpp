@@ -33,26 +33,56 @@ Scene<2> shot_over(const Model<2>& model) {
   return scene;
 }
 
+/// A scene with no more than a model.
+Scene<2> with(const Model<2>& model) {
+  Scene<2> scene;
+  scene.model = model;
+  return scene;
+}
+
 TEST(FinerModel, IsMadeFromTheTopsOfItsLayers) {
   const auto model = model_of(sea, 10, sea_command);
-  const auto finer = finer_model(model, 2.5);
+  const auto finer = finer_model(with(model), 2.5);
   ASSERT_TRUE(finer);
   const auto expected = model_of(sea, 2.5, "");
   ASSERT_EQ(finer->grid(), expected.grid());
   for (std::size_t n = 0; n < std::size_t(expected.grid().size()); ++n)
     ASSERT_EQ(finer->medium.vs[n], expected.medium.vs[n]) << n;
   // Its own command does not give it in other cells: it can be made finer no more.
-  EXPECT_FALSE(finer_model(*finer, 1.25));
+  EXPECT_FALSE(finer_model(with(*finer), 1.25));
 }
 
 TEST(FinerModel, IsNotMadeWhereItsHistoryDoesNotGiveIt) {
   auto model = model_of(sea, 10, sea_command);
   model.medium.vp[7] = 1501;
-  EXPECT_FALSE(finer_model(model, 5));
+  EXPECT_FALSE(finer_model(with(model), 5));
   for (const char* history : {"", "sw-import --vp a.nc", "sw-layers --size 400x300 --step 10 --layer 0:x",
                               "sw-layers --size 400x300 --step 10 --layer @gone.txt:1500:0:1000"})
-    EXPECT_FALSE(finer_model(model_of(sea, 10, history), 5)) << history;
-  EXPECT_FALSE(finer_model(model_of(sea, 10, std::string(sea_command) + "\nsw-fracture sea.nc"), 5));
+    EXPECT_FALSE(finer_model(with(model_of(sea, 10, history)), 5)) << history;
+  EXPECT_FALSE(finer_model(with(model_of(sea, 10, std::string(sea_command) + "\nsw-fracture sea.nc")), 5));
+}
+
+TEST(FinerModel, AttenuatesAsTheModelDoesWithTheSpeedsOfItsUnrelaxedRock) {
+  auto layers = sea;
+  layers[1].others = {{Property::qp, 60}, {Property::qs, 30}};
+  const std::string command =
+      "sw-layers --size 400x300 --step 10 --units km/s,g/cm3 --layer 0:1.5:0:1 --layer '103:3:1.6:2.2:10 "
+      "qp=60 "
+      "qs=30' --layer 203:4:2.3:2.4 --fit none";
+  auto scene = shot_over(model_of(layers, 10, command));
+  set_attenuation(scene);
+  ASSERT_TRUE(scene.attenuates());
+  const auto finer = finer_model(scene, 5);
+  ASSERT_TRUE(finer);
+  auto expected = shot_over(model_of(layers, 5, command));
+  set_attenuation(expected);
+  const auto& medium = expected.model.medium;
+  for (const auto property : medium.properties())
+    for (std::size_t n = 0; n < medium.vp.size(); ++n)
+      ASSERT_EQ(finer->medium[property][n], medium[property][n]) << n;
+  // Without its attenuation it is elastic in other cells, too.
+  scene = shot_over(model_of(sea, 10, command));
+  EXPECT_FALSE(finer_model(scene, 5).value().medium.has(Property::qp));
 }
 
 TEST(LocalStack, HasTheLayersDipsAndRepresentationsOfTheModel) {

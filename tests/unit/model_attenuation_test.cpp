@@ -84,7 +84,8 @@ TEST(UnrelaxedMedium, LosesNoLessInPWavesThanShearDoes) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
   auto medium = one_cell(3000, 1500, 1000, 20);
   EXPECT_EQ(unrelax(medium, attenuation),
-            "qp at x=2.5 z=2.5 is 1000, more than its qs of 20 allows: 80 is used");
+            "qp at x=2.5 z=2.5 is 1000, more than its qs of 20 allows: 80 is used; a lower qp or a higher qs "
+            "of the model (sw-layers --layer, sw-import --qp --qs) is taken as it is");
   EXPECT_EQ(medium[Property::qp][0], 80);
   auto no_own = one_cell(3000, 1500, infinite, 20);
   EXPECT_EQ(unrelax(no_own, attenuation), "");

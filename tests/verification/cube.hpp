@@ -55,7 +55,7 @@ class Cube {
   using Rows = FieldRows<3>;
   Cube(const Medium<3>& medium, const EdgeLaws<3>& edges, int order, double dt_s, int time_order = 2)
       : medium_(medium),
-        domain_(make_domain(medium_, edges, 1)),
+        domain_(make_domain(medium_, edges, 1, {}, order)),
         state_(std::make_unique<State<3, Real>>(make_state<3, Real>(domain_.grid.shape))),
         sweeps_(*state_, domain_, order),
         splitting_(splitting(3, time_order)) {

@@ -20,9 +20,16 @@ namespace slipwave::solver {
 /// and off faces, with and without a free surface, on fitted and on regular grids.
 class DrawnScene {
  public:
-  explicit DrawnScene(std::uint64_t seed) : engine_(seed) {
+  /// What it is drawn for: anything; sources just below a free surface of rock; sources beside an interface,
+  /// as likely in the fluid as in the solid where it is a sea floor; receivers just below a sea floor; a
+  /// cable below the surface of deep water.
+  enum class Kind { any, shallow, near_floor, on_floor, deep_water };
+  explicit DrawnScene(std::uint64_t seed, Kind kind = Kind::any) : engine_(seed), kind_(kind) {
     draw_layers();
-    draw_places();
+    if (kind == Kind::any)
+      draw_places();
+    else
+      draw_special_places();
     build();
   }
   const Scene<2>& scene() const { return scene_; }
@@ -58,19 +65,21 @@ class DrawnScene {
   }
 
   void draw_layers() {
-    const int count = 1 + int(uniform(0, 4));
-    free_surface_ = chance(0.3);
+    const bool floor = kind_ != Kind::any && kind_ != Kind::shallow;
+    const int count = (floor ? 2 : 1) + int(uniform(0, floor ? 2 : 4));
+    free_surface_ = kind_ == Kind::shallow || kind_ == Kind::deep_water || chance(0.3);
     for (int n = 0; n < count; ++n) {
-      const bool fluid = n + 1 < count && chance(n == 0 ? 0.45 : 0.15);
+      const bool fluid = kind_ == Kind::any ? n + 1 < count && chance(n == 0 ? 0.45 : 0.15) : floor && n == 0;
       rocks_.push_back(fluid ? Rock{1500, 0, 1000} : draw_rock());
     }
     if (free_surface_) faces_m_.push_back(0);
-    double at = free_surface_ ? uniform(120, 300) : 0;
+    double at = kind_ == Kind::deep_water ? uniform(380, 600) : free_surface_ ? uniform(120, 300) : 0;
     for (int n = 0; n + 1 < count; ++n) {
       faces_m_.push_back(at);
       at += chance(0.2) ? uniform(12, 40) : uniform(60, 220);
     }
-    dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, 45));
+    dip_deg_ = faces_m_.empty() || chance(0.4) ? 0 : std::round(uniform(2, kind_ == Kind::any ? 45 : 30));
+    if (kind_ == Kind::deep_water) dip_deg_ = 0;
     on_faces_ = dip_deg_ == 0 && chance(0.5);
     fitted_ = chance(0.6);
     cosine_ = std::cos(dip_deg_ * std::numbers::pi / 180);
@@ -105,10 +114,49 @@ class DrawnScene {
         if (std::hypot(a, b - source_b_) > 60) receivers_.push_back({a, b});
   }
 
-  void build() {
+  double spacing_m() const {
     double slowest = 1e30;
     for (const auto& rock : rocks_) slowest = std::min(slowest, rock.vs > 0 ? rock.vs : rock.vp);
-    const double h = slowest / peak_hz / cells_;
+    return slowest / peak_hz / cells_;
+  }
+
+  void draw_special_places() {
+    const double h = spacing_m();
+    double levels[2] = {};
+    if (kind_ == Kind::shallow) {
+      source_b_ = h * uniform(1, 7);
+      levels[0] = chance(0.5) ? h * uniform(0.6, 3) : 60 + uniform(0, 40);
+      levels[1] = faces_m_.size() > 1 ? across(faces_m_[1], faces_m_.back() + 150, 30) : 180;
+      force_ = chance(0.5);
+    }
+    const double floor = faces_m_.empty() ? 0 : faces_m_[free_surface_ ? 1 : 0];
+    if (kind_ == Kind::near_floor) {
+      const double away = h * uniform(0.7, 4);
+      const bool below = chance(0.6);
+      source_b_ = floor + (below ? away : -away);
+      force_ = below && chance(0.6);
+      levels[0] = floor - uniform(20, 100);
+      levels[1] = floor + (chance(0.5) ? h * uniform(0.6, 3) : uniform(20, 50));
+    }
+    if (kind_ == Kind::on_floor) {
+      const bool below = chance(0.4);
+      source_b_ = floor + (below ? uniform(15, 50) : -uniform(15, 100));
+      force_ = below && chance(0.6);
+      levels[0] = floor + h * uniform(0.3, 2);
+      levels[1] = chance(0.5) ? floor - h * uniform(0.3, 2) : floor + uniform(20, 50);
+    }
+    if (kind_ == Kind::deep_water) {
+      source_b_ = uniform(8, 25);
+      levels[0] = uniform(10, 30);
+      levels[1] = floor - uniform(10, 60);
+    }
+    for (const double b : levels)
+      for (const double a : {-250., -80., 90., 240., 400.})
+        if (std::hypot(a, b - source_b_) > 60) receivers_.push_back({a, b});
+  }
+
+  void build() {
+    const double h = spacing_m();
     // What lies where if (0, 0) of the frame of the layers is at the origin.
     double low[2] = {0, 0}, high[2] = {0, 0};
     const auto reach = [&](const LayerStack::Receiver& at) {
@@ -184,6 +232,7 @@ class DrawnScene {
   }
 
   std::mt19937_64 engine_;
+  Kind kind_;
   std::vector<Rock> rocks_;
   std::vector<double> faces_m_;
   std::vector<LayerStack::Receiver> receivers_;
@@ -192,6 +241,81 @@ class DrawnScene {
   int order_ = 5;
   Scene<2> scene_;
   std::string name_;
+};
+
+/// Topography, a rolling sea floor, or that and a bed that rolls otherwise, drawn from a seed; no closed form
+/// has such traces, so scene(parts) gives the same in cells of a part of the size, whose geometry is as much
+/// finer.
+class BentScene {
+ public:
+  explicit BentScene(std::uint64_t seed) : engine_(seed) {
+    const int kind = int(uniform(0, 3));
+    hills_ = kind == 0;
+    double at = uniform(120, 160);
+    const auto add = [&](const Rock& rock, bool level) {
+      std::ostringstream text;
+      text << "sine," << at << ',' << (level ? 0 : uniform(5, 20)) << ',' << uniform(220, 500) << ':'
+           << rock.vp << ':' << rock.vs << ':' << rock.rho;
+      layers_.push_back(text.str());
+      slowest_ = std::min(slowest_, rock.vs > 0 ? rock.vs : rock.vp);
+    };
+    if (!hills_) {
+      layers_.emplace_back("-10:1500:0:1000");
+      slowest_ = 1500;
+    }
+    const double vp = uniform(2000, 3200);
+    add({vp, vp / uniform(1.7, 2.1), 2100}, false);
+    at += uniform(110, 160);
+    if (kind > 0) add({uniform(3300, 4300), uniform(1800, 2300), 2400}, kind == 1);
+    fitted_ = uniform(0, 1) < 0.7;
+    cells_ = std::round(uniform(9, 18));
+    order_ = uniform(0, 1) < 0.3 ? 7 : 5;
+    force_ = uniform(0, 1) < 0.4;
+    source_ = {uniform(250, 450), hills_ || force_ ? uniform(200, 330) : uniform(30, 330)};
+    const double upper = hills_ ? uniform(200, 240) : uniform(30, 90), lower = uniform(210, 400);
+    for (const double x : {120., 230., 340., 460., 560.})
+      for (const double depth : {upper, lower})
+        if (std::hypot(x - source_[0], depth - source_[1]) > 60) receivers_.push_back({x, depth});
+  }
+  std::string name() const {
+    std::ostringstream text;
+    for (const auto& layer : layers_) text << layer << ' ';
+    text << (fitted_ ? "fitted" : "regular") << (force_ ? ", force" : ", explosion") << ", order " << order_
+         << ", n " << cells_;
+    return text.str();
+  }
+  Scene<2> scene(int parts = 1) const {
+    const double wide_m = 700, h = wide_m / std::ceil(wide_m * 15 * cells_ / slowest_) / parts;
+    const Grid<2> regular{{std::llround(wide_m / h), std::llround(490 / h)}, h, {0, 0}};
+    std::vector<Layer> layers;
+    for (const auto& text : layers_) layers.push_back(parse_layer(text));
+    FitChoice choice;
+    choice.surfaces = choice.floors = choice.layers = fitted_ || parts > 1;
+    const auto fit = fit_layers<2>(regular, layers, choice);
+    Scene<2> scene;
+    scene.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+    scene.survey.sources = {
+        {source_, parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"), parse_wavelet("ricker:15"), 1e6}};
+    scene.survey.receivers_m = receivers_;
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    if (hills_) scene.edges[1][0] = EdgeLaw::free;
+    scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
+    scene.numerics.order = parts > 1 ? 7 : order_;
+    scene.numerics.zone_cells = 20 * parts;
+    check(scene);
+    return scene;
+  }
+
+ private:
+  double uniform(double low, double high) { return low + (high - low) * double(engine_() >> 11) * 0x1p-53; }
+
+  std::mt19937_64 engine_;
+  std::vector<std::string> layers_;
+  bool hills_ = false, fitted_ = true, force_ = false;
+  int order_ = 5;
+  double cells_ = 12, slowest_ = 1e30;
+  Point<2> source_{};
+  std::vector<Point<2>> receivers_;
 };
 
 }  // namespace slipwave::solver

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "solver/kernels/kernels.hpp"
+#include "solver/kernels/series_kernels.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -131,6 +133,57 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
                                swept(done));
   }
   return fields;
+}
+
+/// Weighed sums are the bits of four plain sums on every machine: nothing is fused.
+template <class Real>
+void expect_plain_sums() {
+  constexpr std::int64_t cells = 48;
+  std::mt19937 engine(11);
+  std::uniform_real_distribution<double> random(-1, 1);
+  std::vector<std::vector<Real>> steps(steps_together, std::vector<Real>(std::size_t(cells)));
+  std::array<const Real*, steps_together> rows;
+  for (std::size_t n = 0; n < steps.size(); ++n) {
+    for (auto& value : steps[n]) value = Real(random(engine));
+    rows[n] = steps[n].data();
+  }
+  Buffer<double> together(cells * steps_together);
+  const auto& kernels = series_kernels<Real>();
+  kernels.bring_together(cells, rows.data(), together.data());
+  const std::vector<SeriesTerm> terms = {{3, 8}, {17, 1}, {20, 11}};
+  std::vector<double> weights(20);
+  for (auto& weight : weights) weight = random(engine);
+  std::array<double, steps_together> sums;
+  kernels.weigh(together.data(), terms.data(), terms.data() + terms.size(), weights.data(), 0.25,
+                sums.data());
+  std::vector<double> wide(21), combined(21);
+  const double* wides[] = {wide.data(), wide.data(), wide.data()};
+  for (auto& value : wide) value = random(engine);
+  kernels.combine(21, 3, weights.data(), wides, combined.data());
+  for (std::size_t step = 0; step < steps.size(); ++step) {
+    volatile double lanes[4] = {};
+    std::size_t next = 0;
+    for (const auto& term : terms)
+      for (std::int64_t n = 0; n < term.count; ++n) {
+        const auto lane = n < term.count / 4 * 4 ? n % 4 : 0;
+        const volatile double product = weights[next++] * double(steps[step][std::size_t(term.value + n)]);
+        lanes[lane] = lanes[lane] + product;
+      }
+    EXPECT_EQ(sums[step], ((lanes[0] + lanes[1]) + (lanes[2] + lanes[3])) * 0.25);
+  }
+  for (std::size_t i = 0; i < wide.size(); ++i) {
+    volatile double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const volatile double product = weights[k] * wide[i];
+      sum = sum + product;
+    }
+    EXPECT_EQ(combined[i], sum);
+  }
+}
+
+TEST(Kernels, OfRecordsAreThePlainSumsToTheLastBit) {
+  expect_plain_sums<float>();
+  expect_plain_sums<double>();
 }
 
 TEST(Kernels, OfAFusedRowGiveTheSameBits) {

@@ -36,8 +36,8 @@ double& cell(L& lab, const Kind& kind, L::Row row, std::int64_t n) {
 
 /// Relative error of a Gaussian pulse exp(-(x/w)^2) of 100 m after 400 m of way; h divides 10 m.
 double error_of_a_pulse(const Kind& kind, int order, double h, bool backwards) {
-  const double width = 100, from = backwards ? 900 : 500, way = backwards ? -400 : 400, courant = 0.8;
-  const auto n = std::int64_t(1400 / h);
+  const double width = 100, from = backwards ? 1200 : 800, way = backwards ? -400 : 400, courant = 0.8;
+  const auto n = std::int64_t(2000 / h);  // its tails at the ends are below rounding
   L lab = line(kind, n, h, order, courant);
   const double z = rock.rho * kind.speed();
   // Averages over cells are what the fields hold.
@@ -63,7 +63,7 @@ TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
   // 0.2: what the next term of the error takes off while the pulse is 10 to 20 cells wide. Order 1 smears
   // the pulse so much that only finer grids show its order.
   for (const int order : orders) {
-    const double h = order == 1 ? 1 : order == 7 ? 5 : 2.5;
+    const double h = order == 1 ? 1 : order > 7 ? 10 : order == 7 ? 5 : 2.5;
     for (const auto& kind : kinds)
       for (const bool backwards : {false, true}) {
         const double coarse = error_of_a_pulse(kind, order, h, backwards);

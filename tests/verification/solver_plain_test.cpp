@@ -141,9 +141,9 @@ TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
   slip.edges[1][0] = EdgeLaw::absorbing;
   slip.survey.sources = {{{0, 0}, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:40"), 1}};
   EXPECT_EQ(list_of(slip),
-            (Lines{"sweep along x, 0.5", "sweep along z, 1", "sweep along x, 0.5", "sponge, incident wave",
-                   "slip, second order", "record", "slip, second order, after recording",
-                   "sponge, incident wave, after recording"}));
+            (Lines{"sweep along x, 0.5 (PML, incident wave)", "sweep along z, 1 (PML, incident wave)",
+                   "sweep along x, 0.5 (PML, incident wave)", "slip, second order", "record",
+                   "slip, second order, after recording"}));
 }
 
 /// Numbers of the field rows that differ.

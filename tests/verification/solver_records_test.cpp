@@ -13,6 +13,7 @@
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/point_weights.hpp"
 #include "unit/bent_grid.hpp"
+#include "viscoelastic.hpp"
 
 // What is recorded beside velocity and stress: displacement, acceleration, strain rates, div, curl, DAS.
 namespace slipwave::solver {
@@ -36,14 +37,21 @@ Medium<2> moved_to(const Medium<2>& medium, const Point<2>& origin_m) {
   return {moved(medium.vp), moved(medium.vs), moved(medium.rho)};
 }
 
-/// All that is recorded at the offset x, z of a line force (1, 2) N/m, by the closed form of velocity:
-/// derivatives in space by differences over a thousandth of a wavelength.
-std::vector<std::vector<double>> exact_traces(double x, double z, std::int64_t count) {
-  const auto velocity = [](double omega, double dx, double dz) {
-    const auto one = force_motion(rock, omega, dx, dz, 0), other = force_motion(rock, omega, dx, dz, 1);
-    return std::array{one[0] + 2. * other[0], one[1] + 2. * other[1]};
-  };
+/// Velocity at an offset from a source, by frequency.
+using VelocityAt = std::function<std::array<std::complex<double>, 2>(double omega, double dx, double dz)>;
+
+/// That of a line force (1, 2) N/m.
+std::array<std::complex<double>, 2> of_force(double omega, double dx, double dz) {
+  const auto one = force_motion(rock, omega, dx, dz, 0), other = force_motion(rock, omega, dx, dz, 1);
+  return {one[0] + 2. * other[0], one[1] + 2. * other[1]};
+}
+
+/// All that is recorded at the offset x, z, by the closed form of velocity: derivatives in space by
+/// differences over a thousandth of a wavelength.
+std::vector<std::vector<double>> exact_traces(const VelocityAt& velocity, double x, double z,
+                                              std::int64_t count) {
   const auto motion = [&](double omega) {
+    if (omega == 0) return std::vector<std::complex<double>>(recorded.size());
     const double step = 0.1;
     const std::complex<double> i_omega(0, omega);
     const auto v = velocity(omega, x, z);
@@ -101,13 +109,13 @@ Scene<2> full_space(double cells_a_wavelength, double half_width_m) {
 }
 
 /// Every component at every receiver against its closed form, relative to the largest trace of its kind.
-void expect_closed_form(const Scene<2>& scene, double bound) {
+void expect_closed_form(const Scene<2>& scene, double bound, const VelocityAt& velocity = of_force) {
   check(scene);
   const Gather gather = shoot(scene, 1);
   const auto receivers = scene.survey.receivers_m.size();
   for (std::size_t receiver = 0; receiver < receivers; ++receiver) {
     const auto& at = scene.survey.receivers_m[receiver];
-    const auto exact = exact_traces(at[0] - 1.7, at[1] + 0.9, gather.axis.count);
+    const auto exact = exact_traces(velocity, at[0] - 1.7, at[1] + 0.9, gather.axis.count);
     // Vectors, and the strain rates, are measured by the largest of their kind.
     const std::vector<std::vector<std::size_t>> kinds = {{0, 1}, {2, 3}, {4, 5, 6}, {7}, {8}, {9}};
     for (const auto& kind : kinds) {
@@ -127,6 +135,71 @@ TEST(Records, OfAFullSpaceAreThoseOfTheClosedForm) {
   auto scene = full_space(16, 560);
   scene.survey.receivers_m = {{203.3, 57.1}, {25.7, 201.9}, {-211.2, 171.4}};
   expect_closed_form(scene, 1);
+}
+
+void attenuate(Scene<2>& scene, double qp, double qs) {
+  auto& medium = scene.model.medium;
+  medium[Property::qp] = Field<2>(medium.grid(), float(qp));
+  medium[Property::qs] = Field<2>(medium.grid(), float(qs));
+  set_attenuation(scene);
+}
+
+TEST(Records, OfAnAttenuatingFullSpaceAreThoseOfComplexModuli) {
+  auto scene = full_space(16, 560);
+  scene.survey.receivers_m = {{-111.2, 171.4}};
+  attenuate(scene, 30, 20);
+  const Mechanisms mechanisms(3, peak_hz / 5, 2.5 * peak_hz);
+  const auto p = standard_linear(mechanisms, 30, peak_hz), s = standard_linear(mechanisms, 20, peak_hz);
+  expect_closed_form(scene, 1, [&](double omega, double dx, double dz) {
+    const LossyRock lossy(rock, omega, p, s);
+    const auto one = lossy_force<2>(lossy, omega, {dx, dz}, 0),
+               other = lossy_force<2>(lossy, omega, {dx, dz}, 1);
+    return std::array{one[0] + 2. * other[0], one[1] + 2. * other[1]};
+  });
+}
+
+/// How much the strain rate across a free surface of attenuating rock lacks, relative to what complex moduli
+/// make of that along it.
+double error_across_the_surface(double qp, double qs) {
+  const double h = rock.vs / peak_hz / 16;
+  const auto n = std::int64_t(800 / h);
+  Scene<2> scene;
+  scene.model.medium = moved_to(uniform_medium(n, n / 2, h, rock), {-400, 0});
+  scene.survey.sources = {{{0, 60}, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
+  scene.survey.receivers_m = {{151.3, 0}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.numerics.order = 7;
+  scene.recording = {{exx, ezz, exz}, 0.5, interval_s};
+  attenuate(scene, qp, qs);
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const Mechanisms mechanisms(3, peak_hz / 5, 2.5 * peak_hz);
+  const auto p = standard_linear(mechanisms, qp, peak_hz), s = standard_linear(mechanisms, qs, peak_hz);
+  const auto at = [&](std::size_t trace, double omega) {
+    std::complex<double> sum = 0;
+    const auto& samples = gather.traces[trace].samples;
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      sum += samples[k] * std::polar(1., -omega * double(k) * interval_s);
+    return sum;
+  };
+  double difference = 0, size = 0, shear = 0;
+  for (double hz = 5; hz <= 45; hz += 1) {
+    const double omega = 2 * std::numbers::pi * hz;
+    const LossyRock lossy(rock, omega, p, s);
+    const auto ratio = 1. - 2. * lossy.mu() / lossy.p_modulus();
+    difference += std::norm(at(1, omega) + ratio * at(0, omega));
+    size += std::norm(ratio * at(0, omega));
+    shear += std::norm(at(2, omega));
+  }
+  EXPECT_LT(std::sqrt(shear / size), 1e-6);
+  return std::sqrt(difference / size);
+}
+
+TEST(Records, OnAFreeSurfaceOfAttenuatingRockShrinkByItsUnrelaxedModuli) {
+  // That error is of the order of 1/Q (docs/attenuation.md).
+  EXPECT_LT(error_across_the_surface(40, 20), 0.09);
+  EXPECT_LT(error_across_the_surface(160, 80), 0.023);
 }
 
 /// Velocity of a moment tensor whose rate is the wavelet: minus the slope of what forces do, since the source

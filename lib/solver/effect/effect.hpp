@@ -11,6 +11,7 @@
 #include "scene/scene.hpp"
 #include "solver/record/shot_report.hpp"
 #include "solver/sweep/state.hpp"
+#include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
 
@@ -43,6 +44,7 @@ struct EffectDeclaration {
   unsigned reads = 0, writes = 0;
   bool retains = false;         // has memory from one step to the next
   bool between_sweeps = false;  // acts inside the step (apply_between())
+  bool enters_sweeps = false;   // as a filter it may change cells that are zero (enters())
 };
 template <int D>
 constexpr unsigned all_velocities = (1U << D) - 1;
@@ -64,6 +66,7 @@ struct SweptCells {
   std::int64_t before_pitch;
   Real* now;
   std::int64_t pitch;
+  SweepTime time{};
 };
 
 /// A change of the wave field besides the sweeps. It exists only in scenes that need it.
@@ -107,6 +110,11 @@ class Effect {
   /// Cells of these whose changes by a sweep along `axis` it filters: up to two ranges in order, else empty.
   virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
     return {};
+  }
+  /// Whether in a sweep of that step (or the one that the next begins with) it may change cells of these
+  /// columns of a row while they and their neighbours are zero.
+  virtual bool enters(const StepTime&, std::int64_t /*row*/, const IndexRange& /*columns*/) const {
+    return false;
   }
   /// Changes the increments in such a range. Only with `remember` its memory advances.
   virtual void filter(const SweptCells<D, Real>&, bool /*remember*/) {}

@@ -13,7 +13,8 @@ FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (model.fracture[cell] != set_ + 1) continue;
     const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
-    blocks.emplace_back(layout.line_number(at), at[0] / block);
+    const std::pair in{layout.line_number(at), at[0] / block};
+    if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
     ++cells_;
   }
   std::sort(blocks.begin(), blocks.end());

@@ -30,6 +30,9 @@ class FractureCells {
   /// Cells that belong to the set, and all that are stored.
   std::int64_t cells() const { return cells_; }
   std::size_t stored() const { return stored_; }
+  std::int64_t memory_bytes() const {
+    return std::int64_t(segments_.size() * sizeof(Segment) + starts_.size() * sizeof(std::size_t));
+  }
 
   /// A cell of the set: its place among the stored ones and its number in the model.
   struct Cell {

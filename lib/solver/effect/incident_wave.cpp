@@ -3,88 +3,69 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/splitting.hpp"
+#include "model/coefficients.hpp"
+#include "scene/plane_wave.hpp"
+#include "solver/effect/incident_pml.hpp"
+#include "solver/effect/layered_wave.hpp"
+#include "solver/effect/plane_form.hpp"
 #include "solver/sweep/sweeps.hpp"
 
 namespace slipwave::solver {
 namespace {
 
-/// Two-way amplitude of a wave that crosses a zone at the speed vp_max at normal incidence.
-constexpr double zone_leak = 0.2;
-/// Growth of the damping rate into the zone.
-constexpr double zone_power = 2.5;
-/// The outermost cells are set to the incident wave: that is how it enters.
-constexpr std::int64_t prescribed_cells = max_reach;
-
-using Rows = FieldRows<2>;
-
-/// The closed form: every field is a constant times the wavelet at the time since the front passed the cell.
-class PlaneForm {
- public:
-  PlaneForm(const Source<2>& source, double vp, double vs, double rho)
-      : wavelet_(source.wavelet), origin_(source.position_m) {
-    const auto& wave = std::get<PlaneWave<2>>(source.mechanism);
-    const auto& direction = wave.direction;
-    const double c = wave.speed(vp, vs);
-    slowness_ = {direction[0] / c, direction[1] / c};
-    const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
-    const double strain = -source.amplitude / c;  // grad v = -d v'/c
-    if (wave.shear) {
-      const Point<2> across = {direction[1], -direction[0]};
-      factor_[Rows::velocity(0)] = source.amplitude * across[0];
-      factor_[Rows::velocity(1)] = source.amplitude * across[1];
-      factor_[Rows::normal_stress(0)] = strain * 2 * mu * direction[0] * across[0];
-      factor_[Rows::normal_stress(1)] = strain * 2 * mu * direction[1] * across[1];
-      factor_[Rows::shear_stress(0, 1)] = strain * mu * (direction[0] * across[1] + direction[1] * across[0]);
-      return;
-    }
-    factor_[Rows::velocity(0)] = source.amplitude * direction[0];
-    factor_[Rows::velocity(1)] = source.amplitude * direction[1];
-    factor_[Rows::normal_stress(0)] = strain * (lambda + 2 * mu * direction[0] * direction[0]);
-    factor_[Rows::normal_stress(1)] = strain * (lambda + 2 * mu * direction[1] * direction[1]);
-    factor_[Rows::shear_stress(0, 1)] = strain * 2 * mu * direction[0] * direction[1];
+/// Sets all cells to a wave of one medium at t = 0.
+template <int D, class Real>
+void begin_with(const PlaneForm<D>& form, const Grid<D>& grid, const std::vector<double>& depths,
+                State<D, Real>& state) {
+  constexpr auto piece = CellsAlongX<Real>::most;
+  for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
+    const auto at = state.layout.line_index(line);
+    for (std::int64_t i = 0; i < grid.shape[0]; i += piece)
+      form.cells(grid.centre(0, 0), grid.spacing_m, i, std::min(piece, grid.shape[0] - i),
+                 depths[std::size_t(at[D - 1])], 0, 0, state.field_row(at, 0) + i, state.layout.row_pitch());
   }
-  /// The waveform that all fields are multiples of, at most 1.
-  double wave(double x, double z, double t) const { return wavelet_(phase(x, z, t)); }
-  double factor(int row) const { return factor_[std::size_t(row)]; }
-  /// Whether the wave is nowhere between two points.
-  bool is_zero(const Point<2>& one, const Point<2>& other, double t) const {
-    const double at_one = phase(one[0], one[1], t), at_other = phase(other[0], other[1], t);
-    return std::max(at_one, at_other) < 0 || std::min(at_one, at_other) > wavelet_.duration_s();
+}
+
+template <int D>
+double ahead_s(const Clocks<D>& clocks) {
+  const double ahead = clocks.axis_s[0] - clocks.axis_s[D - 1];
+  // Half a sweep, or rounding.
+  return std::abs(ahead) < 1e-9 * clocks.axis_s[0] ? 0 : ahead;
+}
+
+/// A wave in one medium, in closed form.
+template <int D, class Real>
+class UniformWave : public IncidentWave<D, Real> {
+ public:
+  UniformWave(const PlaneForm<D>& form, const Domain<D>& domain, const PlaneWaveWay<D>& way)
+      : form_(form),
+        grid_(domain.grid),
+        depths_(depths_of_rows(domain)),
+        by_entry_only_(way.by_entry_only),
+        entry_(way.entry_side) {}
+  void begin(State<D, Real>& state) override { begin_with(form_, grid_, depths_, state); }
+  bool enters(int axis, int side) const override {
+    return !by_entry_only_ || (axis == D - 1 && side == entry_);
+  }
+  bool reaches(const StepTime& time, const Index<D>& line) const override {
+    // Sweeps of a step advance fields by more than a step nowhere.
+    const double middle = time.end_s() - time.dt_s / 2, beside = 3 * time.dt_s;
+    return form_.is_there({grid_.origin_m[0], grid_.end(0)}, depths_[std::size_t(line[D - 1])], middle,
+                          beside, beside);
+  }
+  bool values(const Clocks<D>& clocks, int, int, const Index<D>& line, std::int64_t x_first,
+              std::int64_t count, Real* to, std::int64_t pitch) const override {
+    return form_.cells(grid_.centre(0, 0), grid_.spacing_m, x_first, count, depths_[std::size_t(line[D - 1])],
+                       clocks.axis_s[D - 1], ahead_s(clocks), to, pitch);
   }
 
  private:
-  double phase(double x, double z, double t) const {
-    return t - (x - origin_[0]) * slowness_[0] - (z - origin_[1]) * slowness_[1];
-  }
-  Wavelet wavelet_;
-  Point<2> origin_, slowness_;
-  std::array<double, 5> factor_{};
+  PlaneForm<D> form_;
+  Grid<D> grid_;
+  std::vector<double> depths_;
+  bool by_entry_only_;
+  int entry_;
 };
-
-/// Depths of the centres of rows, all of them level, m.
-std::vector<double> depths_of_rows(const Domain<2>& domain) {
-  std::vector<double> depths;
-  for (std::int64_t k = 0; k < domain.grid.shape[1]; ++k)
-    depths.push_back(domain.row_heights.empty()
-                         ? domain.grid.centre(1, k)
-                         : (corner_depth(domain, {0, k}) + corner_depth(domain, {0, k + 1})) / 2 *
-                               domain.grid.spacing_m);
-  return depths;
-}
-
-/// Sets the wave of t = 0 in every cell; it has not reached any interface yet.
-template <class Real>
-void begin_with(const PlaneForm& form, const Grid<2>& grid, const std::vector<double>& depths,
-                State<2, Real>& state) {
-  Index<2> line{};
-  for (line[1] = 0; line[1] < grid.shape[1]; ++line[1])
-    for (std::int64_t i = 0; i < grid.shape[0]; ++i) {
-      const double wave = form.wave(grid.centre(0, i), depths[std::size_t(line[1])], 0);
-      for (int row = 0; row < Rows::count; ++row)
-        state.field_row(line, row)[i] = Real(form.factor(row) * wave);
-    }
-}
 
 /// A column of cells transposed: z becomes x, where cells follow each other in memory. Cells of another
 /// height become cells of one height that waves cross in the same time, of the same impedance and mass.
@@ -109,6 +90,7 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
 
 /// The field row of a transposed column that holds this field row.
 int row_lying(int row) {
+  using Rows = FieldRows<2>;
   for (const int axis : {0, 1}) {
     if (row == Rows::velocity(axis)) return Rows::velocity(1 - axis);
     if (row == Rows::normal_stress(axis)) return Rows::normal_stress(1 - axis);
@@ -116,68 +98,97 @@ int row_lying(int row) {
   return row;
 }
 
-/// Values of all rows in the cells of a column at the ends of the steps in progress.
+/// The incident wave of a transposed column, in the zone it enters by.
 template <class Real>
-class ColumnValues {
+class LyingEntry : public IncidentWave<2, Real> {
  public:
-  explicit ColumnValues(std::int64_t cells) : cells_(cells) {
-    for (auto& values : values_) values.assign(std::size_t(cells * Rows::count), 0);
+  LyingEntry(const PlaneForm<2>& form, std::vector<double> depths, bool from_top)
+      : form_(form), depths_(std::move(depths)), from_top_(from_top) {}
+  void begin(State<2, Real>& state) override {
+    write(0, 0, std::int64_t(depths_.size()), state.field_row({0, 0}, 0), state.layout.row_pitch());
   }
-  Real* row(std::int64_t step, int row) { return values_[slot(step)].data() + row * cells_; }
-  IncidentValues<Real> at(std::int64_t step, std::int64_t cell) const {
-    return {values_[slot(step)].data() + cell, cells_, false};
+  bool enters(int axis, int side) const override { return axis == 0 && side == (from_top_ ? 0 : 1); }
+  bool reaches(const StepTime&, const Index<2>&) const override { return true; }
+  bool values(const Clocks<2>& clocks, int, int, const Index<2>&, std::int64_t first, std::int64_t count,
+              Real* to, std::int64_t pitch) const override {
+    return write(clocks.axis_s[1], first, count, to, pitch);
   }
 
  private:
-  static std::size_t slot(std::int64_t step) {
-    return std::size_t(step % Effect<2, Real>::most_steps_in_progress);
+  bool write(double time_s, std::int64_t first, std::int64_t count, Real* to, std::int64_t pitch) const {
+    bool any = false;
+    for (std::int64_t i = 0; i < count; ++i) {
+      std::array<Real, std::size_t(FieldRows<2>::count)> fields{};
+      any |= form_.cells(form_.origin()[0], 0, 0, 1, depths_[std::size_t(first + i)], time_s, 0,
+                         fields.data(), 1);
+      for (int row = 0; row < FieldRows<2>::count; ++row)
+        to[row_lying(row) * pitch + i] = fields[std::size_t(row)];
+    }
+    return any;
   }
-  std::int64_t cells_;
-  std::array<std::vector<Real>, std::size_t(Effect<2, Real>::most_steps_in_progress)> values_;  // [row][cell]
+  PlaneForm<2> form_;
+  std::vector<double> depths_;
+  bool from_top_;
 };
 
-/// A vertical wave in a column of cells with identical neighbours: sweeps along z alone, with the
-/// scheme, sponge and incident wave of the main grid.
+/// A vertical wave in a column of cells with identical neighbours: sweeps along z alone, with the scheme and
+/// the PML of the main grid.
 template <class Real>
 class Column {
  public:
-  Column(const Scene<2>& scene, int zone_cells, std::int64_t x, const PlaneForm& form,
-         const std::vector<double>& depths, double dt_s, double vp_max)
-      : medium_(column_of(scene.model.medium, x)),
-        domain_(make_domain(medium_, edges_of(scene), zone_cells)),
+  Column(const Scene<2>& scene, const Source<2>& source, const Domain<2>& main, std::int64_t x,
+         const PlaneForm<2>& form, double dt_s, double vp_max)
+      : sweeps_of_step_(splitting(2, scene.numerics.time_order)),
+        medium_(column_of(scene.model.medium, x)),
+        domain_(make_domain(medium_, edges_of(scene), int(std::max(main.low_zone[1], main.high_zone[1])), {},
+                            main.order)),
         state_(make_filled_state<2, Real>(domain_, medium_, dt_s)),
         sweeps_(state_, domain_, scene.numerics.order),
         work_(sweeps_.make_workspace(state_.layout.padded_nx())),
-        splitting_(splitting(2, scene.numerics.time_order)),
-        factors_(zone_factors(domain_, 0, dt_s, vp_max)),
-        values_(domain_.grid.shape[0]) {
-    for (std::int64_t k = 0; k < domain_.grid.shape[0]; ++k) {
-      const double wave = form.wave(0, depths[std::size_t(k)], 0);
-      for (int row = 0; row < Rows::count; ++row) field(row)[k] = Real(form.factor(row) * wave);
+        pml_(make_pml(scene, source, depths_of_rows(main), form, dt_s, vp_max)),
+        cells_(domain_.grid.shape[0]),
+        slots_(std::size_t((Effect<2, Real>::most_steps_in_progress + 1) *
+                               SweepClocks<2>(sweeps_of_step_, dt_s).along_last() +
+                           1)) {
+    domain_.release_impedances();
+    sweeps_.use(pml_.get());
+    for (auto& slot : slots_) slot.assign(std::size_t(cells_ * FieldRows<2>::count), 0);
+    pml_->initialize(state_);
+    store();
+  }
+  void advance(std::int64_t step) {
+    const IndexRange all{0, cells_};
+    for (std::size_t n = 0; n < sweeps_of_step_.size(); ++n) {
+      if (sweeps_of_step_[n].axis != 1) continue;
+      if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
+      sweeps_.correct_side_surfaces(0);
+      work_.time() = {step, n};
+      sweeps_.along_x(0, all, Real(sweeps_of_step_[n].fraction), boundary_, work_);
+      ++made_;
+      store();
     }
   }
-  /// `incoming`: the wave at the end of that step in the zones, 0 where waves only leave.
-  void advance(std::int64_t step, const PlaneForm& form, const std::vector<double>& incoming) {
-    const IndexRange all{0, domain_.grid.shape[0]};
-    for (const auto& sweep : splitting_)
-      if (sweep.axis == 1) {
-        if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
-        sweeps_.correct_side_surfaces(0);
-        sweeps_.along_x(0, all, Real(sweep.fraction), boundary_, work_);
-      }
-    for (int row = 0; row < Rows::count; ++row) {
-      Real* const u = field(row);
-      for (std::int64_t k = 0; k < all.last; ++k) {
-        const double factor = factors_[std::size_t(k)];
-        if (factor == 1) continue;
-        const double target = form.factor(row) * incoming[std::size_t(k)];
-        u[k] = Real(target + factor * (double(u[k]) - target));
-      }
-      std::copy(u, u + all.last, values_.row(step, row));
-    }
+  void serialize(Archive& archive) {
+    archive.value(made_);
+    archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
+    pml_->serialize(archive);
+    store();
   }
-  void serialize(Archive& archive) { archive.fixed(state_.fields.data(), std::size_t(state_.fields.size())); }
-  const ColumnValues<Real>& values() const { return values_; }
+  /// Of all fields after that many sweeps along z, one field row after another of cells().
+  const Real* fields(std::int64_t sweeps_made) const {
+    return slots_[std::size_t(sweeps_made) % slots_.size()].data();
+  }
+  std::int64_t cells() const { return cells_; }
+  /// Whether any is other than zero in a cell.
+  bool any(std::int64_t sweeps_made, std::int64_t cell) const {
+    const Real* const here = fields(sweeps_made) + cell;
+    for (int row = 0; row < FieldRows<2>::count; ++row)
+      if (here[row * cells_] != 0) return true;
+    return false;
+  }
+  std::int64_t memory_bytes() const {
+    return std::int64_t(slots_.size() * slots_.front().size() * sizeof(Real));
+  }
 
  private:
   static EdgeLaws<2> edges_of(const Scene<2>& scene) {
@@ -186,142 +197,154 @@ class Column {
     edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
     return edges;
   }
-  Real* field(int row) { return state_.field_row({0, 0}, row_lying(row)); }
+  std::unique_ptr<IncidentPml<2, Real>> make_pml(const Scene<2>& scene, const Source<2>& source,
+                                                 std::vector<double> depths, const PlaneForm<2>& form,
+                                                 double dt_s, double vp_max) const {
+    auto settings = pml_of_plane_wave(scene, source);
+    settings.lying = true;
+    return std::make_unique<IncidentPml<2, Real>>(
+        state_.layout, domain_,
+        std::make_unique<Pml<2, Real>>(state_.layout, domain_, dt_s, vp_max, source.wavelet.nominal_hz(),
+                                       scene.numerics.time_order, nullptr, settings),
+        settings,
+        std::make_unique<LyingEntry<Real>>(form, std::move(depths),
+                                           std::get<PlaneWave<2>>(source.mechanism).direction[1] > 0),
+        SweepClocks<2>(sweeps_of_step_, dt_s));
+  }
+  void store() {
+    auto& slot = slots_[std::size_t(made_) % slots_.size()];
+    for (int row = 0; row < FieldRows<2>::count; ++row) {
+      const Real* const from = state_.field_row({0, 0}, row_lying(row));
+      std::copy(from, from + cells_, slot.begin() + row * cells_);
+    }
+  }
+  std::vector<SweepFraction> sweeps_of_step_;
   Medium<2> medium_;
   Domain<2> domain_;
   State<2, Real> state_;
   Sweeps<2, Real> sweeps_;
   Workspace<Real> work_;
   StripeBoundary<Real> boundary_{};
-  std::vector<SweepFraction> splitting_;
-  std::vector<double> factors_;
-  ColumnValues<Real> values_;
+  std::unique_ptr<IncidentPml<2, Real>> pml_;
+  std::int64_t cells_, made_ = 0;
+  std::vector<std::vector<Real>> slots_;  // [sweeps made, in a ring][row][cell]
 };
 
 /// A wave travelling straight down or up.
 template <class Real>
 class VerticalWave : public IncidentWave<2, Real> {
  public:
-  VerticalWave(const Scene<2>& scene, const PlaneForm& form, const Domain<2>& domain, bool from_top,
-               double dt_s, double vp_max)
+  VerticalWave(const Scene<2>& scene, const Source<2>& source, const PlaneForm<2>& form,
+               const Domain<2>& domain, double dt_s, double vp_max)
       : form_(form),
         grid_(domain.grid),
         depths_(depths_of_rows(domain)),
-        entry_(from_top ? IndexRange{0, domain.low_zone[1]}
-                        : IndexRange{grid_.shape[1] - domain.high_zone[1], grid_.shape[1]}),
-        incoming_(std::size_t(grid_.shape[1]), 0.),
-        values_(grid_.shape[1]) {
+        entry_(std::get<PlaneWave<2>>(source.mechanism).direction[1] > 0 ? 0 : 1) {
     const std::int64_t last = domain.model_grid.shape[0] - 1;
     for (const int side : {0, 1})
       if (domain.edges[0][side] == EdgeLaw::absorbing)
         columns_[std::size_t(side)] =
-            std::make_unique<Column<Real>>(scene, int(std::max(domain.low_zone[1], domain.high_zone[1])),
-                                           side ? last : 0, form, depths_, dt_s, vp_max);
+            std::make_unique<Column<Real>>(scene, source, domain, side ? last : 0, form, dt_s, vp_max);
+    for (const auto& sweep : splitting(2, scene.numerics.time_order)) along_z_ += sweep.axis == 1;
   }
   void begin(State<2, Real>& state) override { begin_with(form_, grid_, depths_, state); }
   void advance(const StepTime& time) override {
-    for (std::int64_t k = entry_.first; k < entry_.last; ++k) {
-      const double wave = form_.wave(0, depths_[std::size_t(k)], time.end_s());
-      incoming_[std::size_t(k)] = wave;
-      for (int row = 0; row < Rows::count; ++row)
-        values_.row(time.step, row)[k] = Real(form_.factor(row) * wave);
-    }
     for (auto& column : columns_)
-      if (column) column->advance(time.step, form_, incoming_);
+      if (column) column->advance(time.step);
   }
-  IncidentValues<Real> values(const StepTime& time, int axis, int side, const Index<2>& line, std::int64_t,
-                              std::int64_t, Real*) const override {
-    const auto& values = axis == 0 ? columns_[std::size_t(side)]->values() : values_;
-    return values.at(time.step, line[1]);
+  bool enters(int axis, int side) const override { return axis == 0 || side == entry_; }
+  bool reaches(const StepTime& time, const Index<2>& line) const override {
+    const double x = form_.origin()[0], beside = 3 * time.dt_s;
+    if (form_.is_there({x, x}, depths_[std::size_t(line[1])], time.end_s(), 0, beside)) return true;
+    for (const auto& column : columns_)
+      for (auto n = time.step * along_z_; column && n <= (time.step + 1) * along_z_; ++n)
+        if (column->any(n, line[1])) return true;
+    return false;
   }
-  bool needs_whole_step() const override { return false; }
+  bool values(const Clocks<2>& clocks, int axis, int side, const Index<2>& line, std::int64_t x_first,
+              std::int64_t count, Real* to, std::int64_t pitch) const override {
+    if (axis == 1)
+      return form_.cells(grid_.centre(0, 0), grid_.spacing_m, x_first, count, depths_[std::size_t(line[1])],
+                         clocks.axis_s[1], 0, to, pitch);
+    const auto& column = *columns_[std::size_t(side)];
+    const Real* const from = column.fields(clocks.along_last) + line[1];
+    for (int row = 0; row < FieldRows<2>::count; ++row)
+      std::fill(to + row * pitch, to + row * pitch + count, from[row * column.cells()]);
+    return true;
+  }
   void serialize(Archive& archive) override {
     for (auto& column : columns_)
       if (column) column->serialize(archive);
   }
-
- private:
-  PlaneForm form_;
-  Grid<2> grid_;
-  std::vector<double> depths_;
-  IndexRange entry_;              // rows of the zone it enters through
-  std::vector<double> incoming_;  // of each row at the end of the newest step
-  ColumnValues<Real> values_;     // in the zones above and below
-  std::array<std::unique_ptr<Column<Real>>, 2> columns_;
-};
-
-/// An oblique wave: all zones lie in one medium.
-template <class Real>
-class ObliqueWave : public IncidentWave<2, Real> {
- public:
-  ObliqueWave(const PlaneForm& form, const Domain<2>& domain)
-      : form_(form), grid_(domain.grid), depths_(depths_of_rows(domain)) {}
-  void begin(State<2, Real>& state) override { begin_with(form_, grid_, depths_, state); }
-  void advance(const StepTime&) override {}
-  IncidentValues<Real> values(const StepTime& time, int, int, const Index<2>& line, std::int64_t x_first,
-                              std::int64_t count, Real* room) const override {
-    const double z = depths_[std::size_t(line[1])], t = time.end_s();
-    const auto x = [&](std::int64_t i) { return grid_.centre(0, x_first + i); };
-    if (form_.is_zero({x(0), z}, {x(count - 1), z}, t)) return {zeros_.data(), 1, false};
-    for (std::int64_t i = 0; i < count; ++i) {
-      const double wave = form_.wave(x(i), z, t);
-      for (int row = 0; row < Rows::count; ++row) room[row * count + i] = Real(form_.factor(row) * wave);
-    }
-    return {room, count, true};
+  std::int64_t memory_bytes() const override {
+    std::int64_t bytes = 0;
+    for (const auto& column : columns_)
+      if (column) bytes += column->memory_bytes();
+    return bytes;
   }
-  bool needs_whole_step() const override { return true; }
-  void serialize(Archive&) override {}
 
  private:
-  PlaneForm form_;
+  PlaneForm<2> form_;
   Grid<2> grid_;
   std::vector<double> depths_;
-  std::array<Real, Rows::count> zeros_{};
+  int entry_;
+  std::int64_t along_z_ = 0;  // sweeps of a step
+  std::array<std::unique_ptr<Column<Real>>, 2> columns_;
 };
 
 }  // namespace
 
 template <int D>
-std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s, double vp_max) {
-  std::vector<double> factors(std::size_t(domain.grid.shape[axis]), 1.);
-  for (const int side : {0, 1}) {
-    const auto width = side ? domain.high_zone[axis] : domain.low_zone[axis];
-    const double strongest =
-        -(zone_power + 1) * vp_max * std::log(zone_leak) / (2 * double(width) * domain.grid.spacing_m);
-    for (std::int64_t j = 0; j < width; ++j) {
-      const double depth = (double(j) + 0.5) / double(width);
-      const auto cell = side ? domain.grid.shape[axis] - width + j : width - 1 - j;
-      const bool prescribed = width - j <= prescribed_cells;
-      factors[std::size_t(cell)] = prescribed ? 0 : std::exp(-strongest * std::pow(depth, zone_power) * dt_s);
-    }
-  }
-  return factors;
+SweepClocks<D>::SweepClocks(std::vector<SweepFraction> sweeps, double dt_s)
+    : sweeps_(std::move(sweeps)), dt_s_(dt_s) {
+  for (const auto& sweep : sweeps_) along_last_ += sweep.axis == D - 1;
 }
 
-template <class Real>
-std::unique_ptr<IncidentWave<2, Real>> make_plane_wave(const Scene<2>& scene, const Source<2>& source,
-                                                       const Domain<2>& domain, double dt_s) {
+template <int D>
+Clocks<D> SweepClocks<D>::before(const SweepTime& time) const {
+  Clocks<D> clocks;
+  std::array<double, std::size_t(D)> fractions{};
+  clocks.along_last = time.step * along_last_;
+  for (std::size_t n = 0; n < time.sweep; ++n) {
+    fractions[std::size_t(sweeps_[n].axis)] += sweeps_[n].fraction;
+    clocks.along_last += sweeps_[n].axis == D - 1;
+  }
+  for (std::size_t axis = 0; axis < D; ++axis)
+    clocks.axis_s[axis] = (double(time.step) + fractions[axis]) * dt_s_;
+  return clocks;
+}
+
+template <int D>
+Clocks<D> SweepClocks<D>::after(const SweepTime& time, double fraction) const {
+  auto clocks = before(time);
+  const auto axis = sweeps_[time.sweep].axis;
+  clocks.axis_s[std::size_t(axis)] += fraction * dt_s_;
+  clocks.along_last += axis == D - 1;
+  return clocks;
+}
+
+template <int D, class Real>
+std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene, const Source<D>& source,
+                                                          const Domain<D>& domain, double dt_s) {
   const auto& medium = scene.model.medium;
-  const auto direction = std::get<PlaneWave<2>>(source.mechanism).direction;
-  const bool vertical = std::abs(direction[0])<1e-9, from_top = direction[1]> 0;
-  // A cell of the edge by which the wave enters; check(scene) has made sure that the edge is uniform.
-  Index<2> entry{};
-  if (vertical && !from_top) entry[1] = medium.grid().shape[1] - 1;
-  if (!vertical && scene.edges[1][0] != EdgeLaw::absorbing) {
-    if (scene.edges[0][direction[0] > 0 ? 0 : 1] == EdgeLaw::absorbing && direction[0] < 0)
-      entry[0] = medium.grid().shape[0] - 1;
-    entry[1] = medium.grid().shape[1] - 1;
-  }
-  const PlaneForm form(source, medium.vp(entry), medium.vs(entry), medium.rho(entry));
-  if (vertical)
-    return std::make_unique<VerticalWave<Real>>(scene, form, domain, from_top, dt_s, fastest_speed(medium));
-  return std::make_unique<ObliqueWave<Real>>(form, domain);
+  const auto way = way_of_plane_wave(scene, source);
+  const PlaneForm<D> form(source, medium.vp(way.entry), medium.vs(way.entry), medium.rho(way.entry));
+  if constexpr (D == 2)
+    if (way.kind == PlaneWaveKind::vertical)
+      return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s, fastest_speed(medium));
+  if (way.kind == PlaneWaveKind::layered) return make_layered_wave<D, Real>(scene, source, form, domain, way);
+  return std::make_unique<UniformWave<D, Real>>(form, domain, way);
 }
 
-template std::vector<double> zone_factors(const Domain<2>&, int, double, double);
-template std::unique_ptr<IncidentWave<2, float>> make_plane_wave(const Scene<2>&, const Source<2>&,
-                                                                 const Domain<2>&, double);
-template std::unique_ptr<IncidentWave<2, double>> make_plane_wave(const Scene<2>&, const Source<2>&,
-                                                                  const Domain<2>&, double);
+template class SweepClocks<2>;
+template class SweepClocks<3>;
+template std::unique_ptr<IncidentWave<2, float>> make_incident_wave(const Scene<2>&, const Source<2>&,
+                                                                    const Domain<2>&, double);
+template std::unique_ptr<IncidentWave<2, double>> make_incident_wave(const Scene<2>&, const Source<2>&,
+                                                                     const Domain<2>&, double);
+template std::unique_ptr<IncidentWave<3, float>> make_incident_wave(const Scene<3>&, const Source<3>&,
+                                                                    const Domain<3>&, double);
+template std::unique_ptr<IncidentWave<3, double>> make_incident_wave(const Scene<3>&, const Source<3>&,
+                                                                     const Domain<3>&, double);
 
 }  // namespace slipwave::solver

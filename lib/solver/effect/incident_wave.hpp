@@ -1,51 +1,71 @@
 #pragma once
 
+#include <array>
 #include <memory>
+#include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
 
-/// Values of all field rows in some cells of a row: of each field one for all cells, or one per cell.
-template <class Real>
-struct IncidentValues {
-  const Real* values;  // of row 0
-  std::int64_t pitch;  // to the next row
-  bool by_cell;
+/// How far sweeps along each axis have advanced fields, s, and how many of those along the last axis there
+/// were.
+template <int D>
+struct Clocks {
+  std::array<double, std::size_t(D)> axis_s{};
+  std::int64_t along_last = 0;
 };
 
-/// The incident wave field, known in the sponge, which damps the fields towards it. In scenes without such a
-/// wave there is none and the sponge damps to zero.
+/// The clocks before and after the sweeps of a time step.
+template <int D>
+class SweepClocks {
+ public:
+  SweepClocks(std::vector<SweepFraction> sweeps, double dt_s);
+  /// Of fields that such a sweep begins with.
+  Clocks<D> before(const SweepTime& time) const;
+  /// Of fields that it leaves, when it is over such a fraction of the step.
+  Clocks<D> after(const SweepTime& time, double fraction) const;
+  /// Sweeps of a step along the last axis.
+  std::int64_t along_last() const { return along_last_; }
+
+ private:
+  std::vector<SweepFraction> sweeps_;
+  double dt_s_;
+  std::int64_t along_last_ = 0;
+};
+
+/// The incident wave field of a plane wave in the zones outside the model, between any two sweeps.
 template <int D, class Real>
 class IncidentWave {
  public:
+  static constexpr int rows = FieldRows<D>::count;
   virtual ~IncidentWave() = default;
   /// Sets the fields of the computed grid to the wave of t = 0.
   virtual void begin(State<D, Real>& state) = 0;
   /// Advances it to time.end_s(), step after step. It still holds the steps in progress (Effect).
-  virtual void advance(const StepTime& time) = 0;
-  /// Its values at that step in `count` cells of a line from x_first on, which lie in the zone of `axis`,
-  /// `side` (0 low, 1 high). They last until most_steps_in_progress steps later (Effect), or are stored in
-  /// `room`, for `count` cells of all fields.
-  virtual IncidentValues<Real> values(const StepTime& time, int axis, int side, const Index<D>& line,
-                                      std::int64_t x_first, std::int64_t count, Real* room) const = 0;
-  /// Whether the sponge needs the fields at the exact end of a step, with its half sweeps split.
-  virtual bool needs_whole_step() const = 0;
+  virtual void advance(const StepTime&) {}
+  /// Whether there is such a wave in the zone of `axis`, `side` (0 low, 1 high).
+  virtual bool enters(int axis, int side) const = 0;
+  /// Whether it may be other than zero in the zones of a line during a step, or in the first sweep of the
+  /// next.
+  virtual bool reaches(const StepTime& time, const Index<D>& line) const = 0;
+  /// Its values in `count` cells of a line from x_first on, which lie in such a zone: field row after field
+  /// row, `pitch` apart. Returns false where it is zero in all of them; `to` is then not set.
+  virtual bool values(const Clocks<D>& clocks, int axis, int side, const Index<D>& line, std::int64_t x_first,
+                      std::int64_t count, Real* to, std::int64_t pitch) const = 0;
   /// Writes or reads what it retains from one step to the next; called when no step is in progress.
-  virtual void serialize(Archive& archive) = 0;
+  virtual void serialize(Archive&) {}
+  virtual std::int64_t memory_bytes() const { return 0; }
 };
 
-/// Damping of each cell of an axis over one step, 1 outside the zones (theory.md (E13)).
-template <int D>
-std::vector<double> zone_factors(const Domain<D>& domain, int axis, double dt_s, double vp_max);
-
-/// A plane P or SV wave in one medium, in closed form (theory.md (A7)). 2-D.
-/// Everywhere in scenes whose edges are uniform; with `columns`, at the sides the solution of the column of
-/// cells along each side edge, which follows a vertical wave through any layers.
-template <class Real>
-std::unique_ptr<IncidentWave<2, Real>> make_plane_wave(const Scene<2>& scene, const Source<2>& source,
-                                                       const Domain<2>& domain, double dt_s);
+/// The incident wave of a scene with a plane wave that check(scene) has passed: of one medium in closed form;
+/// a vertical one along each side as the column of cells there lets it through, computed with the scheme
+/// itself; an oblique one in layers from their exact solution (LayeredWave).
+template <int D, class Real>
+std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene, const Source<D>& source,
+                                                          const Domain<D>& domain, double dt_s);
 
 }  // namespace slipwave::solver

@@ -201,7 +201,8 @@ template <int D, class Real>
 std::int64_t LinearSlip<D, Real>::memory_bytes() const {
   std::int64_t bytes = 0;
   for (const auto& group : groups_)
-    bytes += std::int64_t((group.memory.size() + group.coefficients.size()) * sizeof(Real));
+    bytes += std::int64_t((group.memory.size() + group.coefficients.size()) * sizeof(Real)) +
+             group.places.memory_bytes();
   return bytes;
 }
 

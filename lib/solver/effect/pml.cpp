@@ -10,9 +10,6 @@ namespace slipwave::solver {
 namespace {
 
 // Chosen by measuring the reflection of 20 cells for P and S waves at all angles, and what grows (theory.md).
-/// Amplitude of a P wave after crossing the layer and back at normal incidence. The edge at the outer end
-/// absorbs the rest, so more damping would only reflect more within the layer.
-constexpr double leak = 1e-3;
 /// Growth of d into the layer.
 constexpr int power = 2;
 /// alpha at the model in terms of the source's 2 pi f.
@@ -44,24 +41,26 @@ std::vector<double> fractions_along(int axis, int dimension, int time_order) {
 
 template <int D, class Real>
 Pml<D, Real>::Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max,
-                  double slow_hz, int time_order, Ranks* ranks)
+                  double slow_hz, int time_order, Ranks* ranks, const PmlSettings& settings)
     : layout_(layout), cells_(domain.grid.size() - domain.model_grid.size()), kernels_(pml_kernels<Real>()) {
   for (int n = 0; n < D; ++n) {
     auto& axis = axes_[std::size_t(n)];
     axis.cells = domain.grid.shape[std::size_t(n)];
     axis.low = domain.low_zone[std::size_t(n)];
     axis.high = domain.high_zone[std::size_t(n)];
-    for (const double fraction : fractions_along(n, D, time_order)) {
+    for (const double fraction : fractions_along(settings.lying ? D - 1 - n : n, D, time_order)) {
       axis.fractions.push_back(Real(fraction));
       auto& factors = axis.factors.emplace_back();
       // A sweep back in time undoes what one forward would damp: all together are one step.
       const double time = fraction * dt_s;
       for (std::int64_t slot = 0; slot < axis.low + axis.high; ++slot) {
-        const auto width = slot < axis.low ? axis.low : axis.high;
-        const auto inside = slot < axis.low ? axis.low - 1 - slot : slot - axis.low;
+        const auto zone = slot < axis.low ? axis.low : axis.high;
+        const auto width = std::max<std::int64_t>(zone - settings.idle_cells, 1);
+        const auto inside = std::min(slot < axis.low ? axis.low - 1 - slot : slot - axis.low, width - 1);
         const double depth = (double(inside) + 0.5) / double(width);
         const double length = double(width) * domain.grid.spacing_m;
-        const double d = -(power + 1) * vp_max * std::log(leak) / (2 * length) * std::pow(depth, power);
+        const double d =
+            -(power + 1) * vp_max * std::log(settings.leak) / (2 * length) * std::pow(depth, power);
         const double alpha = alpha_share * 2 * std::numbers::pi * slow_hz * (1 - depth);
         const double sum = d + alpha, lost = -std::expm1(-sum * time);
         factors.kept.push_back(Real(std::exp(-damping_share * d * time)));

@@ -11,6 +11,14 @@
 
 namespace slipwave::solver {
 
+/// How a PML differs from that of a point source.
+struct PmlSettings {
+  /// Amplitude of a P wave after crossing the layer and back at normal incidence.
+  double leak = 1e-3;
+  std::int64_t idle_cells = 0;  // at its outer end, where fields are prescribed
+  bool lying = false;           // x of the domain is the last axis of the scene (2-D)
+};
+
 /// A convolutional perfectly matched layer (PML) on the increments of the sweeps (theory.md (E14)). In a zone
 /// outside an absorbing edge the derivative across the edge is divided by 1 + d/(alpha + i omega): the
 /// increment of a field in a sweep along that axis, over the fraction `fraction` of a step, loses the memory
@@ -26,7 +34,7 @@ class Pml : public Effect<D, Real> {
   /// `slow_hz`: the frequency below which the stretching decreases, that of the source.
   /// `time_order`: of the splitting the sweeps follow. Collective where there are ranks (may be null).
   Pml(const Layout<D>& layout, const Domain<D>& domain, double dt_s, double vp_max, double slow_hz,
-      int time_order = 2, Ranks* ranks = nullptr);
+      int time_order = 2, Ranks* ranks = nullptr, const PmlSettings& settings = {});
 
   EffectDeclaration declaration() const override {
     return {ActsOn::nothing, true, all_fields<D>, all_fields<D>, true};

@@ -201,6 +201,14 @@ SlipTotals Slip<D, Real>::totals() const {
   return totals;
 }
 
+template <int D, class Real>
+std::int64_t Slip<D, Real>::memory_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& group : groups_) bytes += group.memory_bytes();
+  for (const auto& diary : diary_) bytes += std::int64_t(diary.size() * sizeof(Entry));
+  return bytes;
+}
+
 template class Slip<2, float>;
 template class Slip<2, double>;
 template class Slip<3, float>;

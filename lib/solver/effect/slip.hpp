@@ -29,6 +29,7 @@ class Slip : public Effect<D, Real> {
   /// What it retains of the cells of these rows from one step to the next, without the diary.
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override;
+  std::int64_t memory_bytes() const override;
   void report(ShotReport& report) const override { report.slip = totals(); }
   bool fill(SlipField which, Field<D>& field) const override {
     field = this->field(which);

@@ -265,6 +265,17 @@ void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real
   }
 }
 
+template <int D, class Real>
+std::int64_t SlipGroup<D, Real>::memory_bytes() const {
+  std::size_t values = 0;
+  for (const auto* of_systems : {&relaxation_, &gaps_, &slips_m_})
+    for (const auto& of_system : *of_systems) values += of_system.size();
+  for (const auto* row :
+       {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
+    values += row->size();
+  return std::int64_t(values * sizeof(Real)) + places_.memory_bytes();
+}
+
 template class SlipGroup<2, float>;
 template class SlipGroup<2, double>;
 template class SlipGroup<3, float>;

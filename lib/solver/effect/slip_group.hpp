@@ -52,6 +52,7 @@ class SlipGroup {
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
   /// lambda of a cell, Pa, where planes open; else 0.
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
+  std::int64_t memory_bytes() const;
   /// All that changes from step to step.
   std::vector<std::vector<Real>*> memory();
   /// Gives access to that of the cells of a row.

@@ -147,13 +147,13 @@ template <int Order, int D, class Real, class V, class T>
                                                        Real courant_s, Real zp, Real zs, Real carries_s,
                                                        RowVector<D, Real>& up, RowVector<D, Real>& down) {
   RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
-  Real e0, e1, e2, e3, o1, o2, o3;
-  weights<Order>(courant_p, e0, e1, e2, e3, o1, o2, o3);
-  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vp_even, vp_odd);
-  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, tp_even, tp_odd);
-  weights<Order>(courant_s, e0, e1, e2, e3, o1, o2, o3);
-  even_odd_of<Order>(v, e0, e1, e2, e3, o1, o2, o3, vs_even, vs_odd);
-  even_odd_of<Order>(t, e0, e1, e2, e3, o1, o2, o3, ts_even, ts_odd);
+  Weights<Order, Real> p, s;
+  weights(courant_p, p);
+  even_odd_of(v, p, vp_even, vp_odd);
+  even_odd_of(t, p, tp_even, tp_odd);
+  weights(courant_s, s);
+  even_odd_of(v, s, vs_even, vs_odd);
+  even_odd_of(t, s, ts_even, ts_odd);
   up = outgoing_wave(vp_even + vp_odd, tp_even + tp_odd, vs_even + vs_odd, ts_even + ts_odd, upper, Real(1),
                      zp, zs, carries_s);
   down = outgoing_wave(vp_even - vp_odd, tp_even - tp_odd, vs_even - vs_odd, ts_even - ts_odd, lower,

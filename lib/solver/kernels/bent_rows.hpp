@@ -15,12 +15,13 @@ template <int Order, class Real>
 [[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, const Real* s, std::int64_t stride,
                                                          const Real* j, std::int64_t j_stride, Real courant,
                                                          Real z_lo, Real z_hi, Real& up, Real& down) {
-  Real e0, e1, e2, e3, o1, o2, o3, v_even, v_odd, t_even, t_odd;
-  weights<Order>(courant, e0, e1, e2, e3, o1, o2, o3);
-  even_odd<Order>(v, stride, e0, e1, e2, e3, o1, o2, o3, v_even, v_odd);
-  even_odd_of<Order>(
-      [=](long k) __attribute__((always_inline)) { return j[k * j_stride] * s[k * stride]; }, e0, e1, e2, e3,
-      o1, o2, o3, t_even, t_odd);
+  Weights<Order, Real> w;
+  Real v_even, v_odd, t_even, t_odd;
+  weights(courant, w);
+  even_odd(v, stride, w, v_even, v_odd);
+  even_odd_of(
+      [=](long k) __attribute__((always_inline)) { return j[k * j_stride] * s[k * stride]; }, w, t_even,
+      t_odd);
   up = z_hi * (v_even + v_odd) - (t_even + t_odd);
   down = z_lo * (v_even - v_odd) + (t_even - t_odd);
 }

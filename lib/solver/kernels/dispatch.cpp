@@ -61,8 +61,8 @@ const PmlKernels<Real>& pml_kernels() {
 }
 
 template <class Real>
-const SpongeKernels<Real>& sponge_kernels() {
-  return best_tables<Real>().damp;
+InterpolationKernel<Real> interpolation_kernel() {
+  return best_tables<Real>().interpolate;
 }
 
 template <class Real>
@@ -86,6 +86,13 @@ RelaxationKernel<Real> relaxation_kernel(int dimensions, bool shear, int mechani
   return best_tables<Real>().relaxation(Real()).of(dimensions, shear, mechanisms);
 }
 
+template <class Real>
+const SeriesKernels<Real>& series_kernels() {
+  return best_tables<Real>().series(Real());
+}
+
+template const SeriesKernels<float>& series_kernels<float>();
+template const SeriesKernels<double>& series_kernels<double>();
 template RelaxationKernel<float> relaxation_kernel<float>(int, bool, int);
 template RelaxationKernel<double> relaxation_kernel<double>(int, bool, int);
 template SlipKernels<float> slip_kernels<float>(const SlipCase&);
@@ -96,9 +103,9 @@ template GapKernel<float> gap_kernel<float>(int);
 template GapKernel<double> gap_kernel<double>(int);
 template const Kernels<float>& kernels<float>(int, bool);
 template const Kernels<double>& kernels<double>(int, bool);
+template InterpolationKernel<float> interpolation_kernel<float>();
+template InterpolationKernel<double> interpolation_kernel<double>();
 template const PmlKernels<float>& pml_kernels<float>();
 template const PmlKernels<double>& pml_kernels<double>();
-template const SpongeKernels<float>& sponge_kernels<float>();
-template const SpongeKernels<double>& sponge_kernels<double>();
 
 }  // namespace slipwave::solver

@@ -2,6 +2,7 @@
 
 #include "solver/kernels/kernels.hpp"
 #include "solver/kernels/relaxation_tables.hpp"
+#include "solver/kernels/series_kernels.hpp"
 #include "solver/kernels/slip_tables.hpp"
 
 namespace slipwave::solver {
@@ -12,9 +13,10 @@ struct KernelTables {
   const Kernels<Real>* (*of_order)(int order);
   const Kernels<Real>* (*of_order_uniform)(int order);
   PmlKernels<Real> pml;
-  SpongeKernels<Real> damp;
+  InterpolationKernel<Real> interpolate;
   const SlipTables<Real>& (*slip)(Real);
   const RelaxationTables<Real>& (*relaxation)(Real);
+  const SeriesKernels<Real>& (*series)(Real);
 };
 
 }  // namespace slipwave::solver

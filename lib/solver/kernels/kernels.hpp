@@ -208,30 +208,29 @@ struct PmlKernels {
                  Real* now, Real* phi, bool remember);
 };
 
-/// Loops of the sponge: now = target + factor (now - target).
+/// Interpolates samples at equal intervals by quintics, at the places place + (first + i) step, counted in
+/// samples: zero where fewer than six samples lie round a place. `count` is at least 6.
 template <class Real>
-struct SpongeKernels {
-  /// [factor per cell, else one for all][the same of targets].
-  void (*damp[2][2])(std::int64_t n, const Real* factor, const Real* target, Real* now);
-};
+using InterpolationKernel = void (*)(std::int64_t n, const float* samples, std::int64_t count, double place,
+                                     double step, std::int64_t first, Real* to);
 
-/// Kernels of that order (1, 3, 5, 7) for the best instruction set of this processor. `uniform`: those for
+/// Kernels of that order for the best instruction set of this processor. `uniform`: those for
 /// uniform runs, of which only the material of the first cell is read; they give the same bits.
 template <class Real>
 const Kernels<Real>& kernels(int order, bool uniform);
 template <class Real>
 const PmlKernels<Real>& pml_kernels();
 template <class Real>
-const SpongeKernels<Real>& sponge_kernels();
+InterpolationKernel<Real> interpolation_kernel();
 
 /// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
 const char* instruction_set();
 
 extern template const Kernels<float>& kernels<float>(int, bool);
 extern template const Kernels<double>& kernels<double>(int, bool);
+extern template InterpolationKernel<float> interpolation_kernel<float>();
+extern template InterpolationKernel<double> interpolation_kernel<double>();
 extern template const PmlKernels<float>& pml_kernels<float>();
 extern template const PmlKernels<double>& pml_kernels<double>();
-extern template const SpongeKernels<float>& sponge_kernels<float>();
-extern template const SpongeKernels<double>& sponge_kernels<double>();
 
 }  // namespace slipwave::solver

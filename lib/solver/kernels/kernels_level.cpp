@@ -13,6 +13,9 @@ const SlipTables<double>& SLIPWAVE_SLIP_LEVEL(double);
 // In relaxation_level.cpp.
 const RelaxationTables<float>& SLIPWAVE_RELAXATION_LEVEL(float);
 const RelaxationTables<double>& SLIPWAVE_RELAXATION_LEVEL(double);
+// In series_level.cpp.
+const SeriesKernels<float>& SLIPWAVE_SERIES_LEVEL(float);
+const SeriesKernels<double>& SLIPWAVE_SERIES_LEVEL(double);
 
 namespace {
 
@@ -156,13 +159,26 @@ void filter_across(std::int64_t n, const PmlFactors<Real>& of_all, const Real* p
   loop(n, of_all, Real(0), plates, before, now, phi);
 }
 
-template <bool FactorByCell, bool TargetByCell, class Real>
-void damp_in(std::int64_t n, const Real* __restrict factor, const Real* __restrict target,
-             Real* __restrict now) {
+template <class Real>
+void interpolate(std::int64_t n, const float* samples, std::int64_t count, double place, double step,
+                 std::int64_t first, Real* __restrict to) {
+  const double last = double(count - 6);
+  constexpr Real over_12 = Real(1) / 12, over_24 = Real(1) / 24, over_120 = Real(1) / 120;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real to = target[TargetByCell ? i : 0];
-    now[i] = to + factor[FactorByCell ? i : 0] * (now[i] - to);
+    // That of the first of the six samples.
+    const double from = place + double(first + i) * step - 2;
+    const bool inside = from >= 0 && from < last + 1;
+    const double clipped = inside ? from : 0;
+    const int begin = int(clipped);
+    const Real x = Real(clipped - double(begin)) + 2;
+    const float* const u = samples + begin;
+    const Real d0 = x, d1 = x - 1, d2 = x - 2, d3 = x - 3, d4 = x - 4, d5 = x - 5;
+    const Real d01 = d0 * d1, d23 = d2 * d3, d45 = d4 * d5;
+    const Real value = d23 * d45 * (d0 * Real(u[1]) * over_24 - d1 * Real(u[0]) * over_120) +
+                       d01 * d45 * (d2 * Real(u[3]) - d3 * Real(u[2])) * over_12 +
+                       d01 * d23 * (d4 * Real(u[5]) * over_120 - d5 * Real(u[4]) * over_24);
+    to[i] = inside ? value : 0;
   }
 }
 
@@ -187,13 +203,10 @@ const Kernels<Real>* of_order(int order) {
 }
 
 template <class Real>
-constexpr KernelTables<Real> tables = {of_order<false, Real>,
-                                       of_order<true, Real>,
-                                       {filter_along<Real>, filter_across<Real>},
-                                       {{{damp_in<false, false, Real>, damp_in<false, true, Real>},
-                                         {damp_in<true, false, Real>, damp_in<true, true, Real>}}},
-                                       SLIPWAVE_SLIP_LEVEL,
-                                       SLIPWAVE_RELAXATION_LEVEL};
+constexpr KernelTables<Real> tables = {
+    of_order<false, Real>, of_order<true, Real>, {filter_along<Real>, filter_across<Real>},
+    interpolate<Real>,     SLIPWAVE_SLIP_LEVEL,  SLIPWAVE_RELAXATION_LEVEL,
+    SLIPWAVE_SERIES_LEVEL};
 
 }  // namespace
 

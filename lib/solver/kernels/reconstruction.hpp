@@ -5,117 +5,131 @@
 /// compilers vectorise it. No standard header here: this is compiled once for each instruction set.
 namespace slipwave::solver {
 
-/// Weights of the even part, e0 u_0 + e1 (u_-1 + u_1) + ..., and of the odd part, o1 (u_1 - u_-1) + ..., of
-/// the time average over the step. Those beyond the reach of the order are 0.
+/// Weights of the even part, even[0] u_0 + even[1] (u_-1 + u_1) + ..., and of the odd part, odd[1] (u_1 -
+/// u_-1)
+/// + ..., of the time average over the step. Only constant indices: they become scalars.
 template <int Order, class Real>
-[[gnu::always_inline]] inline void weights(Real a, Real& e0, Real& e1, Real& e2, Real& e3, Real& o1, Real& o2,
-                                           Real& o3) {
-  e0 = 1;
-  e1 = e2 = e3 = o1 = o2 = o3 = 0;
-  if constexpr (Order > 1) {
-    // All but e0 have the factor 1 - a, so they are exactly 0 where a = 1. A neighbour further out adds
-    // multiples (alternating binomial coefficients) of its own two weights to those of the order below:
-    // hardly anything is computed twice.
-    const Real left = Real(1. / 4) - Real(1. / 4) * a;
-    if constexpr (Order == 3) {
-      e1 = left * (Real(1. / 3) - Real(2. / 3) * a);
-      o1 = left;
-      e0 = 1 - 2 * e1;
+struct Weights {
+  static constexpr int reach = (Order - 1) / 2;
+  Real even[reach + 1], odd[reach + 1];
+};
+
+/// The weights at the Courant number a.
+template <int Order, class Real>
+[[gnu::always_inline]] inline void weights(Real a, Weights<Order, Real>& w) {
+  // All but even[0] have the factor 1 - a, so they are exactly 0 where a = 1. A neighbour further out adds
+  // multiples (alternating binomial coefficients) of its own two weights to those of the order below:
+  // hardly anything is computed twice.
+  const Real left = Real(1. / 4) - Real(1. / 4) * a;
+  Real *const even = w.even, *const odd = w.odd;
+  if constexpr (Order == 1) {
+    even[0] = 1;
+  } else if constexpr (Order == 3) {
+    even[1] = left * (Real(1. / 3) - Real(2. / 3) * a);
+    odd[1] = left;
+    even[0] = 1 - 2 * even[1];
+  } else {
+    // The factors q + 2 and, from order 7 on, q + 6, q + 12, q + 20.
+    const Real q = a * left, more = Real(1. / 6) + Real(1. / 3) * q, odd_2 = left * more;
+    const Real bent = left * (Real(1. / Order) - Real(2. / Order) * a), even_2 = bent * more;
+    if constexpr (Order == 5) {
+      even[1] = bent * (Real(5. / 3) + 4 * more);
+      even[2] = -even_2;
+      odd[1] = left + 2 * odd_2;
+      odd[2] = -odd_2;
+      even[0] = 1 - 2 * (even[1] - even_2);
     } else {
-      // The factors q + 2 and, of order 7, q + 6.
-      const Real q = a * left, more = Real(1. / 6) + Real(1. / 3) * q, odd = left * more;
-      if constexpr (Order == 5) {
-        const Real bent = left * (Real(1. / 5) - Real(2. / 5) * a), even = bent * more;
-        e1 = bent * (Real(5. / 3) + 4 * more);
-        e2 = -even;
-        o1 = left + 2 * odd;
-        o2 = -odd;
-        e0 = 1 - 2 * (e1 - even);
+      const Real most = Real(1. / 5) + Real(2. / 15) * q;
+      if constexpr (Order == 7) {
+        even[1] = bent * (Real(7. / 3) + more * (Real(28. / 5) + 15 * most));
+        even[2] = even_2 * (Real(-7. / 5) - 6 * most);
+        even[3] = even_2 * most;
+        odd[3] = odd_2 * most;
+        odd[2] = -odd_2 - 4 * odd[3];
+        odd[1] = left + 2 * odd_2 + 5 * odd[3];
+        even[0] = 1 - 2 * (even[1] + even[2] + even[3]);
       } else {
-        static_assert(Order == 7);
-        const Real bent = left * (Real(1. / 7) - Real(2. / 7) * a), even = bent * more;
-        const Real most = Real(1. / 5) + Real(2. / 15) * q;
-        e1 = bent * (Real(7. / 3) + more * (Real(28. / 5) + 15 * most));
-        e2 = even * (Real(-7. / 5) - 6 * most);
-        e3 = even * most;
-        o3 = odd * most;
-        o2 = -odd - 4 * o3;
-        o1 = left + 2 * odd + 5 * o3;
-        e0 = 1 - 2 * (e1 + e2 + e3);
+        const Real most_4 = Real(3. / 14) + Real(1. / 14) * q, odd_3 = odd_2 * most, even_3 = even_2 * most;
+        if constexpr (Order == 9) {
+          even[1] = bent * (Real(3) + more * (Real(36. / 5) + most * (Real(135. / 7) + 56 * most_4)));
+          even[2] = even_2 * (Real(-9. / 5) - most * (Real(54. / 7) + 28 * most_4));
+          even[3] = even_3 * (Real(9. / 7) + 8 * most_4);
+          even[4] = -even_3 * most_4;
+          odd[4] = -odd_3 * most_4;
+          odd[3] = odd_3 - 6 * odd[4];
+          odd[2] = -odd_2 - 4 * odd_3 + 14 * odd[4];
+          odd[1] = left + 2 * odd_2 + 5 * odd_3 - 14 * odd[4];
+          even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4]);
+        } else {
+          static_assert(Order == 11);
+          const Real most_5 = Real(2. / 9) + Real(2. / 45) * q;
+          const Real odd_4 = odd_3 * most_4, even_4 = even_3 * most_4;
+          even[1] =
+              bent *
+              (Real(11. / 3) +
+               more * (Real(44. / 5) + most * (Real(165. / 7) + most_4 * (Real(616. / 9) + 210 * most_5))));
+          even[2] =
+              even_2 * (Real(-11. / 5) - most * (Real(66. / 7) + most_4 * (Real(308. / 9) + 120 * most_5)));
+          even[3] = even_3 * (Real(11. / 7) + most_4 * (Real(88. / 9) + 45 * most_5));
+          even[4] = even_4 * (Real(-11. / 9) - 10 * most_5);
+          even[5] = even_4 * most_5;
+          odd[5] = odd_4 * most_5;
+          odd[4] = -odd_4 - 8 * odd[5];
+          odd[3] = odd_3 + 6 * odd_4 + 27 * odd[5];
+          odd[2] = -odd_2 - 4 * odd_3 - 14 * odd_4 - 48 * odd[5];
+          odd[1] = left + 2 * odd_2 + 5 * odd_3 + 14 * odd_4 + 42 * odd[5];
+          even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4] + even[5]);
+        }
       }
     }
   }
+}
+
+/// Adds the neighbours K, K - 1, ... 1 cells away to both parts, the outermost first.
+template <int K, int Order, class Real, class Value, class At>
+[[gnu::always_inline]] inline void add_neighbours(const At& at, const Weights<Order, Real>& w, Value& even,
+                                                  Value& odd) {
+  const Value low = at(-K), high = at(K);
+  if constexpr (K == (Order - 1) / 2) {
+    odd = w.odd[K] * (high - low);
+    even = w.even[K] * (low + high);
+  } else {
+    odd = w.odd[K] * (high - low) + odd;
+    even = w.even[K] * (low + high) + even;
+  }
+  if constexpr (K > 1) add_neighbours<K - 1>(at, w, even, odd);
 }
 
 /// Even and odd part of a field around a cell: F_up = even + odd, F_down = even - odd. at(k) is the value, a
 /// number or a vector, k cells further along the sweep.
 template <int Order, class Real, class Value, class At>
-[[gnu::always_inline]] inline void even_odd_of(const At& at, Real e0, Real e1, Real e2, Real e3, Real o1,
-                                               Real o2, Real o3, Value& even, Value& odd) {
-  // e0 is computed last of the weights: only one sum waits for it.
+[[gnu::always_inline]] inline void even_odd_of(const At& at, const Weights<Order, Real>& w, Value& even,
+                                               Value& odd) {
+  // even[0] is computed last of the weights: only one sum waits for it.
   const Value own = at(0);
   if constexpr (Order == 1) {
-    even = e0 * own;
+    even = w.even[0] * own;
     odd = Real(0) * own;
+  } else if constexpr (Order == 3) {
+    const Value low = at(-1), high = at(1);
+    even = w.even[1] * (low + high) + w.even[0] * own;
+    odd = w.odd[1] * (high - low);
   } else {
-    const Value low = at(-1), high = at(1), sum = low + high, difference = high - low;
-    if constexpr (Order == 3) {
-      even = e1 * sum + e0 * own;
-      odd = o1 * difference;
-    } else {
-      const Value low2 = at(-2), high2 = at(2), sum2 = low2 + high2, difference2 = high2 - low2;
-      if constexpr (Order == 5) {
-        odd = o2 * difference2;
-        even = e2 * sum2;
-      } else {
-        const Value low3 = at(-3), high3 = at(3);
-        odd = o3 * (high3 - low3);
-        even = e3 * (low3 + high3);
-        odd = o2 * difference2 + odd;
-        even = e2 * sum2 + even;
-      }
-      odd = o1 * difference + odd;
-      even = e1 * sum + even;
-      even = e0 * own + even;
-    }
+    add_neighbours<(Order - 1) / 2>(at, w, even, odd);
+    even = w.even[0] * own + even;
   }
 }
 
-/// The same written out for a field of numbers, which all kernels but those of bent rows use: through calls
-/// of at(k) the loop takes a tenth longer.
-///
-/// Even and odd part of the field u around a cell: F_up = even + odd, F_down = even - odd. u points at the
-/// cell, neighbours lie `stride` apart.
+/// The same of a field of numbers, whose neighbours lie `stride` apart.
 template <int Order, class Real>
-[[gnu::always_inline]] inline void even_odd(const Real* u, long stride, Real e0, Real e1, Real e2, Real e3,
-                                            Real o1, Real o2, Real o3, Real& even, Real& odd) {
-  // e0 is computed last of the weights: only one sum waits for it.
-  const Real own = u[0];
+[[gnu::always_inline]] inline void even_odd(const Real* u, long stride, const Weights<Order, Real>& w,
+                                            Real& even, Real& odd) {
   if constexpr (Order == 1) {
-    even = e0 * own;
+    even = w.even[0] * u[0];
     odd = 0;
   } else {
-    const Real low = u[-stride], high = u[stride], sum = low + high, difference = high - low;
-    if constexpr (Order == 3) {
-      even = e1 * sum + e0 * own;
-      odd = o1 * difference;
-    } else {
-      const Real low2 = u[-2 * stride], high2 = u[2 * stride], sum2 = low2 + high2,
-                 difference2 = high2 - low2;
-      if constexpr (Order == 5) {
-        odd = o2 * difference2;
-        even = e2 * sum2;
-      } else {
-        const Real low3 = u[-3 * stride], high3 = u[3 * stride];
-        odd = o3 * (high3 - low3);
-        even = e3 * (low3 + high3);
-        odd = o2 * difference2 + odd;
-        even = e2 * sum2 + even;
-      }
-      odd = o1 * difference + odd;
-      even = e1 * sum + even;
-      even = e0 * own + even;
-    }
+    even_odd_of(
+        [=](long k) __attribute__((always_inline)) { return u[k * stride]; }, w, even, odd);
   }
 }
 
@@ -125,10 +139,11 @@ template <int Order, class Real>
 template <int Order, class Real>
 [[gnu::always_inline]] inline void reconstruct_cell(const Real* v, const Real* s, long stride, Real turned,
                                                     Real courant, Real& up, Real& down) {
-  Real e0, e1, e2, e3, o1, o2, o3, v_even, v_odd, s_even, s_odd;
-  weights<Order>(courant, e0, e1, e2, e3, o1, o2, o3);
-  even_odd<Order>(v, stride, e0, e1, e2, e3, o1, o2, o3, v_even, v_odd);
-  even_odd<Order>(s, stride, e0, e1, e2, e3, o1, o2, o3, s_even, s_odd);
+  Weights<Order, Real> w;
+  Real v_even, v_odd, s_even, s_odd;
+  weights(courant, w);
+  even_odd(v, stride, w, v_even, v_odd);
+  even_odd(s, stride, w, s_even, s_odd);
   const Real along = turned * v_even - s_odd;
   const Real against = turned * v_odd - s_even;
   up = along + against;

@@ -26,6 +26,14 @@ class SnapshotRecorder : public Record<D, Real> {
   /// A component on the model's grid in SI units; `field` of the copied fields.
   Field<D> field(Component component) const;
   void release() { fields_ = {}; }
+  /// What it holds where a snapshot is due, and what copies of a field and the libraries of the file take
+  /// until it is written.
+  std::int64_t memory_bytes() const {
+    constexpr std::int64_t copies = 6, libraries = std::int64_t(4) << 20;
+    return every_s_ ? libraries + layout_.total() * std::int64_t(sizeof(Real)) +
+                          copies * domain_.model_grid.size() * std::int64_t(sizeof(float))
+                    : 0;
+  }
 
   bool reads(const StepTime& time, std::int64_t) const override { return time.step == step_; }
   Box box() const override { return {{0, layout_.shape()[D - 1]}, {0, layout_.shape()[D - 2]}}; }

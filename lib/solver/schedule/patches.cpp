@@ -6,8 +6,6 @@ namespace slipwave::solver {
 namespace {
 
 constexpr std::int64_t block = Layout<2>::block;
-/// Cells by which a sweep spreads: the reach of the reconstruction of the next cell.
-constexpr std::int64_t reach = max_reach + 1;
 /// Patches closer to each other, or to an end of the line, than this are one, or not worth it. Counted from
 /// cells and not from blocks: a mirrored scene has mirrored patches.
 constexpr std::int64_t least_gap = 4 * block;
@@ -16,6 +14,8 @@ constexpr std::int64_t least_gap = 4 * block;
 
 template <int D>
 Patches<D>::Patches(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model) {
+  // Cells by which a sweep spreads: those that are near the next cell.
+  const std::int64_t reach = nearness_of(domain.order) + 1;
   std::vector<std::vector<IndexRange>> all(std::size_t(layout.lines()));
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     if (model.fracture[cell] == 0) continue;

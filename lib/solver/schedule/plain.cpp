@@ -29,7 +29,7 @@ std::int64_t PlainExecutor<D, Real>::run(std::int64_t first, std::int64_t last,
     const StepTime time{n, step_.dt_s()};
     step_.begin(time);
     for (std::size_t k = 1; k + 1 < sweeps.size(); ++k) {
-      sweeps_.along(sweeps[k].axis, Real(sweeps[k].fraction));
+      sweeps_.along(sweeps[k].axis, Real(sweeps[k].fraction), {n, k});
       after_sweep(k, time);
       if (sweeps[k].axis == D - 1) swept_ += state_.layout.shape()[0] * state_.layout.lines();
     }
@@ -68,10 +68,12 @@ void PlainExecutor<D, Real>::split_row(const StepTime& time, std::int64_t row) {
   const IndexRange all{0, state_.layout.shape()[0]};
   const auto fields = state_.row_fields(row);
   StripeBoundary<Real> none{};
+  work_.time() = {time.step, step_.sweeps().size() - 1};
   sweeps_.along_x(row, all, half_, none, work_);
   step_.apply(time, Cells::split, fields, all);
   step_.read(time, fields, all);
   step_.apply_after_record(time, Cells::split, fields, all);
+  work_.time() = {time.step + 1, 0};
   sweeps_.along_x(row, all, half_, none, work_);
 }
 
@@ -85,6 +87,7 @@ void PlainExecutor<D, Real>::merged_row(const StepTime& time, std::int64_t row) 
   const auto patches = step_.patches().of(row);
   const RowFields<Real> copy{row, copy_.data() + Layout<D>::lead, copy_pitch_};
   StripeBoundary<Real> none{};
+  work_.time() = {time.step, step_.sweeps().size() - 1};
   sweeps_.copy_ahead(all, half_, copy, work_);
   for (const auto& patch : patches) step_.apply(time, Cells::patch, copy, patch.blocks);
   step_.read(time, copy, all);

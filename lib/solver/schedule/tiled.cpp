@@ -101,6 +101,7 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
       all.back().sweep = n;
     }
     all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
+    all.back().sweep = step_.sweeps().size() - 1;
   }
   std::int64_t behind = 0;
   int along_x = 0, along_y = 0, along_z = 0, ends = 0;
@@ -310,8 +311,9 @@ void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, st
     if (ends)
       end_of_step(stage, number, first, second, boundary(0), boundary(1), patches, worker);
     else if (!first.empty())
-      along_x(number, first, stage.fraction, boundary(0), worker);
+      along_x(stage.time, number, first, stage.fraction, boundary(0), worker);
   };
+  worker.work.time() = {stage.time.step, stage.sweep};
   if (D == 2) line(row, columns[0], columns[1]);
   for (auto y = columns->first; D == 3 && y < columns->last; ++y)
     line(line_of(row, y), whole_lines(), whole_lines());
@@ -335,11 +337,12 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     if (low || high) sweeps_.correct_flank_surfaces(row);
     for (auto step = steps.first; step < steps.last; ++step) {
       const auto done = step - behind;
-      if (is_zero({row - flank_rows, row + flank_rows + 1}, {done - 1 - sweeps_.reach(), step + 1},
-                  whole_lines())) {
+      if (is_zero(stage.time, {row - flank_rows, row + flank_rows + 1},
+                  {done - 1 - sweeps_.reach(), step + 1}, whole_lines())) {
         sweeps_.skip(step, whole_lines(), ring);
         continue;
       }
+      worker.work.time() = {stage.time.step, stage.sweep};
       sweeps_.across(1, {0, 0, row}, step, whole_lines(), stage.fraction, ring, worker.work);
       if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), whole_lines());
     }
@@ -348,7 +351,7 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
 
 /// Whether all cells of these rows are zero; lines: in 3-D those of each plane.
 template <int D, class Real>
-bool TiledExecutor<D, Real>::is_zero(const IndexRange& rows, const IndexRange& lines,
+bool TiledExecutor<D, Real>::is_zero(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
                                      const IndexRange& columns) const {
   if (everywhere_) return false;
   const auto within = [](const IndexRange& some, std::int64_t cells) {
@@ -357,7 +360,8 @@ bool TiledExecutor<D, Real>::is_zero(const IndexRange& rows, const IndexRange& l
   const IndexRange all = D == 2 ? IndexRange{0, 1} : within(lines, cut_cells_), of = within(rows, rows_);
   for (auto row = of.first; row < of.last; ++row)
     for (auto y = all.first; y < all.last; ++y)
-      if (!active_.is_zero(line_of(row, y), columns)) return false;
+      if (!active_.is_zero(line_of(row, y), columns) || step_.enters(time, line_of(row, y), columns))
+        return false;
   return true;
 }
 
@@ -380,6 +384,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
+    worker.work.time() = {stage.time.step, stage.sweep};
     sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
     if (done < 0 || done >= rows_) return;
     const auto line = line_of(done, at[D - 2]);
@@ -391,7 +396,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
   if constexpr (D == 2) {
     auto& ring = tile.rings[std::size_t(stage.number)];
     // Corrections are computed a block ahead, and read some cells of the columns beside these.
-    if (is_zero(rows, {}, {columns.first - lag, columns.last + lag + free_surface_reach})) {
+    if (is_zero(stage.time, rows, {}, {columns.first - lag, columns.last + lag + free_surface_reach})) {
       sweeps_.skip(step, columns, ring);
       return;
     }
@@ -401,7 +406,7 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
     correct();
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
-      if (is_zero(rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
+      if (is_zero(stage.time, rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
         sweeps_.skip(step, whole_lines(), ring);
       else
         sweep({0, y, 0}, whole_lines(), ring);
@@ -410,12 +415,13 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, cons
 }
 
 template <int D, class Real>
-void TiledExecutor<D, Real>::along_x(std::int64_t line, const IndexRange& columns, Real fraction,
-                                     StripeBoundary<Real>& boundary, Worker& worker, bool begins) {
+void TiledExecutor<D, Real>::along_x(const StepTime& time, std::int64_t line, const IndexRange& columns,
+                                     Real fraction, StripeBoundary<Real>& boundary, Worker& worker,
+                                     bool begins) {
   constexpr auto reach = 2 * Sweeps<D, Real>::lag;
   const auto at = layout_.line_index(line);
   const auto row = at[D - 1], y = at[D - 2];
-  if (is_zero(with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
+  if (is_zero(time, with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
               {columns.first - reach, columns.last + reach})) {
     boundary = {};
     return;
@@ -431,23 +437,25 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
                                          Worker& worker) {
   using Cells = typename TimeStep<D, Real>::Cells;
   const StepTime& time = stage.time;
+  worker.work.time() = {time.step, stage.sweep};
   const auto at = layout_.line_index(line);
   const auto fields = state_.row_fields(line);
   const auto effects = [&](auto&& apply) {
     const bool injects = step_.injects(time, line);
     // They do nothing in rock at rest.
-    if (!injects && is_zero({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
+    if (!injects && is_zero(time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1}, first)) return;
     apply();
     if (injects) mark_active(line, first);
   };
   if (step_.splits(time, line)) {
     if (!first.empty()) {
-      along_x(line, first, stage.fraction, boundary, worker);
+      along_x(time, line, first, stage.fraction, boundary, worker);
       effects([&] { step_.apply(time, Cells::split, fields, first); });
       step_.read(time, fields, first);
       effects([&] { step_.apply_after_record(time, Cells::split, fields, first); });
     }
-    if (!second.empty()) along_x(line, second, stage.fraction, second_boundary, worker);
+    worker.work.time() = {time.step + 1, 0};
+    if (!second.empty()) along_x(time, line, second, stage.fraction, second_boundary, worker);
     return;
   }
   const bool patched = patches && !step_.patches().of(line).empty();
@@ -460,9 +468,9 @@ void TiledExecutor<D, Real>::end_of_step(const Stage& stage, std::int64_t line, 
       read_beside_patches(stage, seen, sweeps_.ahead_along_x(line, seen, stage.fraction, worker.work));
     }
     if (copy)
-      sweep_beside_patches(line, first, 2 * stage.fraction, boundary, worker);
+      sweep_beside_patches(time, line, first, 2 * stage.fraction, boundary, worker);
     else
-      along_x(line, first, 2 * stage.fraction, boundary, worker);
+      along_x(time, line, first, 2 * stage.fraction, boundary, worker);
     if (step_.acts_on(Cells::merged))
       effects([&] {
         step_.apply(time, Cells::merged, fields, first);
@@ -517,7 +525,7 @@ std::optional<RowFields<Real>> TiledExecutor<D, Real>::advance_patches(const Sta
   if (!patches_reach(line, {second.first, first.last + beyond})) return std::nullopt;
   const auto patches = step_.patches().of(line);
   const auto at = layout_.line_index(line);
-  if (is_zero({at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
+  if (is_zero(stage.time, {at[D - 1], at[D - 1] + 1}, {at[D - 2], at[D - 2] + 1},
               {second.first - behind, first.last + beyond})) {
     const auto fields = state_.row_fields(line);
     for (const auto& patch : patches) read_patch(stage, patch, first, fields);
@@ -606,7 +614,8 @@ void TiledExecutor<D, Real>::read_patch(const Stage& stage, const Patch& patch, 
 /// One sweep of these columns. Blocks that are nothing but a patch are left as they were where that saves
 /// work.
 template <int D, class Real>
-void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real fraction,
+void TiledExecutor<D, Real>::sweep_beside_patches(const StepTime& time, std::int64_t line,
+                                                  const IndexRange& columns, Real fraction,
                                                   StripeBoundary<Real>& boundary, Worker& worker) {
   constexpr auto block = Layout<D>::block, least = 4 * block;
   std::int64_t first = columns.first;
@@ -615,11 +624,11 @@ void TiledExecutor<D, Real>::sweep_beside_patches(std::int64_t line, const Index
     const IndexRange left = {(patch.cells.first + block - 1) / block * block,
                              patch.cells.last / block * block};
     if (left.count() < least || left.last < first || left.first >= columns.last) continue;
-    if (first < left.first) along_x(line, {first, left.first}, fraction, boundary, worker, begins);
+    if (first < left.first) along_x(time, line, {first, left.first}, fraction, boundary, worker, begins);
     first = std::min(left.last, columns.last);
     begins = true;
   }
-  if (first < columns.last) along_x(line, {first, columns.last}, fraction, boundary, worker, begins);
+  if (first < columns.last) along_x(time, line, {first, columns.last}, fraction, boundary, worker, begins);
 }
 
 /// Writes the patches in these columns back into the row.

@@ -57,7 +57,7 @@ class TiledExecutor : public Executor {
     std::int64_t ahead = 0;   // columns that its (first) sweep must be ahead of the last stage
     int number = 0;           // among those of its kind; of the sweeps along x the first one's
     int end = 0;              // the same of the ends of steps
-    std::size_t sweep = 0;    // which of the step's sweeps it is, of one along the last axis
+    std::size_t sweep = 0;    // which of the step's sweeps it is, or begins with
     Box needed{};             // what it does elsewhere affects no record
   };
   struct TileInProgress {
@@ -86,12 +86,13 @@ class TiledExecutor : public Executor {
                   Worker& worker);
   void sweep_plane(const Stage& stage, std::int64_t row, const IndexRange& lines, Ring<Real>& ring,
                    Worker& worker);
-  void along_x(std::int64_t line, const IndexRange& columns, Real fraction, StripeBoundary<Real>& boundary,
-               Worker& worker, bool begins = false);
+  void along_x(const StepTime& time, std::int64_t line, const IndexRange& columns, Real fraction,
+               StripeBoundary<Real>& boundary, Worker& worker, bool begins = false);
   void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& tile,
                Worker& worker);
   void refresh(const IndexRange& rows);
-  bool is_zero(const IndexRange& rows, const IndexRange& lines, const IndexRange& columns) const;
+  bool is_zero(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
+               const IndexRange& columns) const;
   void mark_active(std::int64_t line, const IndexRange& columns);
   std::int64_t boundaries_per_sweep() const;
   void end_of_step(const Stage& stage, std::int64_t line, const IndexRange& first, const IndexRange& second,
@@ -109,7 +110,7 @@ class TiledExecutor : public Executor {
                      PatchBoundary<Real>& boundary, Worker& worker);
   void read_patch(const Stage& stage, const Patch& patch, const IndexRange& columns,
                   const RowFields<Real>& fields);
-  void sweep_beside_patches(std::int64_t line, const IndexRange& columns, Real fraction,
+  void sweep_beside_patches(const StepTime& time, std::int64_t line, const IndexRange& columns, Real fraction,
                             StripeBoundary<Real>& boundary, Worker& worker);
   void put_patches(const IndexRange& columns, const RowFields<Real>& copy);
   void read_beside_patches(const Stage& stage, const IndexRange& columns, const RowFields<Real>& fields);

@@ -20,6 +20,8 @@ TimeStep<D, Real>::TimeStep(const Layout<D>& layout, double dt_s, std::vector<En
   for (const auto& entry : entries_) {
     if (const auto* sweep = std::get_if<Sweep<D, Real>>(&entry)) {
       sweeps_.push_back({sweep->axis, sweep->fraction});
+      for (auto* filter : sweep->filters)
+        if (sweeps_.size() == 1 && filter->declaration().enters_sweeps) entering_.push_back(filter);
       between_.emplace_back();
     }
     if (const auto* between = std::get_if<Between<D, Real>>(&entry))
@@ -63,6 +65,7 @@ void TimeStep<D, Real>::begin(const StepTime& time) {
   auto& split = split_rows_[std::size_t(time.step % most_in_progress)];
   split.assign(std::size_t(rows_), 0);
   for (const auto row : patches_.whole_lines()) split[std::size_t(row)] = 1;
+  for (auto* filter : entering_) filter->begin(time);
   for (auto* effect : effects_) {
     effect->begin(time);
     if (!effect->active(time)) continue;

@@ -99,6 +99,12 @@ class TimeStep {
   bool reads(const StepTime& time, std::int64_t row) const;
   /// Whether an effect may change a row whose fields are zero.
   bool injects(const StepTime& time, std::int64_t row) const;
+  /// Whether a filter may change cells of a row that are zero.
+  bool enters(const StepTime& time, std::int64_t row, const IndexRange& columns) const {
+    for (const auto* effect : entering_)
+      if (effect->enters(time, row, columns)) return true;
+    return false;
+  }
   /// The fields at the end of the step that are read then or later, or that anything read later depends on.
   /// `growth`: by how many rows and columns fields spread in a step at most.
   Box needed(const StepTime& time, const Box& growth) const;
@@ -114,6 +120,7 @@ class TimeStep {
   std::vector<SweepFraction> sweeps_;
   std::vector<std::vector<Effect<D, Real>*>> between_;  // [sweep before them]
   std::vector<Effect<D, Real>*> effects_;               // that act at the end of a step
+  std::vector<Effect<D, Real>*> entering_;              // filters that do
   std::vector<Record<D, Real>*> records_;
   Patches<D> patches_;
   bool all_needed_;

@@ -71,17 +71,26 @@ BentStencil::Side side_of(const Column<D>& z, EdgeLaw edge, int reach, bool& ins
   return side;
 }
 
-int reach_within(const BentStencil::Side& low, const BentStencil::Side& high, int reach) {
-  return solver::reach_within((low.p == Extension::interface) + (high.p == Extension::interface),
-                              low.p != Extension::none && high.p != Extension::none, low.cells + high.cells,
-                              reach);
+/// Cells of the sides that end at `law`: the fewest, or `reach`.
+int fewest_cells_to(Extension law, const BentStencil::Side& low, const BentStencil::Side& high, int reach) {
+  if (low.p == law) reach = std::min(reach, int{low.cells});
+  return high.p == law ? std::min(reach, int{high.cells}) : reach;
 }
 
+int reach_within(const BentStencil::Side& low, const BentStencil::Side& high, int reach) {
+  const int to_void = fewest_cells_to(Extension::traction_free, low, high, reach);
+  return solver::reach_within((low.p == Extension::interface) + (high.p == Extension::interface),
+                              fewest_cells_to(Extension::interface, low, high, reach),
+                              low.p != Extension::none && high.p != Extension::none, low.cells + high.cells,
+                              reach_up_to(to_void, most_reach_at_mirrors, reach));
+}
+
+/// Cells to one side up to the next contrast, at most `reach`.
 template <int D>
-bool contrast(const Column<D>& z, int reach) {
+int cells_to_contrast(const Column<D>& z, int reach) {
   for (int n = 1; n <= reach && !z.leaves_grid(n); ++n)
-    if (z.differ(n - 1, contrast_ratio)) return true;
-  return false;
+    if (z.differ(n - 1, contrast_ratio)) return n - 1;
+  return reach;
 }
 
 /// Velocity and traction of a cell.
@@ -213,18 +222,20 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
         face[D - 1] += side == &low ? -low.cells : high.cells + 1;
         if (side->p != Extension::none) side->slot = corrections.slot(face);
       }
-      const bool corrected = low.slot >= 0 || high.slot >= 0;
-      const bool near_free = low.p == Extension::traction_free || high.p == Extension::traction_free;
+      const int to_contrast = std::min(cells_to_contrast(up, reach), cells_to_contrast(down, reach));
       if (inside) {
-        cells_.push_back({std::int32_t(at[0]),
-                          std::int8_t(std::min(reach_within(low, high, reach),
-                                               corrected ? most_reach_at_contrasts : reach)),
-                          z_s > 0, low, high});
-      } else if (reach > most_reach_at_contrasts &&
-                 (near_free || contrast(up, reach) || contrast(down, reach))) {
+        int within = reach_within(low, high, reach_up_to(to_contrast, most_reach_at_mirrors, reach));
+        for (const auto* side : {&low, &high})
+          if (side->slot >= 0) within = reach_up_to(side->cells, most_reach_at_contrasts, within);
+        cells_.push_back({std::int32_t(at[0]), std::int8_t(within), z_s > 0, low, high});
+        continue;
+      }
+      const int to_free = fewest_cells_to(Extension::traction_free, low, high, reach);
+      const int within = reach_up_to(std::min(to_contrast, to_free), most_reach_at_contrasts, reach);
+      if (within < reach) {
         BentStencil::Side open;
         open.cells = std::int8_t(reach);
-        cells_.push_back({std::int32_t(at[0]), most_reach_at_contrasts, z_s > 0, open, open});
+        cells_.push_back({std::int32_t(at[0]), std::int8_t(within), z_s > 0, open, open});
       }
     }
     starts_.push_back(std::int64_t(cells_.size()));

@@ -133,11 +133,12 @@ void find_bent_rows(Domain<D>& domain) {
     const auto of_model = k - domain.low_zone[D - 1] + domain.model_grid.first[D - 1];
     level[std::size_t(k)] = rows.row_is_level(std::clamp<std::int64_t>(of_model, 0, rows.cells()[D - 1]));
   }
+  const std::int64_t near = nearness_of(domain.order);
   domain.bent_rows.assign(std::size_t(count), 0);
   domain.row_heights.assign(std::size_t(count), 1);
   for (std::int64_t k = 0; k < count; ++k) {
     auto& bent = domain.bent_rows[std::size_t(k)];
-    for (std::int64_t n = k - max_reach; n <= k + max_reach + 1; ++n)
+    for (std::int64_t n = k - near; n <= k + near + 1; ++n)
       bent = char(bent || !level[std::size_t(std::clamp<std::int64_t>(n, 0, count))]);
     if (bent) continue;
     Index<D> upper{}, lower{};
@@ -202,9 +203,10 @@ double corner_depth(const Domain<D>& domain, Index<D> corner) {
 
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
-                      const Subdomain& part) {
+                      const Subdomain& part, int order) {
   constexpr int z = D - 1;
   Domain<D> domain;
+  domain.order = order;
   domain.model_grid = domain.grid = medium.grid();
   domain.subdomain = part;
   domain.edges = domain.whole_edges = edges;
@@ -342,7 +344,7 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
 template class Domain<2>;
 template double corner_depth(const Domain<2>&, Index<2>);
 template double corner_depth(const Domain<3>&, Index<3>);
-template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&);
+template Domain<2> make_domain(const Medium<2>&, const EdgeLaws<2>&, int, const Subdomain&, int);
 template void fill_material(State<2, float>&, const Domain<2>&, const Medium<2>&, double);
 template void fill_material(State<2, double>&, const Domain<2>&, const Medium<2>&, double);
 template double energy_of_cell(const State<2, float>&, const Domain<2>&, const Medium<2>&, Index<2>);
@@ -350,7 +352,7 @@ template double energy_of_cell(const State<2, double>&, const Domain<2>&, const 
 template double energy(const State<2, float>&, const Domain<2>&, const Medium<2>&);
 template double energy(const State<2, double>&, const Domain<2>&, const Medium<2>&);
 template class Domain<3>;
-template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&);
+template Domain<3> make_domain(const Medium<3>&, const EdgeLaws<3>&, int, const Subdomain&, int);
 template void fill_material(State<3, float>&, const Domain<3>&, const Medium<3>&, double);
 template void fill_material(State<3, double>&, const Domain<3>&, const Medium<3>&, double);
 template double energy_of_cell(const State<3, float>&, const Domain<3>&, const Medium<3>&, Index<3>);

@@ -13,7 +13,7 @@
 
 namespace slipwave::solver {
 
-/// The computed grid: the model and, outside its absorbing edges, zones (of the PML or the sponge) with the
+/// The computed grid: the model and, outside its absorbing edges, zones (of the PML) with the
 /// medium of the edge.
 template <int D>
 class Domain {
@@ -26,6 +26,7 @@ class Domain {
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
   IndexRange own;  // rows of the computed grid that this process owns
+  int order = 1;   // of the reconstruction, at most
   /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
   std::vector<char> bent_rows;
@@ -77,10 +78,10 @@ template <int D>
 double corner_depth(const Domain<D>& domain, Index<D> corner);
 
 /// `medium` is that of the model or of the rows that this process holds; `edges` are those of the whole
-/// model.
+/// model; `order` is that of the reconstruction, or a higher one.
 template <int D>
 Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zone_cells,
-                      const Subdomain& part = {});
+                      const Subdomain& part = {}, int order = 7);
 
 /// Writes b and the impedances of every cell and of the ghost cells beyond the edges into the state.
 template <int D, class Real>

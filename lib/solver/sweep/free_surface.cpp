@@ -39,17 +39,6 @@ std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, con
   return {normal, height};
 }
 
-template <int D>
-bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const Wave wave : {wave_p, wave_s}) {
-    const auto& z = domain.impedance(wave);
-    if (z(other) == 0 || z(one) >= strong_interface_ratio * z(other) ||
-        z(other) >= strong_interface_ratio * z(one))
-      return false;
-  }
-  return true;
-}
-
 /// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
 template <int D>
 bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,

@@ -19,15 +19,6 @@ constexpr double gas_ratio = 100;
 /// Cells of the interface needed to both sides along each axis: a shorter one holds no wave.
 constexpr int fewest_along = 8;
 
-template <int D>
-bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const Wave wave : {wave_p, wave_s}) {
-    const double a = domain.impedance(wave)(one), b = domain.impedance(wave)(other);
-    if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
-  }
-  return true;
-}
-
 /// Whether enough cells like this one lie behind it along z (`step` 1 or -1) and beside it.
 template <int D>
 bool extends_far(const Domain<D>& domain, const Index<D>& from, int step) {

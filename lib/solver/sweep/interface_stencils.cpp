@@ -75,12 +75,12 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
   return side;
 }
 
-/// Whether there is a contrast up to `reach` cells to one side.
+/// Cells to one side up to the next contrast, at most `reach`.
 template <int D>
-bool contrast(const Walk<D>& z, int reach) {
+int cells_to_contrast(const Walk<D>& z, int reach) {
   for (int n = 1; n <= reach && !z.leaves_grid(n) && z(n) > 0; ++n)
-    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n)) return true;
-  return false;
+    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n)) return n - 1;
+  return reach;
 }
 
 /// Whether a cell up to `reach` cells to one side carries the wave.
@@ -124,10 +124,18 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
+/// Cells of the sides that end at `law`: the fewest, or `reach`.
+int fewest_cells_to(Extension law, const Side& low, const Side& high, int reach) {
+  if (low.law == law) reach = std::min(reach, low.cells);
+  return high.law == law ? std::min(reach, high.cells) : reach;
+}
+
 int reach_within(const Side& low, const Side& high, int reach) {
-  return solver::reach_within((low.law == Extension::interface) + (high.law == Extension::interface),
+  const int interfaces = (low.law == Extension::interface) + (high.law == Extension::interface);
+  const int to_void = fewest_cells_to(Extension::traction_free, low, high, reach);
+  return solver::reach_within(interfaces, fewest_cells_to(Extension::interface, low, high, reach),
                               low.law != Extension::none && high.law != Extension::none,
-                              low.cells + high.cells, reach);
+                              low.cells + high.cells, reach_up_to(to_void, most_reach_at_mirrors, reach));
 }
 
 /// The pair (v, s) of cells in a line, with `j` of a bent row (v, J s).
@@ -213,8 +221,8 @@ constexpr std::array<CorrectCell<Real>*, sizeof...(N)> correctors(std::integer_s
 
 }  // namespace
 
-int reach_within(int interfaces, bool ends, int others, int reach) {
-  if (interfaces > 0) reach = std::min(reach, most_reach_at_contrasts);
+int reach_within(int interfaces, int nearest, bool ends, int others, int reach) {
+  if (interfaces > 0) reach = reach_up_to(nearest, most_reach_at_contrasts, reach);
   return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
@@ -241,6 +249,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       }
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
+      const int to_contrast = std::min(cells_to_contrast(down, reach), cells_to_contrast(up, reach));
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         const auto slot = [&](const Side& side, std::int64_t cells) {
@@ -249,18 +258,21 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
           return side.inside && slot_before ? slot_before(face) : -1;
         };
         const auto slot_low = slot(low, -low.cells), slot_high = slot(high, high.cells + 1);
-        cells_.push_back(
-            {std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
-             std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share), float(high.share),
-             std::int8_t(std::min(reach_within(low, high, reach),
-                                  slot_low < 0 && slot_high < 0 ? reach : most_reach_at_contrasts)),
-             slot_low, slot_high});
-      } else if (reach > most_reach_at_contrasts &&
-                 ((low.at_edge() && corrected(at, 0)) || (high.at_edge() && corrected(at, 1)) ||
-                  contrast(down, reach) || contrast(up, reach))) {
-        cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
-                          std::int8_t(most_reach_at_contrasts)});
+        int within = reach_within(low, high, reach_up_to(to_contrast, most_reach_at_mirrors, reach));
+        if (slot_low >= 0) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
+        if (slot_high >= 0) within = reach_up_to(high.cells, most_reach_at_contrasts, within);
+        cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
+                          std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
+                          float(high.share), std::int8_t(within), slot_low, slot_high});
+        continue;
       }
+      int within = reach_up_to(to_contrast, most_reach_at_contrasts, reach);
+      if (low.at_edge() && corrected(at, 0)) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
+      if (high.at_edge() && corrected(at, 1))
+        within = reach_up_to(high.cells, most_reach_at_contrasts, within);
+      if (within < reach)
+        cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
+                          std::int8_t(within)});
     }
     starts_.push_back(std::int64_t(cells_.size()));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -35,17 +36,24 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
   return Extension::constant;
 }
 
-/// Cells the reconstruction may reach beside a corrected free surface, a strong interface or a contrast: with
+/// Cells the reconstruction may reach beyond a corrected free surface, a strong interface or a contrast: with
 /// three, solids between free surfaces, plates and random densities grew at Courant numbers from 0.9 on.
 constexpr int most_reach_at_contrasts = 2;
+/// The same beyond the plain mirror image at a void.
+constexpr int most_reach_at_mirrors = 3;
+/// Cells the reconstruction may reach in a cell with `cells` others up to what it may reach `beyond` cells
+/// across: the order rises away from it, since it may always reach up to it.
+constexpr int reach_up_to(int cells, int beyond, int reach) {
+  return std::min(reach, std::max(cells, beyond));
+}
 /// Ratio of impedances from which a face within the stencil of a cell is a contrast.
 constexpr double contrast_ratio = 1.2;
-/// Cells the reconstruction may reach where a stencil ends at so many strong interfaces, `others` cells
-/// beside its own lie between its ends, and `ends`: it ends on both sides. Between two strong interfaces w
-/// cells allow order 2w - 1 and no more, and so does a single cell between a strong interface and another
-/// end: with more, random media of single cells and a crust of one cell grew at order 5 and 7
-/// (docs/theory.md).
-int reach_within(int interfaces, bool ends, int others, int reach);
+/// Cells the reconstruction may reach where a stencil ends at so many strong interfaces, the nearest after
+/// `nearest` cells, `others` cells beside its own lie between its ends, and `ends`: it ends on both sides.
+/// Between two strong interfaces w cells allow order 2w - 1 and no more, and so does a single cell between a
+/// strong interface and another end: with more, random media of single cells and a crust of one cell grew at
+/// order 5 and 7 (docs/theory.md).
+int reach_within(int interfaces, int nearest, bool ends, int others, int reach);
 
 /// The stencil of a cell that would reach across a strong interface or into cells that do not carry the wave:
 /// beyond that the fields are extended by the law (theory.md (E10), (E11)). Or a cell that does not carry the

@@ -11,9 +11,9 @@ namespace slipwave::solver {
 /// over two and over four cells, which damps what alternates from cell to cell.
 inline constexpr std::array<int, 4> offsets_along = {-2, -1, 1, 2};
 inline constexpr std::array<double, 4> weights_along = {-0.125, -0.25, 0.25, 0.125};
-/// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it may reach
-/// another extension.
-inline constexpr auto fewest_across = std::int64_t(2) * max_reach;
+/// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it, by
+/// most_reach_at_mirrors at most, may reach another extension.
+inline constexpr auto fewest_across = std::int64_t(2) * most_reach_at_mirrors;
 
 /// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
 /// free.
@@ -24,6 +24,16 @@ bool thin(const Domain<D>& domain, int along) {
 template <int D>
 bool ends_free(const Domain<D>& domain, int along) {
   return domain.edges[along][0] == EdgeLaw::free || domain.edges[along][1] == EdgeLaw::free;
+}
+
+/// Whether two cells carry the same waves without a strong interface between them.
+template <int D>
+bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const double a = domain.impedance(wave)(one), b = domain.impedance(wave)(other);
+    if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
+  }
+  return true;
 }
 
 /// The rate of the traction on a face with the vector N (its z is 1) of the stresses that motion along the

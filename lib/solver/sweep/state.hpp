@@ -120,7 +120,7 @@ struct RowFields {
   operator RowFields<const Real>() const requires(!std::is_const_v<Real>) { return {row, first, pitch}; }
 };
 
-/// Wave field and material of the computed grid: the model and the PML or sponge round it.
+/// Wave field and material of the computed grid: the model and the PML round it.
 template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;

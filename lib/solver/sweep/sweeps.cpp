@@ -285,18 +285,22 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
                    before,
                    work.pitch(),
                    fields + part.first,
-                   pitch},
+                   pitch,
+                   work.time()},
                   remember);
   });
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::along(int axis, Real scale) {
+void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   const auto& layout = state_.layout;
   const std::int64_t lines = layout.lines(), nx = layout.padded_nx();
   const std::int64_t widest = axis == 0 ? nx : stripe_width;
   std::vector<Workspace<Real>> work;
-  for (int worker = 0; worker < parallel_workers(); ++worker) work.push_back(make_workspace(widest));
+  for (int worker = 0; worker < parallel_workers(); ++worker) {
+    work.push_back(make_workspace(widest));
+    work.back().time() = time;
+  }
   for (std::int64_t line = 0; line < lines && axis < z_axis && corrects_surface(axis); ++line)
     retain(axis, line, {0, layout.shape()[0]});
   if (axis == 0) {
@@ -685,11 +689,29 @@ struct Mirror {
       : v(law == Extension::motionless ? -1 : 1),
         s(law == Extension::traction_free ? -1 : 1),
         constant(law == Extension::constant) {}
-  /// The cell, counted from the edge, that stands for ghost j.
-  std::int64_t image(std::int64_t j, std::int64_t cells) const {
-    return constant ? 0 : std::min(j, cells - 1);
-  }
 };
+/// What stands for a ghost: a cell, counted from the edge, times signs.
+template <class Real>
+struct Image {
+  std::int64_t cell;
+  Real v, s;
+};
+/// Of ghost j beyond an edge of that law; fewer cells than j are mirrored at the `other` end, too.
+template <class Real>
+Image<Real> image_of(std::int64_t j, std::int64_t cells, const Mirror<Real>& edge,
+                     const Mirror<Real>& other) {
+  if (edge.constant) return {0, edge.v, edge.s};
+  Image<Real> image = {j, edge.v, edge.s};
+  bool beyond_other = false;
+  for (; image.cell >= cells; image.cell -= cells) {
+    beyond_other = !beyond_other;
+    const auto& mirror = beyond_other ? other : edge;
+    if (mirror.constant) return {cells - 1, image.v, image.s};
+    image.v *= mirror.v, image.s *= mirror.s;
+  }
+  if (beyond_other) image.cell = cells - 1 - image.cell;
+  return image;
+}
 
 }  // namespace
 
@@ -737,13 +759,14 @@ void Sweeps<D, Real>::fill_ghost_cells(std::int64_t line, int side, Real* fields
   const auto& all = pairs_[0];
   for (int p = 0; p < pair_count(); ++p) {
     const Mirror<Real> mirror(extension_of(edges_[0][side], all[p].wave));
+    const Mirror<Real> other(extension_of(edges_[0][1 - side], all[p].wave));
     Real* const v = fields + all[p].v * pitch;
     Real* const s = fields + all[p].s * pitch;
     for (std::int64_t j = 0; j < reach_; ++j) {
-      const std::int64_t from = mirror.image(j, n);
-      const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - from : from;
-      v[ghost] = mirror.v * v[cell];
-      s[ghost] = mirror.s * s[cell];
+      const auto image = image_of(j, n, mirror, other);
+      const std::int64_t ghost = side ? n + j : -1 - j, cell = side ? n - 1 - image.cell : image.cell;
+      v[ghost] = image.v * v[cell];
+      s[ghost] = image.s * s[cell];
       if (edge.empty()) continue;
       v[ghost] += Real(2 * j + 1) * edge.velocity_correction(p)[line];
       s[ghost] += scale * edge.traction_correction(p)[line];
@@ -761,24 +784,25 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
   const auto first = edge.empty() ? 0 : edge.number(at);
   for (int p = 0; p < pair_count(); ++p) {
     const Mirror<Real> mirror(extension_of(edges_[axis][side], all[p].wave));
+    const Mirror<Real> other(extension_of(edges_[axis][1 - side], all[p].wave));
     for (std::int64_t j = 0; j < reach_; ++j) {
-      const std::int64_t from = mirror.image(j, n);
+      const auto image = image_of(j, n, mirror, other);
       Index<D> ghost = at, cell = at;
       ghost[axis] = side ? n + j : -1 - j;
-      cell[axis] = side ? n - 1 - from : from;
+      cell[axis] = side ? n - 1 - image.cell : image.cell;
       const auto fill = [&](int row, Real sign, const Real* gain, Real share) {
         Real* const to = state_.field_row(ghost, row);
         const Real* const source = state_.field_row(cell, row);
         for (std::int64_t i = columns.first; i < columns.last; ++i)
           to[i] = sign * source[i] + (gain ? share * gain[i] : Real(0));
       };
-      fill(all[p].v, mirror.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
-      fill(all[p].s, mirror.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
+      fill(all[p].v, image.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
+      fill(all[p].s, image.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
       // Tractions on bent rows take all stresses.
       if (p > 0 || axis != z_axis || !metric_.bent_row(side ? n - 1 : 0)) continue;
       for (int row = D; row < FieldRows<D>::count; ++row)
         if (std::none_of(all.begin(), all.end(), [row](const Pair& pair) { return pair.s == row; }))
-          fill(row, mirror.s, nullptr, 0);
+          fill(row, image.s, nullptr, 0);
     }
   }
 }

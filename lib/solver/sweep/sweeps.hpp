@@ -33,7 +33,7 @@ class Sweeps {
   static constexpr std::size_t most_filters = 2;
 
   /// A whole sweep along any axis, distributed to threads.
-  void along(int axis, Real scale);
+  void along(int axis, Real scale, const SweepTime& time = {});
 
   /// A piece of a sweep along x: advances columns `columns` of a row. Pieces of a row follow each other from
   /// cell 0 to the last, `boundary` passes values from one to the next. 2 * lag further cells must not change
@@ -93,6 +93,10 @@ class Sweeps {
   Workspace<Real> make_workspace(std::int64_t widest) const;
   /// Cells with stencils of their own, beside strong interfaces, voids and contrasts: all axes and waves.
   std::int64_t interface_stencil_cells() const;
+  /// What it holds of each cell: stencils beside interfaces and the metric.
+  std::int64_t memory_bytes() const {
+    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes();
+  }
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
 

@@ -79,6 +79,13 @@ class PrefetchQueue {
   std::int64_t half_ = 0;
 };
 
+/// Which sweep of which time step: number `sweep` of its list (TimeStep). The first sweep of a step that is
+/// merged with the last of the step before counts as that one.
+struct SweepTime {
+  std::int64_t step = 0;
+  std::size_t sweep = 0;
+};
+
 /// Scratch memory of one thread for pieces of at most `widest` columns of `pairs` pairs.
 template <class Real>
 class Workspace {
@@ -94,6 +101,8 @@ class Workspace {
   /// A copy of all fields of a piece.
   Real* copy() { return row(4 * pairs_ + most_changed); }
   PrefetchQueue<Real>& prefetch() { return prefetch_; }
+  /// Of the sweep, for filters that depend on it.
+  SweepTime& time() { return time_; }
   /// From a field to the next; room for 32 cells before and behind the piece.
   std::int64_t pitch() const { return pitch_; }
 
@@ -105,6 +114,7 @@ class Workspace {
   int pairs_;
   Buffer<Real> values_;
   PrefetchQueue<Real> prefetch_;
+  SweepTime time_;
 };
 
 }  // namespace slipwave::solver

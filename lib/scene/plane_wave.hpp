@@ -1,0 +1,30 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace slipwave {
+
+/// How the incident wave of a plane wave is known in the zones outside the model.
+enum class PlaneWaveKind {
+  uniform,   // all of them lie in one medium
+  vertical,  // along each side edge as the column of cells there lets it through (2-D)
+  layered,   // the same layers lie along all absorbing sides
+};
+
+/// What a scene asks of a plane wave.
+template <int D>
+struct PlaneWaveWay {
+  PlaneWaveKind kind = PlaneWaveKind::uniform;
+  Index<D> entry{};            // a cell of the boundary that it enters by
+  int entry_side = 0;          // of the last axis: 0 top, 1 bottom
+  Index<D> column{};           // first cell of the column that holds the layers
+  bool by_entry_only = false;  // of a vertical one: known in the zone it enters by, in no other
+};
+
+/// Throws an Error that says why the scene has no such wave: an edge it can not enter by, layers that differ
+/// between sides, fitted rows that are not level, attenuation; a wave that would already be somewhere else at
+/// t = 0.
+template <int D>
+PlaneWaveWay<D> way_of_plane_wave(const Scene<D>& scene, const Source<D>& source);
+
+}  // namespace slipwave

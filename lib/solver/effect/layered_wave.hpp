@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "scene/edges.hpp"
+#include "scene/plane_wave.hpp"
+#include "solver/effect/incident_wave.hpp"
+#include "solver/effect/plane_form.hpp"
+
+namespace slipwave::solver {
+
+/// A stack of layers on which a plane wave falls; the first and the last are half-spaces where their end
+/// absorbs. Fluid where vs = 0.
+struct PlaneStack {
+  struct Layer {
+    double vp, vs, rho;
+    bool operator==(const Layer&) const = default;
+  };
+  std::vector<Layer> layers;      // downwards
+  std::vector<double> depths_m;   // top of each layer and, behind the last, its bottom
+  std::array<EdgeLaw, 2> ends{};  // of top and bottom
+  bool from_top = true;
+  bool shear = false;   // the incident wave: SV, else P
+  double slowness = 0;  // along the layers, s/m
+};
+
+/// All waves in such a stack for one angular frequency, by continuity of motion and traction at all
+/// interfaces (theory.md (A16)). Per unit of the incident wave's particle velocity at the first interface it
+/// comes to, or the end where there is none. Time factor exp(i omega t); omega may lie below the real axis.
+class PlaneStackResponse {
+ public:
+  using Complex = std::complex<double>;
+  explicit PlaneStackResponse(const PlaneStack& stack) : stack_(stack) { list_waves(); }
+  /// Amplitudes of all waves(); the last is that of the incident wave.
+  std::vector<Complex> solve(Complex omega) const;
+
+  /// A wave in a layer: its fields (vx, vz, sxx, szz, sxz) at amplitude 1 at depth reference_m, and its
+  /// slowness downwards.
+  struct Wave {
+    std::size_t layer;
+    double reference_m;
+    Complex slowness;
+    std::array<Complex, 5> fields;
+  };
+  const std::vector<Wave>& waves() const { return waves_; }
+  /// Of the incident wave, at which its amplitude is 1.
+  double reference_m() const { return waves_.back().reference_m; }
+
+ private:
+  void list_waves();
+  Wave make(std::size_t layer, bool shear, bool down) const;
+
+  const PlaneStack& stack_;
+  std::vector<Wave> waves_;
+  std::vector<std::size_t> first_wave_;  // of each layer and behind the last
+};
+
+/// The incident wave of an oblique plane wave in layers: in each row of cells the exact solution, as a
+/// function of time less the slowness along x times x.
+template <int D, class Real>
+std::unique_ptr<IncidentWave<D, Real>> make_layered_wave(const Scene<D>& scene, const Source<D>& source,
+                                                         const PlaneForm<D>& form, const Domain<D>& domain,
+                                                         const PlaneWaveWay<D>& way);
+
+}  // namespace slipwave::solver
