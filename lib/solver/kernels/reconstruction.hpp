@@ -14,6 +14,43 @@ struct Weights {
   Real even[reach + 1], odd[reach + 1];
 };
 
+/// The weights of orders 9 and 11, of what weights() has computed.
+template <int Order, class Real>
+[[gnu::always_inline]] inline void high_weights(Real left, Real bent, Real q, Real more, Real most,
+                                                Weights<Order, Real>& w) {
+  Real *const even = w.even, *const odd = w.odd;
+  const Real odd_2 = left * more, even_2 = bent * more, odd_3 = odd_2 * most, even_3 = even_2 * most;
+  const Real most_4 = Real(3. / 14) + Real(1. / 14) * q;
+  if constexpr (Order == 9) {
+    even[1] = bent * (Real(3) + more * (Real(36. / 5) + most * (Real(135. / 7) + 56 * most_4)));
+    even[2] = even_2 * (Real(-9. / 5) - most * (Real(54. / 7) + 28 * most_4));
+    even[3] = even_3 * (Real(9. / 7) + 8 * most_4);
+    even[4] = -even_3 * most_4;
+    odd[4] = -odd_3 * most_4;
+    odd[3] = odd_3 - 6 * odd[4];
+    odd[2] = -odd_2 - 4 * odd_3 + 14 * odd[4];
+    odd[1] = left + 2 * odd_2 + 5 * odd_3 - 14 * odd[4];
+    even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4]);
+  } else {
+    static_assert(Order == 11);
+    const Real most_5 = Real(2. / 9) + Real(2. / 45) * q;
+    const Real odd_4 = odd_3 * most_4, even_4 = even_3 * most_4;
+    even[1] =
+        bent * (Real(11. / 3) +
+                more * (Real(44. / 5) + most * (Real(165. / 7) + most_4 * (Real(616. / 9) + 210 * most_5))));
+    even[2] = even_2 * (Real(-11. / 5) - most * (Real(66. / 7) + most_4 * (Real(308. / 9) + 120 * most_5)));
+    even[3] = even_3 * (Real(11. / 7) + most_4 * (Real(88. / 9) + 45 * most_5));
+    even[4] = even_4 * (Real(-11. / 9) - 10 * most_5);
+    even[5] = even_4 * most_5;
+    odd[5] = odd_4 * most_5;
+    odd[4] = -odd_4 - 8 * odd[5];
+    odd[3] = odd_3 + 6 * odd_4 + 27 * odd[5];
+    odd[2] = -odd_2 - 4 * odd_3 - 14 * odd_4 - 48 * odd[5];
+    odd[1] = left + 2 * odd_2 + 5 * odd_3 + 14 * odd_4 + 42 * odd[5];
+    even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4] + even[5]);
+  }
+}
+
 /// The weights at the Courant number a.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void weights(Real a, Weights<Order, Real>& w) {
@@ -49,37 +86,7 @@ template <int Order, class Real>
         odd[1] = left + 2 * odd_2 + 5 * odd[3];
         even[0] = 1 - 2 * (even[1] + even[2] + even[3]);
       } else {
-        const Real most_4 = Real(3. / 14) + Real(1. / 14) * q, odd_3 = odd_2 * most, even_3 = even_2 * most;
-        if constexpr (Order == 9) {
-          even[1] = bent * (Real(3) + more * (Real(36. / 5) + most * (Real(135. / 7) + 56 * most_4)));
-          even[2] = even_2 * (Real(-9. / 5) - most * (Real(54. / 7) + 28 * most_4));
-          even[3] = even_3 * (Real(9. / 7) + 8 * most_4);
-          even[4] = -even_3 * most_4;
-          odd[4] = -odd_3 * most_4;
-          odd[3] = odd_3 - 6 * odd[4];
-          odd[2] = -odd_2 - 4 * odd_3 + 14 * odd[4];
-          odd[1] = left + 2 * odd_2 + 5 * odd_3 - 14 * odd[4];
-          even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4]);
-        } else {
-          static_assert(Order == 11);
-          const Real most_5 = Real(2. / 9) + Real(2. / 45) * q;
-          const Real odd_4 = odd_3 * most_4, even_4 = even_3 * most_4;
-          even[1] =
-              bent *
-              (Real(11. / 3) +
-               more * (Real(44. / 5) + most * (Real(165. / 7) + most_4 * (Real(616. / 9) + 210 * most_5))));
-          even[2] =
-              even_2 * (Real(-11. / 5) - most * (Real(66. / 7) + most_4 * (Real(308. / 9) + 120 * most_5)));
-          even[3] = even_3 * (Real(11. / 7) + most_4 * (Real(88. / 9) + 45 * most_5));
-          even[4] = even_4 * (Real(-11. / 9) - 10 * most_5);
-          even[5] = even_4 * most_5;
-          odd[5] = odd_4 * most_5;
-          odd[4] = -odd_4 - 8 * odd[5];
-          odd[3] = odd_3 + 6 * odd_4 + 27 * odd[5];
-          odd[2] = -odd_2 - 4 * odd_3 - 14 * odd_4 - 48 * odd[5];
-          odd[1] = left + 2 * odd_2 + 5 * odd_3 + 14 * odd_4 + 42 * odd[5];
-          even[0] = 1 - 2 * (even[1] + even[2] + even[3] + even[4] + even[5]);
-        }
+        high_weights(left, bent, q, more, most, w);
       }
     }
   }
