@@ -255,7 +255,6 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
       text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
     if (!text.empty()) report.text("mostly from", text);
   }
-  if (!plan.slip.empty()) report.texts("slip", plan.slip);
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
@@ -296,6 +295,7 @@ Report report_of(const Plan<D>& plan) {
   report.number("processor time", plan.seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
+  if (!plan.slip.empty()) report.texts("slip", plan.slip);
   std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
     entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");

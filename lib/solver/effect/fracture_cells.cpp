@@ -34,9 +34,8 @@ FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain
 }
 
 template <int D>
-auto FractureCells<D>::all(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model) const
-    -> std::vector<Cell> {
-  std::vector<Cell> cells;
+void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
+                            const std::function<void(std::size_t, std::size_t)>& with) const {
   for (std::int64_t line = 0; line < layout.lines(); ++line)
     for (const auto& segment : segments(line))
       for (std::int64_t x = segment.first; x < std::min(segment.last, layout.shape()[0]); ++x) {
@@ -45,9 +44,8 @@ auto FractureCells<D>::all(const Layout<D>& layout, const Domain<D>& domain, con
         const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
         const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
         if (!inside || model.fracture[cell] != set_ + 1) continue;
-        cells.push_back({segment.place + std::size_t(x - segment.first), cell});
+        with(segment.place + std::size_t(x - segment.first), cell);
       }
-  return cells;
 }
 
 template class FractureCells<2>;

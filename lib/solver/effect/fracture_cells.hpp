@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,11 +35,9 @@ class FractureCells {
     return std::int64_t(segments_.size() * sizeof(Segment) + starts_.size() * sizeof(std::size_t));
   }
 
-  /// A cell of the set: its place among the stored ones and its number in the model.
-  struct Cell {
-    std::size_t place, in_model;
-  };
-  std::vector<Cell> all(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model) const;
+  /// Hands out each cell of the set: its place among the stored ones and its number in the model.
+  void each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
+            const std::function<void(std::size_t place, std::size_t in_model)>& with) const;
 
  private:
   std::size_t set_;

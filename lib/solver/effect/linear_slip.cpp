@@ -102,7 +102,7 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
 
 template <int D, class Real>
 void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
-  for (const auto& [place, cell] : group.places.all(state_.layout, domain_, model_)) {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
     const auto [lambda, mu] = lame_of(model_.medium, cell);
     const double modulus = lambda + 2 * mu;
     const auto of = compliance_of<D>(group.set->systems[0], group.of.slides, lambda, mu);
@@ -118,7 +118,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
     if (group.of.damped)
       for (const auto& each : {normal, tangential}) put(each.left), put(each.of_start);
     if (group.of.slides) put(tangential.follows);
-  }
+  });
 }
 
 /// r of a stress s is G s, with G the stiffness of the rock times the compliance of all planes; of the stress
@@ -126,7 +126,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
 template <int D, class Real>
 void LinearSlip<D, Real>::add_crossing(Group& group) const {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
-  for (const auto& [place, cell] : group.places.all(state_.layout, domain_, model_)) {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
     const auto rock = lame_of(model_.medium, cell);
     std::array<double, n * n> taken{}, with_rock{};
     for (std::size_t k = 0; k < n; ++k) {
@@ -147,7 +147,7 @@ void LinearSlip<D, Real>::add_crossing(Group& group) const {
           group.coefficients[(n * n + c * n + k) * group.places.stored() + place] = Real(taken[c * n + k]);
       }
     }
-  }
+  });
 }
 
 /// Columns end between two vectors or with the row.
@@ -264,12 +264,12 @@ template <int D, class Real>
 double LinearSlip<D, Real>::stored_energy() const {
   double energy = 0;
   for (const auto& group : groups_)
-    for (const auto& [place, cell] : group.places.all(state_.layout, domain_, model_)) {
+    group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
       const auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
-      if (!domain_.owns(at[D - 1])) continue;
+      if (!domain_.owns(at[D - 1])) return;
       const double height = domain_.model_grid.height(domain_.model_cell(at));
       energy += std::pow(domain_.grid.spacing_m, D - 1) * height * stored_energy(group, place, cell);
-    }
+    });
   return energy;
 }
 

@@ -58,7 +58,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   }
   if (scene.slip_diary) mu_.assign(count_, 0);
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
-  for (const auto& [place, cell] : places_.all(layout, domain, model)) {
+  places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
     const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
     const double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
@@ -74,7 +74,7 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
       slip_per_pa_[place] = Real(std::min(domain.grid.spacing_m / (unit_ * mu), most_per_distance));
     for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
       prestress_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
-  }
+  });
 }
 
 /// One system, or two at right angles in 2-D, have kernels. They need the prestress resolved on the planes.
