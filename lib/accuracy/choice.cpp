@@ -11,7 +11,8 @@ namespace slipwave {
 namespace {
 
 /// Orders in space and time, and the Courant numbers that may pay with them (theory.md 1.1: time order 4 pays
-/// with orders from 7 on and long steps only).
+/// with orders from 7 on and long steps only). Orders 9 and 11 need so few cells that what is expected at
+/// interfaces and of near fields no longer holds there: they are for whoever asks for them.
 struct Scheme {
   int order, time_order;
   double cost;  // of a step, over that of order 5 (tests/bench/orders.sh): what is chosen must not hang on
@@ -22,11 +23,7 @@ std::vector<Scheme> schemes() {
   return {{3, 2, 0.78, {0.9, 0.7, 0.5}},
           {5, 2, 1, {0.9, 0.7, 0.5, 0.35, 0.2}},
           {7, 2, 1.3, {0.9, 0.7, 0.5, 0.35, 0.2}},
-          {9, 2, 1.6, {0.9, 0.7, 0.5, 0.35, 0.2}},
-          {11, 2, 1.9, {0.9, 0.7, 0.5, 0.35, 0.2}},
-          {7, 4, 7.3, {1.9, 1.5}},
-          {9, 4, 9.1, {1.9, 1.5}},
-          {11, 4, 11.2, {1.9, 1.5}}};
+          {7, 4, 7.3, {1.9, 1.5}}};
 }
 
 /// Measured errors were up to 1.5 times the expected ones (docs/accuracy.md): this is the margin.

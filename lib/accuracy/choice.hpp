@@ -16,7 +16,7 @@ struct Choice {
   std::string reason;
 };
 
-/// The cheapest of all orders from 3 on (and fourth order in time from order 7 on), Courant numbers that may
+/// The cheapest of the orders 3, 5 and 7 (and fourth order in time with order 7), Courant numbers that may
 /// pay with them, and cells of the model, whole or split (never joined: that would change the geology), whose
 /// expected error is below `wanted` by a margin of 1.5 (what is expected is not exact). Costs are in fixed
 /// proportions, so the same scene gets the same choice on every machine. The best there is when none is good

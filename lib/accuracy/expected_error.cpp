@@ -7,6 +7,7 @@
 
 #include "accuracy/finer_model.hpp"
 #include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
 
 namespace slipwave {
 namespace {
@@ -220,10 +221,22 @@ Trains longest_waves(const Scene<2>& scene, WaveKind kind) {
   return trains;
 }
 
+/// What stands for a scene: an isotropic one, as slow everywhere as its slowest directions.
+Scene<2> isotropic(Scene<2> scene) {
+  scene.model.medium = in_slowest_directions(scene.model.medium);
+  return scene;
+}
+
 }  // namespace
 
 WavesOfScene::WavesOfScene(const Scene<2>& scene, bool finer_geometry)
-    : own_(discretisation_of(scene)),
+    : WavesOfScene(discretisation_of(scene),
+                   anisotropic_cells(scene.model.medium) > 0 ? isotropic(scene) : scene, finer_geometry) {
+  anisotropic_ = anisotropic_cells(scene.model.medium) > 0;
+}
+
+WavesOfScene::WavesOfScene(const Discretisation& own, const Scene<2>& scene, bool finer_geometry)
+    : own_(own),
       sources_(scene, finer_geometry),
       direct_(direct_waves(scene)),
       longest_p_(longest_waves(scene, WaveKind::p)),
@@ -235,6 +248,8 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
     return std::sqrt(squared_error(cells, trains));
   };
   ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered()};
+  if (anisotropic_)
+    error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
   if (sources_.any()) error.promise = sources_.promised(cells);
   return error;
 }

@@ -43,7 +43,10 @@ class WavesOfScene {
   ExpectedError expected(const Discretisation& cells) const;
 
  private:
+  WavesOfScene(const Discretisation& own, const Scene<2>& isotropic, bool finer_geometry);
+
   Discretisation own_;
+  bool anisotropic_ = false;
   ErrorSources sources_;
   std::vector<WaveTrain> direct_, longest_p_, longest_s_;
 };

@@ -97,7 +97,11 @@ void Options::add(const std::string& name, bool& to, const std::string& help) {
 
 void Options::add_choice(const std::string& name, std::string& to, std::vector<std::string> choices,
                          const std::string& help) {
-  auto& option = declare(name, joined(choices, "|"), help);
+  // A list that is wider than a line stands in the help instead.
+  constexpr std::size_t widest = 60;
+  const auto list = joined(choices, "|");
+  const bool fits = list.size() <= widest;
+  auto& option = declare(name, fits ? list : "NAME", fits ? help : help + ": " + joined(choices, ", "));
   option.shown_default = to;
   option.store = [&to, choices = std::move(choices)](const auto& values) {
     if (std::find(choices.begin(), choices.end(), values.back()) == choices.end()) {

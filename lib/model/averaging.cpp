@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "model/anisotropy.hpp"
+
 namespace slipwave {
 
 bool same_kind(const Material& a, const Material& b) {
@@ -16,6 +18,12 @@ bool MaterialMean::add(const Material& part, double volume) {
   mass_ += volume * part.rho;
   if (part.rho > 0) compliance_p_ += volume / (part.rho * part.vp * part.vp);
   if (part.vs > 0) compliance_s_ += volume / (part.rho * part.vs * part.vs);
+  if (part.vs > 0) {
+    const auto [c11, c13, c33, c55] = stiffness_of(part);
+    anisotropic_ = anisotropic_ || part.is_anisotropic();
+    ratio_ += volume * c13 / c33;
+    plate_ += volume * (c11 - c13 * c13 / c33);
+  }
   return true;
 }
 
@@ -23,6 +31,11 @@ Material MaterialMean::mean() const {
   if (volume_ == 0) return centre_;
   if (uniform_) return first_;
   // All parts are of one kind and differ, so none is void.
+  if (anisotropic_) {
+    const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
+    return material_of_stiffness(
+        {plate_ / volume_ + c33 * ratio * ratio, c33 * ratio, c33, volume_ / compliance_s_}, mass_ / volume_);
+  }
   return {std::sqrt(volume_ * volume_ / (compliance_p_ * mass_)),
           compliance_s_ > 0 ? std::sqrt(volume_ * volume_ / (compliance_s_ * mass_)) : 0, mass_ / volume_};
 }

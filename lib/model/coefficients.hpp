@@ -1,22 +1,34 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
-#include "model/medium.hpp"
+#include "model/anisotropy.hpp"
 
 namespace slipwave {
 
-// What sweeps know of a medium (theory.md (E4)-(E9)): asked for by axis and wave, though an isotropic medium
+// What sweeps know of a medium (theory.md (E4)-(E9), (V1)): asked for by axis and wave. An isotropic medium
 // gives the same answer for every axis.
 
 /// Waves that travel along an axis: with motion along it, and across it.
 enum Wave : int { wave_p, wave_s };
 
-/// Their speed c, m/s; 0 in a cell that does not carry the wave.
+/// Their speed c, m/s; 0 in a cell that does not carry the wave. In an anisotropic cell the P wave along x is
+/// faster by sqrt(1 + 2 epsilon) (theory.md (V1)).
 template <int D>
-double wave_speed(const Medium<D>& medium, std::size_t cell, [[maybe_unused]] int axis, Wave wave) {
+double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave) {
   if (medium.is_void(cell)) return 0;
+  if (wave == wave_p && axis < D - 1 && medium.has(Property::epsilon))
+    return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon, cell));
   return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
+}
+
+/// The density times c13, by which the strain along x loads szz and that along z sxx: lambda of an isotropic
+/// medium. kg2/(m4 s2).
+template <int D>
+double wave_coupling(const Medium<D>& medium, std::size_t cell) {
+  if (medium.is_void(cell)) return 0;
+  return double(medium.rho[cell]) * stiffness_of(medium, cell).c13;
 }
 
 /// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.

@@ -122,7 +122,7 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 
 ModelEffect model_effect_named(const std::string& name) {
   const char* const names[] = {"slip",    "friction",  "viscosity",   "cohesion",
-                               "opening", "prestress", "attenuation", "compliance"};
+                               "opening", "prestress", "attenuation", "anisotropy", "compliance"};
   constexpr int count = int(std::size(names));
   std::string all;
   for (int n = 0; n < count; ++n) {
@@ -135,9 +135,11 @@ ModelEffect model_effect_named(const std::string& name) {
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect) {
   if (effect == ModelEffect::prestress) model.prestress_pa.clear();
-  if (effect == ModelEffect::attenuation)
-    for (const auto property : {Property::qp, Property::qs})
-      if (model.medium.has(property)) model.medium[property] = {};
+  const auto drop = [&](Property property) {
+    if (model.medium.has(property)) model.medium[property] = {};
+  };
+  if (effect == ModelEffect::attenuation) drop(Property::qp), drop(Property::qs);
+  if (effect == ModelEffect::anisotropy) drop(Property::epsilon), drop(Property::delta);
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
       if (effect == ModelEffect::friction) system.friction = system.dynamic_friction = 0;

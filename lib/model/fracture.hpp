@@ -52,7 +52,17 @@ template <int D>
 CriticalLength critical_length(const Model<D>& model, std::size_t code);
 
 /// Effects of a model that can be left out of a run: slip, what it consists of, and attenuation.
-enum class ModelEffect { slip, friction, viscosity, cohesion, opening, prestress, attenuation, compliance };
+enum class ModelEffect {
+  slip,
+  friction,
+  viscosity,
+  cohesion,
+  opening,
+  prestress,
+  attenuation,
+  anisotropy,
+  compliance
+};
 
 /// Throws a usage Error that lists the names.
 ModelEffect model_effect_named(const std::string& name);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/error.hpp"
+#include "model/anisotropy.hpp"
 #include "model/layers.hpp"
 #include "model/relations.hpp"
 
@@ -90,6 +91,7 @@ template <int D>
 void add_property(Medium<D>& medium, Property property, Field<D> field) {
   check_grid(field, row_of(property).name, medium.grid());
   medium[property] = std::move(field);
+  complete_anisotropy(medium);
 }
 
 template Field<2> field_from_raw(const std::vector<char>&, const Grid<2>&, FastAxis);

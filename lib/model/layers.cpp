@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "model/anisotropy.hpp"
 #include "model/cut_cell.hpp"
 
 namespace slipwave {
@@ -168,6 +169,8 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     const double value = number == "inf" && row.if_absent == PropertyRow::infinite ? PropertyRow::infinite
                                                                                    : parse_number(number);
     layer.others.emplace_back(*property, value);
+    if (property == Property::epsilon) layer.material.epsilon = value;
+    if (property == Property::delta) layer.material.delta = value;
   }
 }
 
@@ -291,7 +294,7 @@ FitHorizon horizon_of(const std::vector<Layer>& layers, std::size_t i) {
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
   return {material.vp + gradient.vp * depth, material.vs + gradient.vs * depth,
-          material.rho + gradient.rho * depth};
+          material.rho + gradient.rho * depth, material.epsilon, material.delta};
 }
 
 double Layer::value(Property property) const {
@@ -373,9 +376,11 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
                          const std::vector<std::int64_t>& rows) {
   check_pile(grid, layers);
   Medium<D> medium(grid);
-  const auto others = others_of(layers);
+  auto others = others_of(layers);
   for (const Property property : others)
     medium[property] = Field<D>(grid, float(row_of(property).if_absent.value()));
+  complete_anisotropy(medium);
+  std::erase_if(others, [](Property property) { return row_of(property).mean == Mean::elastic; });
   const Pile<D> pile(grid, layers, rows);
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);

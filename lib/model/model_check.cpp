@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "model/anisotropy.hpp"
 #include "model/attenuation.hpp"
 #include "model/fracture.hpp"
 #include "model/model.hpp"
@@ -123,6 +124,9 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
     refuse(medium.grid(), cell, "qs",
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");
+  if (medium.has(Property::epsilon) || medium.has(Property::delta))
+    if (const auto fault = fault_of_anisotropy(material_of(medium, cell)))
+      refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (!limits.allow_slow) check_plausible(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {

@@ -8,6 +8,7 @@
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "model/anisotropy.hpp"
 #include "model/prestress.hpp"
 
 namespace slipwave {
@@ -325,6 +326,7 @@ Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
     if (row.if_absent && !file.has_variable(row.name)) continue;
     model.medium[property] = read_field(file, grid, row.name);
   }
+  complete_anisotropy(model.medium);
   if (file.has_variable("fracture")) {
     check_dimensions<D>(file, "fracture");
     const auto [start, count] = block_of(grid);

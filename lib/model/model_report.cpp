@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
+#include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
 #include "model/prestress.hpp"
 
@@ -139,6 +140,17 @@ Range range_of(const NetcdfFile& file, const NetcdfFile::Variable& variable) {
   return range;
 }
 
+/// In any direction, m/s; infinite where all is void.
+template <int D>
+double slowest_speed(const Medium<D>& medium) {
+  if (anisotropic_cells(medium) > 0) return slowest_speed(in_slowest_directions(medium));
+  double slowest = std::numeric_limits<double>::infinity();
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (!medium.is_void(cell))
+      slowest = std::min(slowest, double(medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell]));
+  return slowest;
+}
+
 }  // namespace
 
 template <int D>
@@ -150,18 +162,12 @@ Report report_of(const Model<D>& model) {
     report_field(of_model, row_of(property).name, medium[property], row_of(property).shown_unit,
                  row_of(property).if_absent == PropertyRow::infinite);
   std::int64_t solid = 0, fluid = 0, nothing = 0;
-  double slowest = std::numeric_limits<double>::infinity();
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
-    if (medium.is_void(cell)) {
-      ++nothing;
-    } else {
-      (medium.is_fluid(cell) ? fluid : solid) += 1;
-      slowest = std::min(slowest, double(medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell]));
-    }
-  }
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    (medium.is_void(cell) ? nothing : medium.is_fluid(cell) ? fluid : solid) += 1;
   of_model.count("solid cells", solid);
   of_model.count("fluid cells", fluid);
   of_model.count("void cells", nothing);
+  const double slowest = slowest_speed(medium);
   if (std::isfinite(slowest)) of_model.number("slowest wave", slowest, "m/s");
   std::vector<std::int64_t> cells(model.fracture_sets.size() + 1, 0);
   for (const auto code : model.fracture) {

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "fracture/coulomb.hpp"
+#include "model/anisotropy.hpp"
 
 namespace slipwave {
 namespace {
@@ -30,7 +31,10 @@ std::vector<double> mass_above(const Medium<D>& medium) {
   return mass;
 }
 
-double k0_of_uniaxial_strain(double vp, double vs) { return 1 - 2 * (vs / vp) * (vs / vp); }
+double k0_of_uniaxial_strain(const Material& of) {
+  if (of.is_anisotropic()) return stiffness_of(of).c13 / stiffness_of(of).c33;
+  return 1 - 2 * (of.vs / of.vp) * (of.vs / of.vp);
+}
 
 Lithostatic parse_lithostatic(const std::string& text) {
   const auto colon = text.find(':');
@@ -96,9 +100,7 @@ void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestr
     if (tensor) stress = *tensor;
     if (weight) {
       const double vertical = -gravity_m_s2 * mass[cell];
-      const double k0 =
-          weight->k0 ? *weight->k0
-                     : k0_of_uniaxial_strain(double(model.medium.vp[cell]), double(model.medium.vs[cell]));
+      const double k0 = weight->k0 ? *weight->k0 : k0_of_uniaxial_strain(material_of(model.medium, cell));
       for (int i = 0; i < D; ++i) stress(i, i) = i == D - 1 ? vertical : k0 * vertical;
     }
     for (std::size_t c = 0; c < stress.values.size(); ++c)

@@ -1,6 +1,24 @@
 #include "model/property.hpp"
 
 namespace slipwave {
+namespace {
+
+/// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
+constexpr double least_thomsen = -0.5;
+
+PropertyRow thomsen(const std::string& name) {
+  return {.name = name,
+          .long_name = "Thomsen's " + name + " about the vertical, 0 = isotropic",
+          .help = "Thomsen's " + name + " of rock layered flat, a file or a number",
+          .units = "1",
+          .shown_unit = "",
+          .si = {"1", ""},
+          .least = least_thomsen,
+          .mean = Mean::elastic,
+          .if_absent = 0};
+}
+
+}  // namespace
 
 std::vector<PropertyRow> property_rows() {
   const std::vector<std::string> m_s = {"m s-1", "m/s", "m s^-1"}, km_s = {"km s-1", "km/s", "km s^-1"},
@@ -47,7 +65,9 @@ std::vector<PropertyRow> property_rows() {
            .si = {"1", ""},
            .least = 1,
            .mean = Mean::harmonic,
-           .if_absent = PropertyRow::infinite}};
+           .if_absent = PropertyRow::infinite},
+          thomsen("epsilon"),
+          thomsen("delta")};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

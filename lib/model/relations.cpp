@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "model/anisotropy.hpp"
 
 namespace slipwave {
 namespace {
@@ -76,9 +77,13 @@ void add_q_from_vs(Medium<D>& medium, const std::string& rule) {
 
 template <int D>
 void add_constant(Medium<D>& medium, Property property, double value) {
+  const auto& row = row_of(property);
   medium[property] = Field<D>(medium.grid(), float(value));
-  for (std::size_t cell = 0; property == Property::qs && cell < medium.vp.size(); ++cell)
-    if (!medium.is_solid(cell)) medium[property][cell] = float(PropertyRow::infinite);
+  const bool of_solids =
+      property == Property::qs || property == Property::epsilon || property == Property::delta;
+  for (std::size_t cell = 0; of_solids && cell < medium.vp.size(); ++cell)
+    if (!medium.is_solid(cell)) medium[property][cell] = float(row.if_absent.value());
+  complete_anisotropy(medium);
 }
 
 template void add_q_from_vs(Medium<2>&, const std::string&);

@@ -7,6 +7,7 @@
 
 #include "acquisition/fibre.hpp"
 #include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/record/recorder.hpp"
@@ -60,7 +61,7 @@ class Arrivals {
       if (medium.is_void(cell)) continue;
       const auto number = std::size_t(blocks_.flat(at));
       auto& slowest = slowness_[number];
-      slowest = std::min(slowest, 1 / double(medium.vp[cell]));
+      slowest = std::min(slowest, 1 / fastest_p_speed(material_of(medium, cell)));
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];
     }

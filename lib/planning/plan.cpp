@@ -10,6 +10,7 @@
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
 #include "grid/longest_side.hpp"
+#include "model/anisotropy.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
 #include "planning/expected_slip.hpp"
@@ -25,6 +26,7 @@ constexpr double fewest_cells = 4;
 template <int D>
 SlowestWave least_resolved(const Medium<D>& medium) {
   if (!medium.grid().rows) return slowest_wave(medium);
+  if (anisotropic_cells(medium) > 0) return least_resolved(in_slowest_directions(medium));
   SlowestWave least;
   double per_second = 0;
   for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
@@ -55,6 +57,7 @@ double loss_of(const Scene<D>& scene, const SlowestWave& slowest, double cells) 
 /// sides.
 template <int D>
 std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
+  if (anisotropic_cells(medium) > 0) return cells_of_a_second(in_slowest_directions(medium));
   const auto& grid = medium.grid();
   std::array<double, 2> slowest = {std::numeric_limits<double>::infinity(), 0};
   for (std::size_t n = 0; n < std::size_t(grid.size()); ++n) {
@@ -159,7 +162,8 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
     widest = std::max<std::int64_t>(widest, zone_cells(scene, source));
   for (const auto n : scene.model.grid().shape) cells *= n + 2 * widest;
   const std::int64_t value = scene.numerics.double_precision ? sizeof(double) : sizeof(float);
-  return cells * value * (solver::FieldRows<D>::count + solver::material_rows);
+  const bool anisotropic = scene.subdomain.anisotropic || anisotropic_cells(scene.model.medium) > 0;
+  return cells * value * (solver::FieldRows<D>::count + solver::material_rows_of(anisotropic));
 }
 
 template <int D>

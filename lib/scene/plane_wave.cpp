@@ -56,17 +56,11 @@ void check_uniform_edge(const Scene<D>& scene, int axis, int side, const std::st
                 described(scene.model.medium, *other));
 }
 
+/// `where`: where the wave must not be at t = 0.
 template <int D>
-void refuse_other_material(const Grid<D>& grid, std::int64_t cell) {
-  throw Error(
-      "at t = 0 the plane wave would already be in another material than that of the boundary it enters "
-      "by, at " +
-      place_of(grid, cell) + "; move --source back against its direction of travel");
-}
-
-template <int D>
-double depth_of(const Grid<D>& grid, const Index<D>& at) {
-  return grid.depth(at);
+[[noreturn]] void refuse_beginning(const std::string& where, const Grid<D>& grid, std::int64_t cell) {
+  throw Error("at t = 0 the plane wave would already " + where + ", at " + place_of(grid, cell) +
+              "; move --source back against its direction of travel");
 }
 
 /// At t = 0 the wave stands on the near side of its front; that must lie in the medium it comes from.
@@ -80,11 +74,11 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
     const auto at = grid.index(n);
     double behind = 0;
     for (std::size_t axis = 0; axis < D; ++axis) {
-      const double place_m = axis == D - 1 ? depth_of(grid, at) : grid.centre(int(axis), at[axis]);
+      const double place_m = axis == D - 1 ? grid.depth(at) : grid.centre(int(axis), at[axis]);
       behind += (source.position_m[axis] - place_m) * wave.direction[axis];
     }
     if (behind < 0 || behind > length || medium.same(std::size_t(n), from)) continue;
-    refuse_other_material(grid, n);
+    refuse_beginning("be in another material than that of the boundary it enters by", grid, n);
   }
 }
 
@@ -99,8 +93,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
   const double along = wave.direction[0] / c, across = std::abs(wave.direction[D - 1]) / c;
   // The earliest arrival of each row, on the way from the boundary it enters by.
   const std::int64_t rows = grid.shape[D - 1];
-  std::vector<double> arrival_s;
-  for (std::int64_t n = 0; n < rows; ++n) arrival_s.push_back(0);
+  std::vector<double> arrival_s(std::size_t(rows), 0);
   double so_far = 0;
   for (std::int64_t n = 0; n < rows; ++n) {
     auto at = way.column;
@@ -112,7 +105,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
                                 : std::sqrt(std::max(fast * fast - along * along, 0.));
     if (n == 0)
       arrival_s[std::size_t(at[D - 1])] =
-          (depth_of(grid, at) - source.position_m[D - 1]) * (way.entry_side == 0 ? 1 : -1) * across;
+          (grid.depth(at) - source.position_m[D - 1]) * (way.entry_side == 0 ? 1 : -1) * across;
     else
       arrival_s[std::size_t(at[D - 1])] = so_far + slowness * height / 2;
     so_far = arrival_s[std::size_t(at[D - 1])] + slowness * height / 2;
@@ -124,10 +117,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
     if (medium.same(std::size_t(n), std::size_t(grid.flat(layer)))) continue;
     if (arrival_s[std::size_t(at[D - 1])] + along * (grid.centre(0, at[0]) - source.position_m[0]) > 0)
       continue;
-    throw Error(
-        "at t = 0 the plane wave would already have come to what is not one of the layers along the sides, "
-        "at " +
-        place_of(grid, n) + "; move --source back against its direction of travel");
+    refuse_beginning("have come to what is not one of the layers along the sides", grid, n);
   }
 }
 

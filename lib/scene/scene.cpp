@@ -12,6 +12,7 @@
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
+#include "scene/anisotropy_check.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/plane_wave.hpp"
 
@@ -225,6 +226,7 @@ void check(const Scene<D>& scene) {
   for (std::size_t cell = 0; cell < medium.vp.size() && !any; ++cell) any = !medium.is_void(cell);
   if (!any && scene.subdomain.is_whole())
     throw Error("every cell of the model is void, expected rock or fluid");
+  check_anisotropy(scene);
   if (scene.survey.sources.empty())
     throw Error(std::string("found no source, expected --source ") + (D == 2 ? "X,Z" : "X,Y,Z"),
                 ErrorKind::usage);
@@ -272,6 +274,7 @@ void check(const Scene<D>& scene) {
 template <int D>
 SlowestWave slowest_wave(const Medium<D>& medium) {
   SlowestWave slowest;
+  if (anisotropic_cells(medium) > 0) return slowest_wave(in_slowest_directions(medium));
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
     if (medium.is_void(cell)) continue;
     const double speed = medium.is_fluid(cell) ? medium.vp[cell] : medium.vs[cell];

@@ -17,6 +17,7 @@ struct Subdomain {
   std::int64_t exchanged = 0;
   bool slips = false;               // whether anything slips in any part
   bool shear = false;               // whether any part has shear stress: solid cells or bent rows
+  bool anisotropic = false;         // whether any part has anisotropic cells
   double fastest = 0;               // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()
 

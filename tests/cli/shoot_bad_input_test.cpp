@@ -4,6 +4,7 @@ namespace {
 
 const std::string shoot = "sw-shoot m.nc -o out.sgy ";
 const std::string source = "--source 100,50 --wavelet ricker:15 ";
+const std::string shallow = "--source 100,0 --wavelet ricker:15 --receivers 0:200:50,20 --time 0.1 ";
 const std::string rest = source + "--receivers 0:200:50,20 --time 0.1 ";
 
 /// What the tables of bad_input do not hold: refusals in time, warnings, and what is right after all.
@@ -65,4 +66,6 @@ TEST_F(ShootBadInput, WhatOnlyLooksBadIsDone) {
   done(shoot + rest + "--amplitude -3");
   done("sw-shoot auxetic.nc --allow-auxetic -o out.sgy " + rest);
   done("sw-shoot void.nc -o out.sgy --wavelet ricker:15 --time 0.1 --source 100,60 --receivers 0,60");
+  done("sw-layers --size 200x100 --step 5 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti.nc");
+  done("sw-shoot vti.nc -o out.sgy --kind plane:20 --top absorbing --without anisotropy " + shallow);
 }

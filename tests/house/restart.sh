@@ -16,7 +16,7 @@ X = 300 500 700 900 1100 1300
 SHOTS = $(X:%=$(OUT)/shot-%.sgy)
 all: $(OUT)/line.sgy## everything
 $(OUT)/shot-%.sgy: model.nc | $(OUT)
-	$(BIN)/sw-shoot $< --source $*,10 --wavelet ricker:15 --receivers 0:1500:20,15 --time 0.8 --first-shot $* --threads 1 -q -o $@
+	$(BIN)/sw-shoot $< --source $*,10 --wavelet ricker:15 --receivers 0:1500:20,15 --time 1 --first-shot $* --threads 1 -q -o $@
 $(OUT)/line.sgy: $(SHOTS)## all shots
 	$(BIN)/sw-sort $^ --key shot,channel -o $@
 END
@@ -28,7 +28,8 @@ setsid sh -c 'trap - INT; exec make -s "$@"' - SURVEY_MK="$root/surveys/survey.m
   >"$work/said" 2>&1 &
 group=$!
 tries=0
-until [ -n "$(find "$work/out" -name 'shot-*.sgy' 2>/dev/null)" ] || [ "$tries" -ge 1200 ]; do
+# Two shots may be in place without make knowing: it takes those for unfinished, and removes them.
+until [ "$(find "$work/out" -name 'shot-*.sgy' 2>/dev/null | wc -l)" -ge 3 ] || [ "$tries" -ge 1200 ]; do
   tries=$((tries + 1))
   sleep 0.05
 done

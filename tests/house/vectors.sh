@@ -104,25 +104,28 @@ want() {
       split("float double", reals, " ")
       for (r = 1; r <= 2; ++r) {
         real = reals[r]
-        for (reach = 0; reach <= 3; ++reach) {
+        for (reach = 0; reach <= 5; ++reach) {
           # Of the two fields of a pair: the own value, then of each neighbour sum, difference and their parts. Of the
           # weights: the Courant number 2, then as reconstruction.hpp makes them.
           sums = reach == 0 ? 3 : 2 * 6 * reach + 6
-          weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : 32)
+          weights = reach == 0 ? 0 : 2 + (reach == 1 ? 7 : reach == 2 ? 18 : reach == 3 ? 32 : reach == 4 ? 48 : 70)
           need("reconstruct<" (2 * reach + 1) ", true, " real ">", sums)
           need("reconstruct<" (2 * reach + 1) ", false, " real ">", sums + weights)
           # Two pairs, meet and update, of which the first product is one.
-          need("fused_row<" (2 * reach + 1) ", " real ">", 2 * (sums + weights) + 20 + 21)
+          need("fused_row<" (2 * reach + 1) ", false, " real ">", 2 * (sums + weights) + 20 + 21)
+          # Of anisotropic media: the same, with what couples stresses in place of a difference.
+          need("fused_row<" (2 * reach + 1) ", true, " real ">", 2 * (sums + weights) + 20 + 20)
         }
         # By S pairs.
         need("solve_riemann<true, 0, " real ">", 6); need("solve_riemann<false, 0, " real ">", 9)
         need("solve_riemann<true, 1, " real ">", 12); need("solve_riemann<false, 1, " real ">", 20)
         need("solve_riemann<true, 2, " real ">", 18); need("solve_riemann<false, 2, " real ">", 26)
         # By dimension and shear.
-        need("update<true, 2, false, " real ">", 7); need("update<false, 2, false, " real ">", 11)
-        need("update<true, 2, true, " real ">", 14); need("update<false, 2, true, " real ">", 22)
-        need("update<true, 3, false, " real ">", 8); need("update<false, 3, false, " real ">", 12)
-        need("update<true, 3, true, " real ">", 21); need("update<false, 3, true, " real ">", 29)
+        need("update<true, 2, false, false, " real ">", 7); need("update<false, 2, false, false, " real ">", 11)
+        need("update<true, 2, true, false, " real ">", 14); need("update<false, 2, true, false, " real ">", 22)
+        need("update<true, 2, true, true, " real ">", 14); need("update<false, 2, true, true, " real ">", 21)
+        need("update<true, 3, false, false, " real ">", 8); need("update<false, 3, false, false, " real ">", 12)
+        need("update<true, 3, true, false, " real ">", 21); need("update<false, 3, true, false, " real ">", 29)
         # Of bent rows, by dimension: both pairs or all components, of order 5.
         for (d = 2; d <= 3; ++d) {
           need("reconstruct_bent_along<5, " d ", " real ">", 40 * d)

@@ -30,6 +30,15 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
   return rho * (vx * vx + vz * vz) / 2 + elastic;
 }
 
+double energy_density(const Stiffness& c, double rho, const CellFields& fields) {
+  const auto& [vx, vz, sxx, szz, sxz] = fields;
+  // The strains of the normal stresses.
+  const double determinant = c.c11 * c.c33 - c.c13 * c.c13;
+  const double exx = (c.c33 * sxx - c.c13 * szz) / determinant,
+               ezz = (c.c11 * szz - c.c13 * sxx) / determinant;
+  return rho * (vx * vx + vz * vz) / 2 + (sxx * exx + szz * ezz + sxz * sxz / c.c55) / 2;
+}
+
 template <class Real>
 Lab<Real>::Lab(const Setup& setup)
     : along_z_only_(setup.along_z_only), splitting_(splitting(2, setup.time_order)) {
@@ -41,7 +50,7 @@ Lab<Real>::Lab(const Setup& setup)
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
-  state_ = solver::make_state<2, Real>(domain_.grid.shape);
+  state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.anisotropic());
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
@@ -146,8 +155,11 @@ double Lab<Real>::sum(Stress which) const {
         if (which == Stress::all && !still.empty()) s[c] += still[std::size_t(c)][cell];
       }
       total += h * h *
-               energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
-                              double(row[1][i]), s[0], s[1], s[2]);
+               (is_anisotropic(medium, cell)
+                    ? energy_density(stiffness_of(medium, cell), medium.rho[cell],
+                                     {double(row[0][i]), double(row[1][i]), s[0], s[1], s[2]})
+                    : energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
+                                     double(row[1][i]), s[0], s[1], s[2]));
     }
   }
   return total;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "media.hpp"
+#include "model/anisotropy.hpp"
 #include "parallel/threads.hpp"
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
@@ -33,6 +34,9 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 
 /// vx, vz, sxx, szz and sxz of a cell.
 using CellFields = std::array<double, 5>;
+
+/// The same of an anisotropic cell.
+double energy_density(const Stiffness& stiffness, double rho, const CellFields& fields);
 
 /// A wave field of random values in every cell, that evolves freely: sweeps, PML and slip as a shot has
 /// them, without a source, or a sponge in place of the PML. Fields in the sponge start random too, in the PML

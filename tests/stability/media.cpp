@@ -143,6 +143,22 @@ Medium<2> rock(int nx, int nz) {
           Field<2>(grid, float(basement.rho))};
 }
 
+Medium<2> of_rocks(int cells, const std::function<Material(int i, int k)>& rock_at) {
+  Medium<2> medium = rock(cells, cells);
+  medium[Property::epsilon] = medium[Property::delta] = Field<2>(medium.grid());
+  for (int k = 0; k < cells; ++k)
+    for (int i = 0; i < cells; ++i) put(medium, std::size_t(k * cells + i), rock_at(i, k));
+  return medium;
+}
+
+Material random_anisotropic(const std::function<double()>& random) {
+  for (;;) {
+    const double vp = 1500 + 4500 * random(), vs = vp * (0.1 + 0.6 * random());
+    const Material any{vp, vs, 1500 + 1500 * random(), -0.4 + 1.4 * random(), -0.4 + 1.4 * random()};
+    if (!fault_of_anisotropy(any)) return any;
+  }
+}
+
 Medium<2> medium_named(const std::string& name, int cells, unsigned seed) {
   Medium<2> medium = rock(cells, cells);
   std::mt19937 engine(seed);

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "model/anisotropy.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
@@ -12,6 +14,11 @@ const std::vector<std::string>& medium_names();
 
 /// One of them, `cells` x `cells` of 5 m; random ones are the same for the same seed.
 Medium<2> medium_named(const std::string& name, int cells, unsigned seed = 1);
+
+/// A square of as many cells, each of the rock there.
+Medium<2> of_rocks(int cells, const std::function<Material(int i, int k)>& rock_at);
+/// Any VTI rock with a positive stiffness; draws are uniform in 0 .. 1.
+Material random_anisotropic(const std::function<double()>& random);
 
 /// Uniform rock: vp 4500, vs 2250, rho 2500.
 Medium<2> rock(int nx, int nz);

@@ -21,7 +21,7 @@ class InLayer {
       : scene_(scene),
         domain_(solver::make_domain(scene_.model.medium, scene_.edges, layer_cells)),
         dt_s_(scene_.model.grid().spacing_m / fastest_speed(scene_.model.medium)),
-        state_(solver::make_state<2, double>(domain_.grid.shape)),
+        state_(solver::make_state<2, double>(domain_.grid.shape, domain_.anisotropic())),
         sweeps_(state_, domain_, order),
         layer_(state_.layout, domain_, dt_s_, fastest_speed(scene_.model.medium), 30) {
     solver::fill_material(state_, domain_, scene_.model.medium, dt_s_);

@@ -159,7 +159,7 @@ TEST(LayerText, NamesFurtherProperties) {
   EXPECT_EQ(parse_layer("0:1:0:1").value(Property::qp), infinite);
   EXPECT_NE(refusal([] {
               parse_layer("0:1:0:1 colour=3");
-            }).find("found 'colour=3', expected NAME=VALUE, NAME one of qp, qs"),
+            }).find("found 'colour=3', expected NAME=VALUE, NAME one of qp, qs, epsilon, delta"),
             std::string::npos);
   EXPECT_NE(refusal([] { parse_layer("0:1:0:1 qp=3 qp=4"); }).find("found qp twice"), std::string::npos);
   EXPECT_NE(refusal([] { parse_layer("0:1:0:1 qp=many"); }).find("found 'many', expected a number"),

@@ -38,7 +38,8 @@ class Lab {
   Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2)
       : medium_(medium),
         domain_(make_domain(medium_, edges, 1, {}, order)),
-        state_(std::make_unique<State<2, Real>>(make_state<2, Real>(domain_.grid.shape))),
+        state_(
+            std::make_unique<State<2, Real>>(make_state<2, Real>(domain_.grid.shape, domain_.anisotropic()))),
         sweeps_(*state_, domain_, order),
         splitting_(splitting(2, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);

@@ -85,7 +85,8 @@ TEST(Kernels, OfOneMaterialGiveTheSameBits) {
 
 /// Fields after a sweep across some rows of random material, the first of them by separate loops.
 template <class Real>
-std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t n) {
+std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t n,
+                               bool anisotropic = false) {
   constexpr std::int64_t rows = 12, gap = 16;
   constexpr int field_rows = 5;
   const std::int64_t reach = reach_of(order), behind = std::max<std::int64_t>(reach, 1), pitch = n + gap;
@@ -97,40 +98,43 @@ std::vector<Real> swept_across(int order, bool at_once, Real scale, std::int64_t
     return all;
   };
   auto fields = values((rows + 2 * max_reach) * field_rows, -1, 1);
-  // Those of one line follow each other: b, then both impedances.
-  auto material = values(rows * 3, 0.4, 0.8);
+  // Those of one line follow each other: b, both impedances, and what couples the stresses of anisotropic
+  // rock.
+  constexpr std::int64_t of_line = 4;
+  auto material = values(rows * of_line, 0.4, 0.8);
   const std::int64_t stride = field_rows * pitch;
   const auto field = [&](std::int64_t row, int number) {
     return fields.data() + (row + max_reach) * stride + number * pitch;
   };
   const auto rows_of = [&](std::int64_t row) {
-    const Real* const b = material.data() + 3 * row * pitch;
-    return MaterialRows<Real>{b, b + pitch, b + 2 * pitch};
+    const Real* const b = material.data() + of_line * row * pitch;
+    return MaterialRows<Real>{b, b + pitch, b + 2 * pitch, b + 3 * pitch};
   };
   const auto swept = [&](std::int64_t row) {
     return SweptRows<Real>{field(row, 1), field(row, 3), field(row, 2), field(row, 0), field(row, 4)};
   };
   Ring<Real> ring(0, n, 2, int(behind) + 1, 2);
   const auto& kernel = kernels<Real>(order, false);
+  const auto& face = anisotropic ? kernel.anisotropic_face : kernel.face[0][1];
   for (std::int64_t row = 0; row < rows; ++row) {
     const auto here = ring.outgoing(row, 0), above = ring.outgoing(row + 1, 0);
     const auto of = rows_of(row);
     const auto done = row - behind;
     if (at_once && done >= 0) {
       const auto faces = ring.faces(row, 0);
-      kernel.fused_row(n, scale,
-                       {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b,
-                        of.b, rows_of(done).b, above.up(0), here.up(0), faces.first,
-                        ring.faces(done, 0).first, ring.faces(done + 1, 0).first});
+      kernel.fused_row[anisotropic](
+          n, scale,
+          {swept(row), stride, pitch, here.up(1) - here.up(0), faces.pitch, rows_of(row - 1).b, of.b,
+           rows_of(done).b, above.up(0), here.up(0), faces.first, ring.faces(done, 0).first,
+           ring.faces(done + 1, 0).first, rows_of(done).coupling});
       continue;
     }
     kernel.reconstruct(n, stride, field(row, 1), field(row, 3), of.zp, of.b, scale, here.up(0), here.down(0));
     kernel.reconstruct(n, stride, field(row, 0), field(row, 4), of.zs, of.b, scale, here.up(1), here.down(1));
     if (row == 0) continue;
-    kernel.face[0][1].solve_riemann(n, above, here, rows_of(row - 1), of, ring.faces(row, 0));
+    face.solve_riemann(n, above, here, rows_of(row - 1), of, ring.faces(row, 0));
     if (done >= 0)
-      kernel.face[0][1].update(n, scale, ring.faces(done, 0), ring.faces(done + 1, 0), rows_of(done),
-                               swept(done));
+      face.update(n, scale, ring.faces(done, 0), ring.faces(done + 1, 0), rows_of(done), swept(done));
   }
   return fields;
 }
@@ -189,6 +193,9 @@ TEST(Kernels, OfRecordsAreThePlainSumsToTheLastBit) {
 TEST(Kernels, OfAFusedRowGiveTheSameBits) {
   expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
     return swept_across<decltype(real)>(order, at_once, scale, n);
+  });
+  expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
+    return swept_across<decltype(real)>(order, at_once, scale, n, true);
   });
 }
 

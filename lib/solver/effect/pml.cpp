@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "model/anisotropy.hpp"
 #include "scene/splitting.hpp"
 
 namespace slipwave::solver {
@@ -108,8 +110,40 @@ void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) 
       // A slice one cell thick between mirrors stands for all of the space: no plate.
       if (across != axis && layout_.shape()[std::size_t(across)] > 1)
         find_plates(axis, side, across, domain, ranks);
+    if (domain.anisotropic()) find_turning(axis, side, domain);
   }
 }
+
+/// Marks cells along an edge whose waves would grow in the layer by the damping that they need (V6), in terms
+/// of that of plates.
+template <int D, class Real>
+void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
+  constexpr double most_lost = 0.9;
+  auto& layer = axes_[std::size_t(axis)];
+  auto& plates = layer.plates[std::size_t(side)];
+  // At the outer end most is lost.
+  double most = std::numeric_limits<double>::infinity();
+  for (const auto& factors : layer.factors)
+    for (std::size_t slot = 0; slot < factors.kept.size(); ++slot)
+      most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
+  Grid<D> edge = domain.grid;
+  edge.shape[std::size_t(axis)] = 1;
+  Stiffness last;
+  double turning = 0;
+  for (std::int64_t n = 0; n < edge.size(); ++n) {
+    auto at = edge.index(n);
+    at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
+    const double across = domain.impedance(wave_p, 0)(at), down = domain.impedance(wave_p)(at),
+                 s = domain.impedance(wave_s)(at);
+    if (s == 0) continue;
+    // Times the density; only ratios count.
+    const Stiffness stiffness = {across * across, domain.coupling(at), down * down, s * s};
+    if (!(stiffness == last)) turning = largest_turning((last = stiffness), axis == D - 1);
+    auto& plate = plates[std::size_t(along_edge(axis, at))];
+    plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
+  }
+}
+
 /// The same of runs across one other axis. What lies along z is collective.
 template <int D, class Real>
 void Pml<D, Real>::find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks) {

@@ -26,8 +26,9 @@ struct PmlSettings {
 ///   u' = r - phi,   phi' = -(d + alpha) phi + d r,   r = increment of the sweep per second,
 /// solved exactly for a constant r. Waves of all kinds enter it in all directions without reflection; alpha,
 /// largest at the model and zero at the outer end, keeps slow and grazing fields from lasting. Where the
-/// layer cuts through plates (solid between two reflectors) damping of all fields keeps their waves from
-/// growing; elsewhere there is hardly any, since it reflects at an angle.
+/// layer cuts through plates (solid between two reflectors), or through anisotropic rock whose waves turn
+/// (theory.md (V6)), damping of all fields keeps waves from growing; elsewhere there is hardly any, since it
+/// reflects at an angle.
 template <int D, class Real>
 class Pml : public Effect<D, Real> {
  public:
@@ -70,13 +71,15 @@ class Pml : public Effect<D, Real> {
     std::vector<Real> fractions;   // of a step that sweeps along this axis are over
     std::vector<Factors> factors;  // [fraction], slots: low zone, then high zone, by cells
     Buffer<Real> memory;
-    std::array<std::vector<Real>, 2> plates;  // low and high zone: 1 in plates, else 0, along the edge
+    /// Low and high zone, along the edge: 1 in plates, more where waves turn back, else 0.
+    std::array<std::vector<Real>, 2> plates;
     std::int64_t slot(std::int64_t cell) const { return cell < low ? cell : cell - (cells - high) + low; }
     bool holds(std::int64_t cell) const { return cell < low || cell >= cells - high; }
   };
   std::int64_t along_edge(int axis, const Index<D>& at) const;
   void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
   void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
+  void find_turning(int axis, int side, const Domain<D>& domain);
   /// Of the field rows of a row of cells: the first value of the first of them, and from one to the next.
   std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line);
 

@@ -53,6 +53,15 @@ template <bool Shear, class Real>
   v += moved * ds;
   s += p_modulus * dv;
 }
+/// The same in an anisotropic medium, whose passive stress takes c13 of the strain (V1): `coupled` is that
+/// times dt/h and the size of the fraction.
+template <class Real>
+[[gnu::always_inline]] inline void update_coupled_p(Real dv, Real ds, Real moved, Real p_modulus,
+                                                    Real coupled, Real& v, Real& s, Real& along) {
+  along = coupled * dv;
+  v += moved * ds;
+  s += p_modulus * dv;
+}
 /// The same of an S pair.
 template <class Real>
 [[gnu::always_inline]] inline void update_s(Real dv, Real ds, Real moved, Real s_modulus, Real& v, Real& s) {

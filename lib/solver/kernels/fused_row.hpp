@@ -12,7 +12,7 @@ namespace {
 /// Reconstruction, Riemann solution and update of a row of a sweep across the rows in one loop: the same bits
 /// as the three loops (Kernels.OfAFusedRowGiveTheSameBits). Outgoing waves downwards and half of the new
 /// values stay in registers, and while one part waits for memory or the division the others continue.
-template <int Order, int Sign, class Real>
+template <int Order, int Sign, bool Coupled, class Real>
 [[gnu::always_inline]] inline void fused_row_in(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   const Real size = Sign < 0 ? -scale : scale;
   const std::int64_t stride = rows.stride, m = rows.material_pitch, ups = rows.up_pitch, f = rows.face_pitch;
@@ -20,7 +20,7 @@ template <int Order, int Sign, class Real>
   constexpr int behind = Order < 3 ? 1 : (Order - 1) / 2;
   Real* __restrict v = rows.fields.v, * __restrict s = rows.fields.s, * __restrict passive = rows.fields.passive;
   Real* __restrict vt = rows.fields.vt, * __restrict st = rows.fields.st;
-  const Real *below = rows.below, *here = rows.here, *done = rows.done;
+  const Real *below = rows.below, *here = rows.here, *done = rows.done, *coupling = rows.coupling;
   const Real* __restrict up_from = rows.up_from;
   Real* __restrict up_to = rows.up_to, * __restrict faces = rows.faces;
   const Real *lo = rows.lo, *hi = rows.hi;
@@ -51,18 +51,22 @@ template <int Order, int Sign, class Real>
     update_coefficients<true>(scale, size, done[i], done[i + m], done[i + 2 * m], moved, p_modulus,
                               s_modulus);
     const std::int64_t at = i - behind * stride;
-    update_p<true>(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, s_modulus, v[at], s[at], along);
+    if constexpr (Coupled)
+      update_coupled_p(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, size * done[i] * coupling[i], v[at],
+                       s[at], along);
+    else
+      update_p<true>(v_hi - lo[i], n_hi - lo[i + f], moved, p_modulus, s_modulus, v[at], s[at], along);
     passive[at] += along;
     update_s(w_hi - lo[i + 2 * f], t_hi - lo[i + 3 * f], moved, s_modulus, vt[at], st[at]);
   }
 }
 
-template <int Order, class Real>
+template <int Order, bool Coupled, class Real>
 void fused_row(std::int64_t n, Real scale, const FusedRow<Real>& rows) {
   if (scale < 0)
-    fused_row_in<Order, -1>(n, scale, rows);
+    fused_row_in<Order, -1, Coupled>(n, scale, rows);
   else
-    fused_row_in<Order, 1>(n, scale, rows);
+    fused_row_in<Order, 1, Coupled>(n, scale, rows);
 }
 
 }  // namespace

@@ -49,6 +49,7 @@ struct OutgoingWaves {
 template <class Real>
 struct MaterialRows {
   const Real *b, *zp, *zs;
+  const Real* coupling = nullptr;  // of anisotropic media: the density times c13
 };
 
 /// Fields of a range of cells that a sweep changes; those of S where no cell carries shear and those of
@@ -98,6 +99,7 @@ struct FusedRow {
   const Real* up_from;
   Real *up_to, *faces;
   const Real *lo, *hi;
+  const Real* coupling = nullptr;  // of the row `done` of an anisotropic medium
 };
 
 /// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): J of its
@@ -190,8 +192,11 @@ struct Kernels {
                       const Real* impedance, const Real* b, Real scale, Real* up, Real* down);
   /// By dimension (2-D, 3-D) and whether any cell carries shear.
   InterfaceKernels<Real> face[2][2];
-  /// Reconstruction, Riemann solution and update of a row across in 2-D, with shear (null for uniform runs).
-  void (*fused_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  /// Of anisotropic media, in 2-D.
+  InterfaceKernels<Real> anisotropic_face;
+  /// Reconstruction, Riemann solution and update of a row across in 2-D, with shear (null for uniform runs),
+  /// by whether the medium is anisotropic.
+  void (*fused_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.
   BentKernels<Real> bent[2];
 };

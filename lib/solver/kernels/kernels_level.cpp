@@ -67,7 +67,8 @@ void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real
   }
 }
 
-template <bool Uniform, int D, bool Shear, class Real>
+/// Coupled: the passive stress takes what MaterialRows says instead of lambda.
+template <bool Uniform, int D, bool Shear, bool Coupled, class Real>
 void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
             const MaterialRows<Real>& material, const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale;
@@ -76,6 +77,8 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
   const Real* __restrict w2_lo = lo.v(2), * __restrict t2_lo = lo.s(2), * __restrict w2_hi = hi.v(2), * __restrict t2_hi = hi.s(2);
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
   const Real b0 = b[0], zp0 = zp[0], zs0 = zs[0];
+  const Real* __restrict coupling = material.coupling;
+  const Real coupling0 = Coupled ? coupling[0] : Real(0);
   Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
   Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
 #pragma omp simd
@@ -83,7 +86,11 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
     const Real b_i = Uniform ? b0 : b[i], zp_i = Uniform ? zp0 : zp[i], zs_i = Uniform ? zs0 : zs[i];
     Real moved, p_modulus, s_modulus, along;
     update_coefficients<Shear>(scale, size, b_i, zp_i, zs_i, moved, p_modulus, s_modulus);
-    update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
+    if constexpr (Coupled)
+      update_coupled_p(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus,
+                       size * b_i * (Uniform ? coupling0 : coupling[i]), v[i], s[i], along);
+    else
+      update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
     passive[i] += along;
     if constexpr (D == 3) passive2[i] += along;
     if constexpr (Shear) update_s(w_hi[i] - w_lo[i], t_hi[i] - t_lo[i], moved, s_modulus, vt[i], st[i]);
@@ -93,14 +100,14 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
 }
 
 /// (E8) and (E9) in one, (E9a): in a cell whose neighbours have its material.
-template <int D, bool Shear, class Real>
+template <int D, bool Shear, bool Coupled, class Real>
 void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, OutgoingWaves<Real> here,
                     OutgoingWaves<Real> above, const MaterialRows<Real>& material,
                     const SweptRows<Real>& rows) {
   const Real size = scale < 0 ? -scale : scale, b = material.b[0], zp = material.zp[0];
   const Real zs = Shear ? material.zs[0] : Real(0), moved = Real(0.5) * (scale * b), strained = size * b;
   const Real p_modulus = strained * zp * zp, s_modulus = strained * zs * zs;
-  const Real along = p_modulus - 2 * s_modulus;
+  const Real along = Coupled ? strained * material.coupling[0] : p_modulus - 2 * s_modulus;
   // Divided first, as at faces: in front of the waves velocities that are too small become zero.
   const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
   // A fluid carries no shear.
@@ -182,16 +189,19 @@ void interpolate(std::int64_t n, const float* samples, std::int64_t count, doubl
   }
 }
 
-template <bool Uniform, int D, bool Shear, class Real>
+template <bool Uniform, int D, bool Shear, bool Coupled, class Real>
 constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 0, Real>,
-                                         update<Uniform, D, Shear, Real>, update_uniform<D, Shear, Real>};
+                                         update<Uniform, D, Shear, Coupled, Real>,
+                                         update_uniform<D, Shear, Coupled, Real>};
 
 template <int Order, bool Uniform, class Real>
-constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
-                                 {{face<Uniform, 2, false, Real>, face<Uniform, 2, true, Real>},
-                                  {face<Uniform, 3, false, Real>, face<Uniform, 3, true, Real>}},
-                                 Uniform ? nullptr : fused_row<Order, Real>,
-                                 {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
+constexpr Kernels<Real> table = {
+    reconstruct<Order, Uniform, Real>,
+    {{face<Uniform, 2, false, false, Real>, face<Uniform, 2, true, false, Real>},
+     {face<Uniform, 3, false, false, Real>, face<Uniform, 3, true, false, Real>}},
+    face<Uniform, 2, true, true, Real>,
+    {Uniform ? nullptr : fused_row<Order, false, Real>, Uniform ? nullptr : fused_row<Order, true, Real>},
+    {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 
 /// Those of the n-th order in the list, or of a later one.
 template <bool Uniform, class Real, int N = 0>

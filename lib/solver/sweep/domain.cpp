@@ -18,9 +18,6 @@ int ghost_impedance(EdgeLaw law, Wave wave) {
   return extension_of(law, wave) == Extension::traction_free ? 0 : 1;
 }
 
-/// One set of coefficients serves the sweeps along all axes: in an isotropic medium they are alike.
-constexpr int every_axis = 0;
-
 /// Shorter uniform runs are not worth loops of their own.
 constexpr std::int64_t shortest_run = 64;
 
@@ -157,17 +154,21 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
-    const auto material = state.material_from(at, 0);
+    const auto material = state.material_from(at, 0), across = state.material_from(at, 0, 0);
     const auto same = [&](std::int64_t i, std::int64_t j) {
       return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
-             material.zs[i] == material.zs[j];
+             material.zs[i] == material.zs[j] &&
+             (!state.anisotropic ||
+              (across.zp[i] == across.zp[j] && material.coupling[i] == material.coupling[j]));
     };
     // In bent rows no two cells are alike.
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx))
-        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first]});
+        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first],
+                                      across.zp[first],
+                                      state.anisotropic ? material.coupling[first] : Real(0)});
       first = x;
     }
     state.first_uniform_run[std::size_t(line) + 1] = state.uniform_runs.size();
@@ -184,9 +185,15 @@ Index<D> Domain<D>::model_cell(Index<D> at) const {
 }
 
 template <int D>
-const Field<D>& Domain<D>::impedance(Wave wave) const {
+const Field<D>& Domain<D>::impedance(Wave wave, int axis) const {
   if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
-  return impedances_[wave];
+  return anisotropic_ && wave == wave_p && axis < D - 1 ? zp_across_ : impedances_[wave];
+}
+
+template <int D>
+double Domain<D>::coupling_share(const Index<D>& cell, int axis) const {
+  const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
+  return anisotropic_ ? coupling_(cell) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp);
 }
 
 template <int D>
@@ -236,6 +243,9 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
+  const bool anisotropic = part.anisotropic || anisotropic_cells(medium) > 0;
+  Field<D> zp_across, coupling;
+  if (anisotropic) zp_across = coupling = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
   parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
@@ -245,12 +255,17 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
       for (std::int64_t x = 0; x < nx; ++x) {
         const auto cell =
             std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
+        const auto to = std::size_t(line * nx + x);
         for (const Wave wave : {wave_p, wave_s})
-          impedance[wave][std::size_t(line * nx + x)] = float(wave_impedance(medium, cell, every_axis, wave));
+          impedance[wave][to] = float(wave_impedance(medium, cell, z, wave));
+        if (!anisotropic) continue;
+        zp_across[to] = float(wave_impedance(medium, cell, 0, wave_p));
+        coupling[to] = float(wave_coupling(medium, cell));
       }
     }
   });
   domain.set_impedances(std::move(impedance));
+  if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
   return domain;
 }
 
@@ -261,12 +276,16 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool carries = !ghost && !medium.is_void(cell);
-    const double values[material_rows] = {carries ? courant / double(medium.rho[cell]) : 0,
-                                          p_factor * wave_impedance(medium, cell, every_axis, wave_p),
-                                          s_factor * wave_impedance(medium, cell, every_axis, wave_s)};
+    const double values[material_rows_of(true)] = {
+        carries ? courant / double(medium.rho[cell]) : 0,
+        p_factor * wave_impedance(medium, cell, D - 1, wave_p),
+        s_factor * wave_impedance(medium, cell, D - 1, wave_s),
+        state.anisotropic ? p_factor * wave_impedance(medium, cell, 0, wave_p) : 0,
+        state.anisotropic ? wave_coupling(medium, cell) : 0};
     Index<D> line = at;
     line[0] = 0;
-    for (int row = 0; row < material_rows; ++row) state.material_row(line, row)[at[0]] = Real(values[row]);
+    for (int row = 0; row < material_rows_of(state.anisotropic); ++row)
+      state.material_row(line, row)[at[0]] = Real(values[row]);
   };
   const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
   parallel_for(lines, 16, [&](std::int64_t begin, std::int64_t end, int) {
@@ -300,6 +319,15 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   state.uniform_interior = find_uniform_interior(state);
 }
 
+namespace {
+
+/// s:C^-1:s of normal stresses along x and z in plane strain.
+double complementary(const Stiffness& c, double sxx, double szz) {
+  return (c.c33 * sxx * sxx - 2 * c.c13 * sxx * szz + c.c11 * szz * szz) / (c.c11 * c.c33 - c.c13 * c.c13);
+}
+
+}  // namespace
+
 template <int D, class Real>
 double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
                       Index<D> at) {
@@ -310,6 +338,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   const auto x = at[0];
   at[0] = 0;
   const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
+  const bool anisotropic = is_anisotropic(medium, cell);
   const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
   const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
   double kinetic = 0, squares = 0, trace = 0, shear = 0;
@@ -325,8 +354,11 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
   const double elastic =
-      mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
-             : trace * trace / (D * D * lambda);
+      anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
+                                  value(Rows::normal_stress(D - 1))) +
+                        shear / mu
+      : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
+               : trace * trace / (D * D * lambda);
   const double height = domain.model_grid.height(domain.model_cell(whole));
   return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * height;
 }

@@ -37,12 +37,24 @@ class Domain {
   bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
   double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
 
-  /// Impedance of a wave in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps, effects and
-  /// records are built: throws std::logic_error after release_impedances().
-  const Field<D>& impedance(Wave wave) const;
+  /// Impedance of a wave along an axis in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps,
+  /// effects and records are built: throws std::logic_error after release_impedances().
+  const Field<D>& impedance(Wave wave, int axis = D - 1) const;
+  /// Whether any cell, of any process, is anisotropic.
+  bool anisotropic() const { return anisotropic_; }
+  /// The density times c13 of a cell of an anisotropic medium (wave_coupling()).
+  double coupling(const Index<D>& cell) const { return coupling_(cell); }
+  /// What a strain along the edge across an axis puts on the normal stress there, as a share of the modulus
+  /// of P along the axis: c13 over c11 or c33, in isotropic media lambda/(lambda + 2 mu).
+  double coupling_share(const Index<D>& cell, int axis) const;
   /// Frees their memory.
-  void release_impedances() { impedances_ = {}; }
+  void release_impedances() { impedances_ = {}, zp_across_ = coupling_ = {}; }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
+  /// Of an anisotropic medium, besides: the impedance of P along other axes than z, and wave_coupling().
+  void set_anisotropy(Field<D> zp_across, Field<D> coupling) {
+    anisotropic_ = true;
+    zp_across_ = std::move(zp_across), coupling_ = std::move(coupling);
+  }
 
   /// Whether any cell carries S waves.
   bool shear() const;
@@ -69,6 +81,8 @@ class Domain {
     return all;
   }
   std::array<Field<D>, 2> impedances_;
+  bool anisotropic_ = false;
+  Field<D> zp_across_, coupling_;
 };
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
@@ -89,7 +103,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
 /// A state with zero fields and that material.
 template <int D, class Real>
 State<D, Real> make_filled_state(const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
-  auto state = make_state<D, Real>(domain.grid.shape);
+  auto state = make_state<D, Real>(domain.grid.shape, domain.anisotropic());
   fill_material(state, domain, medium, dt_s);
   return state;
 }

@@ -94,7 +94,7 @@ template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row) {
   using Rows = FieldRows<D>;
-  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+  const double zs = domain.impedance(wave_s)(at);
   const bool bent = domain.bent(at[D - 1]);
   // On bent rows sides keep the plain mirror image.
   if (domain.edges[axis][side] != EdgeLaw::free || zs == 0 || (bent && axis < D - 1)) return {};
@@ -120,7 +120,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     bool found = true;
     if (row == Rows::velocity(axis))
       found = add_difference(domain, at, along, Rows::velocity(along),
-                             outward * (1 - 2 * zs * zs / (zp * zp)), terms);
+                             outward * domain.coupling_share(at, axis), terms);
     else if (row == Rows::velocity(along))
       found = add_difference(domain, at, along, Rows::velocity(axis), outward, terms);
     if (!found) return {};
@@ -135,7 +135,8 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       outward_(side ? -1 : 1),
       padded_nx_(layout.padded_nx()),
       shape_(layout.shape()) {
-  const Layout<D> material(shape_, material_rows);
+  const Layout<D> material(shape_, material_rows_of(domain.anisotropic()));
+  const int zp_row = domain.anisotropic() && axis < D - 1 ? row_zp_across : row_zp;
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
   for (std::int64_t n = 0; n < edge.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
@@ -166,7 +167,7 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       }
       ++pair;
     };
-    add(FieldRows<D>::velocity(axis), row_zp);
+    add(FieldRows<D>::velocity(axis), zp_row);
     for (int along = 0; along < D; ++along)
       if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
   }

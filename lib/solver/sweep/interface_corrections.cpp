@@ -126,6 +126,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
           }
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
+        to.coupled = domain.anisotropic() && !bent_face(domain, row);
       }
       slots_.push_back(slot);
     }
@@ -201,7 +202,9 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
                 row_velocity<D>(state.fields.data() + side.cells[axis * offsets_along.size() + k], pitch);
     // Moduli times dt/h.
     const Real p = zp * zp * b, mu = zs * zs * b;
-    const Vector t = traction_of_motion_along<D>(normal, p, mu, along);
+    const Vector t = side.coupled
+                         ? traction_on_level_face<D>(material[row_coupling * material_pitch_] * b, mu, along)
+                         : traction_of_motion_along<D>(normal, p, mu, along);
     const Vector t_p = (dot(normal, t) / square) * normal, t_s = t - t_p;
     const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
     velocity = velocity + (-sign * side.j / square * (zp / p)) * t_p;

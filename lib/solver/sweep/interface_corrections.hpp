@@ -42,6 +42,7 @@ class InterfaceCorrections {
     std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0 of the fields
     std::int64_t b;                                        // of the material
     Real j;
+    bool coupled;  // on a level face of an anisotropic medium, which its material describes
   };
   struct Slot {
     std::int64_t row, column;

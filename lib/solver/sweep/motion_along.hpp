@@ -29,10 +29,11 @@ bool ends_free(const Domain<D>& domain, int along) {
 /// Whether two cells carry the same waves without a strong interface between them.
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const Wave wave : {wave_p, wave_s}) {
-    const double a = domain.impedance(wave)(one), b = domain.impedance(wave)(other);
-    if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
-  }
+  for (const Wave wave : {wave_p, wave_s})
+    for (const int axis : {D - 1, 0}) {
+      const double a = domain.impedance(wave, axis)(one), b = domain.impedance(wave, axis)(other);
+      if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
+    }
   return true;
 }
 
@@ -52,6 +53,16 @@ RowVector<D, Real> traction_of_motion_along(const RowVector<D, Real>& normal, Re
     return {trace + normal.x * xz + normal.y * yz, xz + normal.x * (trace + 2 * mu * dxx) + normal.y * dxy,
             yz + normal.x * dxy + normal.y * (trace + 2 * mu * dyy)};
   }
+}
+
+/// The same on a level face of an anisotropic medium: c13 in place of lambda (theory.md (V4)).
+template <int D, class Real>
+RowVector<D, Real> traction_on_level_face(Real c13, Real mu,
+                                          const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {
+  if constexpr (D == 2)
+    return {c13 * along[0].x, mu * along[0].z};
+  else
+    return {c13 * (along[0].x + along[1].y), mu * along[0].z, mu * along[1].z};
 }
 
 /// The part of a vector along N times one factor and the rest times another.

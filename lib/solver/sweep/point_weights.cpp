@@ -39,10 +39,11 @@ Beyond beyond_edge(EdgeLaw law, int axis, int row, bool fluid) {
 /// Whether the scheme's stencils end between two cells of one kind.
 template <int D>
 bool strong_interface(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
-  for (const Wave wave : {wave_p, wave_s}) {
-    const double z = domain.impedance(wave)(one), beyond = domain.impedance(wave)(other);
-    if (z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z) return true;
-  }
+  for (const Wave wave : {wave_p, wave_s})
+    for (const int axis : {D - 1, 0}) {
+      const double z = domain.impedance(wave, axis)(one), beyond = domain.impedance(wave, axis)(other);
+      if (z > strong_interface_ratio * beyond || beyond > strong_interface_ratio * z) return true;
+    }
   return false;
 }
 
@@ -104,10 +105,11 @@ template <int D>
 std::optional<std::array<AxisCells, D>> cells_of_the_rock(const Domain<D>& domain, const Index<D>& centre,
                                                           int field_row) {
   const auto alike = [&](const Index<D>& at, const Index<D>&) {
-    for (const Wave wave : {wave_p, wave_s}) {
-      const double one = domain.impedance(wave)(centre), other = domain.impedance(wave)(at);
-      if (other > one_rock * one || one > one_rock * other) return false;
-    }
+    for (const Wave wave : {wave_p, wave_s})
+      for (const int axis : {D - 1, 0}) {
+        const double one = domain.impedance(wave, axis)(centre), other = domain.impedance(wave, axis)(at);
+        if (other > one_rock * one || one > one_rock * other) return false;
+      }
     return true;
   };
   auto box = box_round(domain, centre, widest_spread, widest_spread + 1, alike);

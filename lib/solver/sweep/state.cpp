@@ -60,10 +60,11 @@ void clear(Buffer<Real>& buffer, std::int64_t piece) {
 }
 
 template <int D, class Real>
-State<D, Real> make_state(const Index<D>& shape) {
+State<D, Real> make_state(const Index<D>& shape, bool anisotropic) {
   State<D, Real> state;
+  state.anisotropic = anisotropic;
   state.layout = Layout<D>(shape, FieldRows<D>::count);
-  state.material_layout = Layout<D>(shape, material_rows);
+  state.material_layout = Layout<D>(shape, material_rows_of(anisotropic));
   state.fields = Buffer<Real>(state.layout.total());
   state.material = Buffer<Real>(state.material_layout.total());
   clear(state.fields, state.layout.stride(1));
@@ -74,9 +75,9 @@ State<D, Real> make_state(const Index<D>& shape) {
 
 template class Layout<2>;
 template class Layout<3>;
-template State<2, float> make_state<2, float>(const Index<2>&);
-template State<2, double> make_state<2, double>(const Index<2>&);
-template State<3, float> make_state<3, float>(const Index<3>&);
-template State<3, double> make_state<3, double>(const Index<3>&);
+template State<2, float> make_state<2, float>(const Index<2>&, bool);
+template State<2, double> make_state<2, double>(const Index<2>&, bool);
+template State<3, float> make_state<3, float>(const Index<3>&, bool);
+template State<3, double> make_state<3, double>(const Index<3>&, bool);
 
 }  // namespace slipwave::solver

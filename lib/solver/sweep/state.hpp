@@ -98,15 +98,26 @@ struct FieldRows {
 };
 
 /// Rows of a line of the material: b = dt/(rho h) and the impedances rho c of P and S, 0 in cells that do not
-/// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h.
-enum MaterialRow : int { row_b, row_zp, row_zs, material_rows };
+/// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h. Anisotropic media have
+/// two more: zp is that of sweeps along z, the next that of other sweeps, and the last is wave_coupling().
+enum MaterialRow : int { row_b, row_zp, row_zs, material_rows, row_zp_across = material_rows, row_coupling };
+/// How many there are.
+constexpr int material_rows_of(bool anisotropic) { return material_rows + (anisotropic ? 2 : 0); }
 
 /// A uniform run: cells first <= x < last of a row that have one material.
 template <class Real>
 struct UniformRun {
   std::int64_t first, last;
   Real b, zp, zs;
-  MaterialRows<Real> rows() const { return {&b, &zp, &zs}; }
+  Real zp_across = zp, coupling = 0;  // of anisotropic media
+  /// For sweeps along z, or along another axis.
+  MaterialRows<Real> rows(bool across = false) const {
+    return {&b, across ? &zp_across : &zp, &zs, &coupling};
+  }
+  bool same(const UniformRun& other) const {
+    return b == other.b && zp == other.zp && zs == other.zs && zp_across == other.zp_across &&
+           coupling == other.coupling;
+  }
 };
 
 /// The fields of a row of cells, in the state or in a copy: cell 0 of field row 0, and the pitch to the next
@@ -124,6 +135,7 @@ struct RowFields {
 template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;
+  bool anisotropic = false;  // its material has the rows of anisotropic media
   Buffer<Real> fields, material;
   /// Uniform runs, row after row, and where each row begins (fill_material). Sweeps over such a run read
   /// nothing else of the material.
@@ -147,11 +159,16 @@ struct State {
   const Real* material_row(const Index<D>& at, int row) const {
     return material.data() + material_layout.line(at) + row * material_layout.row_pitch();
   }
-  /// From a cell of a line on; the line before the first and the one after the last are there.
-  MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x) const {
+  /// From a cell of a line on, for sweeps along an axis; the line before the first and the one after the last
+  /// are there.
+  MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x, int axis = D - 1) const {
     const Real* b = material_row(line, row_b) + x;
-    return {b, b + row_zp * material_layout.row_pitch(), b + row_zs * material_layout.row_pitch()};
+    const auto pitch = material_layout.row_pitch();
+    return {b, b + zp_row(axis) * pitch, b + row_zs * pitch,
+            anisotropic ? b + row_coupling * pitch : nullptr};
   }
+  /// The row of the impedance of P in sweeps along an axis.
+  int zp_row(int axis) const { return anisotropic && axis < D - 1 ? row_zp_across : row_zp; }
   /// Those of a row, in the order of its cells.
   std::span<const UniformRun<Real>> uniform_runs_of(std::int64_t line) const {
     const auto first = first_uniform_run[std::size_t(line)];
@@ -173,6 +190,6 @@ std::array<UniformInterior, std::size_t(D)> find_uniform_interior(const State<D,
 
 /// State with zero fields and zero material, memory touched first by the threads that own its lines.
 template <int D, class Real>
-State<D, Real> make_state(const Index<D>& shape);
+State<D, Real> make_state(const Index<D>& shape, bool anisotropic = false);
 
 }  // namespace slipwave::solver

@@ -28,6 +28,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       reach_(reach_of(order)),
       // Bent rows couple all fields. Zones damp those of shear in fluid, too: all ranks must do alike.
       shear_(domain.subdomain.shear || domain.shear() || !domain.bent_rows.empty()),
+      anisotropic_(domain.anisotropic()),
       metric_(domain),
       corrections_(state, domain, metric_),
       bent_stencils_(domain, reach_, corrections_) {
@@ -49,7 +50,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
       stencils_[axis][wave] =
-          InterfaceStencils(domain.impedance(wave), edges_, axis, wave, reach_, corrected, slot_before);
+          InterfaceStencils(domain.impedance(wave, axis), edges_, axis, wave, reach_, corrected, slot_before);
     }
   });
 }
@@ -127,7 +128,7 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   const auto reconstruct = [&](const Pair& pair, const IndexRange& part, Real* up, Real* down) {
     if (part.empty()) return;
     const auto* run = state_.uniform_run(number, part.first, part.last);
-    const auto material = run ? run->rows() : state_.material_from(line, part.first);
+    const auto material = run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis);
     const auto from = part.first - columns.first;
     kernels_[run != nullptr]->reconstruct(
         part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
@@ -141,8 +142,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(
         order_, number, columns, stride, fields + pair.v * pitch + columns.first,
-        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first), scale, up, down,
-        corrections_of(axis, p));
+        fields + pair.s * pitch + columns.first, state_.material_from(line, columns.first, axis), scale, up,
+        down, corrections_of(axis, p));
     prefetch.prefetch_one();
   }
 }
@@ -260,14 +261,16 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     const auto from = part.first - columns.first;
     // Its material is known without reading it from memory.
     face_kernels(true).update_uniform(part.count(), own_scale, flux.below.at(from), flux.here.at(from),
-                                      flux.above.at(from), run_of(part)->rows(), swept(part.first));
+                                      flux.above.at(from), run_of(part)->rows(axis < z_axis),
+                                      swept(part.first));
   };
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     const auto* run = run_of(part);
     face_kernels(run != nullptr)
         .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
-                run ? run->rows() : state_.material_from(line, part.first), swept(part.first));
+                run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
+                swept(part.first));
   };
   if (metric_.bent(number)) {
     update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
@@ -353,7 +356,7 @@ void Sweeps<D, Real>::queue_prefetch(std::int64_t line, const IndexRange& column
                FieldRows<D>::count);
   if (!state_.uniform_run(line, columns.first, columns.last))
     prefetch.add(state_.material_row(at, 0) + columns.first, columns.count(),
-                 state_.material_layout.row_pitch(), material_rows);
+                 state_.material_layout.row_pitch(), material_rows_of(anisotropic_));
   if (metric_.bent(line))
     prefetch.add(metric_.first_row(at) + columns.first, columns.count(), metric_.row_pitch(),
                  metric_.rows_of_line);
@@ -461,15 +464,15 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
   const auto solve = [&](const IndexRange& part) {
     const auto from = part.first - cells.first;
     const auto here = outgoing.at(from);
-    const auto material = state_.material_from(at, part.first - 1);
+    const auto material = state_.material_from(at, part.first - 1, 0);
     if (metric_.bent(line))
       return bent_kernels().solve_along(part.count(), here.at(-1), here, material,
                                         state_.material_from(at, part.first),
                                         metric_.along(0, at, part.first).j_lo, faces.at(from));
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
-    const auto lo = run ? run->rows() : material;
+    const auto lo = run ? run->rows(true) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
-                                    run ? lo : state_.material_from(at, part.first), faces.at(from));
+                                    run ? lo : state_.material_from(at, part.first, 0), faces.at(from));
   };
   if (metric_.bent(line)) return solve(cells);
   // The faces at the ends of a row have other material on one side.
@@ -525,7 +528,8 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   const bool has_lo = row > 0, has_hi = row < rows;
   const auto up = ring.outgoing(row - 1, x), down = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
-  const auto material_lo = state_.material_from(line_lo, x), material_hi = state_.material_from(line_hi, x);
+  const auto material_lo = state_.material_from(line_lo, x, axis),
+             material_hi = state_.material_from(line_hi, x, axis);
   if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
     if (axis == z_axis)
       return bent_kernels().solve_across[metric_.fluid_at_face(layout.line_number(line_hi))](
@@ -539,8 +543,9 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   };
   const auto *lo = run(line_lo, has_lo), *hi = run(line_hi, has_hi);
   const bool uniform = lo && hi;
-  face_kernels(uniform).solve_riemann(columns.count(), up, down, uniform ? lo->rows() : material_lo,
-                                      uniform ? hi->rows() : material_hi, faces);
+  face_kernels(uniform).solve_riemann(columns.count(), up, down,
+                                      uniform ? lo->rows(axis < z_axis) : material_lo,
+                                      uniform ? hi->rows(axis < z_axis) : material_hi, faces);
 }
 
 template <int D, class Real>
@@ -660,20 +665,22 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
   work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
-  kernels_[false]->fused_row(columns.count(), own_scale,
-                             {{field(0), field(1), field(2), field(3), field(4)},
-                              layout.stride(axis),
-                              state_.material_layout.row_pitch(),
-                              to.up(1) - to.up(0),
-                              faces.pitch,
-                              material(below),
-                              material(here),
-                              material(advanced),
-                              from.up(0),
-                              to.up(0),
-                              faces.first,
-                              ring.faces(done, x).first,
-                              ring.faces(done + 1, x).first});
+  kernels_[false]->fused_row[anisotropic_](
+      columns.count(), own_scale,
+      {{field(0), field(1), field(2), field(3), field(4)},
+       layout.stride(axis),
+       state_.material_layout.row_pitch(),
+       to.up(1) - to.up(0),
+       faces.pitch,
+       material(below),
+       material(here),
+       material(advanced),
+       from.up(0),
+       to.up(0),
+       faces.first,
+       ring.faces(done, x).first,
+       ring.faces(done + 1, x).first,
+       anisotropic_ ? material(advanced) + row_coupling * state_.material_layout.row_pitch() : nullptr});
   work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
   return true;
 }

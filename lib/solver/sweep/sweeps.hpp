@@ -136,7 +136,7 @@ class Sweeps {
   bool filters(int axis, const Index<D>& line, const IndexRange& columns) const;
   const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
-    return kernels_[uniform]->face[D - 2][shear_];
+    return anisotropic_ ? kernels_[uniform]->anisotropic_face : kernels_[uniform]->face[D - 2][shear_];
   }
   /// What the update of cells reads, beginning with the first of them: the interface states before and behind
   /// them, the outgoing waves of them and their neighbours.
@@ -175,7 +175,7 @@ class Sweeps {
   std::vector<Effect<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
-  bool shear_;
+  bool shear_, anisotropic_;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
   InterfaceCorrections<D, Real> corrections_;

@@ -8,11 +8,6 @@ namespace {
 /// A call for fewer cells costs more than their faces.
 constexpr std::int64_t fewest_cells = 2 * Layout<2>::block;
 
-template <class Real>
-bool same(const UniformRun<Real>& one, const UniformRun<Real>& other) {
-  return one.b == other.b && one.zp == other.zp && one.zs == other.zs;
-}
-
 /// The runs that both rows share with the same material.
 template <class Real>
 std::vector<UniformRun<Real>> common(std::span<const UniformRun<Real>> one,
@@ -20,7 +15,10 @@ std::vector<UniformRun<Real>> common(std::span<const UniformRun<Real>> one,
   std::vector<UniformRun<Real>> both;
   for (auto a = one.begin(), b = other.begin(); a != one.end() && b != other.end();) {
     const auto first = std::max(a->first, b->first), last = std::min(a->last, b->last);
-    if (first < last && same(*a, *b)) both.push_back({first, last, a->b, a->zp, a->zs});
+    if (first < last && a->same(*b)) {
+      both.push_back(*a);
+      both.back().first = first, both.back().last = last;
+    }
     a->last < b->last ? ++a : ++b;
   }
   return both;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "acquisition/interpolation.hpp"
+#include "model/anisotropy.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -41,6 +42,20 @@ Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, doub
   Point<D> change;
   for (std::size_t i = 0; i < D; ++i) change[i] = -(load[i] - along * n[i]) / (mu * square);
   return change;
+}
+
+/// The same in an anisotropic rock, in 2-D: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
+Point<2> forced_change(const Point<2>& n, const Point<2>& g, std::size_t k, const Stiffness& c) {
+  const auto of = [&](const Point<2>& a, std::size_t column) {
+    return column == 0 ? Point<2>{c.c11 * n[0] * a[0] + c.c55 * n[1] * a[1],
+                                  c.c13 * n[1] * a[0] + c.c55 * n[0] * a[1]}
+                       : Point<2>{c.c13 * n[0] * a[1] + c.c55 * n[1] * a[0],
+                                  c.c33 * n[1] * a[1] + c.c55 * n[0] * a[0]};
+  };
+  const auto one = of(n, 0), other = of(n, 1), load = of(g, k);
+  const double determinant = one[0] * other[1] - one[1] * other[0];
+  return {-(load[0] * other[1] - load[1] * other[0]) / determinant,
+          -(one[0] * load[1] - one[1] * load[0]) / determinant};
 }
 
 template <int D, class Add>
@@ -159,8 +174,17 @@ void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Fac
   const auto gradients = row_gradients(at);
   for (int along = 0; along < D; ++along)
     for (int moved = 0; along != face.axis && moved < D; ++moved) {
-      double change = forced_change<D>(gradients[std::size_t(face.axis)], gradients[std::size_t(along)],
-                                       std::size_t(moved), lambda, mu)[std::size_t(row)];
+      const auto& normal = gradients[std::size_t(face.axis)];
+      const auto& tangent = gradients[std::size_t(along)];
+      double change = 0;
+      if constexpr (D == 2)
+        if (domain_.anisotropic()) {
+          const double across = domain_.impedance(wave_p, 0)(cell);
+          change = forced_change(normal, tangent, std::size_t(moved),
+                                 {across * across, domain_.coupling(cell), zp * zp, mu})[std::size_t(row)];
+        }
+      if (!domain_.anisotropic())
+        change = forced_change<D>(normal, tangent, std::size_t(moved), lambda, mu)[std::size_t(row)];
       if (change == 0) continue;
       change *= face.side ? -factor : factor;
       if (values == Values::one_sided)

@@ -4,6 +4,7 @@ set -eu
 sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 60:3000:1500:2200 -o m.nc
 sw-layers --size 200x100 --step 5 --layer 40:3000:1500:2200 -o void.nc
 sw-layers --size 200x100 --step 5 --layer 0:3000:2500:2200 --allow-auxetic -o auxetic.nc
+sw-layers --size 200x100 --step 5 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti.nc
 sw-layers --size 300x100 --step 10 --layer 0:2000:1000:2000 -o rock.nc
 sw-layers --size 100x50 --step 5 --layer 0:2000:1000:2000 -o small.nc
 head -c 4000 m.nc > part.nc

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "model/averaging.hpp"
+#include "model/medium.hpp"
+
+namespace slipwave {
+
+/// Stiffnesses of a rock that is transversely isotropic about the vertical (VTI) in the plane of x and z, Pa:
+/// sxx = c11 exx + c13 ezz, szz = c13 exx + c33 ezz, sxz = 2 c55 exz.
+struct Stiffness {
+  double c11 = 0, c13 = 0, c33 = 0, c55 = 0;
+  bool operator==(const Stiffness&) const = default;
+};
+
+/// From the speeds along the vertical and Thomsen's (1986) epsilon and delta (theory.md (V2)); those of an
+/// isotropic rock where both are zero. NaN where delta leaves none.
+Stiffness stiffness_of(const Material& material);
+template <int D>
+Stiffness stiffness_of(const Medium<D>& medium, std::size_t cell) {
+  return stiffness_of(material_of(medium, cell));
+}
+
+/// The rock of these stiffnesses, in terms of speeds, epsilon and delta.
+Material material_of_stiffness(const Stiffness& stiffness, double rho);
+
+/// Whether epsilon or delta of a cell is not zero.
+template <int D>
+bool is_anisotropic(const Medium<D>& medium, std::size_t cell) {
+  return medium.value(Property::epsilon, cell) != 0 || medium.value(Property::delta, cell) != 0;
+}
+/// How many cells are anisotropic.
+template <int D>
+std::int64_t anisotropic_cells(const Medium<D>& medium);
+
+/// Gives a medium with one of epsilon and delta the other, zero everywhere: means of cells have both.
+template <int D>
+void complete_anisotropy(Medium<D>& medium);
+
+/// Speeds of plane waves, m/s: of quasi-P and quasi-S waves with motion in the plane of x and z.
+struct PlaneSpeeds {
+  double p = 0, s = 0;
+};
+/// Of waves whose fronts move at this angle from the vertical (theory.md (V3)).
+PlaneSpeeds phase_speeds(const Stiffness& stiffness, double rho, double angle_rad);
+/// The smallest of any direction.
+PlaneSpeeds slowest_speeds(const Material& material);
+/// The largest speed of quasi-P waves in any direction, m/s.
+double fastest_p_speed(const Material& material);
+/// The medium with the speeds of the slowest directions as those of an isotropic one: wavelengths are nowhere
+/// shorter.
+template <int D>
+Medium<D> in_slowest_directions(const Medium<D>& medium);
+
+/// How far waves turn: the largest share of its phase speed at which energy moves back along an axis (the
+/// vertical, or x) while the front of the wave moves on along it, -k_a g_a/omega (theory.md (V6)); 0 where
+/// none does, as in any isotropic rock.
+double largest_turning(const Stiffness& stiffness, bool vertical);
+
+/// A property that no rock has, and what follows its place in an error: "is 0.1, expected ...".
+struct AnisotropyFault {
+  Property of;
+  std::string text;
+};
+/// What keeps the stiffness from being positive, or a fluid with epsilon or delta; nothing where all is well.
+std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material);
+
+}  // namespace slipwave

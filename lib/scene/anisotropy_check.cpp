@@ -1,0 +1,88 @@
+#include "scene/anisotropy_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.hpp"
+#include "model/anisotropy.hpp"
+
+namespace slipwave {
+namespace {
+
+const char* const isotropic_instead = " or --without anisotropy";
+
+/// Whether stencils of a row reach corners of cells that are not level.
+template <int D>
+bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
+  const std::int64_t last = grid.rows->cells()[D - 1];
+  for (auto n = row - near; n <= row + near + 1; ++n)
+    if (!grid.rows->row_is_level(std::clamp<std::int64_t>(n, 0, last))) return true;
+  return false;
+}
+
+/// What keeps the planes of a set from slipping in anisotropic cells, or "".
+template <int D>
+std::string fault_of(const FractureSet<D>& set) {
+  for (const auto& system : set.systems) {
+    if (system.opens) return "open";
+    double oblique = 0;
+    for (std::size_t axis = 0; axis + 1 < D; ++axis)
+      oblique = std::max(oblique, std::abs(system.normal[axis] * system.normal[D - 1]));
+    if (oblique > 1e-9) return "are neither level nor upright";
+  }
+  return "";
+}
+
+template <int D>
+void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
+  const auto& model = scene.model;
+  const auto refuse = [&](const std::string& what) {
+    throw Error("the cell at " + place_of(model.grid(), std::int64_t(cell)) + " is anisotropic (epsilon " +
+                shown(model.medium.value(Property::epsilon, cell), 6) + ", delta " +
+                shown(model.medium.value(Property::delta, cell), 6) + ") and " + what);
+  };
+  if (scene.attenuation && attenuates(model.medium, cell))
+    refuse("attenuates, expected one of both; use --without attenuation" + std::string(isotropic_instead));
+  if (near_bent)
+    refuse(
+        "lies in rows that follow a horizon, or beside them, where rock must be isotropic; build the model "
+        "with "
+        "--fit none, or use --without anisotropy");
+  if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
+  const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
+  if (const auto fault = fault_of(set); !fault.empty())
+    refuse("the planes of its fracture set '" + set.name + "' " + fault +
+           ", expected closed ones with a dip of 0 or 90; use --without " +
+           (fault == "open" ? "opening" : "slip") + isotropic_instead);
+}
+
+}  // namespace
+
+template <int D>
+void check_anisotropy(const Scene<D>& scene) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  // Ranks with other rows refuse what concerns the whole model, too.
+  if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
+  if (D == 3)
+    throw Error("found epsilon or delta in a model in 3-D, expected them in 2-D; use --without anisotropy",
+                ErrorKind::usage);
+  for (const auto& source : scene.survey.sources)
+    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+      throw Error(
+          "found a plane wave in a model that is anisotropic, expected a point source or --without "
+          "anisotropy",
+          ErrorKind::usage);
+  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
+    const bool near_bent =
+        grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
+    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
+      if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
+  }
+}
+
+template void check_anisotropy(const Scene<2>&);
+template void check_anisotropy(const Scene<3>&);
+
+}  // namespace slipwave

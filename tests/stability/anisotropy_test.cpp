@@ -1,0 +1,96 @@
+// Energy in anisotropic media, cell by cell as different as they can be.
+#include <algorithm>
+#include <random>
+
+#include "lab.hpp"
+
+namespace slipwave {
+namespace {
+
+template <class Real>
+void expect_no_growth_of(const Medium<2>& medium, EdgeLaw edges, int order, double cfl, int steps) {
+  typename Lab<Real>::Setup setup;
+  setup.medium = medium;
+  setup.edges = all_edges(edges);
+  setup.order = order;
+  setup.cfl = cfl;
+  Lab<Real>(setup).expect_no_growth(steps, rounding<Real>());
+}
+
+}  // namespace
+
+TEST(EnergyOfAnisotropicRock, NeverRises) {
+  const ThreadLimit one_thread(1);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  const int media = long_form() ? 30 : 4, steps = long_form() ? 20000 : 600;
+  for (int n = 0; n < media; ++n)
+    for (const int block : {1, 5})
+      for (const int order : {3, 5, 7}) {
+        SCOPED_TRACE("medium " + std::to_string(n) + " block " + std::to_string(block) + " order " +
+                     std::to_string(order));
+        constexpr int cells = 30;
+        std::vector<Material> rocks;
+        for (int k = 0; k < cells * cells; ++k) {
+          auto rock = random_anisotropic(random);
+          // Some water, and with it interfaces of all kinds.
+          if (n % 2 == 1 && random() < 0.2) rock = {1500, 0, 1000};
+          rocks.push_back(rock);
+        }
+        const auto medium =
+            of_rocks(cells, [&](int i, int k) { return rocks[std::size_t(k / block * cells + i / block)]; });
+        expect_no_growth_of<double>(medium, n % 2 ? EdgeLaw::free : EdgeLaw::rigid, order, n % 3 ? 1 : 0.6,
+                                    steps);
+        if (n == 0) expect_no_growth_of<float>(medium, EdgeLaw::free, order, 1, steps);
+      }
+}
+
+TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
+  const ThreadLimit one_thread(1);
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  const std::vector<Point<2>> level{{0, 1}}, upright{{1, 0}}, both{{1, 0}, {0, 1}};
+  for (const auto& normals : {level, upright, both})
+    for (const auto correction :
+         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+      Lab<double>::Setup setup;
+      setup.medium = of_rocks(24, [&](int, int) { return random_anisotropic(random); });
+      FractureSet<2> set{"all", {}};
+      for (const auto& normal : normals) set.systems.push_back({normal, 0.3, 1000, 0});
+      setup.fracture_sets = {set};
+      setup.fracture = Field<2, std::uint8_t>(setup.medium.grid(), 1);
+      setup.correction = correction;
+      setup.edges = all_edges(EdgeLaw::rigid);
+      Lab<double>(setup).expect_no_growth(600, rounding<double>());
+    }
+}
+
+TEST(EnergyOfAnisotropicRock, BetweenFreeEdgesFallsOverThousandsOfSteps) {
+  // Corrected free surfaces and interfaces of water (theory.md (E11), (E11a)): the energy falls in the long
+  // run.
+  const ThreadLimit one_thread(1);
+  for (const auto& rock : {Material{3000, 1600, 2300, 0.2, 0.1}, Material{3200, 1700, 2400, -0.05, 0.2},
+                           Material{3000, 1200, 2300, 0.5, -0.2}})
+    for (const bool sea : {false, true})
+      for (const int order : {3, 5, 7}) {
+        SCOPED_TRACE("order " + std::to_string(order) + (sea ? " below water" : ""));
+        Lab<double>::Setup setup;
+        setup.medium = of_rocks(32, [&](int, int k) {
+          return sea && k < 16 ? Material{1500, 0, 1000} : rock;
+        });
+        setup.order = order;
+        setup.edges = all_edges(EdgeLaw::free);
+        Lab<double> lab(setup);
+        double before = lab.energy();
+        for (int n = 0; n < (long_form() ? 10 : 3); ++n) {
+          for (int k = 0; k < 1000; ++k) lab.step();
+          const double now = lab.energy();
+          ASSERT_LT(now, before) << n;
+          before = now;
+        }
+      }
+}
+
+}  // namespace slipwave

@@ -1,0 +1,287 @@
+// Waves in anisotropic rock against plane-wave (wave number) solutions, symmetry and each other.
+#include <gtest/gtest.h>
+
+#include "lab.hpp"
+#include "layer_stack.hpp"
+#include "model/anisotropy.hpp"
+#include "plain_and_tiled.hpp"
+#include "shared_out.hpp"
+#include "solver/simulation.hpp"
+#include "vti_stack.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr double peak_hz = 20;
+/// A shale, a sandstone (Thomsen 1986, as Mesaverde and Taylor) and rocks that show more: epsilon below
+/// delta, and an elliptical one.
+constexpr Material shale{3000, 1600, 2300, 0.2, 0.1}, sandstone{3370, 1830, 2500, 0.11, -0.035},
+    crossed{3200, 1700, 2400, -0.05, 0.2}, elliptical{2800, 1500, 2200, 0.18, 0.18},
+    hard{4200, 2300, 2600, 0.1, 0.15}, water{1500, 0, 1000};
+
+VtiStack::Layer layer_of(const Material& material) { return {stiffness_of(material), material.rho}; }
+
+/// Flat layers in a box that absorbs, or has a free surface; all in units of cells of the step.
+struct Stack {
+  std::vector<Material> layers = {shale};
+  std::vector<double> tops_m;
+  bool free_surface = false;
+  std::string kind = "force:0.6,0.8";
+  double source_m = 0;
+  std::vector<VtiStack::Receiver> receivers;  // x from the source
+  double duration_s = 0.4;
+  double cells = 24;  // per wavelength of the slowest wave at the peak
+  int order = 5;
+  double cfl = 0.9;
+  double depth_m = 1000, width_m = 1200;
+
+  double spacing() const {
+    double slowest = 1e9;
+    for (const auto& layer : layers) {
+      const auto speeds = slowest_speeds(layer);
+      slowest = std::min(slowest, speeds.s > 0 ? speeds.s : speeds.p);
+    }
+    // Interfaces lie on faces: a whole number of cells in 20 m.
+    return 20 / std::ceil(20 * cells * peak_hz / slowest);
+  }
+  Scene<2> scene() const {
+    const double h = spacing();
+    Scene<2> scene;
+    const Grid<2> grid{{std::llround(width_m / h), std::llround(depth_m / h)}, h, {0, 0}};
+    Medium<2> medium(grid);
+    medium[Property::epsilon] = medium[Property::delta] = Field<2>(grid);
+    for (std::int64_t n = 0; n < grid.size(); ++n) {
+      std::size_t layer = 0;
+      for (const double top : tops_m) layer += grid.centre(1, grid.index(n)[1]) > top;
+      put(medium, std::size_t(n), layers[layer]);
+    }
+    scene.model.medium = medium;
+    const double x = width_m / 2;
+    scene.survey.sources = {{{x, source_m}, parse_mechanism<2>(kind), parse_wavelet("ricker:20"), 1e6}};
+    for (const auto& at : receivers) scene.survey.receivers_m.push_back({x + at.x, at.z});
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    if (free_surface) scene.edges[1][0] = EdgeLaw::free;
+    scene.numerics.order = order;
+    scene.numerics.cfl = cfl;
+    scene.recording = {{Component::vx, Component::vz}, duration_s, 0.001};
+    check(scene);
+    return scene;
+  }
+  VtiStack exact() const {
+    VtiStack stack;
+    for (const auto& layer : layers) stack.layers.push_back(layer_of(layer));
+    stack.tops_m = tops_m, stack.free_surface = free_surface, stack.source_m = source_m;
+    if (kind == "explosion") stack.explosion = 1;
+    if (kind == "force:0.6,0.8") stack.force = {0.6, 0.8};
+    if (kind == "moment:0,0,1") stack.couple = 1;
+    return stack;
+  }
+  /// Of all traces together.
+  double error() const {
+    const auto gather = shoot(scene(), 1);
+    const auto exact_traces = exact().ricker(peak_hz, 0.001, std::size_t(gather.axis.count), receivers);
+    std::vector<double> found, wanted;
+    for (std::size_t n = 0; n < gather.traces.size(); ++n) {
+      const auto& samples = gather.traces[n].samples;
+      const auto& wave = exact_traces[n % receivers.size()][n / receivers.size()];
+      found.insert(found.end(), samples.begin(), samples.end());
+      for (const double value : wave) wanted.push_back(1e6 * value);
+    }
+    return relative_error(found, wanted);
+  }
+};
+
+/// Receivers at a distance in all directions but that along x.
+std::vector<VtiStack::Receiver> around(double z, double distance_m) {
+  std::vector<VtiStack::Receiver> all;
+  for (const double degrees : {0., 20., 40., 60., 75., 105., 150.}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    all.push_back({distance_m * std::sin(angle), z + distance_m * std::cos(angle)});
+  }
+  return all;
+}
+
+TEST(VtiStack, OfIsotropicLayersIsThatOfPotentials) {
+  // Two methods that share nothing: roots of the Christoffel equation, and potentials with closed direct
+  // waves.
+  constexpr Rock over{3000, 1600, 2200}, under{4500, 2250, 2500}, sea{1500, 0, 1000};
+  const auto isotropic = [](const Rock& rock) { return layer_of(Material{rock.vp, rock.vs, rock.rho}); };
+  const std::vector<LayerStack::Receiver> places = {{150, 30}, {-80, 170}, {200, 250}};
+  for (const bool explosion : {true, false}) {
+    const auto closed =
+        LayerStack{{over, under}, {0, 200}, true, 100, explosion, {0.6, 0.8}}.ricker(15, 0.001, 300, places);
+    VtiStack stack{{isotropic(over), isotropic(under)}, {200}, true, 100};
+    if (explosion) stack.explosion = 1;
+    if (!explosion) stack.force = {0.6, 0.8};
+    const auto found = stack.ricker(15, 0.001, 300, {{150, 30}, {-80, 170}, {200, 250}});
+    for (std::size_t n = 0; n < places.size(); ++n)
+      for (std::size_t row = 0; row < 2; ++row)
+        EXPECT_LT(relative_error(found[n][row], closed[n][row]), 2e-5) << n;
+  }
+  const auto closed = LayerStack{{sea, over}, {0, 200}, true, 100}.ricker(15, 0.001, 300, places);
+  VtiStack stack{{isotropic(sea), isotropic(over)}, {200}, true, 100};
+  stack.explosion = 1;
+  const auto found = stack.ricker(15, 0.001, 300, {{150, 30}, {-80, 170}, {200, 250}});
+  for (std::size_t n = 0; n < places.size(); ++n)
+    for (std::size_t row = 0; row < 2; ++row)
+      EXPECT_LT(relative_error(found[n][row], closed[n][row]), 2e-5) << n;
+}
+
+TEST(Anisotropy, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
+  for (const auto& rock : {shale, sandstone, crossed, elliptical})
+    for (const std::string kind : {"force:0.6,0.8", "explosion", "moment:0,0,1"}) {
+      if ((rock == sandstone || rock == elliptical) && kind != "explosion") continue;
+      Stack space;
+      space.layers = {rock}, space.kind = kind;
+      space.source_m = 500 + space.spacing() / 2, space.receivers = around(space.source_m, 350);
+      EXPECT_LT(space.error(), 0.007) << rock.epsilon << ' ' << rock.delta << ' ' << kind;
+    }
+}
+
+TEST(Anisotropy, OfTwoRocksReflectsAndTransmitsAsPlaneWaves) {
+  for (const auto& [over, under] : {std::pair{shale, hard}, {crossed, sandstone}, {elliptical, crossed}}) {
+    Stack stack;
+    stack.layers = {over, under}, stack.tops_m = {560}, stack.source_m = 400 + stack.spacing() / 2;
+    stack.receivers = {{250, 300}, {0, 480}, {300, 500}, {200, 640}, {-250, 800}};
+    EXPECT_LT(stack.error(), 0.008);
+  }
+}
+
+TEST(Anisotropy, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
+  for (const auto& rock : {shale, crossed}) {
+    Stack surface;
+    surface.layers = {rock}, surface.free_surface = true, surface.source_m = 100, surface.depth_m = 600;
+    surface.receivers = {{250, 20}, {-150, 40}, {100, 300}, {300, 60}};
+    EXPECT_LT(surface.error(), 0.01);
+    Stack sea;
+    sea.layers = {water, rock}, sea.tops_m = {200}, sea.free_surface = true, sea.source_m = 100,
+    sea.depth_m = 700;
+    sea.kind = "explosion";
+    sea.receivers = {{250, 150}, {-150, 260}, {100, 400}, {300, 240}};
+    EXPECT_LT(sea.error(), 0.01);
+  }
+}
+
+TEST(Anisotropy, ConvergesAsIsotropicRockDoes) {
+  Stack coarse;
+  coarse.layers = {crossed}, coarse.cells = 12, coarse.order = 7, coarse.cfl = 0.9;
+  coarse.free_surface = true, coarse.source_m = 100, coarse.depth_m = 600;
+  coarse.receivers = {{250, 20}, {-150, 40}, {100, 300}};
+  auto fine = coarse;
+  fine.cells = 24;
+  const double h = coarse.spacing() / fine.spacing();
+  EXPECT_GT(std::log(coarse.error() / fine.error()) / std::log(h), 1.9);
+}
+
+TEST(Anisotropy, LeavesThroughAPmlWhereWavesTurn) {
+  // Medium III of Becache, Fauqueux & Joly (2003), whose S waves carry energy back while their fronts move
+  // on. A wave as long as the model is what layers feed: without damping (V6) it blows up within this time.
+  const auto rock = material_of_stiffness({4e9, 7.5e9, 20e9, 2e9}, 2500);
+  Stack space;
+  space.layers = {rock}, space.kind = "force:0.6,0.8";
+  space.depth_m = space.width_m = 750, space.source_m = 375, space.receivers = {{30, 405}};
+  space.cells = 5 * slowest_speeds(rock).s / (peak_hz * 25);
+  auto scene = space.scene();
+  scene.survey.sources[0].wavelet = parse_wavelet("ricker:1");
+  scene.recording.duration_s = 6000 * time_step_s(scene);
+  scene.recording.interval_s = 0.01;
+  const auto gather = shoot(scene, 1);
+  const auto& vx = gather.traces[0].samples;
+  double largest = 0, late = 0;
+  for (std::size_t n = 0; n < vx.size(); ++n)
+    (n < vx.size() / 2 ? largest : late) = std::max(n < vx.size() / 2 ? largest : late, std::abs(vx[n]));
+  EXPECT_LT(late, 1e-3 * largest);
+}
+
+TEST(Anisotropy, OfNoneIsIsotropicRock) {
+  // The same rock by the loops of anisotropic media, since one cell far away is anisotropic.
+  Stack stack;
+  stack.layers = {{3000, 1600, 2300}, {2500, 1200, 2100}}, stack.tops_m = {300}, stack.free_surface = true;
+  stack.cells = 10, stack.source_m = 100, stack.receivers = {{250, 60}, {-150, 340}}, stack.depth_m = 500;
+  auto scene = stack.scene();
+  const auto isotropic = shoot(scene, 1);
+  scene.model.medium[Property::epsilon][0] = 1e-6F;
+  const auto found = shoot(scene, 1);
+  for (std::size_t n = 0; n < found.traces.size(); ++n)
+    EXPECT_LT(relative_error(found.traces[n].samples, isotropic.traces[n].samples), 1e-5);
+}
+
+TEST(Anisotropy, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
+  Stack stack;
+  stack.layers = {shale}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 500;
+  stack.receivers = {{150, 0}, {300, 0}};
+  auto scene = stack.scene();
+  scene.recording.components = {Component::exx, Component::ezz};
+  const auto gather = shoot(scene, 1);
+  const auto c = stiffness_of(shale);
+  for (std::size_t n = 0; n < 2; ++n) {
+    auto wanted = gather.traces[n].samples;
+    for (auto& value : wanted) value *= -c.c13 / c.c33;
+    EXPECT_LT(relative_error(gather.traces[2 + n].samples, wanted), 1e-4);
+  }
+}
+
+/// Blocks of any anisotropic rock, void and water, sources and slip among them.
+Scene<2> blocks(std::int64_t nx = 150, std::int64_t nz = 90) {
+  const Grid<2> grid{{nx, nz}, 5, {0, 0}};
+  Scene<2> scene;
+  Medium<2> medium(grid);
+  medium[Property::epsilon] = medium[Property::delta] = Field<2>(grid);
+  scene.model.fracture = Field<2, std::uint8_t>(grid);
+  const Material kinds[] = {shale, crossed, sandstone, {3000, 1500, 2200}};
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto [i, k] = grid.index(n);
+    const bool sea = k < 12;
+    put(medium, std::size_t(n), sea ? water : kinds[i < 20 ? 3 : (i / 11 * (k / 40) + k / 30) % 3]);
+    scene.model.fracture[std::size_t(n)] = k >= 40 && k < 50 && i >= 30 && i < 90;
+  }
+  scene.model.medium = medium;
+  scene.model.fracture_sets = {{"cracks", {{{0, 1}, 0.5, 1000, 0}}}};
+  scene.survey.sources = {{{302, 160}, parse_mechanism<2>("force:1,1"), parse_wavelet("ricker:40"), 1e9}};
+  scene.survey.receivers_m = {{250, 130}, {400, 261.3}, {40, 362}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz, Component::p}, 0.08, 0.001};
+  return scene;
+}
+
+TEST(Anisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
+  for (const int time_order : {2, 4}) {
+    SCOPED_TRACE(std::to_string(time_order));
+    auto scene = blocks();
+    scene.numerics.time_order = time_order;
+    scene.numerics.double_precision = time_order == 4;
+    scene.numerics.order = time_order == 4 ? 7 : 5;
+    expect_same(scene);
+  }
+}
+
+TEST(Anisotropy, GivesTheBitsOfOneProcessOnSeveral) {
+  // The first ones hold water and isotropic rock only.
+  auto scene = blocks(100, 200);
+  auto& medium = scene.model.medium;
+  for (std::size_t cell = 0; cell < std::size_t(100 * 120); ++cell)
+    medium[Property::epsilon][cell] = medium[Property::delta][cell] = 0;
+  const auto alone = all_samples(shoot(scene, 1));
+  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
+}
+
+TEST(Anisotropy, DoesNotDependOnWhichWayItIsShot) {
+  // Reciprocity of forces, through water and blocks of rock.
+  auto scene = blocks();
+  scene.with_slip = false;
+  scene.numerics.double_precision = true;
+  scene.recording.components = {Component::vx, Component::vz};
+  scene.recording.duration_s = 0.2;
+  const Point<2> one{302.5, 162.5}, other{427.5, 352.5};
+  const auto shot = [&](const Point<2>& from, const Point<2>& to, const std::string& kind) {
+    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<2>(kind);
+    scene.survey.receivers_m = {to};
+    return shoot(scene, 1);
+  };
+  const auto there = shot(one, other, "force:1,0"), back = shot(other, one, "force:0,1");
+  EXPECT_LT(relative_error(there.traces[1].samples, back.traces[0].samples), 0.01);
+}
+
+}  // namespace
+}  // namespace slipwave::solver
