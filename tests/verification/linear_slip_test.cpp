@@ -103,13 +103,21 @@ struct Setup {
 struct Amplitudes {
   Complex vx[2], vz[2];
 };
-constexpr std::int64_t away = 10;
+
+/// Cells from the row to where waves are measured: where P waves die away with the distance not so far that
+/// they are lost in the errors of the others.
+std::int64_t cells_away(const Setup& of) {
+  const double decay = across(false, of.omega(), of.kx()).imag();
+  return decay > 0 ? std::clamp<std::int64_t>(std::llround(1 / (decay * of.h)), 3, 10) : 10;
+}
 
 Amplitudes run(const Setup& of, const Plane& plane) {
   const double kz = across(of.of_s, of.omega(), of.kx()).real(), speed = of.of_s ? rock.vs : rock.vp;
   // The wave is a Gaussian group of waves that ends before it comes to the row.
   const double width_m = 0.8 * 2 * pi / kz, h = of.h;
-  const auto taper = std::int64_t(std::max(1.3 * rock.vp / of.hz, 5 / kz) / h);
+  // Twice the wavelength along z, and from one end to the other waves fall by exp(-5), whatever the cells.
+  const auto taper = std::int64_t(std::max(1.3 * rock.vp / of.hz, 13 / kz) / h);
+  const double speed_along_z = speed * speed * kz / of.omega();
   const auto row = std::int64_t(9.5 * width_m / h) + taper, nz = row + std::int64_t(2 * width_m / h) + taper;
   Scene<2> scene;
   scene.model.medium = uniform_medium(of.nx, nz, h, rock);
@@ -120,6 +128,7 @@ Amplitudes run(const Setup& of, const Plane& plane) {
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
   for (std::int64_t i = 0; i < of.nx; ++i) scene.model.fracture({i, row}) = 1;
   const double dt_s = of.cfl * h / rock.vp;
+  const auto away = cells_away(of);
   using L = Lab<float>;
   L lab(scene.model.medium, edges_all(EdgeLaw::mirror), of.order, dt_s);
   const bool gives = system.compliance.gives();
@@ -147,7 +156,8 @@ Amplitudes run(const Setup& of, const Plane& plane) {
       lab(L::szz, i, k) = float(at.szz.real() * std::cos(x));
       lab(L::sxz, i, k) = float((i1 * at.sxz).real() * std::sin(x));
     }
-  const double end_s = 9.5 * width_m / (speed * kz * speed / of.omega());
+  const double end_s = 9.5 * width_m / speed_along_z;
+  const double damping_per_s = 15 * speed_along_z / (double(taper) * h);
   Amplitudes found{};
   for (std::int64_t n = 0; double(n) * dt_s < end_s; ++n) {
     lab.step();
@@ -165,7 +175,7 @@ Amplitudes run(const Setup& of, const Plane& plane) {
     for (std::int64_t k = 0; k < nz; ++k) {
       const auto depth = double(std::max(taper - k, k - (nz - 1 - taper))) / double(taper);
       if (depth <= 0) continue;
-      const auto keep = float(1 - 0.05 * depth * depth);
+      const auto keep = float(std::exp(-damping_per_s * dt_s * depth * depth));
       for (const auto field : {L::vx, L::vz, L::sxx, L::szz, L::sxz})
         for (std::int64_t i = 0; i < of.nx; ++i) lab(field, i, k) *= keep;
     }
@@ -175,7 +185,7 @@ Amplitudes run(const Setup& of, const Plane& plane) {
 
 Coefficients measured(const Setup& of, const Plane& plane) {
   const auto with = run(of, plane), without = run(of, {0, 0});
-  const double omega = of.omega(), kx = of.kx(), distance = double(away) * of.h;
+  const double omega = of.omega(), kx = of.kx(), distance = double(cells_away(of)) * of.h;
   const Complex kp = across(false, omega, kx), ks = across(true, omega, kx), k_in = of.of_s ? ks : kp;
   Complex p[2], s[2];
   for (const int side : {0, 1}) {
