@@ -7,6 +7,7 @@
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
 #include "model/compliance.hpp"
+#include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/prestress.hpp"
@@ -27,7 +28,7 @@ struct Settings {
   std::string law;
   ComplianceText compliance;
   std::optional<double> for_hz, strain_rate;
-  bool block = false, opening = false;
+  bool block = false, opening = false, effective = false;
   std::string prestress;
   std::string name;
   std::string output = "-";
@@ -59,6 +60,9 @@ void declare_laws(cli::Options& options, Settings& settings) {
   options.add("aspect", settings.compliance.aspect, "A", "thickness of the cracks over their diameter");
   options.add("fill", settings.compliance.fill_pa, "PA",
               "bulk modulus of the fluid in the cracks: water 2.2e9 [0: dry]");
+  options.add("effective", settings.effective,
+              "change the rock instead: speeds, epsilon and delta that it has with level or upright planes, "
+              "for waves much longer than the spacing");
 }
 
 void declare(cli::Options& options, Settings& settings) {
@@ -229,6 +233,17 @@ void check_friction(const Settings& s) {
   if (s.opening) refuse("--opening needs --friction: planes that open carry no tension, springs do");
 }
 
+/// Throws a usage Error where a rock that is changed contradicts what belongs to a fracture set.
+void check_effective(const Settings& s) {
+  if (!s.effective) return;
+  for (const auto& [name, given] : {std::pair{"friction", s.friction.has_value()},
+                                    {"prestress", !s.prestress.empty()},
+                                    {"name", !s.name.empty()}})
+    if (given)
+      refuse("found --effective and --" + std::string(name) +
+             ", which is of a fracture set; --effective makes none");
+}
+
 template <int D>
 SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
   SlipSystem<D> system = {normal, settings.friction.value_or(0), settings.viscosity_s.value_or(0),
@@ -258,32 +273,51 @@ void put_viscosity(const Settings& settings, Model<D>& model, const cli::Context
 }
 
 template <int D>
-void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
-              const cli::Context& context) {
-  FractureSet<D> set;
-  for (const auto& normal : normals_of<D>(settings)) set.systems.push_back(system_of<D>(settings, normal));
+FractureCount change_rock(const Settings&, Model<D>&, const std::vector<SlipSystem<D>>&, const RegionIn<D>&) {
+  throw Error("--effective needs a model in 2-D; leave it out and the planes are springs", ErrorKind::usage);
+}
+template <>
+FractureCount change_rock<2>(const Settings&, Model<2>& model, const std::vector<SlipSystem<2>>& systems,
+                             const RegionIn<2>& region) {
+  return in_place("--effective", [&] { return make_effective(model, systems, region.contains); });
+}
+
+/// Adds the set just described, with its stress and viscosity, and says how many cells it has.
+template <int D>
+FractureCount put_set(const Settings& settings, Model<D>& model, const std::vector<SlipSystem<D>>& systems,
+                      const RegionIn<D>& region, const cli::Context& context) {
   const auto prestress = in_place("--prestress", [&] {
     return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
   });
-  const auto region = bodies_of<D>(settings, region_of<D>(settings), set.systems[0].normal);
-  auto model = read_model<D>(file);
-  set.name =
-      settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
-  const auto input = settings.model == "-" ? "standard input" : settings.model;
-  // Whoever built the model decided about vs > vp/sqrt(2).
-  in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
+  FractureSet<D> set{settings.name, systems};
+  if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
   const auto count = add_fractures<D>(model, set, region.contains);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
   put_viscosity(settings, model, context);
+  context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
+               std::to_string(count.taken) + " of them from earlier sets");
+  return count;
+}
+
+template <int D>
+void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
+              const cli::Context& context) {
+  std::vector<SlipSystem<D>> systems;
+  for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));
+  const auto region = bodies_of<D>(settings, region_of<D>(settings), systems[0].normal);
+  auto model = read_model<D>(file);
+  const auto input = settings.model == "-" ? "standard input" : settings.model;
+  // Whoever built the model decided about vs > vp/sqrt(2).
+  in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
+  const auto count = settings.effective ? change_rock<D>(settings, model, systems, region)
+                                        : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
-  warn_of_large_cells(model, context);
+  if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) +
                  " cells are fractured; a region within rock (--box, --polygon) has none");
   }
-  context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
-               std::to_string(count.taken) + " of them from earlier sets");
   append_history(model.history, context.command_line);
   model.source = context.version;
   write_model(model, out);
@@ -294,6 +328,7 @@ void run(const Settings& settings, const cli::Context& context) {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
   check_friction(settings);
+  check_effective(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
   const auto file = NetcdfFile::open(settings.model);
   if (dimension_of(file) == 3) return fracture<3>(settings, file, out, context);

@@ -121,8 +121,8 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 }
 
 ModelEffect model_effect_named(const std::string& name) {
-  const char* const names[] = {"slip",    "friction",  "viscosity",   "cohesion",
-                               "opening", "prestress", "attenuation", "anisotropy", "compliance"};
+  const char* const names[] = {"slip",      "friction",    "viscosity",  "cohesion",  "opening",
+                               "prestress", "attenuation", "anisotropy", "compliance"};
   constexpr int count = int(std::size(names));
   std::string all;
   for (int n = 0; n < count; ++n) {
@@ -151,6 +151,29 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
 }
 
 template <int D>
+std::vector<std::size_t> find_solid_cells(const Model<D>& model,
+                                          const std::function<bool(const Point<D>&)>& inside,
+                                          FractureCount& count) {
+  std::vector<std::size_t> cells;
+  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
+    const auto at = model.grid().index(n);
+    Point<D> centre{};
+    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
+    centre[D - 1] = model.grid().depth(at);
+    if (!inside(centre)) continue;
+    if (model.medium.is_solid(std::size_t(n)))
+      cells.push_back(std::size_t(n));
+    else
+      ++count.left;
+  }
+  count.marked = decltype(count.marked)(cells.size());
+  if (cells.empty())
+    throw Error("none of the " + std::to_string(count.left) +
+                " cells in the region is solid, at least one must be");
+  return cells;
+}
+
+template <int D>
 FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
                             const std::function<bool(const Point<D>&)>& inside) {
   constexpr std::size_t most_sets = 255;  // the code of a cell is one byte
@@ -168,27 +191,13 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
       }
     }
   }
+  FractureCount count;
+  const auto cells = find_solid_cells(model, inside, count);
   if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(model.grid());
   const auto code = std::uint8_t(model.fracture_sets.size() + 1);
-  FractureCount count;
-  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
-    const auto at = model.grid().index(n);
-    Point<D> centre{};
-    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
-    centre[D - 1] = model.grid().depth(at);
-    if (!inside(centre)) continue;
-    const auto cell = std::size_t(n);
-    if (!model.medium.is_solid(cell)) {
-      ++count.left;
-      continue;
-    }
-    ++count.marked;
+  for (const auto cell : cells) {
     count.taken += model.fracture[cell] != 0;
     model.fracture[cell] = code;
-  }
-  if (count.marked == 0) {
-    throw Error("none of the " + std::to_string(count.left) +
-                " cells in the region is solid, at least one must be");
   }
   model.fracture_sets.push_back(set);
   return count;
@@ -204,6 +213,12 @@ template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
 template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
 template void remove_effect(Model<2>&, ModelEffect);
 template void remove_effect(Model<3>&, ModelEffect);
+template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
+                                                      const std::function<bool(const Point<2>&)>&,
+                                                      FractureCount&);
+template std::vector<std::size_t> find_solid_cells<3>(const Model<3>&,
+                                                      const std::function<bool(const Point<3>&)>&,
+                                                      FractureCount&);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

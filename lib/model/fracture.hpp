@@ -73,12 +73,19 @@ ModelEffect model_effect_named(const std::string& name);
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect);
 
-/// How many cells a new fracture set took and did not take.
+/// How many cells a region of fractures took and did not take.
 struct FractureCount {
-  std::int64_t marked = 0;  // solid cells now of the new set
+  std::int64_t marked = 0;  // solid cells, now of the new set
   std::int64_t left = 0;    // fluid and void cells in the region, left intact
   std::int64_t taken = 0;   // marked cells that belonged to an earlier set
 };
+
+/// The solid cells whose centres, in true depth, are inside(centre); says how many there are and how many
+/// fluid and void ones. Throws Error when there is none.
+template <int D>
+std::vector<std::size_t> find_solid_cells(const Model<D>& model,
+                                          const std::function<bool(const Point<D>&)>& inside,
+                                          FractureCount& count);
 
 /// Adds `set` to the model and marks with it the solid cells whose centres are inside(centre); an earlier set
 /// gives way. Fluid and void cells stay intact: nothing slips there. Throws Error when no solid cell is

@@ -267,6 +267,13 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
               mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
                   " a shot" +
                   (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
+  if (!plan.slip.empty()) {
+    const auto others = plan.slip.size() - 1;
+    report.text("slip", plan.slip.front() + (others == 0   ? ""
+                                             : others == 1 ? "; with -v also of another fracture set"
+                                                           : "; with -v also of " + std::to_string(others) +
+                                                                 " other fracture sets"));
+  }
   return report;
 }
 
@@ -299,7 +306,7 @@ Report report_of(const Plan<D>& plan) {
   report.number("processor time", plan.seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
-  if (!plan.slip.empty()) report.texts("slip", plan.slip);
+  if (plan.slip.size() > 1) report.texts("slip of a set", plan.slip);
   std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
     entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");

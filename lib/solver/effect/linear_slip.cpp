@@ -4,41 +4,64 @@
 #include <cmath>
 #include <utility>
 
+#include "model/anisotropy.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
 namespace {
 
-struct Lame {
-  double lambda, mu;
-};
+/// Compliance of planes in a rock. Of cracks it is that in the isotropic rock with its vertical speeds.
 template <int D>
-Lame lame_of(const Medium<D>& medium, std::size_t cell) {
-  const double rho = double(medium.rho[cell]), vp = double(medium.vp[cell]), vs = double(medium.vs[cell]);
-  const double mu = rho * vs * vs;
-  return {rho * vp * vp - 2 * mu, mu};
+CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_friction, const Stiffness& rock) {
+  return compliance_of<D>(system, below_friction, rock.c33 - 2 * rock.c55, rock.c55);
 }
 
 template <int D>
 using Tensor = SymmetricTensor<D, double>;
 
-/// Stress that belongs to a strain.
+/// Stress that belongs to a strain. In 3-D rock is isotropic.
 template <int D>
-Tensor<D> stress_of(const Tensor<D>& strain, const Lame& rock) {
+Tensor<D> stress_of(const Tensor<D>& strain, const Stiffness& rock) {
   Tensor<D> stress;
   double trace = 0;
   for (int i = 0; i < D; ++i) trace += strain(i, i);
-  for (std::size_t c = 0; c < strain.values.size(); ++c) stress.values[c] = 2 * rock.mu * strain.values[c];
-  for (int i = 0; i < D; ++i) stress(i, i) += rock.lambda * trace;
+  for (std::size_t c = 0; c < strain.values.size(); ++c) stress.values[c] = 2 * rock.c55 * strain.values[c];
+  for (int i = 0; i < D; ++i) {
+    const double modulus = i + 1 == D ? rock.c33 : rock.c11;
+    stress(i, i) = rock.c13 * (trace - strain(i, i)) + modulus * strain(i, i);
+  }
   return stress;
+}
+
+/// Strain that belongs to a stress.
+template <int D>
+Tensor<D> strain_of(const Tensor<D>& stress, const Stiffness& rock) {
+  Tensor<D> strain;
+  for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] = stress.values[c] / (2 * rock.c55);
+  if constexpr (D == 2) {
+    const double determinant = rock.c11 * rock.c33 - rock.c13 * rock.c13;
+    strain(0, 0) = (rock.c33 * stress(0, 0) - rock.c13 * stress(1, 1)) / determinant;
+    strain(1, 1) = (rock.c11 * stress(1, 1) - rock.c13 * stress(0, 0)) / determinant;
+  } else {
+    const double trace = stress(0, 0) + stress(1, 1) + stress(2, 2);
+    for (int i = 0; i < D; ++i)
+      strain(i, i) = (stress(i, i) - rock.c13 * trace / (3 * rock.c13 + 2 * rock.c55)) / (2 * rock.c55);
+  }
+  return strain;
+}
+
+/// Of a strain along the normal of planes, which are level or upright where rock is anisotropic.
+template <int D>
+double modulus_across(const Point<D>& normal, const Stiffness& rock) {
+  return std::abs(normal[D - 1]) > 0.5 ? rock.c33 : rock.c11;
 }
 
 /// Strain of the planes of all families under a stress, dashpots at rest.
 template <int D>
-Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Lame& rock) {
+Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Stiffness& rock) {
   Tensor<D> strain;
   for (const auto& system : set.systems) {
-    const auto of = compliance_of<D>(system, slides(set), rock.lambda, rock.mu);
+    const auto of = compliance_in_rock(system, slides(set), rock);
     const auto& n = system.normal;
     Point<D> tau;
     const double s_n = resolve<D, double>(n, stress, tau);
@@ -103,9 +126,10 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
 template <int D, class Real>
 void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-    const auto [lambda, mu] = lame_of(model_.medium, cell);
-    const double modulus = lambda + 2 * mu;
-    const auto of = compliance_of<D>(group.set->systems[0], group.of.slides, lambda, mu);
+    const auto rock = stiffness_of(model_.medium, cell);
+    const auto& system = group.set->systems[0];
+    const double modulus = modulus_across<D>(system.normal, rock), mu = rock.c55;
+    const auto of = compliance_in_rock(system, group.of.slides, rock);
     const auto normal = slip::spring_step(modulus, of.normal, of.normal_damping, dt_s);
     const auto tangential = slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s);
     std::size_t at = place;
@@ -113,7 +137,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
       group.coefficients[at] = Real(value);
       at += group.places.stored();
     };
-    put(lambda / modulus);
+    put(rock.c13 / modulus);
     put(normal.of_end), put(tangential.of_end);
     if (group.of.damped)
       for (const auto& each : {normal, tangential}) put(each.left), put(each.of_start);
@@ -127,7 +151,7 @@ template <int D, class Real>
 void LinearSlip<D, Real>::add_crossing(Group& group) const {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-    const auto rock = lame_of(model_.medium, cell);
+    const auto rock = stiffness_of(model_.medium, cell);
     std::array<double, n * n> taken{}, with_rock{};
     for (std::size_t k = 0; k < n; ++k) {
       Tensor<D> stress;
@@ -231,31 +255,30 @@ std::vector<EffectShare> LinearSlip<D, Real>::shares() const {
 /// of several, which have no dashpots, strain is compliance times stress.
 template <int D, class Real>
 double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place, std::size_t cell) const {
-  const auto rock = lame_of(model_.medium, cell);
+  const auto rock = stiffness_of(model_.medium, cell);
   const auto taken = [&](std::size_t row) {
     return double(group.memory[row * group.places.stored() + place]) / unit_;
   };
   double energy = 0;
   if (group.of.one_family) {
-    const auto of = compliance_of<D>(group.set->systems[0], group.of.slides, rock.lambda, rock.mu);
+    const auto& system = group.set->systems[0];
+    const auto of = compliance_in_rock(system, group.of.slides, rock);
     for (std::size_t k = 0; k < D; ++k) {
-      const double modulus = k == 0 ? rock.lambda + 2 * rock.mu : rock.mu;
+      const double modulus = k == 0 ? modulus_across<D>(system.normal, rock) : rock.c55;
       const double compliance = k == 0 ? of.normal : of.tangential;
       if (compliance > 0) energy += std::pow(taken(k) / modulus, 2) / compliance / 2;
     }
     return energy;
   }
   Tensor<D> off;
-  double trace = 0;
   for (std::size_t c = 0; c < off.values.size(); ++c) off.values[c] = taken(c);
-  for (int i = 0; i < D; ++i) trace += off(i, i);
+  const auto strain = strain_of<D>(off, rock);
   auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
   const auto x = at[0];
   at[0] = 0;
   for (std::size_t c = 0; c < off.values.size(); ++c) {
-    const double even = c < D ? rock.lambda * trace / (D * rock.lambda + 2 * rock.mu) : 0;
     const double stress = double(state_.field_row(at, FieldRows<D>::normal_stress(0) + int(c))[x]) / unit_;
-    energy += (c < D ? 0.5 : 1) * stress * (off.values[c] - even) / (2 * rock.mu);
+    energy += (c < D ? 0.5 : 1) * stress * strain.values[c];
   }
   return energy;
 }
