@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "shell.hpp"
 
 namespace {
@@ -64,4 +66,54 @@ TEST_F(Compliance, IsNotNeededForAViscosityThatCompetesWithWaves) {
       said.err, "sw-fracture: viscosity 250000 s, at which slip competes with waves of 30 Hz and 1e-05 1/s"))
       << said.err;
   EXPECT_TRUE(has(done("sw-info v.nc"), "viscosity 250000 s"));
+}
+
+TEST_F(Compliance, MakesAnEffectiveMediumInsteadOfSprings) {
+  done(model + "-o m.nc");
+  const std::string level =
+      "sw-fracture m.nc --box 50:250,100:200 --dip 0 --stiffness 4e10,2e10 --spacing 1 ";
+  done(level + "--effective -o e.nc");
+  const auto info = done("sw-info e.nc");
+  EXPECT_TRUE(has(info, "epsilon")) << info;
+  EXPECT_FALSE(has(info, "compliance ")) << info;
+  // Other planes go into the same cells; waves take the way that springs leave them.
+  done("sw-fracture e.nc --box 50:250,100:200 --dip 90 --compliance 1e-12,1e-12 --spacing 1 -o both.nc");
+  done(level + "-o s.nc");
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,250 --wavelet ricker:7 --time 0.4 --dt 0.002 -q ";
+  for (const std::string name : {"m", "e", "s", "both"})
+    done("sw-shoot " + name + ".nc" + shot + "-o " + name + ".sgy");
+  done("sw-compare e.sgy s.sgy --tolerance 0.02");
+  EXPECT_NE(run("sw-compare m.sgy s.sgy --tolerance 0.05").code, 0);
+  EXPECT_NE(run("sw-compare both.sgy e.sgy --tolerance 0.005").code, 0);
+}
+
+TEST_F(Compliance, OfAnEffectiveMediumIsRefusedWhereItHasNone) {
+  done(model + "-o m.nc");
+  const std::string springs = "--compliance 1e-12,1e-12 --spacing 1 --effective ";
+  expect_misuse(
+      springs,
+      "--effective: planes dip by 30 degrees, expected level or upright ones (0 or 90); planes that "
+      "dip are springs");
+  expect_misuse(springs + "--dashpot 1,1",
+                "--effective: an effective medium has no dashpots, expected springs alone");
+  expect_misuse(springs + "--prestress 1e6",
+                "found --effective and --prestress, which is of a fracture set; --effective makes none");
+}
+
+TEST_F(Compliance, ThatSticksOrIsDryIsALineOfThePlan) {
+  done(model + "-o m.nc");
+  const auto slip = [&](const std::string& options, const std::string& strength) {
+    done("sw-fracture m.nc " + region + options + " -q -o f.nc");
+    return done(
+        "sw-shoot f.nc --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --time 0.2 -q --plan "
+        "--amplitude " +
+        strength + " | grep '^  slip ' || true");
+  };
+  EXPECT_TRUE(has(slip("--friction 0.5 --viscosity 0", "1e6"), "slip like dry friction"));
+  EXPECT_TRUE(has(slip("--friction 0.5 --viscosity 1e20", "1e6"), "hardly slip"));
+  const auto stuck = slip("--friction 0.6 --viscosity 1 --prestress lithostatic", "1e6");
+  EXPECT_TRUE(has(stuck, "can not slip")) << stuck;
+  EXPECT_EQ(std::count(stuck.begin(), stuck.end(), '\n'), 1);
+  EXPECT_EQ(slip("--compliance 1e-12,1e-12 --spacing 1", "1e6"), "");
 }
