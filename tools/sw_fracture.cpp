@@ -6,10 +6,13 @@
 #include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "model/compliance.hpp"
+#include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/prestress.hpp"
 #include "model/region.hpp"
+#include "model/slip_regime.hpp"
 
 using namespace slipwave;
 
@@ -21,13 +24,46 @@ struct Settings {
   int count = 0, seed = 1;
   std::string body;
   std::vector<std::string> dips, normals;
-  double friction = 0, viscosity_s = 0, strength_pa = 0;
-  std::string law = "coulomb";
-  bool block = false, opening = false;
+  std::optional<double> friction, viscosity_s, strength_pa;
+  std::string law;
+  ComplianceText compliance;
+  std::optional<double> for_hz, strain_rate;
+  bool block = false, opening = false, effective = false;
   std::string prestress;
   std::string name;
   std::string output = "-";
 };
+
+/// What the planes do. What is usual: docs/slip.md.
+void declare_laws(cli::Options& options, Settings& settings) {
+  options.add("friction", settings.friction, "Q", "coefficient of friction; of rock 0.6 to 0.85");
+  options.add(
+      "viscosity", settings.viscosity_s, "ETA",
+      "viscosity of slip, s: above the strength by a share of 1 planes slip at 1/ETA; 0: dry friction; "
+      "see --for-frequency");
+  options.add("for-frequency", settings.for_hz, "HZ",
+              "instead of --viscosity: that at which slip competes with waves of HZ and --strain-rate");
+  options.add("strain-rate", settings.strain_rate, "RATE",
+              "peak strain rate of these waves, 1/s: of a velocity v of the ground v 2 pi HZ/vp");
+  options.add("strength", settings.strength_pa, "PA", "cohesion, Pa [0]");
+  options.add("law", settings.law, "LAW",
+              "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m [coulomb]");
+  options.add(
+      "compliance", settings.compliance.compliance, "ZN,ZT",
+      "planes give way like springs, below friction or without it: normal and tangential compliance of "
+      "a plane, m/Pa; usual 1e-14 to 1e-9");
+  options.add("stiffness", settings.compliance.stiffness, "KN,KT", "or its stiffness, Pa/m");
+  options.add("spacing", settings.compliance.spacing_m, "M", "distance between planes, m");
+  options.add("dashpot", settings.compliance.dashpot, "DN,DT", "dashpots beside these springs, Pa s/m");
+  options.add("crack-density", settings.compliance.crack_density, "E",
+              "or penny-shaped cracks: their number in a unit volume times radius cubed; usual 0.01 to 0.1");
+  options.add("aspect", settings.compliance.aspect, "A", "thickness of the cracks over their diameter");
+  options.add("fill", settings.compliance.fill_pa, "PA",
+              "bulk modulus of the fluid in the cracks: water 2.2e9 [0: dry]");
+  options.add("effective", settings.effective,
+              "change the rock instead: speeds, epsilon and delta that it has with level or upright planes, "
+              "for waves much longer than the spacing");
+}
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
@@ -50,11 +86,7 @@ void declare(cli::Options& options, Settings& settings) {
       "(90: +y); repeat for two families of planes, in 3-D up to three");
   options.add("normal", settings.normals, "NX,NZ",
               "or their normal, of any length; z points down; in 3-D NX,NY,NZ");
-  options.add("friction", settings.friction, "Q", "coefficient of friction");
-  options.add("viscosity", settings.viscosity_s, "ETA", "viscosity of slip, s");
-  options.add("strength", settings.strength_pa, "PA", "cohesion, Pa");
-  options.add("law", settings.law, "LAW",
-              "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m");
+  declare_laws(options, settings);
   options.add("block", settings.block, "blocks: add planes at right angles to those of --dip or --normal");
   options.add("opening", settings.opening, "planes open under tension; otherwise they carry it");
   options.add(
@@ -64,9 +96,8 @@ void declare(cli::Options& options, Settings& settings) {
       "positive");
   options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
-  for (const char* name : {"friction", "viscosity"}) options.require(name);
-  options.common({"box", "polygon", "slab", "dip", "normal", "friction", "viscosity", "strength", "prestress",
-                  "name", "output"});
+  options.common({"box", "polygon", "slab", "dip", "normal", "friction", "viscosity", "compliance", "spacing",
+                  "prestress", "name", "output"});
 }
 
 /// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".
@@ -176,36 +207,117 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
                " m (--step of the model) or a longer slip distance (--law)");
 }
 
+void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
+
+/// Throws a usage Error where friction is half given or contradicts the rest.
+void check_friction(const Settings& s) {
+  const bool proposed = s.for_hz || s.strain_rate;
+  if (proposed && !(s.for_hz && s.strain_rate)) refuse("--for-frequency and --strain-rate need each other");
+  if (proposed && s.viscosity_s) refuse("found --viscosity and --for-frequency, give one of both");
+  for (const auto& [name, value] : {std::pair{"for-frequency", s.for_hz}, {"strain-rate", s.strain_rate}})
+    if (value && !(*value > 0))
+      refuse("--" + std::string(name) + ": found " + shown(*value) + ", expected it above zero");
+  if (s.friction && !s.viscosity_s && !proposed)
+    refuse("--viscosity is missing; expected --viscosity ETA, or --for-frequency HZ --strain-rate RATE");
+  if (s.friction) return;
+  if (!s.compliance.given())
+    refuse(
+        "--friction is missing; expected --friction Q, or planes that give way: --compliance ZN,ZT, "
+        "--stiffness KN,KT or --crack-density E");
+  if (s.viscosity_s || proposed || s.strength_pa || !s.law.empty())
+    refuse(std::string(s.viscosity_s   ? "--viscosity"
+                       : proposed      ? "--for-frequency"
+                       : s.strength_pa ? "--strength"
+                                       : "--law") +
+           " needs --friction");
+  if (s.opening) refuse("--opening needs --friction: planes that open carry no tension, springs do");
+}
+
+/// Throws a usage Error where a rock that is changed contradicts what belongs to a fracture set.
+void check_effective(const Settings& s) {
+  if (!s.effective) return;
+  for (const auto& [name, given] : {std::pair{"friction", s.friction.has_value()},
+                                    {"prestress", !s.prestress.empty()},
+                                    {"name", !s.name.empty()}})
+    if (given)
+      refuse("found --effective and --" + std::string(name) +
+             ", which is of a fracture set; --effective makes none");
+}
+
 template <int D>
-void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
-              const cli::Context& context) {
-  FractureSet<D> set;
-  for (const auto& normal : normals_of<D>(settings)) {
-    set.systems.push_back(
-        {normal, settings.friction, settings.viscosity_s, settings.strength_pa, settings.opening});
-    in_place("--law", [&] { set_friction_law(set.systems.back(), settings.law); });
-  }
+SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
+  SlipSystem<D> system = {normal, settings.friction.value_or(0), settings.viscosity_s.value_or(0),
+                          settings.strength_pa.value_or(0), settings.opening};
+  if (!settings.friction)
+    system.law = FrictionLaw::none;
+  else if (!settings.law.empty())
+    in_place("--law", [&] { set_friction_law(system, settings.law); });
+  if (settings.compliance.given()) system.compliance = parse_compliance(settings.compliance);
+  return system;
+}
+
+/// Gives the set just made the viscosity at which slip competes with the wave asked for, and says it.
+template <int D>
+void put_viscosity(const Settings& settings, Model<D>& model, const cli::Context& context) {
+  if (!settings.for_hz) return;
+  const auto code = model.fracture_sets.size();
+  const auto found = in_place("--for-frequency", [&] {
+    return competing_slip(model, code, {*settings.for_hz, *settings.strain_rate});
+  });
+  for (auto& system : model.fracture_sets[code - 1].systems) system.viscosity_s = found.competing_viscosity_s;
+  context.say("viscosity " + shown(found.competing_viscosity_s, 3) +
+              " s, at which slip competes with waves of " + shown(*settings.for_hz) + " Hz and " +
+              shown(*settings.strain_rate) + " 1/s (strength " + shown(found.strength_pa, 3) +
+              " Pa); a tenth of it is near dry friction, ten "
+              "times as much hardly slips");
+}
+
+template <int D>
+FractureCount change_rock(const Settings&, Model<D>&, const std::vector<SlipSystem<D>>&, const RegionIn<D>&) {
+  throw Error("--effective needs a model in 2-D; leave it out and the planes are springs", ErrorKind::usage);
+}
+template <>
+FractureCount change_rock<2>(const Settings&, Model<2>& model, const std::vector<SlipSystem<2>>& systems,
+                             const RegionIn<2>& region) {
+  return in_place("--effective", [&] { return make_effective(model, systems, region.contains); });
+}
+
+/// Adds the set just described, with its stress and viscosity, and says how many cells it has.
+template <int D>
+FractureCount put_set(const Settings& settings, Model<D>& model, const std::vector<SlipSystem<D>>& systems,
+                      const RegionIn<D>& region, const cli::Context& context) {
   const auto prestress = in_place("--prestress", [&] {
     return parse_prestress<D>(settings.prestress.empty() ? "none" : settings.prestress);
   });
-  const auto region = bodies_of<D>(settings, region_of<D>(settings), set.systems[0].normal);
+  FractureSet<D> set{settings.name, systems};
+  if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
+  const auto count = add_fractures<D>(model, set, region.contains);
+  if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
+  put_viscosity(settings, model, context);
+  context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
+               std::to_string(count.taken) + " of them from earlier sets");
+  return count;
+}
+
+template <int D>
+void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
+              const cli::Context& context) {
+  std::vector<SlipSystem<D>> systems;
+  for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));
+  const auto region = bodies_of<D>(settings, region_of<D>(settings), systems[0].normal);
   auto model = read_model<D>(file);
-  set.name =
-      settings.name.empty() ? "fractures-" + std::to_string(model.fracture_sets.size() + 1) : settings.name;
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
-  const auto count = add_fractures<D>(model, set, region.contains);
-  if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
+  const auto count = settings.effective ? change_rock<D>(settings, model, systems, region)
+                                        : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
-  warn_of_large_cells(model, context);
+  if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) +
                  " cells are fractured; a region within rock (--box, --polygon) has none");
   }
-  context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
-               std::to_string(count.taken) + " of them from earlier sets");
   append_history(model.history, context.command_line);
   model.source = context.version;
   write_model(model, out);
@@ -215,6 +327,8 @@ void run(const Settings& settings, const cli::Context& context) {
   if (settings.polygon == "-" && settings.model == "-") {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
+  check_friction(settings);
+  check_effective(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
   const auto file = NetcdfFile::open(settings.model);
   if (dimension_of(file) == 3) return fracture<3>(settings, file, out, context);
@@ -228,8 +342,9 @@ int main(int argc, char** argv) {
   return cli::run_tool(
       argc, argv,
       {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
-       "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) --friction Q --viscosity ETA [-o "
-       "M]",
+       "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) (--friction Q --viscosity ETA | --compliance "
+       "ZN,ZT "
+       "--spacing M) [-o M]",
        "sw-fracture model.nc --box 500:2000,2000:2100 --dip 45 --friction 0.1 --viscosity 4e3 -o broken.nc"},
       [&](cli::Options& options) { declare(options, settings); },
       [&](const cli::Context& context) { run(settings, context); });

@@ -46,14 +46,23 @@ class Digest {
   }
   template <int D>
   void add(const SlipSystem<D>& system) {
-    const auto& [normal, friction, viscosity_s, strength_pa, opens, law, dynamic_friction, slip_distance_m] =
-        system;
+    const auto& [normal, friction, viscosity_s, strength_pa, opens, law, dynamic_friction, slip_distance_m,
+                 compliance] = system;
     add(normal);
     add(opens);
     for (const double constant : {friction, viscosity_s, strength_pa}) add(constant);
-    if (law == FrictionLaw::coulomb) return;
-    add(int(law));
-    for (const double constant : {dynamic_friction, slip_distance_m}) add(constant);
+    if (law != FrictionLaw::coulomb) {
+      add(int(law));
+      for (const double constant : {dynamic_friction, slip_distance_m}) add(constant);
+    }
+    if (compliance.gives()) add(compliance);
+  }
+  void add(const LinearCompliance& compliance) {
+    const auto& [normal, tangential, normal_dashpot, tangential_dashpot, spacing_m, crack_density, aspect,
+                 fill_pa] = compliance;
+    for (const double constant :
+         {normal, tangential, normal_dashpot, tangential_dashpot, spacing_m, crack_density, aspect, fill_pa})
+      add(constant);
   }
   template <int D>
   void add(const FractureSet<D>& set) {

@@ -7,8 +7,9 @@
 /// template parameter. Made for the inner loop, under the rules of slip_law.hpp.
 namespace slipwave {
 
-/// Names of the laws, in the order in which model files number them.
-enum class FrictionLaw { coulomb, slip_weakening };
+/// Names of the laws, in the order in which model files number them. Planes with none never slide: they give
+/// as far as their compliance says.
+enum class FrictionLaw { coulomb, slip_weakening, none };
 
 /// Constants of one slip system in the unit that stress has. A law reads those that it knows.
 template <class Real>

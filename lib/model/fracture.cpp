@@ -61,7 +61,16 @@ Point<D> unit_normal(const Point<D>& direction) {
   return normal;
 }
 
-std::string name_of(FrictionLaw law) { return law == FrictionLaw::coulomb ? "coulomb" : "slip-weakening"; }
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b) {
+  double product = 0;
+  for (std::size_t i = 0; i < D; ++i) product += a[i] * b[i];
+  return std::abs(product) < 1e-9;
+}
+
+std::string name_of(FrictionLaw law) {
+  return law == FrictionLaw::coulomb ? "coulomb" : law == FrictionLaw::none ? "none" : "slip-weakening";
+}
 
 template <int D>
 void set_friction_law(SlipSystem<D>& system, const std::string& text) {
@@ -112,12 +121,13 @@ CriticalLength critical_length(const Model<D>& model, std::size_t code) {
 }
 
 ModelEffect model_effect_named(const std::string& name) {
-  const char* const names[] = {"slip",    "friction",  "viscosity",   "cohesion",
-                               "opening", "prestress", "attenuation", "anisotropy"};
+  const char* const names[] = {"slip",      "friction",    "viscosity",  "cohesion",  "opening",
+                               "prestress", "attenuation", "anisotropy", "compliance"};
+  constexpr int count = int(std::size(names));
   std::string all;
-  for (int n = 0; n < 8; ++n) {
+  for (int n = 0; n < count; ++n) {
     if (name == names[n]) return ModelEffect(n);
-    all += (n == 0 ? "" : n == 7 ? " or " : ", ") + std::string(names[n]);
+    all += (n == 0 ? "" : n == count - 1 ? " or " : ", ") + std::string(names[n]);
   }
   throw Error("found '" + name + "', expected " + all, ErrorKind::usage);
 }
@@ -136,7 +146,31 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
       if (effect == ModelEffect::viscosity) system.viscosity_s = 0;
       if (effect == ModelEffect::cohesion) system.strength_pa = 0;
       if (effect == ModelEffect::opening) system.opens = false;
+      if (effect == ModelEffect::compliance) system.compliance = {};
     }
+}
+
+template <int D>
+std::vector<std::size_t> find_solid_cells(const Model<D>& model,
+                                          const std::function<bool(const Point<D>&)>& inside,
+                                          FractureCount& count) {
+  std::vector<std::size_t> cells;
+  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
+    const auto at = model.grid().index(n);
+    Point<D> centre{};
+    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
+    centre[D - 1] = model.grid().depth(at);
+    if (!inside(centre)) continue;
+    if (model.medium.is_solid(std::size_t(n)))
+      cells.push_back(std::size_t(n));
+    else
+      ++count.left;
+  }
+  count.marked = decltype(count.marked)(cells.size());
+  if (cells.empty())
+    throw Error("none of the " + std::to_string(count.left) +
+                " cells in the region is solid, at least one must be");
+  return cells;
 }
 
 template <int D>
@@ -157,27 +191,13 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
       }
     }
   }
+  FractureCount count;
+  const auto cells = find_solid_cells(model, inside, count);
   if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(model.grid());
   const auto code = std::uint8_t(model.fracture_sets.size() + 1);
-  FractureCount count;
-  for (std::int64_t n = 0; n < model.grid().size(); ++n) {
-    const auto at = model.grid().index(n);
-    Point<D> centre{};
-    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = model.grid().centre(int(axis), at[axis]);
-    centre[D - 1] = model.grid().depth(at);
-    if (!inside(centre)) continue;
-    const auto cell = std::size_t(n);
-    if (!model.medium.is_solid(cell)) {
-      ++count.left;
-      continue;
-    }
-    ++count.marked;
+  for (const auto cell : cells) {
     count.taken += model.fracture[cell] != 0;
     model.fracture[cell] = code;
-  }
-  if (count.marked == 0) {
-    throw Error("none of the " + std::to_string(count.left) +
-                " cells in the region is solid, at least one must be");
   }
   model.fracture_sets.push_back(set);
   return count;
@@ -185,12 +205,20 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
 
 template Point<2> unit_normal<2>(const Point<2>&);
 template Point<3> unit_normal<3>(const Point<3>&);
+template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
+template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
 template void set_friction_law<2>(SlipSystem<2>&, const std::string&);
 template void set_friction_law<3>(SlipSystem<3>&, const std::string&);
 template CriticalLength critical_length<2>(const Model<2>&, std::size_t);
 template CriticalLength critical_length<3>(const Model<3>&, std::size_t);
 template void remove_effect(Model<2>&, ModelEffect);
 template void remove_effect(Model<3>&, ModelEffect);
+template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
+                                                      const std::function<bool(const Point<2>&)>&,
+                                                      FractureCount&);
+template std::vector<std::size_t> find_solid_cells<3>(const Model<3>&,
+                                                      const std::function<bool(const Point<3>&)>&,
+                                                      FractureCount&);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

@@ -29,7 +29,11 @@ DipAndAzimuth dip_and_azimuth_of(const Point<3>& normal);
 template <int D>
 Point<D> unit_normal(const Point<D>& direction);
 
-/// "coulomb", "slip-weakening".
+/// Whether two unit normals are at right angles, as far as numbers in a file go.
+template <int D>
+bool at_right_angles(const Point<D>& a, const Point<D>& b);
+
+/// "coulomb", "slip-weakening", "none".
 std::string name_of(FrictionLaw law);
 
 /// Gives a system the law "coulomb" or "slip-weakening:QD:DC": friction falls from that of the system to QD
@@ -48,23 +52,40 @@ template <int D>
 CriticalLength critical_length(const Model<D>& model, std::size_t code);
 
 /// Effects of a model that can be left out of a run: slip, what it consists of, and attenuation.
-enum class ModelEffect { slip, friction, viscosity, cohesion, opening, prestress, attenuation, anisotropy };
+enum class ModelEffect {
+  slip,
+  friction,
+  viscosity,
+  cohesion,
+  opening,
+  prestress,
+  attenuation,
+  anisotropy,
+  compliance
+};
 
 /// Throws a usage Error that lists the names.
 ModelEffect model_effect_named(const std::string& name);
 
 /// Takes an effect out of a model: planes without friction (q = 0), viscosity (eta = 0: dry) or cohesion,
-/// planes that carry tension, no prestress, neither qp nor qs. `slip` leaves the model alone:
-/// Scene::with_slip.
+/// planes that carry tension, no prestress, neither qp nor qs, planes that do not give way as springs (where
+/// they do nothing else their cells are intact). `slip` leaves the model alone: Scene::with_slip.
 template <int D>
 void remove_effect(Model<D>& model, ModelEffect effect);
 
-/// How many cells a new fracture set took and did not take.
+/// How many cells a region of fractures took and did not take.
 struct FractureCount {
-  std::int64_t marked = 0;  // solid cells now of the new set
+  std::int64_t marked = 0;  // solid cells, now of the new set
   std::int64_t left = 0;    // fluid and void cells in the region, left intact
   std::int64_t taken = 0;   // marked cells that belonged to an earlier set
 };
+
+/// The solid cells whose centres, in true depth, are inside(centre); says how many there are and how many
+/// fluid and void ones. Throws Error when there is none.
+template <int D>
+std::vector<std::size_t> find_solid_cells(const Model<D>& model,
+                                          const std::function<bool(const Point<D>&)>& inside,
+                                          FractureCount& count);
 
 /// Adds `set` to the model and marks with it the solid cells whose centres are inside(centre); an earlier set
 /// gives way. Fluid and void cells stay intact: nothing slips there. Throws Error when no solid cell is

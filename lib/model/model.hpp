@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fracture/friction_policy.hpp"
+#include "fracture/linear_slip.hpp"
 #include "grid/field.hpp"
 #include "model/medium.hpp"
 
@@ -22,6 +23,9 @@ struct SlipSystem {
   // Of slip weakening: friction falls from q to this over that slip of the planes of a cell.
   double dynamic_friction = 0;
   double slip_distance_m = 0;
+  LinearCompliance compliance = {};
+
+  bool slides() const { return law != FrictionLaw::none; }
 };
 
 /// Cells that share slip systems: 1 to D systems.
@@ -30,6 +34,20 @@ struct FractureSet {
   std::string name;
   std::vector<SlipSystem<D>> systems;
 };
+
+/// Whether any planes of a set give way as springs; whether any may slide.
+template <int D>
+bool gives(const FractureSet<D>& set) {
+  for (const auto& system : set.systems)
+    if (system.compliance.gives()) return true;
+  return false;
+}
+template <int D>
+bool slides(const FractureSet<D>& set) {
+  for (const auto& system : set.systems)
+    if (system.slides()) return true;
+  return false;
+}
 
 /// What a model file holds.
 template <int D>

@@ -5,6 +5,7 @@
 #include "base/error.hpp"
 #include "model/anisotropy.hpp"
 #include "model/attenuation.hpp"
+#include "model/fracture.hpp"
 #include "model/model.hpp"
 #include "model/prestress.hpp"
 
@@ -141,6 +142,43 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
   }
 }
 
+/// The constants of planes that give way as springs.
+template <int D>
+void check_compliance(const SlipSystem<D>& system, const std::string& name) {
+  const auto& of = system.compliance;
+  const auto refuse_unless = [&](bool good, const std::string& what, double value, const std::string& rest) {
+    if (!good) throw Error(name + ": " + what + " is " + shown(value) + ", expected " + rest);
+  };
+  const std::pair<const char*, double> constants[] = {
+      {"normal compliance", of.normal_m_per_pa},    {"tangential compliance", of.tangential_m_per_pa},
+      {"normal dashpot", of.normal_dashpot_pa_s_m}, {"tangential dashpot", of.tangential_dashpot_pa_s_m},
+      {"spacing of planes", of.spacing_m},          {"crack density", of.crack_density},
+      {"aspect ratio of cracks", of.aspect},        {"bulk modulus of the fill", of.fill_pa}};
+  for (const auto& [what, value] : constants)
+    refuse_unless(value >= 0 && std::isfinite(value), what, value, "a finite number not below zero");
+  if (of.normal_m_per_pa > 0 || of.tangential_m_per_pa > 0)
+    refuse_unless(of.spacing_m > 0, "spacing of planes", of.spacing_m, "it above zero, in metres");
+  if (of.fill_pa > 0)
+    refuse_unless(of.aspect > 0 && of.aspect <= 1, "aspect ratio of cracks", of.aspect,
+                  "it above zero and at most 1");
+  if (system.opens && (of.gives() || !system.slides()))
+    throw Error(name + ": planes that open carry no tension, planes with a compliance do; give one of both");
+}
+
+/// What families of planes of one set can not have together.
+template <int D>
+void check_together(const FractureSet<D>& set, const std::string& name) {
+  if (!gives(set) || set.systems.size() == 1) return;
+  for (const auto& system : set.systems) {
+    if (system.compliance.damped())
+      throw Error(name + ": dashpots need one family of planes, found " + std::to_string(set.systems.size()));
+    if (slides(set) && (D == 3 || !at_right_angles<D>(set.systems.front().normal, set.systems.back().normal)))
+      throw Error(name +
+                  ": friction together with compliance needs one family of planes, in 2-D or two at "
+                  "right angles; give the others a set of their own");
+  }
+}
+
 template <int D>
 void check_set(const FractureSet<D>& set, std::size_t number) {
   const std::string name = "fracture set " + std::to_string(number) + " '" + set.name + "'";
@@ -162,7 +200,8 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
-    if (system.law == FrictionLaw::coulomb) continue;
+    check_compliance(system, name);
+    if (system.law != FrictionLaw::slip_weakening) continue;
     check_constant("dynamic friction", system.dynamic_friction);
     if (system.dynamic_friction > system.friction)
       throw Error(name + ": dynamic friction is " + shown(system.dynamic_friction) +
@@ -171,6 +210,7 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
       throw Error(name + ": slip distance is " + shown(system.slip_distance_m) +
                   " m, expected it above zero");
   }
+  check_together(set, name);
 }
 
 }  // namespace

@@ -96,6 +96,49 @@ bool any_law(const std::vector<FractureSet<D>>& sets) {
   return false;
 }
 
+/// A constant of linear slip: one value a slip system.
+struct ComplianceColumn {
+  const char *name, *long_name, *units;
+  double LinearCompliance::*value;
+};
+constexpr ComplianceColumn compliance_columns[] = {
+    {"slip_normal_compliance", "normal compliance of a plane", "m Pa-1", &LinearCompliance::normal_m_per_pa},
+    {"slip_tangential_compliance", "tangential compliance of a plane", "m Pa-1",
+     &LinearCompliance::tangential_m_per_pa},
+    {"slip_normal_dashpot", "dashpot beside the normal compliance of a plane", "Pa s m-1",
+     &LinearCompliance::normal_dashpot_pa_s_m},
+    {"slip_tangential_dashpot", "dashpot beside the tangential compliance of a plane", "Pa s m-1",
+     &LinearCompliance::tangential_dashpot_pa_s_m},
+    {"slip_spacing", "distance between planes that have a compliance", "m", &LinearCompliance::spacing_m},
+    {"slip_crack_density", "density of penny-shaped cracks", "1", &LinearCompliance::crack_density},
+    {"slip_crack_aspect", "thickness of cracks over their diameter", "1", &LinearCompliance::aspect},
+    {"slip_crack_fill", "bulk modulus of what fills the cracks, 0: dry", "Pa", &LinearCompliance::fill_pa}};
+
+template <int D>
+bool any_gives(const std::vector<FractureSet<D>>& sets) {
+  return std::any_of(sets.begin(), sets.end(), gives<D>);
+}
+
+template <int D>
+void put_compliances(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
+  if (!any_gives(sets)) return;
+  for (const auto& column : compliance_columns) {
+    std::vector<double> values;
+    for (const auto& set : sets)
+      for (const auto& system : set.systems) values.push_back(system.compliance.*column.value);
+    file.put(column.name, values.data());
+  }
+}
+
+template <int D>
+void read_compliances(const NetcdfFile& file, std::vector<SlipSystem<D>>& systems) {
+  for (const auto& column : compliance_columns) {
+    if (!file.has_variable(column.name)) continue;
+    const auto values = read_column(file, column.name, systems.size());
+    for (std::size_t i = 0; i < systems.size(); ++i) systems[i].compliance.*column.value = values[i];
+  }
+}
+
 /// A blank ends a meaning in CF's flag_meanings.
 std::string flag_word(std::string name) {
   for (char& c : name)
@@ -151,9 +194,13 @@ void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<Fractu
     define("slip_opening", Type::u8, "1: the planes part under tension", "");
     put_flags<std::uint8_t>(file, "slip_opening", {"stay_closed", "part_under_tension"});
   }
+  if (any_gives(sets))
+    for (const auto& column : compliance_columns)
+      define(column.name, Type::f64, column.long_name, column.units);
   if (!any_law(sets)) return;
-  define("slip_law", Type::u8, "friction law: 0 Coulomb, 1 slip weakening", "");
-  put_flags<std::uint8_t>(file, "slip_law", {"Coulomb", "slip_weakening"});
+  define("slip_law", Type::u8, "friction law: 0 Coulomb, 1 slip weakening, 2 none: the planes never slide",
+         "");
+  put_flags<std::uint8_t>(file, "slip_law", {"Coulomb", "slip_weakening", "none"});
   define("slip_dynamic_friction", Type::f64, "coefficient of friction after weakening", "1");
   define("slip_distance", Type::f64, "slip over which friction falls to the dynamic one", "m");
 }
@@ -187,6 +234,7 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   file.put("slip_viscosity", viscosity.data());
   file.put("slip_strength", strength.data());
   if (any_opens(model.fracture_sets)) file.put("slip_opening", opening.data());
+  put_compliances(file, model.fracture_sets);
   if (!any_law(model.fracture_sets)) return;
   file.put("slip_law", law.data());
   file.put("slip_dynamic_friction", dynamic_friction.data());
@@ -201,9 +249,9 @@ void read_laws(const NetcdfFile& file, std::vector<SlipSystem<D>>& systems) {
   const auto friction = read_column(file, "slip_dynamic_friction", systems.size());
   const auto distance = read_column(file, "slip_distance", systems.size());
   for (std::size_t i = 0; i < systems.size(); ++i) {
-    if (law[i] != 0 && law[i] != 1)
+    if (law[i] != 0 && law[i] != 1 && law[i] != 2)
       throw Error(file.shown_name() + ": slip_law: found " + shown(law[i]) +
-                  ", expected 0 (Coulomb) or 1 (slip weakening)");
+                  ", expected 0 (Coulomb), 1 (slip weakening) or 2 (none)");
     systems[i].law = FrictionLaw(int(law[i]));
     systems[i].dynamic_friction = friction[i];
     systems[i].slip_distance_m = distance[i];
@@ -242,6 +290,7 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
                                                          : std::vector<double>(owner.size(), 0);
   std::vector<SlipSystem<D>> systems(owner.size());
   read_laws(file, systems);
+  read_compliances(file, systems);
   for (std::size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size()) {
       throw Error(file.shown_name() + ": slip_set: found " + std::to_string(owner[i]) + ", expected 0 to " +

@@ -72,6 +72,23 @@ void report_field(Report& into, const std::string& key, const Field<D>& field, c
   report(into, key, range, unit);
 }
 
+void report_compliance(Report& report, const LinearCompliance& of) {
+  if (of.crack_density > 0) {
+    report.number("crack density", of.crack_density, "");
+    if (of.fill_pa > 0) {
+      report.number("aspect ratio", of.aspect, "");
+      report.number("fill", of.fill_pa, "Pa");
+    }
+  } else if (of.gives()) {
+    report.number("normal compliance", of.normal_m_per_pa, "m/Pa");
+    report.number("tangential compliance", of.tangential_m_per_pa, "m/Pa");
+    if (of.normal_dashpot_pa_s_m > 0) report.number("normal dashpot", of.normal_dashpot_pa_s_m, "Pa s/m");
+    if (of.tangential_dashpot_pa_s_m > 0)
+      report.number("tangential dashpot", of.tangential_dashpot_pa_s_m, "Pa s/m");
+    report.number("spacing", of.spacing_m, "m");
+  }
+}
+
 template <int D>
 Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
   Report of_set;
@@ -85,6 +102,8 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
     }
     systems.emplace_back();
     systems.back().text("normal", normal);
+    report_compliance(systems.back(), system.compliance);
+    if (!system.slides()) continue;
     systems.back().number("friction", system.friction, "");
     systems.back().number("viscosity", system.viscosity_s, "s");
     systems.back().number("strength", system.strength_pa, "Pa");

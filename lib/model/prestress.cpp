@@ -129,6 +129,7 @@ void check_prestress(const Model<D>& model) {
     };
     if (!finite) refuse("on", "is not finite, expected numbers");
     for (const auto& system : model.fracture_sets[code - 1].systems) {
+      if (!system.slides()) continue;
       Point<D> traction{};
       const double normal = resolve<D, double>(system.normal, stress, traction);
       const double shear = length<D, double>(traction), rounding = slack * largest;

@@ -13,6 +13,7 @@
 #include "model/anisotropy.hpp"
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
+#include "planning/expected_slip.hpp"
 #include "scene/subdomains.hpp"
 #include "solver/shot_simulation.hpp"
 
@@ -140,6 +141,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
   plan.error = expected_error(scene);
+  plan.slip = expected_slip(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -272,6 +274,13 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
               mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
                   " a shot" +
                   (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
+  if (!plan.slip.empty()) {
+    const auto others = plan.slip.size() - 1;
+    report.text("slip", plan.slip.front() + (others == 0   ? ""
+                                             : others == 1 ? "; with -v also of another fracture set"
+                                                           : "; with -v also of " + std::to_string(others) +
+                                                                 " other fracture sets"));
+  }
   return report;
 }
 
@@ -304,6 +313,7 @@ Report report_of(const Plan<D>& plan) {
   report.number("processor time", plan.seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
+  if (plan.slip.size() > 1) report.texts("slip of a set", plan.slip);
   std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
     entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");

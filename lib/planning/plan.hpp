@@ -27,6 +27,7 @@ struct Plan {
   double duration_s = 0;           // of the traces
   double computed_share = 1;       // of all cells in all steps (expected_share)
   ExpectedError error;
+  std::vector<std::string> slip;  // expected_slip()
   int threads = 1;
   double seconds = 0;  // of the processor, all shots: from the time that a few steps take now
   std::string instruction_set;
@@ -56,7 +57,8 @@ struct ShotsHeld {
 template <int D>
 std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held);
 
-/// What a user decides by: error, what it comes from, time, memory. A line each.
+/// What a user decides by: error, what it comes from, time, memory; where planes stick or are dry, that. A line
+/// each.
 template <int D>
 Report summary_of(const Plan<D>& plan, const ShotsHeld& held = {});
 

@@ -6,6 +6,7 @@
 #include "scene/splitting.hpp"
 #include "solver/effect/attenuation.hpp"
 #include "solver/effect/incident_pml.hpp"
+#include "solver/effect/linear_slip.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/effect/point_source.hpp"
 #include "solver/effect/slip.hpp"
@@ -21,6 +22,18 @@ bool absorbs(const Scene<D>& scene, const Source<D>& source) {
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1}) any |= scene.edges[axis][side] == EdgeLaw::absorbing;
   return any && zone_cells(scene, source) > 0;
+}
+
+/// Friction comes after the springs under it.
+template <int D, class Real>
+void add_slip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s, double unit,
+              Effects<D, Real>& all) {
+  const auto& sets = scene.model.fracture_sets;
+  if (!scene.slips()) return;
+  if (std::any_of(sets.begin(), sets.end(), gives<D>))
+    all.push_back(std::make_unique<LinearSlip<D, Real>>(state, domain, scene, dt_s, unit));
+  if (std::any_of(sets.begin(), sets.end(), slides<D>))
+    all.push_back(std::make_unique<Slip<D, Real>>(state, domain, scene, dt_s, unit));
 }
 
 /// The sweeps of a step and, after the middle one of those along the last axis, what acts between sweeps.
@@ -66,7 +79,7 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
   }
   if (scene.attenuates())
     all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, points));
-  if (scene.slips()) all.push_back(std::make_unique<Slip<D, Real>>(state, domain, scene, dt_s, unit));
+  add_slip<D, Real>(state, domain, scene, dt_s, unit, all);
   return all;
 }
 

@@ -196,7 +196,7 @@ template <int D, class Real>
 ShotReport ShotSimulation<D, Real>::report() const {
   ShotReport report;
   for (const auto& effect : effects_) effect->report(report);
-  report.energy_left = energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
+  report.energy_left += energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
   return ranks_ ? of_all(report, *ranks_) : report;
 }
 

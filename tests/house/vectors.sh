@@ -175,6 +175,37 @@ want_slip() {
     }' || status=1
 }
 
+# want_linear_slip OBJECT LEVEL WIDTH: the same of the kernels of planes that give way like springs, by what the projections
+# of stress, their springs and the change of stress take.
+want_linear_slip() {
+  loops "$1" | awk -F '\t' -v level="$2" -v width="$3" '
+    $1 !~ /^(family|crossing)_/ { next }
+    { seen[$1] = 1 }
+    $2 == width && $3 > most[$1] { most[$1] = $3 }
+    END {
+      for (kernel in seen) {
+        ++kernels
+        split(kernel, of, /[<,] ?/)
+        cube = of[2] == 3
+        if (kernel ~ /^crossing_begin/) least = of[3] == "true" ? 20 : cube ? 12 : 6
+        else if (kernel ~ /^crossing/) least = cube ? 90 : 27
+        else if (kernel ~ /^family_begins/ && of[3] == "false") least = (cube ? 40 : 18) + (of[4] == "true" ? (cube ? 20 : 8) : 0)
+        else least = cube ? 80 : 36
+        if (most[kernel] >= least) continue
+        printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
+        bad = 1
+      }
+      # Both halves: of one family in 2-D and 3-D with and without dashpots and friction; of several, whose beginning in 2-D
+      # knows friction.
+      if (kernels != 2 * (2 * 2 * 4 + 2 + 3)) {
+        printf "%s: %d kernels of linear slip, expected 42\n", level, kernels
+        bad = 1
+      }
+      if (!bad) printf "%s: %d kernels of linear slip on vectors of %d bits\n", level, kernels, width
+      exit bad
+    }' || status=1
+}
+
 # want_relaxation OBJECT LEVEL WIDTH: the same of the kernels of attenuation: five operations for each mechanism and part of
 # the stress, of which two may be fused, and those that take the stress apart.
 want_relaxation() {
@@ -214,6 +245,7 @@ for level in $levels; do
       want_relaxation "$object" "${level%=*}" "${level#*=}"
     else
       want_slip "$object" "${level%=*}" "${level#*=}"
+      want_linear_slip "$object" "${level%=*}" "${level#*=}"
     fi
   done
 done

@@ -63,6 +63,9 @@ Lab<Real>::Lab(const Setup& setup)
   } else if (zones) {
     sponge_ = std::make_unique<Sponge<2, Real>>(domain_, dt_s_, vp_max);
   }
+  const auto& sets = model.fracture_sets;
+  if (std::any_of(sets.begin(), sets.end(), gives<2>))
+    springs_ = std::make_unique<solver::LinearSlip<2, Real>>(state_, domain_, scene_, dt_s_);
   if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, Real>>(state_, domain_, scene_, dt_s_);
 
   std::mt19937 engine(setup.seed);
@@ -98,8 +101,10 @@ void Lab<Real>::step() {
     if (sweep.axis == 1 || !along_z_only_) sweeps_->along(sweep.axis, Real(sweep.fraction));
   const solver::StepTime time{steps_, dt_s_};
   if (sponge_) sponge_->damp(state_);
+  if (springs_) solver::run_everywhere(*springs_, time, state_);
   if (slip_) slip([&] { solver::run_everywhere(*slip_, time, state_); });
   if (slip_) slip([&] { solver::run_after_everywhere(*slip_, time, state_); });
+  if (springs_) solver::run_after_everywhere(*springs_, time, state_);
   ++steps_;
 }
 
@@ -164,7 +169,7 @@ double Lab<Real>::sum(Stress which) const {
 
 template <class Real>
 double Lab<Real>::energy() const {
-  return sum(Stress::of_waves);
+  return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0);
 }
 
 template <class Real>

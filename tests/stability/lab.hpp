@@ -15,6 +15,7 @@
 #include "scene/scene.hpp"
 #include "scene/splitting.hpp"
 #include "solver/effect/effect.hpp"
+#include "solver/effect/linear_slip.hpp"
 #include "solver/effect/pml.hpp"
 #include "solver/sweep/sweeps.hpp"
 #include "sponge.hpp"
@@ -65,7 +66,7 @@ class Lab {
   explicit Lab(const Setup& setup);
 
   void step();
-  /// Of the whole computed grid, zones included, J per metre; NaN where a field is.
+  /// Of the whole computed grid, zones and springs of planes included, J per metre; NaN where a field is.
   double energy() const;
   /// The same with the prestress on top of that of the waves.
   double energy_with_prestress() const;
@@ -91,6 +92,7 @@ class Lab {
   std::unique_ptr<solver::Pml<2, Real>> layer_;
   std::unique_ptr<Sponge<2, Real>> sponge_;
   std::unique_ptr<solver::Effect<2, Real>> slip_;
+  std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
   bool along_z_only_;
   double work_of_prestress_ = 0;
   std::vector<SweepFraction> splitting_;

@@ -11,44 +11,30 @@ namespace {
 
 constexpr std::size_t lanes = std::size_t(Layout<2>::block);
 
+/// mu of a cell whose planes both give way and slide: what slip takes off the traction (S23).
+template <int D>
+double shear_modulus_above_springs(const std::vector<SlipSystem<D>>& systems, double lambda, double mu,
+                                   double dt_s) {
+  double follows = 0;
+  for (const auto& system : systems) {
+    const auto of = compliance_of<D>(system, true, lambda, mu);
+    follows += slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s).follows;
+  }
+  return slip::modulus_above_springs(mu, follows);
+}
+
 }  // namespace
 
 template <int D, class Real>
 SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
                               std::size_t set, double dt_s, double unit)
-    : set_(&scene.model.fracture_sets[set]), unit_(unit), number_(set) {
-  find_segments(layout, domain, scene.model);
+    : set_(&scene.model.fracture_sets[set]),
+      unit_(unit),
+      places_(layout, domain, scene.model, set),
+      count_(places_.stored()) {
   planes_ = planes_of<D, Real>(set_->systems, unit);
   fill(domain, scene, layout, dt_s);
   choose_kernels(scene.numerics.correction);
-}
-
-template <int D, class Real>
-void SlipGroup<D, Real>::find_segments(const Layout<D>& layout, const Domain<D>& domain,
-                                       const Model<D>& model) {
-  std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
-  constexpr auto block = Layout<D>::block;
-  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
-    if (model.fracture[cell] != number_ + 1) continue;
-    const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
-    const std::pair in{layout.line_number(at), at[0] / block};
-    if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
-    ++cells_;
-  }
-  std::sort(blocks.begin(), blocks.end());
-  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-  starts_.assign(std::size_t(layout.lines()) + 1, 0);
-  std::int64_t line = -1, last = -1;
-  for (const auto& [of_line, number] : blocks) {
-    if (of_line != line || number * block != last) {
-      segments_.push_back({number * block, 0, count_});
-      ++starts_[std::size_t(of_line) + 1];
-    }
-    line = of_line;
-    segments_.back().last = last = (number + 1) * block;
-    count_ += lanes;
-  }
-  for (std::size_t n = 1; n < starts_.size(); ++n) starts_[n] += starts_[n - 1];
 }
 
 template <int D, class Real>
@@ -72,29 +58,23 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   }
   if (scene.slip_diary) mu_.assign(count_, 0);
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
-  for (std::int64_t line = 0; line < layout.lines(); ++line)
-    for (const auto& segment : segments(line))
-      for (std::int64_t x = segment.first; x < std::min(segment.last, layout.shape()[0]); ++x) {
-        auto at = layout.line_index(line);
-        at[0] = x;
-        const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
-        const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
-        if (!inside || model.fracture[cell] != number_ + 1) continue;
-        const auto place = segment.place + std::size_t(x - segment.first);
-        const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
-        const double mu = rho * vs * vs;
-        for (std::size_t n = 0; n < systems.size(); ++n)
-          relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
-        if (opens()) {
-          lambda_[place] = Real(rho * vp * vp - 2 * mu);
-          modulus_[place] = Real(rho * vp * vp);
-        }
-        if (!mu_.empty()) mu_[place] = Real(mu);
-        if (!slip_per_pa_.empty())
-          slip_per_pa_[place] = Real(std::min(domain.grid.spacing_m / (unit_ * mu), most_per_distance));
-        for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
-          prestress_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
-      }
+  places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
+    const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
+    const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
+    const double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
+    for (std::size_t n = 0; n < systems.size(); ++n)
+      if (systems[n].slides())
+        relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
+    if (opens()) {
+      lambda_[place] = Real(lambda);
+      modulus_[place] = Real(rho * vp * vp);
+    }
+    if (!mu_.empty()) mu_[place] = Real(mu);
+    if (!slip_per_pa_.empty())
+      slip_per_pa_[place] = Real(std::min(domain.grid.spacing_m / (unit_ * mu), most_per_distance));
+    for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
+      prestress_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
+  });
 }
 
 /// One system, or two at right angles in 2-D, have kernels. They need the prestress resolved on the planes.
@@ -157,7 +137,7 @@ bool SlipGroup<D, Real>::opens() const {
 
 template <int D, class Real>
 bool SlipGroup<D, Real>::holds(std::size_t place) const {
-  return relaxation_[0][place] > 0;
+  return std::any_of(relaxation_.begin(), relaxation_.end(), [&](const auto& of) { return of[place] > 0; });
 }
 
 template <int D, class Real>
@@ -293,7 +273,7 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
   for (const auto* row :
        {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
     values += row->size();
-  return std::int64_t(values * sizeof(Real) + segments_.size() * sizeof(Segment));
+  return std::int64_t(values * sizeof(Real)) + places_.memory_bytes();
 }
 
 template class SlipGroup<2, float>;

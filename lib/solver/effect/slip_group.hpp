@@ -9,9 +9,8 @@
 #include "fracture/joint_slip.hpp"
 #include "fracture/slip_weakening.hpp"
 #include "scene/scene.hpp"
+#include "solver/effect/fracture_cells.hpp"
 #include "solver/kernels/slip_kernels.hpp"
-#include "solver/sweep/domain.hpp"
-#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
@@ -28,16 +27,9 @@ class SlipGroup {
   SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t set,
             double dt_s, double unit);
 
-  /// Neighbouring cells of a row, from column `first` on; the first of them is number `place` of the group.
-  struct Segment {
-    std::int64_t first, last;
-    std::size_t place;
-  };
+  using Segment = typename FractureCells<D>::Segment;
   /// Of that row, ascending.
-  std::span<const Segment> segments(std::int64_t line) const {
-    return {segments_.data() + starts_[std::size_t(line)],
-            starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
-  }
+  std::span<const Segment> segments(std::int64_t line) const { return places_.segments(line); }
   /// Acts on n cells from number `place` on; `stress` is the first component of the first of them, the others
   /// `pitch` apart. At the end of a step planes open before they slip.
   void act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
@@ -47,7 +39,7 @@ class SlipGroup {
 
   const FractureSet<D>& set() const { return *set_; }
   /// Cells that belong to the set, and all that are stored.
-  std::int64_t cells() const { return cells_; }
+  std::int64_t cells() const { return places_.cells(); }
   std::int64_t stored_cells() const { return std::int64_t(count_); }
   bool has_prestress() const { return !prestress_.empty(); }
   SymmetricTensor<D, Real> prestress(std::size_t place) const;
@@ -56,7 +48,7 @@ class SlipGroup {
   Real gap(std::size_t place) const;
   /// Whether a cell belongs to the set.
   bool holds(std::size_t place) const;
-  /// mu of a cell, Pa, 0 outside the set.
+  /// mu of a cell, Pa, 0 outside the set; where springs give way, too, what is left of it above them.
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
   /// lambda of a cell, Pa, where planes open; else 0.
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
@@ -67,7 +59,6 @@ class SlipGroup {
   void exchange(std::int64_t line, const std::function<void(Real* values, std::int64_t count)>& to);
 
  private:
-  void find_segments(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model);
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
@@ -82,11 +73,8 @@ class SlipGroup {
 
   const FractureSet<D>* set_;
   double unit_;
-  std::size_t number_;
-  std::vector<Segment> segments_;
-  std::vector<std::size_t> starts_;  // of each line, and the end
-  std::size_t count_ = 0;            // cells of all segments
-  std::int64_t cells_ = 0;
+  FractureCells<D> places_;
+  std::size_t count_;          // cells that are stored
   SlipPlanes<Real> planes_{};  // of all systems, for s_n and opening
   SlipKernels<Real> kernels_{};
   GapKernel<Real> open_ = nullptr;

@@ -49,13 +49,6 @@ void put_shear(const Point<D>& n, const Point<D>& m, Real* weights) {
 
 }  // namespace
 
-template <int D>
-bool at_right_angles(const Point<D>& a, const Point<D>& b) {
-  double product = 0;
-  for (std::size_t i = 0; i < D; ++i) product += a[i] * b[i];
-  return std::abs(product) < 1e-9;
-}
-
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
   FrictionConstants<Real> law;
@@ -81,8 +74,17 @@ SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double uni
   return planes;
 }
 
-template bool at_right_angles<2>(const Point<2>&, const Point<2>&);
-template bool at_right_angles<3>(const Point<3>&, const Point<3>&);
+template <int D>
+CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, double lambda, double mu) {
+  auto of = compliance_in(system.compliance, lambda, mu);
+  const double most = below_friction ? 1e3 : slip::most_compliance;
+  of.normal = std::min(of.normal, most / (lambda + 2 * mu));
+  of.tangential = std::min(of.tangential, most / mu);
+  return of;
+}
+
+template CellCompliance compliance_of<2>(const SlipSystem<2>&, bool, double, double);
+template CellCompliance compliance_of<3>(const SlipSystem<3>&, bool, double, double);
 template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);
 template FrictionConstants<double> constants_of<2, double>(const SlipSystem<2>&, double);
 template FrictionConstants<float> constants_of<3, float>(const SlipSystem<3>&, double);

@@ -7,10 +7,6 @@
 
 namespace slipwave::solver {
 
-/// Whether two unit normals are at right angles, as far as numbers in a file go.
-template <int D>
-bool at_right_angles(const Point<D>& a, const Point<D>& b);
-
 /// Constants of a system's friction law; stress is `unit` times Pa.
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
@@ -19,5 +15,10 @@ FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit);
 /// Stress is `unit` times Pa.
 template <int D, class Real>
 SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double unit = 1);
+
+/// Compliances of one family of planes of a cell. Below friction planes softer than a thousand times the rock
+/// count as that: what follows slip would else be rounding.
+template <int D>
+CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, double lambda, double mu);
 
 }  // namespace slipwave::solver

@@ -77,6 +77,11 @@ GapKernel<Real> gap_kernel(int dimensions) {
 }
 
 template <class Real>
+LinearSlipKernels<Real> linear_slip_kernels(const LinearSlipCase& of) {
+  return best_tables<Real>().slip(Real()).linear(of);
+}
+
+template <class Real>
 RelaxationKernel<Real> relaxation_kernel(int dimensions, Relaxing what, int mechanisms) {
   return best_tables<Real>().relaxation(Real()).of(dimensions, what, mechanisms);
 }
@@ -92,6 +97,8 @@ template RelaxationKernel<float> relaxation_kernel<float>(int, Relaxing, int);
 template RelaxationKernel<double> relaxation_kernel<double>(int, Relaxing, int);
 template SlipKernels<float> slip_kernels<float>(const SlipCase&);
 template SlipKernels<double> slip_kernels<double>(const SlipCase&);
+template LinearSlipKernels<float> linear_slip_kernels<float>(const LinearSlipCase&);
+template LinearSlipKernels<double> linear_slip_kernels<double>(const LinearSlipCase&);
 template GapKernel<float> gap_kernel<float>(int);
 template GapKernel<double> gap_kernel<double>(int);
 template const Kernels<float>& kernels<float>(int, bool);

@@ -2,6 +2,7 @@
 // rules.
 #include "fracture/coulomb.hpp"
 #include "fracture/slip_weakening.hpp"
+#include "solver/kernels/linear_slip_rows.hpp"
 #include "solver/kernels/resolved_traction.hpp"
 #include "solver/kernels/slip_tables.hpp"
 
@@ -371,7 +372,7 @@ SlipKernels<Real> of(const SlipCase& of) {
 }
 
 template <class Real>
-constexpr SlipTables<Real> tables = {of<Real>, open<2, Real>, open<3, Real>};
+constexpr SlipTables<Real> tables = {of<Real>, open<2, Real>, open<3, Real>, linear_of<Real>};
 
 }  // namespace
 

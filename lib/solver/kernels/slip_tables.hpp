@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/kernels/slip_kernels.hpp"
+#include "solver/kernels/linear_slip_kernels.hpp"
 
 namespace slipwave::solver {
 
@@ -9,6 +9,7 @@ template <class Real>
 struct SlipTables {
   SlipKernels<Real> (*of)(const SlipCase& of);
   GapKernel<Real> open_2d, open_3d;
+  LinearSlipKernels<Real> (*linear)(const LinearSlipCase& of);
 };
 
 }  // namespace slipwave::solver

@@ -16,7 +16,7 @@ struct SlipTotals {
 struct ShotReport {
   std::optional<SlipTotals> slip;
   std::optional<double> source_work;  // of point sources
-  double energy_left = 0;             // kinetic and elastic, in the model at the end
+  double energy_left = 0;             // kinetic and elastic, in rock and springs of the model at the end
 };
 
 }  // namespace slipwave

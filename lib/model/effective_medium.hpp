@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "model/anisotropy.hpp"
+#include "model/fracture.hpp"
+
+namespace slipwave {
+
+/// Stiffness of a rock full of planes that give way, each level or upright: compliances of rock and planes
+/// add up (Schoenberg & Sayers 1995, eq. 5; theory.md (S26)). Waves much longer than the spacing feel nothing
+/// else. Throws a usage Error where planes slide, have dashpots, do not give way or are neither level nor
+/// upright.
+Stiffness effective_stiffness(const Stiffness& rock, const std::vector<SlipSystem<2>>& systems);
+
+/// Gives the solid cells whose centres are inside, in true depth, the effective medium of their rock and
+/// these planes. Cells of fracture sets stay in them. Throws a usage Error as above, and as
+/// find_solid_cells().
+FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& systems,
+                             const std::function<bool(const Point<2>&)>& inside);
+
+}  // namespace slipwave

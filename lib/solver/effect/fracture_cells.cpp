@@ -1,0 +1,54 @@
+#include "solver/effect/fracture_cells.hpp"
+
+#include <algorithm>
+
+namespace slipwave::solver {
+
+template <int D>
+FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
+                                std::size_t set)
+    : set_(set) {
+  std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
+  constexpr auto block = Layout<D>::block;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    if (model.fracture[cell] != set_ + 1) continue;
+    const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
+    const std::pair in{layout.line_number(at), at[0] / block};
+    if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
+    ++cells_;
+  }
+  std::sort(blocks.begin(), blocks.end());
+  blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+  starts_.assign(std::size_t(layout.lines()) + 1, 0);
+  std::int64_t line = -1, last = -1;
+  for (const auto& [of_line, number] : blocks) {
+    if (of_line != line || number * block != last) {
+      segments_.push_back({number * block, 0, stored_});
+      ++starts_[std::size_t(of_line) + 1];
+    }
+    line = of_line;
+    segments_.back().last = last = (number + 1) * block;
+    stored_ += std::size_t(block);
+  }
+  for (std::size_t n = 1; n < starts_.size(); ++n) starts_[n] += starts_[n - 1];
+}
+
+template <int D>
+void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
+                            const std::function<void(std::size_t, std::size_t)>& with) const {
+  for (std::int64_t line = 0; line < layout.lines(); ++line)
+    for (const auto& segment : segments(line))
+      for (std::int64_t x = segment.first; x < std::min(segment.last, layout.shape()[0]); ++x) {
+        auto at = layout.line_index(line);
+        at[0] = x;
+        const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+        const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
+        if (!inside || model.fracture[cell] != set_ + 1) continue;
+        with(segment.place + std::size_t(x - segment.first), cell);
+      }
+}
+
+template class FractureCells<2>;
+template class FractureCells<3>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,304 @@
+#include "solver/effect/linear_slip.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "model/anisotropy.hpp"
+#include "solver/effect/slip_planes.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Compliance of planes in a rock. Of cracks it is that in the isotropic rock with its vertical speeds.
+template <int D>
+CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_friction, const Stiffness& rock) {
+  return compliance_of<D>(system, below_friction, rock.c33 - 2 * rock.c55, rock.c55);
+}
+
+template <int D>
+using Tensor = SymmetricTensor<D, double>;
+
+/// Stress that belongs to a strain. In 3-D rock is isotropic.
+template <int D>
+Tensor<D> stress_of(const Tensor<D>& strain, const Stiffness& rock) {
+  Tensor<D> stress;
+  double trace = 0;
+  for (int i = 0; i < D; ++i) trace += strain(i, i);
+  for (std::size_t c = 0; c < strain.values.size(); ++c) stress.values[c] = 2 * rock.c55 * strain.values[c];
+  for (int i = 0; i < D; ++i) {
+    const double modulus = i + 1 == D ? rock.c33 : rock.c11;
+    stress(i, i) = rock.c13 * (trace - strain(i, i)) + modulus * strain(i, i);
+  }
+  return stress;
+}
+
+/// Strain that belongs to a stress.
+template <int D>
+Tensor<D> strain_of(const Tensor<D>& stress, const Stiffness& rock) {
+  Tensor<D> strain;
+  for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] = stress.values[c] / (2 * rock.c55);
+  if constexpr (D == 2) {
+    const double determinant = rock.c11 * rock.c33 - rock.c13 * rock.c13;
+    strain(0, 0) = (rock.c33 * stress(0, 0) - rock.c13 * stress(1, 1)) / determinant;
+    strain(1, 1) = (rock.c11 * stress(1, 1) - rock.c13 * stress(0, 0)) / determinant;
+  } else {
+    const double trace = stress(0, 0) + stress(1, 1) + stress(2, 2);
+    for (int i = 0; i < D; ++i)
+      strain(i, i) = (stress(i, i) - rock.c13 * trace / (3 * rock.c13 + 2 * rock.c55)) / (2 * rock.c55);
+  }
+  return strain;
+}
+
+/// Of a strain along the normal of planes, which are level or upright where rock is anisotropic.
+template <int D>
+double modulus_across(const Point<D>& normal, const Stiffness& rock) {
+  return std::abs(normal[D - 1]) > 0.5 ? rock.c33 : rock.c11;
+}
+
+/// Strain of the planes of all families under a stress, dashpots at rest.
+template <int D>
+Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Stiffness& rock) {
+  Tensor<D> strain;
+  for (const auto& system : set.systems) {
+    const auto of = compliance_in_rock(system, slides(set), rock);
+    const auto& n = system.normal;
+    Point<D> tau;
+    const double s_n = resolve<D, double>(n, stress, tau);
+    for (std::size_t i = 0; i < D; ++i)
+      for (std::size_t j = i; j < D; ++j)
+        strain(int(i), int(j)) +=
+            of.normal * s_n * n[i] * n[j] + of.tangential * (tau[i] * n[j] + n[i] * tau[j]) / 2;
+  }
+  return strain;
+}
+
+/// Solves a x = b in place by Gauss's elimination; a is row after row.
+template <std::size_t N>
+void solve(std::array<double, N * N> a, std::array<double, N>& b) {
+  for (std::size_t k = 0; k < N; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k; i < N; ++i)
+      if (std::abs(a[i * N + k]) > std::abs(a[pivot * N + k])) pivot = i;
+    for (std::size_t j = 0; j < N; ++j) std::swap(a[k * N + j], a[pivot * N + j]);
+    std::swap(b[k], b[pivot]);
+    for (std::size_t i = k + 1; i < N; ++i) {
+      const double factor = a[i * N + k] / a[k * N + k];
+      for (std::size_t j = k; j < N; ++j) a[i * N + j] -= factor * a[k * N + j];
+      b[i] -= factor * b[k];
+    }
+  }
+  for (std::size_t k = N; k-- > 0;) {
+    for (std::size_t j = k + 1; j < N; ++j) b[k] -= a[k * N + j] * b[j];
+    b[k] /= a[k * N + k];
+  }
+}
+
+}  // namespace
+
+template <int D, class Real>
+LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
+                                double dt_s, double unit)
+    : state_(state),
+      domain_(domain),
+      model_(scene.model),
+      unit_(unit),
+      ahead_(scene.numerics.correction == SlipCorrection::first ? Real(0) : Real(0.5)) {
+  for (std::size_t number = 0; number < model_.fracture_sets.size(); ++number) {
+    const auto& set = model_.fracture_sets[number];
+    if (!gives(set)) continue;
+    Group group{FractureCells<D>(state.layout, domain, model_, number), &set, {}, {}, {}, {}, {}};
+    if (group.places.cells() == 0) continue;
+    const auto any = [&](const auto& has) {
+      return std::any_of(set.systems.begin(), set.systems.end(), has);
+    };
+    group.of = {D, set.systems.size() == 1, any([](const auto& s) { return s.compliance.damped(); }),
+                any([](const auto& s) { return s.slides(); })};
+    group.planes = planes_of<D, Real>(set.systems, unit);
+    group.kernels = linear_slip_kernels<Real>(group.of);
+    group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
+    group.coefficients.assign(group.places.stored() * std::size_t(group.of.coefficient_rows()), 0);
+    group.of.one_family ? add_family(group, dt_s) : add_crossing(group);
+    groups_.push_back(std::move(group));
+  }
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+    const auto rock = stiffness_of(model_.medium, cell);
+    const auto& system = group.set->systems[0];
+    const double modulus = modulus_across<D>(system.normal, rock), mu = rock.c55;
+    const auto of = compliance_in_rock(system, group.of.slides, rock);
+    const auto normal = slip::spring_step(modulus, of.normal, of.normal_damping, dt_s);
+    const auto tangential = slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s);
+    std::size_t at = place;
+    const auto put = [&](double value) {
+      group.coefficients[at] = Real(value);
+      at += group.places.stored();
+    };
+    put(rock.c13 / modulus);
+    put(normal.of_end), put(tangential.of_end);
+    if (group.of.damped)
+      for (const auto& each : {normal, tangential}) put(each.left), put(each.of_start);
+    if (group.of.slides) put(tangential.follows);
+  });
+}
+
+/// r of a stress s is G s, with G the stiffness of the rock times the compliance of all planes; of the stress
+/// of welded planes it is G (1 + G)^-1 (S22).
+template <int D, class Real>
+void LinearSlip<D, Real>::add_crossing(Group& group) const {
+  constexpr std::size_t n = std::size_t(Tensor<D>::components);
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+    const auto rock = stiffness_of(model_.medium, cell);
+    std::array<double, n * n> taken{}, with_rock{};
+    for (std::size_t k = 0; k < n; ++k) {
+      Tensor<D> stress;
+      stress.values[k] = 1;
+      const auto off = stress_of<D>(strain_of_planes<D>(*group.set, stress, rock), rock);
+      for (std::size_t c = 0; c < n; ++c) taken[c * n + k] = off.values[c];
+    }
+    with_rock = taken;
+    for (std::size_t k = 0; k < n; ++k) with_rock[k * n + k] += 1;
+    for (std::size_t k = 0; k < n; ++k) {
+      std::array<double, n> column{};
+      for (std::size_t c = 0; c < n; ++c) column[c] = taken[c * n + k];
+      solve<n>(with_rock, column);
+      for (std::size_t c = 0; c < n; ++c) {
+        group.coefficients[(c * n + k) * group.places.stored() + place] = Real(column[c]);
+        if (group.of.slides)
+          group.coefficients[(n * n + c * n + k) * group.places.stored() + place] = Real(taken[c * n + k]);
+      }
+    }
+  });
+}
+
+/// Columns end between two vectors or with the row.
+template <int D, class Real>
+void LinearSlip<D, Real>::each_segment(
+    const RowFields<Real>& fields, const IndexRange& columns,
+    typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel) {
+  const std::int64_t end =
+      columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last;
+  Real* const stress = fields.field(FieldRows<D>::normal_stress(0));
+  for (auto& group : groups_)
+    for (const auto& segment : group.places.segments(fields.row)) {
+      const std::int64_t first = std::max(segment.first, columns.first), last = std::min(segment.last, end);
+      if (first >= last) continue;
+      const auto place = segment.place + std::size_t(first - segment.first);
+      (group.kernels.*kernel)(
+          last - first, group.planes,
+          {stress + first, fields.pitch, group.memory.data() + place, group.coefficients.data() + place,
+           std::int64_t(group.places.stored()), ahead_});
+    }
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) {
+  each_segment(fields, cells, &LinearSlipKernels<Real>::end);
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::apply_after_record(const StepTime&, const RowFields<Real>& fields,
+                                             const IndexRange& cells) {
+  each_segment(fields, cells, &LinearSlipKernels<Real>::begin);
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::serialize(Archive& archive) {
+  for (auto& group : groups_) archive.fixed(group.memory);
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::exchange(const IndexRange& rows,
+                                   const std::function<void(Real*, std::int64_t)>& to) {
+  const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+  for (auto line = rows.first * lines_a_row; line < rows.last * lines_a_row; ++line)
+    for (auto& group : groups_)
+      for (const auto& segment : group.places.segments(line))
+        for (auto place = segment.place; place < group.memory.size(); place += group.places.stored())
+          to(group.memory.data() + place, segment.last - segment.first);
+}
+
+template <int D, class Real>
+std::int64_t LinearSlip<D, Real>::memory_bytes() const {
+  std::int64_t bytes = 0;
+  for (const auto& group : groups_)
+    bytes += std::int64_t((group.memory.size() + group.coefficients.size()) * sizeof(Real)) +
+             group.places.memory_bytes();
+  return bytes;
+}
+
+template <int D, class Real>
+std::int64_t LinearSlip<D, Real>::cells() const {
+  std::int64_t sum = 0;
+  for (const auto& group : groups_) sum += group.places.cells();
+  return sum;
+}
+
+template <int D, class Real>
+std::vector<EffectShare> LinearSlip<D, Real>::shares() const {
+  std::vector<EffectShare> all = {{name(), cells()}};
+  const auto add = [&](const std::string& what, const auto& has) {
+    std::int64_t sum = 0;
+    for (const auto& group : groups_) sum += has(group.of) ? group.places.cells() : 0;
+    if (sum > 0) all.push_back({what, sum});
+  };
+  add("  dashpots", [](const auto& of) { return of.damped; });
+  add("  crossing planes", [](const auto& of) { return !of.one_family; });
+  add("  below friction", [](const auto& of) { return of.slides; });
+  return all;
+}
+
+/// J/m3. Traction times strain, half: of one family the strain is what the planes take off over the modulus;
+/// of several, which have no dashpots, strain is compliance times stress.
+template <int D, class Real>
+double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place, std::size_t cell) const {
+  const auto rock = stiffness_of(model_.medium, cell);
+  const auto taken = [&](std::size_t row) {
+    return double(group.memory[row * group.places.stored() + place]) / unit_;
+  };
+  double energy = 0;
+  if (group.of.one_family) {
+    const auto& system = group.set->systems[0];
+    const auto of = compliance_in_rock(system, group.of.slides, rock);
+    for (std::size_t k = 0; k < D; ++k) {
+      const double modulus = k == 0 ? modulus_across<D>(system.normal, rock) : rock.c55;
+      const double compliance = k == 0 ? of.normal : of.tangential;
+      if (compliance > 0) energy += std::pow(taken(k) / modulus, 2) / compliance / 2;
+    }
+    return energy;
+  }
+  Tensor<D> off;
+  for (std::size_t c = 0; c < off.values.size(); ++c) off.values[c] = taken(c);
+  const auto strain = strain_of<D>(off, rock);
+  auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
+  const auto x = at[0];
+  at[0] = 0;
+  for (std::size_t c = 0; c < off.values.size(); ++c) {
+    const double stress = double(state_.field_row(at, FieldRows<D>::normal_stress(0) + int(c))[x]) / unit_;
+    energy += (c < D ? 0.5 : 1) * stress * strain.values[c];
+  }
+  return energy;
+}
+
+template <int D, class Real>
+double LinearSlip<D, Real>::stored_energy() const {
+  double energy = 0;
+  for (const auto& group : groups_)
+    group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+      const auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
+      if (!domain_.owns(at[D - 1])) return;
+      const double height = domain_.model_grid.height(domain_.model_cell(at));
+      energy += std::pow(domain_.grid.spacing_m, D - 1) * height * stored_energy(group, place, cell);
+    });
+  return energy;
+}
+
+template class LinearSlip<2, float>;
+template class LinearSlip<2, double>;
+template class LinearSlip<3, float>;
+template class LinearSlip<3, double>;
+
+}  // namespace slipwave::solver

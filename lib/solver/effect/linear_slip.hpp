@@ -1,0 +1,62 @@
+#pragma once
+
+#include <vector>
+
+#include "solver/effect/effect.hpp"
+#include "solver/effect/fracture_cells.hpp"
+#include "solver/kernels/linear_slip_kernels.hpp"
+
+namespace slipwave::solver {
+
+/// Planes that give way as springs, with or without dashpots, in all fracture cells that have such planes
+/// (theory.md 2.6). It acts before slip at the end of a step and after it at the beginning of the next, so
+/// that friction is above the springs. Keeps references.
+template <int D, class Real>
+class LinearSlip : public Effect<D, Real> {
+ public:
+  LinearSlip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene, double dt_s,
+             double unit = 1);
+
+  EffectDeclaration declaration() const override {
+    return {ActsOn::fracture_cells, false, all_stresses<D>, all_stresses<D>, true};
+  }
+  std::string name() const override { return "linear slip"; }
+  std::int64_t cells() const override;
+  std::vector<EffectShare> shares() const override;
+  void apply(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void apply_after_record(const StepTime&, const RowFields<Real>& fields, const IndexRange& cells) override;
+  void serialize(Archive& archive) override;
+  void exchange(const IndexRange& rows,
+                const std::function<void(Real* values, std::int64_t count)>& to) override;
+  std::int64_t memory_bytes() const override;
+  /// Adds the energy in the springs to what is left in the model.
+  void report(ShotReport& report) const override { report.energy_left += stored_energy(); }
+
+  /// Of the springs of the model, J (in 2-D J/m).
+  double stored_energy() const;
+
+ private:
+  /// The cells of one set.
+  struct Group {
+    FractureCells<D> places;
+    const FractureSet<D>* set;
+    LinearSlipCase of;
+    SlipPlanes<Real> planes;
+    LinearSlipKernels<Real> kernels;
+    std::vector<Real> memory, coefficients;  // rows of all stored cells, one after the other
+  };
+  void add_family(Group& group, double dt_s) const;
+  void add_crossing(Group& group) const;
+  double stored_energy(const Group& group, std::size_t place, std::size_t cell) const;
+  void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
+                    typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel);
+
+  State<D, Real>& state_;
+  const Domain<D>& domain_;
+  const Model<D>& model_;
+  double unit_;
+  Real ahead_;
+  std::vector<Group> groups_;
+};
+
+}  // namespace slipwave::solver

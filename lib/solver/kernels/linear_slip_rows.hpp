@@ -1,0 +1,283 @@
+#pragma once
+
+#include "solver/kernels/linear_slip_kernels.hpp"
+#include "solver/kernels/resolved_traction.hpp"
+
+/// Row loops of linear slip (docs/theory.md (S20), (S22)). For slip_level.cpp only: compiled once for each
+/// instruction set.
+namespace slipwave::solver {
+namespace {
+
+// Components have names instead of numbers: compilers make no vectors of loops that hold arrays.
+
+/// Stress of a cell; in 2-D its last three components are 0.
+template <class Real>
+struct CellStress {
+  Real s0, s1, s2, s3, s4, s5;
+};
+
+template <int D, class Real>
+struct StressRows {
+  Real* __restrict const r0;
+  Real* __restrict const r1;
+  Real* __restrict const r2;
+  Real* __restrict const r3;
+  Real* __restrict const r4;
+  Real* __restrict const r5;
+  [[gnu::always_inline]] explicit StressRows(const LinearSlipRows<Real>& rows)
+      : r0(rows.stress),
+        r1(r0 + rows.pitch),
+        r2(r1 + rows.pitch),
+        r3(D == 2 ? r2 : r2 + rows.pitch),
+        r4(D == 2 ? r2 : r3 + rows.pitch),
+        r5(D == 2 ? r2 : r4 + rows.pitch) {}
+  [[gnu::always_inline]] CellStress<Real> of(std::int64_t i) const {
+    if constexpr (D == 2)
+      return {r0[i], r1[i], r2[i], 0, 0, 0};
+    else
+      return {r0[i], r1[i], r2[i], r3[i], r4[i], r5[i]};
+  }
+  [[gnu::always_inline]] void set(std::int64_t i, const CellStress<Real>& s) const {
+    r0[i] = s.s0, r1[i] = s.s1, r2[i] = s.s2;
+    if constexpr (D == 3) r3[i] = s.s3, r4[i] = s.s4, r5[i] = s.s5;
+  }
+};
+
+template <int D, class Real>
+[[gnu::always_inline]] inline Real resolved(const Real* weights, Real diagonal, const CellStress<Real>& s) {
+  return projected<D>(weights, diagonal, s.s0, s.s1, s.s2, s.s3, s.s4, s.s5);
+}
+
+/// What strain of one family that takes off0, off1 and off2 off its traction leaves of the stress s.
+template <int D, class Real>
+[[gnu::always_inline]] inline CellStress<Real> stress_left(const OneSystem<D, Real>& family,
+                                                           const CellStress<Real>& s, Real lambda_share,
+                                                           Real off0, Real off1, Real off2) {
+  const Real *const m1 = family.m1, *const m2 = family.m2;
+  const Real even = lambda_share * off0, across = off0 - even;
+  // `normal` counts off-diagonal components twice.
+  const Real along = Real(0.5) * across, *const normal = family.normal;
+  const Real s0 = s.s0 - (even + across * normal[0] + (m1[0] * off1 + (D == 3 ? m2[0] * off2 : Real(0))));
+  const Real s1 = s.s1 - (even + across * normal[1] + (m1[1] * off1 + (D == 3 ? m2[1] * off2 : Real(0))));
+  if constexpr (D == 2)
+    return {s0, s1, s.s2 - (along * normal[2] + m1[2] * off1), 0, 0, 0};
+  else
+    return {s0,
+            s1,
+            s.s2 - (even + across * normal[2] + (m1[2] * off1 + m2[2] * off2)),
+            s.s3 - (along * normal[3] + (m1[3] * off1 + m2[3] * off2)),
+            s.s4 - (along * normal[4] + (m1[4] * off1 + m2[4] * off2)),
+            s.s5 - (along * normal[5] + (m1[5] * off1 + m2[5] * off2))};
+}
+
+/// Memory and coefficients of component k of the traction of one family.
+template <int D, bool Damped, bool Slides, class Real>
+struct TractionRows {
+  Real* __restrict const taken;
+  Real* __restrict const change;
+  Real* __restrict const of_dashpot;
+  Real* __restrict const at_end;  // the traction along planes that slide
+  const Real* __restrict const of_end;
+  const Real* __restrict const left;
+  const Real* __restrict const of_start;
+  const Real* __restrict const follows;
+  Real ahead;
+  [[gnu::always_inline]] TractionRows(const LinearSlipRows<Real>& rows, int k)
+      : taken(rows.memory + k * rows.pitch_of_rows),
+        change(taken + D * rows.pitch_of_rows),
+        of_dashpot(Damped ? change + D * rows.pitch_of_rows : taken),
+        at_end(Slides && k > 0 ? taken + ((Damped ? 3 : 2) * D - 1) * rows.pitch_of_rows : taken),
+        of_end(rows.coefficients + (k == 0 ? 1 : 2) * rows.pitch_of_rows),
+        left(Damped ? rows.coefficients + (k == 0 ? 3 : 5) * rows.pitch_of_rows : of_end),
+        of_start(Damped ? left + rows.pitch_of_rows : of_end),
+        follows(Slides ? rows.coefficients + (Damped ? 7 : 3) * rows.pitch_of_rows : of_end),
+        ahead(rows.ahead) {}
+
+  /// What the end of a step takes off the traction t.
+  template <bool Along>
+  [[gnu::always_inline]] Real ends(Real t, std::int64_t i) const {
+    const Real r = taken[i], welded = t + r;
+    Real now = of_end[i] * welded;
+    if constexpr (Damped) now += of_dashpot[i];
+    const Real off = now - r;
+    change[i] = off + ahead * change[i];
+    taken[i] = now;
+    if constexpr (Along && Slides) at_end[i] = welded - now;
+    return off;
+  }
+  /// What the beginning of the next one does.
+  template <bool Along>
+  [[gnu::always_inline]] Real begins(Real t, std::int64_t i) const {
+    Real r = taken[i];
+    if constexpr (Along && Slides) r += follows[i] * (t - at_end[i]);
+    if constexpr (Damped) of_dashpot[i] = left[i] * r + of_start[i] * (t + r);
+    const Real off = ahead * change[i];
+    taken[i] = r + off;
+    return off;
+  }
+};
+
+template <int D, bool Damped, bool Slides, class Real>
+[[gnu::noinline]] void family_ends(std::int64_t n, const SlipPlanes<Real>& planes,
+                                   const LinearSlipRows<Real>& rows) {
+  using Rows = TractionRows<D, Damped, Slides, Real>;
+  const OneSystem<D, Real> family(planes);
+  const StressRows<D, Real> stress(rows);
+  const Rows normal(rows, 0), along1(rows, 1), along2(rows, D - 1);
+  const Real* __restrict const lambda_shares = rows.coefficients;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto s = stress.of(i);
+    const Real off0 = normal.template ends<false>(resolved<D>(family.normal, Real(1), s), i);
+    const Real off1 = along1.template ends<true>(resolved<D>(family.m1, Real(0.5), s), i);
+    Real off2 = 0;
+    if constexpr (D == 3) off2 = along2.template ends<true>(resolved<D>(family.m2, Real(0.5), s), i);
+    stress.set(i, stress_left(family, s, lambda_shares[i], off0, off1, off2));
+  }
+}
+
+template <int D, bool Damped, bool Slides, class Real>
+[[gnu::noinline]] void family_begins(std::int64_t n, const SlipPlanes<Real>& planes,
+                                     const LinearSlipRows<Real>& rows) {
+  using Rows = TractionRows<D, Damped, Slides, Real>;
+  const OneSystem<D, Real> family(planes);
+  const StressRows<D, Real> stress(rows);
+  const Rows normal(rows, 0), along1(rows, 1), along2(rows, D - 1);
+  const Real* __restrict const lambda_shares = rows.coefficients;
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto s = stress.of(i);
+    const Real off0 = normal.template begins<false>(resolved<D>(family.normal, Real(1), s), i);
+    const Real off1 = along1.template begins<true>(resolved<D>(family.m1, Real(0.5), s), i);
+    Real off2 = 0;
+    if constexpr (D == 3) off2 = along2.template begins<true>(resolved<D>(family.m2, Real(0.5), s), i);
+    stress.set(i, stress_left(family, s, lambda_shares[i], off0, off1, off2));
+  }
+}
+
+/// Memory of component c of the stress, where several families cross, and its row of the matrices.
+template <int D, class Real>
+struct CrossingRows {
+  Real* __restrict const taken;
+  Real* __restrict const change;
+  const Real* __restrict const of_welded;
+  const Real* __restrict const of_stress;
+  std::int64_t next;
+  Real ahead;
+  [[gnu::always_inline]] CrossingRows(const LinearSlipRows<Real>& rows, int c)
+      : taken(rows.memory + c * rows.pitch_of_rows),
+        change(taken + components * rows.pitch_of_rows),
+        of_welded(rows.coefficients + c * components * rows.pitch_of_rows),
+        of_stress(of_welded + components * components * rows.pitch_of_rows),
+        next(rows.pitch_of_rows),
+        ahead(rows.ahead) {}
+
+  [[gnu::always_inline]] Real product(const Real* row, const CellStress<Real>& s, std::int64_t i) const {
+    const Real three = row[i] * s.s0 + row[next + i] * s.s1 + row[2 * next + i] * s.s2;
+    if constexpr (D == 2)
+      return three;
+    else
+      return three + (row[3 * next + i] * s.s3 + row[4 * next + i] * s.s4 + row[5 * next + i] * s.s5);
+  }
+  /// What the end of a step takes off the stress, by that of welded planes.
+  [[gnu::always_inline]] Real ends(const CellStress<Real>& welded, std::int64_t i) const {
+    const Real now = product(of_welded, welded, i), off = now - taken[i];
+    change[i] = off + ahead * change[i];
+    taken[i] = now;
+    return off;
+  }
+  /// What the beginning of the next one does, by the stress itself.
+  template <bool Slides>
+  [[gnu::always_inline]] Real begins(const CellStress<Real>& s, std::int64_t i) const {
+    const Real off = ahead * change[i];
+    if constexpr (Slides)
+      taken[i] = product(of_stress, s, i) + off;
+    else
+      taken[i] += off;
+    return off;
+  }
+
+ private:
+  static constexpr int components = D == 2 ? 3 : 6;
+};
+
+/// Of all components; in 2-D the last three are not used.
+template <int D, class Real>
+struct AllCrossingRows {
+  CrossingRows<D, Real> c0, c1, c2, c3, c4, c5;
+  [[gnu::always_inline]] explicit AllCrossingRows(const LinearSlipRows<Real>& rows)
+      : c0(rows, 0),
+        c1(rows, 1),
+        c2(rows, 2),
+        c3(rows, D == 2 ? 2 : 3),
+        c4(rows, D == 2 ? 2 : 4),
+        c5(rows, D == 2 ? 2 : 5) {}
+};
+
+/// Several families whose planes cross: of all of them together, by components of the stress.
+template <int D, class Real>
+[[gnu::noinline]] void crossing_end(std::int64_t n, const SlipPlanes<Real>&,
+                                    const LinearSlipRows<Real>& rows) {
+  const StressRows<D, Real> stress(rows);
+  const AllCrossingRows<D, Real> of(rows);
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto s = stress.of(i);
+    CellStress<Real> w = {s.s0 + of.c0.taken[i], s.s1 + of.c1.taken[i], s.s2 + of.c2.taken[i], 0, 0, 0};
+    if constexpr (D == 3)
+      w.s3 = s.s3 + of.c3.taken[i], w.s4 = s.s4 + of.c4.taken[i], w.s5 = s.s5 + of.c5.taken[i];
+    CellStress<Real> left = {
+        s.s0 - of.c0.ends(w, i), s.s1 - of.c1.ends(w, i), s.s2 - of.c2.ends(w, i), 0, 0, 0};
+    if constexpr (D == 3)
+      left.s3 = s.s3 - of.c3.ends(w, i), left.s4 = s.s4 - of.c4.ends(w, i), left.s5 = s.s5 - of.c5.ends(w, i);
+    stress.set(i, left);
+  }
+}
+
+template <int D, bool Slides, class Real>
+[[gnu::noinline]] void crossing_begin(std::int64_t n, const SlipPlanes<Real>&,
+                                      const LinearSlipRows<Real>& rows) {
+  const StressRows<D, Real> stress(rows);
+  const AllCrossingRows<D, Real> of(rows);
+#pragma omp simd
+  for (std::int64_t i = 0; i < n; ++i) {
+    const auto s = stress.of(i);
+    CellStress<Real> left = {s.s0 - of.c0.template begins<Slides>(s, i),
+                             s.s1 - of.c1.template begins<Slides>(s, i),
+                             s.s2 - of.c2.template begins<Slides>(s, i),
+                             0,
+                             0,
+                             0};
+    if constexpr (D == 3) {
+      left.s3 = s.s3 - of.c3.template begins<Slides>(s, i);
+      left.s4 = s.s4 - of.c4.template begins<Slides>(s, i);
+      left.s5 = s.s5 - of.c5.template begins<Slides>(s, i);
+    }
+    stress.set(i, left);
+  }
+}
+
+template <int D, class Real>
+LinearSlipKernels<Real> linear_of_family(bool damped, bool slides) {
+  if (damped)
+    return slides
+               ? LinearSlipKernels<Real>{family_ends<D, true, true, Real>, family_begins<D, true, true, Real>}
+               : LinearSlipKernels<Real>{family_ends<D, true, false, Real>,
+                                         family_begins<D, true, false, Real>};
+  return slides
+             ? LinearSlipKernels<Real>{family_ends<D, false, true, Real>, family_begins<D, false, true, Real>}
+             : LinearSlipKernels<Real>{family_ends<D, false, false, Real>,
+                                       family_begins<D, false, false, Real>};
+}
+
+template <class Real>
+LinearSlipKernels<Real> linear_of(const LinearSlipCase& of) {
+  if (of.one_family)
+    return of.dimensions == 2 ? linear_of_family<2, Real>(of.damped, of.slides)
+                              : linear_of_family<3, Real>(of.damped, of.slides);
+  if (of.dimensions == 3) return {crossing_end<3, Real>, crossing_begin<3, false, Real>};
+  return {crossing_end<2, Real>, of.slides ? crossing_begin<2, true, Real> : crossing_begin<2, false, Real>};
+}
+
+}  // namespace
+}  // namespace slipwave::solver

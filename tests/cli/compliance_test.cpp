@@ -1,0 +1,119 @@
+#include <algorithm>
+
+#include "shell.hpp"
+
+namespace {
+
+/// Planes that give way like springs, from the command line to traces.
+class Compliance : public Shell {
+ protected:
+  const std::string model = "sw-layers --size 300x300 --step 10 --layer 0:3000:1500:2200 -q ";
+  const std::string region = "--box 50:250,100:200 --dip 30 ";
+  void expect_misuse(const std::string& options, const std::string& sentence) {
+    expect_refused("sw-fracture m.nc " + region + options + " -o no.nc", 2, "sw-fracture: " + sentence);
+  }
+};
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_F(Compliance, IsReportedAndPlannedAndChangesTraces) {
+  done(model + "-o m.nc");
+  done("sw-fracture m.nc " + region + "--stiffness 1e11,5e10 --spacing 5 --dashpot 1e6,1e6 -o s.nc");
+  const auto info = done("sw-info s.nc");
+  EXPECT_TRUE(has(info, "normal compliance 1e-11 m/Pa")) << info;
+  EXPECT_TRUE(has(info, "tangential dashpot 1000000 Pa s/m")) << info;
+  EXPECT_FALSE(has(info, "viscosity")) << info;
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --time 0.2 --dt 0.002 -q ";
+  EXPECT_TRUE(has(done("sw-shoot s.nc" + shot + "--plan -v"), "linear slip"));
+  done("sw-shoot s.nc" + shot + "-o with.sgy && sw-shoot s.nc" + shot +
+       "--without compliance -o without.sgy");
+  done("sw-shoot s.nc" + shot + "--without slip -o intact.sgy");
+  done("sw-compare without.sgy intact.sgy --tolerance 0");
+  EXPECT_NE(run("sw-compare with.sgy intact.sgy --tolerance 0.001").code, 0);
+}
+
+TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
+  done(model + "-o m.nc");
+  expect_misuse("--compliance -1e-12,1e-12 --spacing 1",
+                "--compliance: found '-1e-12,1e-12', expected two numbers not below zero");
+  expect_misuse("--compliance 1e-12,1e-12 --spacing 0",
+                "--spacing: found 0, expected it above zero, the distance between planes in m");
+  expect_misuse("--compliance 1e-12,1e-12", "--spacing is missing");
+  expect_misuse("--compliance 1,1 --stiffness 1,1 --spacing 1",
+                "found --compliance and --stiffness, give one of both");
+  expect_misuse("--compliance 1e-12,1e-12 --spacing 1 --viscosity 3", "--viscosity needs --friction");
+  expect_misuse("--compliance 1e-12,1e-12 --spacing 1 --opening",
+                "--opening needs --friction: planes that open carry no tension, springs do");
+  expect_misuse("--friction 0.1",
+                "--viscosity is missing; expected --viscosity ETA, or --for-frequency HZ --strain-rate RATE");
+  expect_misuse("--friction 0.1 --for-frequency 30", "--for-frequency and --strain-rate need each other");
+  expect_refused(
+      "sw-fracture m.nc --box 50:250,100:200 --dip 30 --dip 80 --friction 0.1 --viscosity 1 --compliance "
+      "1e-12,1e-12 --spacing 1 -o no.nc",
+      1,
+      "sw-fracture: fracture set 1 'fractures-1': friction together with compliance needs one family of "
+      "planes, in 2-D or two at right angles; give the others a set of their own");
+}
+
+TEST_F(Compliance, IsNotNeededForAViscosityThatCompetesWithWaves) {
+  done(model + "-o m.nc");
+  const auto said =
+      run("sw-fracture m.nc " + region + "--friction 0.1 --for-frequency 30 --strain-rate 1e-5 -o v.nc");
+  EXPECT_TRUE(has(
+      said.err, "sw-fracture: viscosity 250000 s, at which slip competes with waves of 30 Hz and 1e-05 1/s"))
+      << said.err;
+  EXPECT_TRUE(has(done("sw-info v.nc"), "viscosity 250000 s"));
+}
+
+TEST_F(Compliance, MakesAnEffectiveMediumInsteadOfSprings) {
+  done(model + "-o m.nc");
+  const std::string level =
+      "sw-fracture m.nc --box 50:250,100:200 --dip 0 --stiffness 4e10,2e10 --spacing 1 ";
+  done(level + "--effective -o e.nc");
+  const auto info = done("sw-info e.nc");
+  EXPECT_TRUE(has(info, "epsilon")) << info;
+  EXPECT_FALSE(has(info, "compliance ")) << info;
+  // Other planes go into the same cells; waves take the way that springs leave them.
+  done("sw-fracture e.nc --box 50:250,100:200 --dip 90 --compliance 1e-12,1e-12 --spacing 1 -o both.nc");
+  done(level + "-o s.nc");
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,250 --wavelet ricker:7 --time 0.4 --dt 0.002 -q ";
+  for (const std::string name : {"m", "e", "s", "both"})
+    done("sw-shoot " + name + ".nc" + shot + "-o " + name + ".sgy");
+  done("sw-compare e.sgy s.sgy --tolerance 0.02");
+  EXPECT_NE(run("sw-compare m.sgy s.sgy --tolerance 0.05").code, 0);
+  EXPECT_NE(run("sw-compare both.sgy e.sgy --tolerance 0.005").code, 0);
+}
+
+TEST_F(Compliance, OfAnEffectiveMediumIsRefusedWhereItHasNone) {
+  done(model + "-o m.nc");
+  const std::string springs = "--compliance 1e-12,1e-12 --spacing 1 --effective ";
+  expect_misuse(
+      springs,
+      "--effective: planes dip by 30 degrees, expected level or upright ones (0 or 90); planes that "
+      "dip are springs");
+  expect_misuse(springs + "--dashpot 1,1",
+                "--effective: an effective medium has no dashpots, expected springs alone");
+  expect_misuse(springs + "--prestress 1e6",
+                "found --effective and --prestress, which is of a fracture set; --effective makes none");
+}
+
+TEST_F(Compliance, ThatSticksOrIsDryIsALineOfThePlan) {
+  done(model + "-o m.nc");
+  const auto slip = [&](const std::string& options, const std::string& strength) {
+    done("sw-fracture m.nc " + region + options + " -q -o f.nc");
+    return done(
+        "sw-shoot f.nc --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --time 0.2 -q --plan "
+        "--amplitude " +
+        strength + " | grep '^  slip ' || true");
+  };
+  EXPECT_TRUE(has(slip("--friction 0.5 --viscosity 0", "1e6"), "slip like dry friction"));
+  EXPECT_TRUE(has(slip("--friction 0.5 --viscosity 1e20", "1e6"), "hardly slip"));
+  const auto stuck = slip("--friction 0.6 --viscosity 1 --prestress lithostatic", "1e6");
+  EXPECT_TRUE(has(stuck, "can not slip")) << stuck;
+  EXPECT_EQ(std::count(stuck.begin(), stuck.end(), '\n'), 1);
+  EXPECT_EQ(slip("--compliance 1e-12,1e-12 --spacing 1", "1e6"), "");
+}

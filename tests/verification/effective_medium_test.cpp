@@ -1,0 +1,117 @@
+// Rock full of planes that give way, as springs in its cells and as the effective medium of Schoenberg &
+// Sayers, against plane-wave (wave number) solutions for the closed form of its stiffness (docs/theory.md
+// (S26)).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "lab.hpp"
+#include "model/effective_medium.hpp"
+#include "solver/simulation.hpp"
+#include "vti_stack.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+constexpr Material rock{3370, 1830, 2500};
+constexpr double peak_hz = 20;
+const double mu = rock.rho * rock.vs * rock.vs, modulus = rock.rho * rock.vp * rock.vp;
+
+/// Planes that make the modulus across them and that of shear this much less: weaknesses of theirs.
+SlipSystem<2> planes(const Point<2>& normal, double weak_n, double weak_t) {
+  SlipSystem<2> system{normal};
+  system.law = FrictionLaw::none;
+  system.compliance = {weak_n / (1 - weak_n) / modulus, weak_t / (1 - weak_t) / mu, 0, 0, 1};
+  return system;
+}
+const auto level = planes({0, 1}, 0.2, 0.35), upright = planes({1, 0}, 0.15, 0.1);
+
+const std::vector<VtiStack::Receiver> receivers = {{0, 160}, {80, 140}, {130, 100}, {160, 45}, {150, -60}};
+
+Scene<2> scene_with(double h) {
+  Scene<2> scene;
+  const Grid<2> grid{{std::llround(1100 / h), std::llround(1100 / h)}, h, {0, 0}};
+  scene.model.medium = Medium<2>(grid);
+  for (std::size_t cell = 0; cell < scene.model.medium.vp.size(); ++cell) put(scene.model.medium, cell, rock);
+  const double middle = 550;
+  scene.survey.sources = {
+      {{middle, middle}, parse_mechanism<2>("force:0.6,0.8"), parse_wavelet("ricker:20"), 1e6}};
+  for (const auto& at : receivers) scene.survey.receivers_m.push_back({middle + at.x, middle + at.z});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.numerics.order = 7;
+  // Until waves come back from the edges, beyond which rock has no planes.
+  scene.recording = {{Component::vx, Component::vz}, 0.27, 0.001};
+  return scene;
+}
+const auto everywhere = [](const Point<2>&) { return true; };
+
+/// Of all traces, against the closed form of all planes together.
+double error_of(const Scene<2>& scene, const std::vector<SlipSystem<2>>& all) {
+  VtiStack stack{{{effective_stiffness(stiffness_of(rock), all), rock.rho}}, {}};
+  stack.force = {0.6, 0.8};
+  const auto gather = shoot(scene, 1);
+  const auto exact = stack.ricker(peak_hz, 0.001, std::size_t(gather.axis.count), receivers);
+  std::vector<double> found, wanted;
+  for (std::size_t n = 0; n < gather.traces.size(); ++n) {
+    const auto& samples = gather.traces[n].samples;
+    found.insert(found.end(), samples.begin(), samples.end());
+    for (const double value : exact[n % receivers.size()][n / receivers.size()])
+      wanted.push_back(1e6 * value);
+  }
+  return relative_error(found, wanted);
+}
+double error_of_medium(double h, const std::vector<SlipSystem<2>>& all) {
+  auto scene = scene_with(h);
+  make_effective(scene.model, all, everywhere);
+  return error_of(scene, all);
+}
+/// Some of the planes are in the rock already.
+double error_of_springs(double h, const std::vector<SlipSystem<2>>& springs,
+                        const std::vector<SlipSystem<2>>& in_rock = {}) {
+  auto scene = scene_with(h);
+  if (!in_rock.empty()) make_effective(scene.model, in_rock, everywhere);
+  add_fractures<2>(scene.model, {"planes", springs}, everywhere);
+  auto all = springs;
+  all.insert(all.end(), in_rock.begin(), in_rock.end());
+  return error_of(scene, all);
+}
+
+TEST(EffectiveStiffness, OfLevelPlanesIsThatOfSchoenbergAndSayers) {
+  // c33 and c13 fall by the weakness across the planes, c55 by that along them, c11 by (lambda/modulus)^2 of
+  // the first.
+  const double lambda = modulus - 2 * mu;
+  const auto found = effective_stiffness(stiffness_of(rock), {level});
+  EXPECT_NEAR(found.c33 / modulus, 1 - 0.2, 1e-12);
+  EXPECT_NEAR(found.c13 / lambda, 1 - 0.2, 1e-12);
+  EXPECT_NEAR(found.c55 / mu, 1 - 0.35, 1e-12);
+  EXPECT_NEAR(found.c11 / modulus, 1 - 0.2 * std::pow(lambda / modulus, 2), 1e-12);
+  const auto turned = effective_stiffness(stiffness_of(rock), {planes({-1, 0}, 0.2, 0.35)});
+  EXPECT_NEAR(turned.c11 / found.c33, 1, 1e-12);
+  EXPECT_NEAR(turned.c33 / found.c11, 1, 1e-12);
+  // Thomsen's parameters of few planes: epsilon = 2 g (1 - g) D_N, delta = 2 g (D_N - D_T), g = (vs/vp)^2.
+  const double g = mu / modulus, few = 1e-4;
+  const auto weak = material_of_stiffness(
+      effective_stiffness(stiffness_of(rock), {planes({0, 1}, 2 * few, few)}), rock.rho);
+  EXPECT_NEAR(weak.epsilon / (2 * g * (1 - g) * 2 * few), 1, 1e-3);
+  EXPECT_NEAR(weak.delta / (2 * g * few), 1, 1e-3);
+}
+
+TEST(EffectiveMedium, HasTheTracesOfItsClosedFormAndSoHaveSprings) {
+  for (const auto& all : {std::vector{level}, std::vector{upright}, std::vector{level, upright}}) {
+    SCOPED_TRACE(all.size() == 2 ? "both" : all[0].normal[0] == 0 ? "level" : "upright");
+    EXPECT_LT(error_of_medium(5, all), 0.01);
+    EXPECT_LT(error_of_springs(2.5, all), 0.025);
+  }
+}
+
+TEST(EffectiveMedium, IsWhatSpringsConvergeToWithSecondOrder) {
+  const std::vector all = {level, upright};
+  EXPECT_GT(observed_order(error_of_springs(10, all), error_of_springs(5, all)), 1.5);
+  // So do those of planes in a rock that is anisotropic by others.
+  EXPECT_LT(error_of_springs(5, {level}, {upright}), 0.08);
+  EXPECT_LT(error_of_springs(5, {upright}, {level}), 0.025);
+}
+
+}  // namespace
+}  // namespace slipwave::solver
