@@ -57,8 +57,8 @@ struct ShotsHeld {
 template <int D>
 std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held);
 
-/// What a user decides by: error, what it comes from, time, memory; where planes stick or are dry, that. A line
-/// each.
+/// What a user decides by: error, what it comes from, time, memory; where planes stick or are dry, that. A
+/// line each.
 template <int D>
 Report summary_of(const Plan<D>& plan, const ShotsHeld& held = {});
 
