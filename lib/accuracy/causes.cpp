@@ -160,8 +160,11 @@ double sustained_by_force(const Discretisation& cells, double away, double per_w
   return of_order * std::pow(10 / per_wave, 2) * std::exp(-3 * shorter - (0.16 + 0.5 * shorter) * away);
 }
 
-/// What an explosion in few cells sends out as S waves, `per_wave` being the cells per wavelength of P.
-double shear_of_explosion(double per_wave) { return 0.006 * std::pow(14.7 / per_wave, 6); }
+/// What an explosion in few cells sends out as S waves, `away` cells from it, `per_wave` being the cells per
+/// wavelength of P.
+double shear_of_explosion(double away, double per_wave) {
+  return 0.006 * (1 + 5 / away) * std::pow(14.7 / per_wave, 6);
+}
 
 /// Error of the near field `away` cells from a source in a medium of `per_wave` cells per wavelength and of
 /// this Courant number: near fields are static, so the longer waves are, the more counts that the smallest
@@ -432,16 +435,15 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   const double h = cells.spacing_m, courant = rock.vp * cells.time_step_s / h;
   const double per_wave = slowest_of(rock) / nominal_hz / h;
   // Of lower orders it is far less than dispersion.
-  const double sheared = cells.order >= 9 && near_kind() == NearField::of_explosion_in_rock
-                             ? shear_of_explosion(rock.vp / nominal_hz / h)
-                             : 0;
+  const bool sheared = cells.order >= 9 && near_kind() == NearField::of_explosion_in_rock;
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
     const double way = std::max(std::hypot(at.a_m, at.b_m) / h, 1.);
     const double share =
         near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
-    sum += std::pow(std::min(1., std::hypot(share, sheared)), 2) * energies[r];
+    const double s_waves = sheared ? shear_of_explosion(way, rock.vp / nominal_hz / h) : 0;
+    sum += std::pow(std::min(1., std::hypot(share, s_waves)), 2) * energies[r];
   }
   return sum;
 }
@@ -462,7 +464,7 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const bool force = source_is_force();
   // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
   const double finer =
-      cells.order >= 9 ? (bent && !force ? 1.8 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
+      cells.order >= 9 ? (bent && !force ? 2.4 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
   double rate =
       (floor ? at_floor : bound_to_surface) * finer * steps * (cells.order >= 7 ? bound_at_order_7 : 1);
   const auto& rock = places.layers[places.source_layer()];
