@@ -162,8 +162,11 @@ SpaceSeries series_of_wavelet(const Wavelet& wavelet, const std::vector<ShiftedF
     for (std::size_t row = 0; row < field_count; ++row) samples[row].push_back(float(sum[row]));
   }
   SpaceSeries series;
-  for (std::size_t row = 0; row < field_count; ++row)
-    series[row] = {std::move(samples[row]), -double(beside) * interval_s, interval_s};
+  for (std::size_t row = 0; row < field_count; ++row) {
+    const bool none =
+        std::all_of(samples[row].begin(), samples[row].end(), [](float sample) { return sample == 0; });
+    if (!none) series[row] = {std::move(samples[row]), -double(beside) * interval_s, interval_s};
+  }
   return series;
 }
 
