@@ -77,7 +77,10 @@ void inject_moment(const Mechanism<D>& mechanism, double amplitude, PointInjecti
 
 template <int D>
 Mechanism<D> parse_plane_wave(const std::string& text, const std::string& parameters) {
-  const auto numbers = in_place("source kind '" + text + "'", [&] { return parse_numbers(parameters, ','); });
+  const auto numbers = in_place("source kind '" + text + "'", [&] {
+    return parameters.find(',') == std::string::npos ? std::vector<double>{parse_number(parameters)}
+                                                     : parse_numbers(parameters, ',');
+  });
   if (numbers.size() > (D == 2 ? 1 : 2))
     throw Error("source kind '" + text + "': found " + std::to_string(numbers.size()) + " numbers, " +
                     expected_kinds<D>(),

@@ -140,7 +140,7 @@ void select_shots(GivenSurvey& survey, const std::string& list) {
     for (const auto& shot : survey.shots)
       if (shot.number >= first && shot.number <= last) selected.push_back(shot);
     if (selected.size() == before)
-      throw Error("found no shot " + text + " in the survey, expected some of " +
+      throw Error("found no shot " + text + " in the survey, whose shots are numbered " +
                   std::to_string(least->number) + " to " + std::to_string(most->number));
   }
   survey.shots = std::move(selected);

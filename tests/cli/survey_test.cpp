@@ -248,7 +248,7 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
   expect_refused("sw-shoot m.nc " + source + "--source 1,1 --origin 1,1", 2,
                  "sw-shoot: found --origin without --geometry, expected both");
   expect_refused("sw-shoot m.nc " + source + "--source 100:200:100,10 --receivers 5,5 --shots 3", 1,
-                 "sw-shoot: --shots: found no shot 3 in the survey, expected some of 1 to 2");
+                 "sw-shoot: --shots: found no shot 3 in the survey, whose shots are numbered 1 to 2");
 }
 
 TEST_F(SurveyOfSea, HeadersWithoutGeometrySayWhatIsMissing) {
