@@ -77,15 +77,28 @@ void inject_moment(const Mechanism<D>& mechanism, double amplitude, PointInjecti
 
 template <int D>
 Mechanism<D> parse_plane_wave(const std::string& text, const std::string& parameters) {
-  const double angle = in_place("source kind '" + text + "'", [&] { return parse_number(parameters); });
-  if (!(std::abs(angle) <= 360))
-    throw Error(
-        "source kind '" + text + "': found an angle of " + shown(angle) + " degrees, expected -360 to 360",
-        ErrorKind::usage);
+  const auto numbers = in_place("source kind '" + text + "'", [&] {
+    return parameters.find(',') == std::string::npos ? std::vector<double>{parse_number(parameters)}
+                                                     : parse_numbers(parameters, ',');
+  });
+  if (numbers.size() > (D == 2 ? 1 : 2))
+    throw Error("source kind '" + text + "': found " + std::to_string(numbers.size()) + " numbers, " +
+                    expected_kinds<D>(),
+                ErrorKind::usage);
+  for (const double angle : numbers)
+    if (!(std::abs(angle) <= 360))
+      throw Error(
+          "source kind '" + text + "': found an angle of " + shown(angle) + " degrees, expected -360 to 360",
+          ErrorKind::usage);
   PlaneWave<D> wave;
-  wave.angle_deg = angle;
-  wave.direction[0] = sine_of_degrees(angle);
-  wave.direction[D - 1] = cosine_of_degrees(angle);
+  wave.angle_deg = numbers[0];
+  wave.direction[0] = sine_of_degrees(wave.angle_deg);
+  wave.direction[D - 1] = cosine_of_degrees(wave.angle_deg);
+  if (numbers.size() == 1) return wave;
+  wave.azimuth_deg = numbers[1];
+  wave.along = {cosine_of_degrees(wave.azimuth_deg), sine_of_degrees(wave.azimuth_deg)};
+  for (std::size_t axis = 0; axis + 1 < D; ++axis)
+    wave.direction[axis] = sine_of_degrees(wave.angle_deg) * wave.along[axis];
   return wave;
 }
 
@@ -138,10 +151,11 @@ constexpr SourceKind<D> kinds[] = {
     {"force", D == 2 ? "AX,AZ" : "AX,AY,AZ", "", D == 2 ? "N/m" : "N", parse_force<D>, inject_force<D>},
     {"moment", D == 2 ? "MXX,MZZ,MXZ" : "MXX,MYY,MZZ,MXY,MXZ,MYZ", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_moment<D>, inject_moment<D>},
-    {"plane", "ANGLE", "degrees, 0 is down", "m/s", parse_plane_wave<D>, nullptr},
+    {"plane", D == 2 ? "ANGLE" : "ANGLE[,AZIMUTH]", "degrees, 0 is down", "m/s", parse_plane_wave<D>,
+     nullptr},
     {"double-couple", D == 2 ? "DIP" : "STRIKE,DIP,RAKE", "", D == 2 ? "N m/s per m" : "N m/s",
      parse_double_couple<D>, inject_moment<D>},
-    {"plane-s", "ANGLE", "SV", "m/s", parse_plane_s_wave<D>, nullptr},
+    {"plane-s", D == 2 ? "ANGLE" : "ANGLE[,AZIMUTH]", "SV", "m/s", parse_plane_s_wave<D>, nullptr},
 };
 
 static_assert(std::size(kinds<2>) >= std::variant_size_v<Mechanism<2>>);

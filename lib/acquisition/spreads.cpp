@@ -1,6 +1,7 @@
 #include "acquisition/spreads.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -19,6 +20,13 @@ class PlacingError : public Error {
 
 std::string place_text(double x, double y, bool with_y) {
   return "x=" + shown(x) + (with_y ? " y=" + shown(y) : "");
+}
+
+/// As people write places on maps: 6000000, not 6e+06.
+std::string map_text(double value) {
+  char text[64];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed);
+  return {text, end.ptr};
 }
 
 }  // namespace
@@ -133,8 +141,9 @@ void Spreads<D>::each_place(const std::function<void(const Point<D>&, std::size_
         try {
           see(point_of(place, *source), shot, number);
         } catch (const PlacingError& error) {
-          throw Error("shot " + std::to_string(shot) + ": receiver " + std::to_string(number) + ' ' +
-                      error.what());
+          throw Error("shot " +
+                      std::to_string(given_.numbered ? given_.shots[shot - 1].number : std::int64_t(shot)) +
+                      ": receiver " + std::to_string(number) + ' ' + error.what());
         }
       }
   }
@@ -153,8 +162,8 @@ std::string Spreads<D>::remedy() const {
   std::string doubt = given_.doubt.empty() ? "" : "; or " + given_.doubt;
   if (fitting.origin_m == given_.frame.origin_m && fitting.azimuth_deg == given_.frame.azimuth_deg)
     return doubt;
-  return "; the survey would begin at the model's origin with --origin " + shown(fitting.origin_m[0]) + "," +
-         shown(fitting.origin_m[1]) +
+  return "; the survey would begin at the model's origin with --origin " + map_text(fitting.origin_m[0]) +
+         "," + map_text(fitting.origin_m[1]) +
          (fitting.azimuth_deg == 90 ? "" : " --azimuth " + shown(fitting.azimuth_deg)) + doubt;
 }
 

@@ -21,17 +21,24 @@ template <int D>
 void check_inside(const std::string& what, const Point<D>& point, const Grid<D>& grid,
                   const std::string& remedy) {
   if (is_inside<D>(point, grid)) return;
+  // Rounding noise is no one's coordinate.
+  constexpr int digits = 9, of_depths = 7;
   std::string place, extent;
   for (int axis = 0; axis < D; ++axis) {
     const std::string name(1, axis_names<D>()[axis]), separator = axis == 0 ? "" : " ";
-    place += separator + name + "=" + shown(point[axis]);
+    place += separator + name + "=" + shown(point[axis], digits);
     const bool bent = axis == D - 1 && grid.rows;
     const auto depths = bent ? grid.depths_at(point) : std::array{grid.origin_m[axis], grid.end(axis)};
-    extent += separator + name + "=" + shown(depths[0]) + ".." + shown(depths[1]) + (bent ? " there" : "");
+    extent += separator + name + "=" + shown(depths[0], bent ? of_depths : digits) + ".." +
+              shown(depths[1], bent ? of_depths : digits) + (bent ? " there" : "");
   }
   bool beside = false;
   for (int axis = 0; axis < D - 1; ++axis)
     beside = beside || !(point[axis] >= grid.origin_m[axis] && point[axis] <= grid.end(axis));
+  if (grid.rows && !beside && point[D - 1] < grid.depths_at(point)[0])
+    throw Error(what + " at " + place +
+                " lies above the model, expected rock or fluid: the surface there is at z=" +
+                shown(grid.depths_at(point)[0], of_depths));
   throw Error(what + " at " + place + " lies outside the model, expected " + extent + (beside ? remedy : ""));
 }
 

@@ -28,13 +28,18 @@ struct MomentTensor {
   SymmetricTensor<D, double> tensor;
 };
 
-/// A plane P wave, or an S wave polarized in the x-z plane (SV), that comes in from outside. In 3-D it
-/// travels in the x-z plane.
+/// A plane P wave, or an S wave polarized in the vertical plane of travel (SV), that comes in from outside.
 template <int D>
 struct PlaneWave {
   double angle_deg = 0;
   Point<D> direction{};  // of travel; unit vector
   bool shear = false;
+  double azimuth_deg = 0;               // 3-D: of the plane of travel, from x towards y
+  std::array<double, 2> along{1., 0.};  // the same as a unit vector along x and y
+
+  /// The part of `direction` along the azimuth.
+  double across() const { return D == 2 ? direction[0] : direction[0] * along[0] + direction[1] * along[1]; }
+  bool in_x_z() const { return along[0] == 1; }
 
   double speed(double vp, double vs) const { return shear ? vs : vp; }
 };
@@ -117,7 +122,8 @@ template <int D>
 std::optional<PointInjection<D>> point_injection(const Source<D>& source);
 
 /// "explosion", "force:AX,AZ", "moment:MXX,MZZ,MXZ", "plane:ANGLE", "double-couple:DIP" or "plane-s:ANGLE";
-/// in 3-D "force:AX,AY,AZ", "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ" and "double-couple:STRIKE,DIP,RAKE". ANGLE in
+/// in 3-D "force:AX,AY,AZ", "moment:MXX,MYY,MZZ,MXY,MXZ,MYZ", "double-couple:STRIKE,DIP,RAKE" and, of plane
+/// waves, "ANGLE,AZIMUTH" too, the azimuth from x towards y, 0 where it is left out. ANGLE in
 /// degrees: 0 travels straight down, positive angles tilt towards +x, 90 travels towards +x, 180 up. Vector
 /// and tensor are taken as they are, not normalised, and must not vanish. A double couple has unit moment:
 /// STRIKE from x towards y, the plane dips to the right of it, RAKE is the direction in which the upper side

@@ -55,6 +55,11 @@ void Table::begin() {
       throw Error(place() + ": found column " + excerpt(std::string(value)) + " twice, expected it once");
     columns_.emplace_back(value);
   }
+  const auto rows = rest_;
+  const auto header_line = line_;
+  if (!next_values()) throw Error(name_ + ": found no row below the header line, expected some");
+  rest_ = rows;
+  line_ = header_line;
 }
 
 std::optional<std::size_t> Table::find(std::string_view column) const {

@@ -101,6 +101,7 @@ class Digest {
     if (const auto* wave = std::get_if<PlaneWave<D>>(&mechanism)) {
       add(wave->angle_deg);
       add(wave->direction);
+      if (!wave->in_x_z()) add(wave->azimuth_deg);
       if (wave->shear) add(1);
     }
     if (const auto* moment = std::get_if<MomentTensor<D>>(&mechanism))

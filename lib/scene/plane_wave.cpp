@@ -90,7 +90,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
   const auto& grid = medium.grid();
   const auto from = std::size_t(grid.flat(way.entry));
   const double c = wave.speed(medium.vp[from], medium.vs[from]);
-  const double along = wave.direction[0] / c, across = std::abs(wave.direction[D - 1]) / c;
+  const double along = wave.across() / c, across = std::abs(wave.direction[D - 1]) / c;
   // The earliest arrival of each row, on the way from the boundary it enters by.
   const std::int64_t rows = grid.shape[D - 1];
   std::vector<double> arrival_s(std::size_t(rows), 0);
@@ -115,8 +115,10 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
     auto layer = way.column;
     layer[D - 1] = at[D - 1];
     if (medium.same(std::size_t(n), std::size_t(grid.flat(layer)))) continue;
-    if (arrival_s[std::size_t(at[D - 1])] + along * (grid.centre(0, at[0]) - source.position_m[0]) > 0)
-      continue;
+    double later_s = 0;
+    for (std::size_t axis = 0; axis + 1 < D; ++axis)
+      later_s += wave.direction[axis] / c * (grid.centre(int(axis), at[axis]) - source.position_m[axis]);
+    if (arrival_s[std::size_t(at[D - 1])] + later_s > 0) continue;
     refuse_beginning("have come to what is not one of the layers along the sides", grid, n);
   }
 }
@@ -159,14 +161,16 @@ void check_edges(const Scene<D>& scene, const PlaneWave<D>& wave) {
       throw Error(
           "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
           "model with --fit none");
-  const double across = wave.direction[0], down = wave.direction[z];
+  const double down = wave.direction[z];
   const int entry = down > 0 ? 0 : 1;
   const char* entry_name = entry == 0 ? "top" : "bottom";
   if (std::abs(down) > least_share && scene.edges[z][entry] != EdgeLaw::absorbing)
     throw Error("the plane wave enters by the " + std::string(entry_name) + "; use --" + entry_name +
                 " absorbing");
-  if (std::abs(across) > least_share && scene.edges[0][across > 0 ? 0 : 1] != EdgeLaw::absorbing)
-    throw Error("the plane wave enters by a side; use --sides absorbing");
+  for (int axis = 0; axis < z; ++axis)
+    if (const double along = wave.direction[std::size_t(axis)];
+        std::abs(along) > least_share && scene.edges[axis][along > 0 ? 0 : 1] != EdgeLaw::absorbing)
+      throw Error("the plane wave enters by a side; use --sides absorbing");
 }
 
 /// Whether all absorbing boundaries lie in one medium, `reference`; else refuses or not.

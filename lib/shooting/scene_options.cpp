@@ -43,10 +43,16 @@ Survey<D> make_survey(const SceneOptions& s) {
   auto given = s.survey.read(D);
   Once<Wavelet> wavelets;
   Once<Mechanism<D>> kinds;
+  const bool any_wavelet = std::any_of(given.shots.begin(), given.shots.end(), [](const GivenShot& shot) {
+    return std::any_of(shot.sources.begin(), shot.sources.end(),
+                       [](const GivenSource& source) { return !source.wavelet.empty(); });
+  });
   const auto source_of = [&](const GivenSource& source) {
     const bool own_wavelet = !source.wavelet.empty(), own_kind = !source.kind.empty();
     if (!own_wavelet && s.wavelet.empty())
-      throw Error("--wavelet is missing; expected --wavelet W", ErrorKind::usage);
+      throw Error(any_wavelet ? source.from + ": found no wavelet, expected one there or --wavelet W"
+                              : "--wavelet is missing; expected --wavelet W",
+                  ErrorKind::usage);
     const auto& wavelet = wavelets.get(own_wavelet ? source.wavelet : s.wavelet,
                                        own_wavelet ? source.from : "--wavelet", wavelet_named);
     const auto& kind =

@@ -25,7 +25,7 @@ bool is_table(const std::string& text) { return text.size() > 1 && text.front() 
 
 /// Receivers that options and tables name for all shots, and those of tables for one shot each.
 struct Receivers {
-  std::vector<std::pair<Place, std::int64_t>> of_all;  // with their channels; 0: not given
+  std::vector<TableReceiver> of_all;
   std::map<std::int64_t, std::vector<TableReceiver>> of_shot;
 };
 
@@ -34,13 +34,13 @@ Receivers read_receiver_options(const std::vector<std::string>& options, int dim
   for (const auto& text : options) {
     if (!is_table(text)) {
       for (const auto& place : in_place("--receivers", [&] { return places_of(text, dimension, true); }))
-        receivers.of_all.emplace_back(place, 0);
+        receivers.of_all.push_back({place, 0, 0, ""});
       continue;
     }
     Table table(text.substr(1));
     for (auto& receiver : read_receivers(table, dimension))
       if (receiver.shot == 0)
-        receivers.of_all.emplace_back(receiver.place, receiver.channel);
+        receivers.of_all.push_back(std::move(receiver));
       else
         receivers.of_shot[receiver.shot].push_back(std::move(receiver));
   }
@@ -64,32 +64,33 @@ void check_shots(const GivenSurvey& survey, const Receivers& receivers) {
 }
 
 /// Channels are given for all receivers of a shot or for none, and each once.
-void check_channels(const std::vector<std::pair<Place, std::int64_t>>& receivers,
-                    const std::string& of_shot) {
-  std::set<std::int64_t> channels;
+void check_channels(const std::vector<TableReceiver>& receivers, const std::string& of_shot) {
+  std::map<std::int64_t, std::string> channels;  // where each was given
   for (std::size_t n = 0; n < receivers.size(); ++n) {
-    const auto channel = receivers[n].second;
-    if ((channel == 0) != (receivers.front().second == 0))
+    const auto channel = receivers[n].channel;
+    if ((channel == 0) != (receivers.front().channel == 0))
       throw Error("--receivers: found receiver " + std::to_string(n + 1) + of_shot +
                   (channel == 0 ? " without" : " with") + " a channel, expected all with one or none");
-    if (channel != 0 && !channels.insert(channel).second)
-      throw Error("--receivers: found channel " + std::to_string(channel) + " twice" + of_shot +
-                  ", expected it once");
+    if (channel == 0) continue;
+    const auto [first, is_new] = channels.try_emplace(channel, receivers[n].from);
+    if (!is_new)
+      throw Error(receivers[n].from + ": found channel " + std::to_string(channel) + of_shot +
+                  " again (first: " + first->second + "), expected it once");
   }
 }
 
 /// The same receivers for all shots: one run, as many shots as there are.
 void add_common_receivers(GivenSurvey& survey, const Receivers& receivers) {
   check_channels(receivers.of_all, "");
-  const bool channels = !receivers.of_all.empty() && receivers.of_all.front().second != 0;
+  const bool channels = !receivers.of_all.empty() && receivers.of_all.front().channel != 0;
   if (!channels) {
-    for (const auto& [place, channel] : receivers.of_all) survey.places.push_back(place);
+    for (const auto& receiver : receivers.of_all) survey.places.push_back(receiver.place);
     if (!survey.places.empty()) survey.runs.push_back({0, std::uint32_t(survey.places.size()), 1, 1, -1});
   } else {
     survey.told_apart = true;
     ReceiverCollector collector(survey);
     collector.begin(0);
-    for (const auto& [place, channel] : receivers.of_all) collector.add(place, channel);
+    for (const auto& receiver : receivers.of_all) collector.add(receiver.place, receiver.channel);
     collector.end();
   }
   for (auto& shot : survey.shots) {
@@ -105,11 +106,11 @@ void add_receivers_by_shot(GivenSurvey& survey, const Receivers& receivers) {
     const auto number = survey.numbered ? survey.shots[n].number : std::int64_t(n) + 1;
     auto all = receivers.of_all;
     if (const auto own = receivers.of_shot.find(number); own != receivers.of_shot.end())
-      for (const auto& receiver : own->second) all.emplace_back(receiver.place, receiver.channel);
+      all.insert(all.end(), own->second.begin(), own->second.end());
     check_channels(all, " of shot " + std::to_string(number));
     collector.begin(n);
     for (std::size_t k = 0; k < all.size(); ++k)
-      collector.add(all[k].first, all[k].second != 0 ? all[k].second : std::int64_t(k) + 1);
+      collector.add(all[k].place, all[k].channel != 0 ? all[k].channel : std::int64_t(k) + 1);
     collector.end();
   }
 }
@@ -128,13 +129,19 @@ void select_shots(GivenSurvey& survey, const std::string& list) {
   if (!survey.numbered)
     for (std::size_t n = 0; n < survey.shots.size(); ++n) survey.shots[n].number = std::int64_t(n) + 1;
   settle_numbers(survey);
+  const auto by_number = [](const GivenShot& one, const GivenShot& other) {
+    return one.number < other.number;
+  };
+  const auto [least, most] = std::minmax_element(survey.shots.begin(), survey.shots.end(), by_number);
   std::vector<GivenShot> selected;
   for (const auto& text : split(list, ',')) {
     const auto [first, last] = range_of(text);
     const auto before = selected.size();
     for (const auto& shot : survey.shots)
       if (shot.number >= first && shot.number <= last) selected.push_back(shot);
-    if (selected.size() == before) throw Error("found no shot " + text + " in the survey, expected one");
+    if (selected.size() == before)
+      throw Error("found no shot " + text + " in the survey, whose shots are numbered " +
+                  std::to_string(least->number) + " to " + std::to_string(most->number));
   }
   survey.shots = std::move(selected);
   settle_numbers(survey);

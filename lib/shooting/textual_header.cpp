@@ -12,7 +12,9 @@ namespace {
 template <int D>
 std::string kind_of(const Mechanism<D>& mechanism) {
   const auto* wave = std::get_if<PlaneWave<D>>(&mechanism);
-  return name_of<D>(mechanism) + (wave ? ":" + shown(wave->angle_deg) : std::string());
+  return name_of<D>(mechanism) +
+         (wave ? ":" + shown(wave->angle_deg) + (wave->azimuth_deg != 0 ? "," + shown(wave->azimuth_deg) : "")
+               : std::string());
 }
 
 /// What all sources have in common, by the first of them.

@@ -35,7 +35,8 @@ shape::Sampled read_trace(const std::string& path, std::int64_t number) {
     if (!reader.next(skipped)) break;
   segy::Trace trace;
   if (reader.delivered() + 1 < number || !reader.next(trace))
-    throw Error(path + ": found " + std::to_string(reader.delivered()) + " traces, expected trace " +
+    throw Error(path + ": found " + std::to_string(reader.delivered()) +
+                (reader.delivered() == 1 ? " trace" : " traces") + ", expected trace " +
                 std::to_string(number));
   return in_place(path + ": trace " + std::to_string(number), [&] {
     check_finite(trace.samples);

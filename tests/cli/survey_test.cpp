@@ -168,6 +168,10 @@ TEST_F(SurveyOfSea, BlendedShotsAddUp) {
 TEST_F(SurveyOnHill, GeophonesStandOnTheGround) {
   for (const std::string fit : {"surface,floor", "none"}) {
     make(fit);
+    expect_refused("sw-shoot m.nc " + source + "--source 300,surface+4 --receivers 0:600:50,40", 1,
+                   std::string("sw-shoot: receiver 1 at x=0 z=40 ") +
+                       (fit == "none" ? "is in void" : "lies above the model") +
+                       ", expected rock or fluid: the surface there is at z=60");
     done("sw-shoot m.nc " + source +
          "--source 300,surface+4 --receivers 0:600:50,surface --record vz -o a.sgy");
     const auto text = done("sw-info a.sgy");
@@ -180,9 +184,6 @@ TEST_F(SurveyOnHill, GeophonesStandOnTheGround) {
          "--geometry a.sgy --source-depth surface+4 --receiver-depth surface --record vz -o c.sgy");
     EXPECT_EQ(run("cmp <(tail -c +3601 a.sgy) <(tail -c +3601 c.sgy)").out, "") << fit;
   }
-  expect_refused(
-      "sw-shoot m.nc " + source + "--source 300,surface+4 --receivers 0:600:50,40", 1,
-      "sw-shoot: receiver 1 at x=0 z=40 is in void, expected rock or fluid: the surface there is at z=60");
   expect_refused("sw-shoot m.nc " + source + "--source 300,surface+4 --receivers 0:600:50,floor", 1,
                  "sw-shoot: receiver 1 has its depth from the sea floor, found no water above rock at x=0");
 }
@@ -217,7 +218,8 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
           "t.csv: found 3 columns without a header line, expected X Z or names above the columns");
   refused("x,z\n1,surface*2\n", shot, 1,
           "t.csv: line 2: column z: found 'surface*2', expected surface, surface+D or surface-D");
-  refused("x,z,channel\n1,2,1\n2,2,1\n", shot, 1, "--receivers: found channel 1 twice, expected it once");
+  refused("x,z,channel\n1,2,1\n2,2,1\n", shot, 1,
+          "t.csv: line 3: found channel 1 again (first: t.csv: line 2), expected it once");
   refused("x,z,shot\n1,2,1\n1,2,2\n", shot, 1,
           "t.csv: line 3: found a receiver of shot 2, which has no source");
   refused("x,z,delay\n1,2,-1\n", shots, 1,
@@ -226,6 +228,7 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
           "t.csv: line 2: wavelet: found 'rick:3', expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or "
           "file:PATH");
   refused("", shots, 1, "t.csv: found no row, expected a table");
+  refused("# sources\nx,z\n\n# none\n", shots, 1, "t.csv: found no row below the header line, expected some");
   refused("x,z\n100,301\n", shots, 1,
           "t.csv: line 2: the source at x=100 z=301 lies outside the model, expected x=0..600 z=0..300");
   refused("shot,sx,sz,gx,gz\n1,1,1,2,1\n1,9,1,3,1\n", "--geometry t.csv", 1,
@@ -235,6 +238,9 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
           "t.csv: line 3: found channel 1 twice in a shot, first on line 2; expected it once");
   refused("record,shot\n1,4\n", "--source 1,1 --receivers 5,5 --blend t.csv", 1,
           "t.csv: line 2: column shot: found shot 4, which the survey does not have");
+  write("t.csv", "x,z,wavelet\n100,20,ricker:20\n200,20,\n");
+  expect_refused("sw-shoot m.nc --time 0.2 --receivers 100,10 --source @t.csv", 2,
+                 "sw-shoot: t.csv: line 3: found no wavelet, expected one there or --wavelet W");
   expect_refused("sw-shoot m.nc " + source + "--geometry m.nc", 1,
                  "sw-shoot: m.nc: expected traces in SEG-Y or SU, a CSV table or SPS, found none of them");
   expect_refused("sw-shoot m.nc " + source + "--geometry t.csv --source 1,1", 2,
@@ -242,7 +248,7 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
   expect_refused("sw-shoot m.nc " + source + "--source 1,1 --origin 1,1", 2,
                  "sw-shoot: found --origin without --geometry, expected both");
   expect_refused("sw-shoot m.nc " + source + "--source 100:200:100,10 --receivers 5,5 --shots 3", 1,
-                 "sw-shoot: --shots: found no shot 3 in the survey, expected one");
+                 "sw-shoot: --shots: found no shot 3 in the survey, whose shots are numbered 1 to 2");
 }
 
 TEST_F(SurveyOfSea, HeadersWithoutGeometrySayWhatIsMissing) {

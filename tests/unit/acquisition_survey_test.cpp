@@ -66,6 +66,21 @@ TEST(PlaneWave, TravelsDownAtZeroAndTowardsXAtNinety) {
   EXPECT_EQ((std::get<PlaneWave<3>>(parse_mechanism<3>("plane:0")).direction), (Point<3>{0, 0, 1}));
 }
 
+TEST(PlaneWave, TurnsFromXTowardsYByItsAzimuth) {
+  const auto wave = [](const std::string& text) { return std::get<PlaneWave<3>>(parse_mechanism<3>(text)); };
+  EXPECT_EQ(wave("plane:90,90").direction, (Point<3>{0, 1, 0}));
+  EXPECT_EQ(wave("plane:-90,90").direction, (Point<3>{0, -1, 0}));
+  EXPECT_EQ(wave("plane-s:0,90").direction, (Point<3>{0, 0, 1}));
+  EXPECT_EQ(wave("plane-s:0,90").along, (std::array<double, 2>{0, 1}));
+  EXPECT_EQ(wave("plane:30,0").direction, wave("plane:30").direction);
+  EXPECT_NEAR(wave("plane:30,60").direction[0], 0.25, 1e-15);
+  EXPECT_NEAR(wave("plane:30,60").direction[1], std::sqrt(3) / 4, 1e-15);
+  EXPECT_NEAR(wave("plane:-40,-75").across(), std::sin(-40 * std::acos(-1) / 180), 1e-15);
+  EXPECT_THROW(parse_mechanism<2>("plane:30,60"), Error);
+  EXPECT_THROW(parse_mechanism<3>("plane:30,60,0"), Error);
+  EXPECT_THROW(parse_mechanism<3>("plane:30,361"), Error);
+}
+
 TEST(PointInjection, OfAnExplosionIsTheMomentTensorThatIsTheUnitMatrix) {
   const auto explosion = *point_injection(source<3>("explosion", 7));
   EXPECT_EQ(explosion.moment_rate, point_injection(source<3>("moment:1,1,1,0,0,0", 7))->moment_rate);

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "fitted_medium.hpp"
 #include "lab.hpp"
 #include "plain_and_tiled.hpp"
 #include "solver/simulation.hpp"
@@ -105,6 +106,34 @@ TEST(ObliquePlaneWave, IsReflectedConvertedAndTransmittedAsAkiAndRichardsSay) {
                        at[0] - reference[0], at[1] - depth, gather.axis.count, 0.001);
       // 6 cells to the shortest S wave that counts (50 Hz).
       EXPECT_LT(relative_error_of(gather, n, 4, exact), 0.02) << angle << " degrees, receiver " << n;
+    }
+  }
+}
+
+/// A top that lies on no faces stretches the rows above and below it, which stay level.
+TEST(ObliquePlaneWave, CrossesLevelRowsOfOtherHeightsAsAkiAndRichardsSay) {
+  const double depth = 203, angle = 25, p = std::sin(angle * pi / 180) / upper.vp,
+               q = std::cos(angle * pi / 180) / upper.vp;
+  const Point<2> reference = {150, -150};
+  const auto medium = fitted_medium<2>(
+      Grid<2>{{60, 80}, 5},
+      {{dipping(0, 0), upper.vp, upper.vs, upper.rho}, {dipping(depth, 0), lower.vp, lower.vs, lower.rho}});
+  ASSERT_TRUE(medium.grid().rows);
+  ASSERT_TRUE(medium.grid().rows->row_is_level(40));
+  ASSERT_NE(medium.grid().height({0, 10}), 5);
+  for (const std::string kind : {"plane:", "plane:-"}) {
+    auto scene = scene_of(medium, kind + std::to_string(angle), reference, 0.45);
+    scene.survey.receivers_m = {{72.5, 122.5}, {222.5, 122.5}, {72.5, 302.5}, {222.5, 302.5}};
+    check(scene);
+    const Gather gather = shoot(scene, 1);
+    const double along = kind == "plane:" ? p : -p;
+    const auto waves = at_interface(upper, lower, along);
+    for (std::size_t n = 0; n < 4; ++n) {
+      const auto& at = scene.survey.receivers_m[n];
+      const auto exact = sum_of_waves(waves[at[1] > depth], scene.survey.sources[0].wavelet, along,
+                                      q * (depth - reference[1]), at[0] - reference[0], at[1] - depth,
+                                      gather.axis.count, 0.001);
+      EXPECT_LT(relative_error_of(gather, n, 4, exact), 0.02) << kind << " receiver " << n;
     }
   }
 }
@@ -212,6 +241,109 @@ TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
     check(cube);
     EXPECT_LT(relative_error(samples_of(shoot(cube, 1)), samples_of(shoot(scene, 1))), 5e-3) << kind;
   }
+}
+
+Scene<3> cube_of(const Medium<2>& column, std::int64_t side, const std::string& kind, double depth_m) {
+  Scene<3> cube;
+  const Grid<3> grid{{side, side, column.grid().shape[1]}, column.grid().spacing_m};
+  cube.model.medium = Medium<3>(grid, column);
+  for (std::int64_t n = 0; n < grid.size(); ++n)
+    for (const auto property : column.properties())
+      cube.model.medium[property][std::size_t(n)] = column[property]({0, grid.index(n)[2]});
+  cube.model.fracture = Field<3, std::uint8_t>(grid);
+  cube.survey.sources = {{{25, 30, depth_m}, parse_mechanism<3>(kind), parse_wavelet("ricker:20"), 1}};
+  cube.survey.receivers_m = {{42.5, 12.5, 42.5}, {12.5, 37.5, 87.5}};
+  for (auto& law : cube.edges.law) law = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+  cube.numerics.zone_cells = 10;
+  cube.recording = {{Component::vx, Component::vy, Component::vz}, 0.16, 0.002};
+  return cube;
+}
+
+/// What the receivers of a cube recorded, as a scene in the plane of travel records it: along it, then down;
+/// behind them what is across it.
+std::vector<double> in_plane_of_travel(const Gather& gather, double azimuth_deg) {
+  const double c = std::cos(azimuth_deg * pi / 180), s = std::sin(azimuth_deg * pi / 180);
+  std::vector<double> along, down, across;
+  for (std::size_t n = 0; n < 2; ++n) {
+    const auto &x = gather.traces[n].samples, &y = gather.traces[n + 2].samples,
+               &z = gather.traces[n + 4].samples;
+    down.insert(down.end(), z.begin(), z.end());
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      along.push_back(c * x[k] + s * y[k]);
+      across.push_back(c * y[k] - s * x[k]);
+    }
+  }
+  along.insert(along.end(), down.begin(), down.end());
+  along.insert(along.end(), across.begin(), across.end());
+  return along;
+}
+
+/// In layers as a wave in 2-D, whose layers are the closed forms of the tests above.
+TEST(ObliquePlaneWave, TravelsInAnyVerticalPlaneIn3DAsIn2D) {
+  const auto flat = two_layers(36, 24, 5, 60);
+  struct Case {
+    const char* kind;
+    double azimuth_deg, from_m;
+    EdgeLaw top;
+  };
+  for (const auto& [kind, azimuth_deg, from_m, top] :
+       {Case{"plane-s:-30", 45, -20, EdgeLaw::absorbing}, Case{"plane:155", -120, 160, EdgeLaw::free}}) {
+    auto cube = cube_of(flat, 10, kind + ("," + std::to_string(azimuth_deg)), from_m);
+    cube.edges[2][0] = top;
+    auto scene = scene_of(flat, kind, {90, from_m}, cube.recording.duration_s);
+    scene.recording.interval_s = cube.recording.interval_s;
+    scene.edges[1][0] = top;
+    scene.numerics.zone_cells = 10;
+    for (const auto& at : cube.survey.receivers_m)
+      scene.survey.receivers_m.push_back({90 + (at[0] - 25) * std::cos(azimuth_deg * pi / 180) +
+                                              (at[1] - 30) * std::sin(azimuth_deg * pi / 180),
+                                          at[2]});
+    check(scene);
+    check(cube);
+    auto expected = samples_of(shoot(scene, 1));
+    expected.resize(expected.size() * 3 / 2, 0);  // nothing moves across the plane of travel
+    EXPECT_LT(relative_error(in_plane_of_travel(shoot(cube, 1), azimuth_deg), expected), 5e-3) << kind;
+  }
+}
+
+TEST(ObliquePlaneWave, OfOneMediumHasItsClosedFormAtAnyAzimuth) {
+  for (const int time_order : {2, 4}) {
+    auto cube = cube_of(uniform_medium(36, 20, 5, upper), 10, "plane:40,45", -20);
+    cube.recording.duration_s = 0.09;
+    cube.numerics.time_order = time_order;
+    if (time_order == 4) cube.numerics.cfl = 1.9;
+    cube.recording.components = {Component::vx, Component::vy, Component::vz};
+    check(cube);
+    const auto& wave = std::get<PlaneWave<3>>(cube.survey.sources[0].mechanism);
+    const auto gather = shoot(cube, 1);
+    std::vector<double> expected;
+    for (const double part : wave.direction)
+      for (const auto& at : cube.survey.receivers_m)
+        for (std::size_t n = 0; n < gather.traces[0].samples.size(); ++n) {
+          double way = 0;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            way += wave.direction[axis] * (at[axis] - cube.survey.sources[0].position_m[axis]);
+          expected.push_back(part * cube.survey.sources[0].wavelet(double(n) * 0.002 - way / upper.vp));
+        }
+    EXPECT_LT(relative_error(samples_of(gather), expected), 5e-3) << time_order;
+  }
+}
+
+TEST(ObliquePlaneWave, GivesTheBitsOfTilesWithAnAzimuthToo) {
+  auto cube = cube_of(two_layers(36, 20, 5, 60), 10, "plane-s:20,60", 10);
+  cube.survey.receivers_m.resize(1);
+  cube.recording.duration_s = 0.012;
+  expect_same(cube);
+}
+
+TEST(ObliquePlaneWave, WithAnAzimuthNeedsTheSideItEntersBy) {
+  auto cube = cube_of(uniform_medium(36, 20, 5, upper), 10, "plane:40,45", -20);
+  cube.edges[1][1] = EdgeLaw::mirror;
+  EXPECT_NO_THROW(check(cube));
+  cube.edges[1][0] = EdgeLaw::mirror;
+  EXPECT_THROW(check(cube), Error);
+  cube.survey.sources[0].mechanism = parse_mechanism<3>("plane:40");
+  EXPECT_NO_THROW(check(cube));
 }
 
 /// What a soft block scatters, recorded round it, in a model whose edges lie that far beyond the receivers.

@@ -8,6 +8,7 @@
 #include "solver/effect/incident_pml.hpp"
 #include "solver/effect/layered_wave.hpp"
 #include "solver/effect/plane_form.hpp"
+#include "solver/effect/turned_wave.hpp"
 #include "solver/sweep/sweeps.hpp"
 
 namespace slipwave::solver {
@@ -332,6 +333,9 @@ std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene,
   if constexpr (D == 2)
     if (way.kind == PlaneWaveKind::vertical)
       return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s, fastest_speed(medium));
+  if constexpr (D == 3)
+    if (!std::get<PlaneWave<3>>(source.mechanism).in_x_z())
+      return make_turned_wave<Real>(scene, source, form, domain, way, dt_s);
   if (way.kind == PlaneWaveKind::layered) return make_layered_wave<D, Real>(scene, source, form, domain, way);
   return std::make_unique<UniformWave<D, Real>>(form, domain, way);
 }

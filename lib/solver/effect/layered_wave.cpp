@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/fft.hpp"
 
@@ -149,10 +150,18 @@ class StackSeries {
               double first_s, double last_s);
   /// The waves along x of a depth, which lies in that layer.
   std::array<TimeSeries, std::size_t(along_x_count)> at(double z, std::size_t layer);
-  /// How late the incident wave passes its reference.
-  const PlaneStackResponse& response() const { return response_; }
+  /// The fields there, as spectra.
+  std::array<std::vector<Complex>, 5> fields_at(double z, std::size_t layer) const;
+  TimeSeries series_of(const std::vector<Complex>& spectrum);
+  std::size_t bins() const { return bins_; }
+  Complex omega(std::size_t bin) const {
+    return {2 * std::numbers::pi * double(bin) / (double(length_) * interval_s_), -decay_};
+  }
 
  private:
+  /// Calls `see(bin, amplitude)` of a wave at a depth.
+  template <class See>
+  void each_bin(std::size_t wave, double z, const See& see) const;
   std::vector<float> samples_of(const std::vector<Complex>& spectrum, double& first_s);
 
   const PlaneStack& stack_;
@@ -199,34 +208,55 @@ StackSeries::StackSeries(const PlaneStack& stack, const Wavelet& wavelet, double
   }
 }
 
+/// From bin to bin the phase grows by the same factor.
+template <class See>
+void StackSeries::each_bin(std::size_t wave, double z, const See& see) const {
+  const double step = 2 * std::numbers::pi / (double(length_) * interval_s_);
+  const auto& of = response_.waves()[wave];
+  const auto way = Complex(0, -1) * of.slowness * (z - of.reference_m);
+  const auto factor = std::exp(way * step);
+  auto phase = std::exp(way * Complex(0, -decay_));
+  for (std::size_t bin = 0; bin < bins_; ++bin, phase *= factor)
+    see(bin, phase * amplitudes_[bin][wave] * source_[bin]);
+}
+
+std::array<std::vector<Complex>, 5> StackSeries::fields_at(double z, std::size_t layer) const {
+  std::array<std::vector<Complex>, 5> spectra;
+  for (auto& spectrum : spectra) spectrum.assign(bins_, 0);
+  for (std::size_t n = 0; n < response_.waves().size(); ++n) {
+    const auto& wave = response_.waves()[n];
+    if (wave.layer != layer) continue;
+    each_bin(n, z, [&](std::size_t bin, const Complex& here) {
+      for (std::size_t f = 0; f < spectra.size(); ++f) spectra[f][bin] += here * wave.fields[f];
+    });
+  }
+  return spectra;
+}
+
+TimeSeries StackSeries::series_of(const std::vector<Complex>& spectrum) {
+  double first_s = 0;
+  auto samples = samples_of(spectrum, first_s);
+  return {std::move(samples), first_s, interval_s_};
+}
+
 std::array<TimeSeries, std::size_t(along_x_count)> StackSeries::at(double z, std::size_t layer) {
   const auto& rock = stack_.layers[layer];
   const MotionAlongX medium(rock.vp, rock.vs, rock.rho);
   std::array<std::vector<Complex>, std::size_t(along_x_count)> spectra;
   for (auto& spectrum : spectra) spectrum.assign(bins_, 0);
-  const double step = 2 * std::numbers::pi / (double(length_) * interval_s_);
   for (std::size_t n = 0; n < response_.waves().size(); ++n) {
     const auto& wave = response_.waves()[n];
     if (wave.layer != layer) continue;
     PlaneFields real{}, imaginary{};
     for (std::size_t f = 0; f < 5; ++f) real[f] = wave.fields[f].real(), imaginary[f] = wave.fields[f].imag();
     const auto of_real = waves_along_x(medium, real), of_imaginary = waves_along_x(medium, imaginary);
-    // From bin to bin the phase grows by the same factor.
-    const auto way = Complex(0, -1) * wave.slowness * (z - wave.reference_m);
-    const auto factor = std::exp(way * step);
-    auto phase = std::exp(way * Complex(0, -decay_));
-    for (std::size_t bin = 0; bin < bins_; ++bin, phase *= factor) {
-      const auto here = phase * amplitudes_[bin][n] * source_[bin];
+    each_bin(n, z, [&](std::size_t bin, const Complex& here) {
       for (std::size_t k = 0; k < spectra.size(); ++k)
         spectra[k][bin] += here * Complex(of_real[k], of_imaginary[k]);
-    }
+    });
   }
   std::array<TimeSeries, std::size_t(along_x_count)> series;
-  for (std::size_t k = 0; k < spectra.size(); ++k) {
-    double first_s = 0;
-    auto samples = samples_of(spectra[k], first_s);
-    series[k] = {std::move(samples), first_s, interval_s_};
-  }
+  for (std::size_t k = 0; k < spectra.size(); ++k) series[k] = series_of(spectra[k]);
   return series;
 }
 
@@ -327,7 +357,7 @@ PlaneStack stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domai
   stack.ends = {scene.edges[z][0], scene.edges[z][1]};
   stack.from_top = way.entry_side == 0;
   stack.shear = wave.shear;
-  stack.slowness = wave.direction[0] / wave.speed(medium.vp(way.entry), medium.vs(way.entry));
+  stack.slowness = wave.across() / wave.speed(medium.vp(way.entry), medium.vs(way.entry));
   double depth = 0;
   for (std::int64_t k = 0; k < domain.grid.shape[z]; ++k) {
     auto cell = way.column;
@@ -347,30 +377,95 @@ PlaneStack stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domai
 
 }  // namespace
 
+template <int D>
+struct LayeredSeries<D>::Impl {
+  Impl(const Scene<D>& scene, const Source<D>& source, const PlaneForm<D>& form, const Domain<D>& domain,
+       const PlaneWaveWay<D>& way)
+      : stack(stack_of(scene, std::get<PlaneWave<D>>(source.mechanism), domain, way, layer_of_row)),
+        depths(depths_of_rows(domain)) {
+    // Slowness times the way along the layers, of any cell; and when the wave comes to the first row.
+    const auto& plane = std::get<PlaneWave<D>>(source.mechanism);
+    double least = 0, most = 0;
+    for (int axis = 0; axis < D - 1; ++axis) {
+      const double slowness = form.slowness()[0] * plane.along[std::size_t(axis)],
+                   at = source.position_m[std::size_t(axis)];
+      const double low = slowness * (domain.grid.origin_m[axis] - at),
+                   high = slowness * (domain.grid.end(axis) - at);
+      least += std::min(low, high);
+      most += std::max(low, high);
+    }
+    const double latest_s = scene.recording.duration_s + 0.1 * source.wavelet.duration_s() - least;
+    const double reference = PlaneStackResponse(stack).reference_m(), x = form.origin()[0];
+    const double arrival_s = form.arrival_s(x, reference);
+    double first_s = std::min(arrival_s, -most);
+    for (const double z : {depths.front(), depths.back()}) first_s = std::min(first_s, form.arrival_s(x, z));
+    first_s -= source.wavelet.duration_s();
+    series.emplace(stack, source.wavelet, source.amplitude, arrival_s, first_s, latest_s);
+  }
+
+  std::vector<std::size_t> layer_of_row;
+  PlaneStack stack;
+  std::vector<double> depths;
+  std::optional<StackSeries> series;
+};
+
+template <int D>
+LayeredSeries<D>::LayeredSeries(const Scene<D>& scene, const Source<D>& source, const PlaneForm<D>& form,
+                                const Domain<D>& domain, const PlaneWaveWay<D>& way)
+    : impl_(std::make_unique<Impl>(scene, source, form, domain, way)) {}
+
+template <int D>
+LayeredSeries<D>::~LayeredSeries() = default;
+
+template <int D>
+MotionAlongX LayeredSeries<D>::medium(std::size_t row) const {
+  const auto& rock = impl_->stack.layers[impl_->layer_of_row[row]];
+  return {rock.vp, rock.vs, rock.rho};
+}
+
+template <int D>
+std::array<TimeSeries, std::size_t(along_x_count)> LayeredSeries<D>::waves_at(std::size_t row) const {
+  return impl_->series->at(impl_->depths[row], impl_->layer_of_row[row]);
+}
+
+template <int D>
+std::array<std::vector<Complex>, 5> LayeredSeries<D>::fields_at(std::size_t row) const {
+  return impl_->series->fields_at(impl_->depths[row], impl_->layer_of_row[row]);
+}
+
+template <int D>
+TimeSeries LayeredSeries<D>::sum_of(const std::array<std::vector<Complex>, 5>& spectra,
+                                    const std::vector<std::array<double, 5>>& factors,
+                                    const std::vector<double>& earlier_s) const {
+  std::vector<Complex> sum(impl_->series->bins());
+  // From bin to bin the phase of a part grows by the same factor.
+  const Complex first = Complex(0, 1) * impl_->series->omega(0),
+                step = Complex(0, 1) * impl_->series->omega(1) - first;
+  for (std::size_t part = 0; part < factors.size(); ++part) {
+    const auto& of = factors[part];
+    if (std::all_of(of.begin(), of.end(), [](double factor) { return factor == 0; })) continue;
+    auto phase = std::exp(first * earlier_s[part]);
+    const auto turn = std::exp(step * earlier_s[part]);
+    for (std::size_t bin = 0; bin < sum.size(); ++bin, phase *= turn) {
+      Complex here = 0;
+      for (std::size_t field = 0; field < of.size(); ++field) here += of[field] * spectra[field][bin];
+      sum[bin] += here * phase;
+    }
+  }
+  return impl_->series->series_of(sum);
+}
+
+template class LayeredSeries<2>;
+template class LayeredSeries<3>;
+
 template <int D, class Real>
 std::unique_ptr<IncidentWave<D, Real>> make_layered_wave(const Scene<D>& scene, const Source<D>& source,
                                                          const PlaneForm<D>& form, const Domain<D>& domain,
                                                          const PlaneWaveWay<D>& way) {
-  const auto& wave = std::get<PlaneWave<D>>(source.mechanism);
-  std::vector<std::size_t> layer_of_row;
-  const auto stack = stack_of(scene, wave, domain, way, layer_of_row);
-  const auto depths = depths_of_rows(domain);
-  const double slowness = form.slowness()[0], x = form.origin()[0];
-  // Times less slowness (x - x_s) that any cell asks for, and when the wave comes to the first row.
-  const double low = slowness * (domain.grid.origin_m[0] - x), high = slowness * (domain.grid.end(0) - x);
-  const double latest_s =
-      scene.recording.duration_s + 0.1 * source.wavelet.duration_s() - std::min(low, high);
-  const double reference = PlaneStackResponse(stack).reference_m();
-  const double arrival_s = form.arrival_s(x, reference);
-  double first_s = std::min(arrival_s, -std::max(low, high));
-  for (const double z : {depths.front(), depths.back()}) first_s = std::min(first_s, form.arrival_s(x, z));
-  first_s -= source.wavelet.duration_s();
-  StackSeries series(stack, source.wavelet, source.amplitude, arrival_s, first_s, latest_s);
-  auto layered = std::make_unique<LayeredWave<D, Real>>(domain.grid, x, slowness);
-  for (std::size_t row = 0; row < depths.size(); ++row) {
-    const auto& rock = stack.layers[layer_of_row[row]];
-    layered->add_row({rock.vp, rock.vs, rock.rho}, series.at(depths[row], layer_of_row[row]));
-  }
+  const LayeredSeries<D> series(scene, source, form, domain, way);
+  auto layered = std::make_unique<LayeredWave<D, Real>>(domain.grid, form.origin()[0], form.slowness()[0]);
+  for (std::size_t row = 0; row < std::size_t(domain.grid.shape[D - 1]); ++row)
+    layered->add_row(series.medium(row), series.waves_at(row));
   return layered;
 }
 

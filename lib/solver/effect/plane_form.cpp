@@ -97,7 +97,7 @@ PlaneForm<D>::PlaneForm(const Source<D>& source, double vp, double vs, double rh
       origin_{source.position_m[0], source.position_m[D - 1]},
       medium_(vp, vs, rho) {
   const auto& wave = std::get<PlaneWave<D>>(source.mechanism);
-  const double across = wave.direction[0], down = wave.direction[D - 1], c = wave.speed(vp, vs);
+  const double across = wave.across(), down = wave.direction[D - 1], c = wave.speed(vp, vs);
   slowness_ = {across / c, down / c};
   const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
   const double strain = -source.amplitude / c;  // grad v = -d v'/c

@@ -83,7 +83,8 @@ class TimeSeries {
 };
 
 /// A plane P or SV wave in one medium (theory.md (A7), (A15)): every field is a constant times the wavelet at
-/// the time since the front passed.
+/// the time since the front passed. Its x axis is the way it travels along the layers: of a 3-D wave with an
+/// azimuth turned from the model's.
 template <int D>
 class PlaneForm {
  public:

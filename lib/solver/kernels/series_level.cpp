@@ -16,12 +16,59 @@ using Steps = double __attribute__((vector_size(steps_together * sizeof(double))
 [[gnu::always_inline]] inline void load(Steps& to, const double* from) { std::memcpy(&to, from, sizeof to); }
 
 template <class Real>
+struct Eight;
+template <>
+struct Eight<float> {
+  using Values = float __attribute__((vector_size(8 * sizeof(float))));
+};
+template <>
+struct Eight<double> {
+  using Values = double __attribute__((vector_size(8 * sizeof(double))));
+};
+
+/// Pairs of lanes of both, the lower or the upper of each half; then the same of pairs, and of halves.
+template <class Values>
+[[gnu::always_inline]] inline void interleave(Values& a, Values& b) {
+  const Values low = __builtin_shufflevector(a, b, 0, 8, 1, 9, 4, 12, 5, 13);
+  b = __builtin_shufflevector(a, b, 2, 10, 3, 11, 6, 14, 7, 15);
+  a = low;
+}
+template <class Values>
+[[gnu::always_inline]] inline void interleave_pairs(Values& a, Values& b) {
+  const Values low = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+  b = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+  a = low;
+}
+template <class Values>
+[[gnu::always_inline]] inline void interleave_halves(Values& a, Values& b) {
+  const Values low = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+  b = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+  a = low;
+}
+
+/// Eight values of eight steps at a time are a square that is transposed in registers.
+template <class Real>
 [[gnu::noinline]] void bring_together(std::int64_t n, const Real* const* steps, double* together) {
-  const Real* rows[steps_together];
+  static_assert(steps_together == 8 && values_together % 8 == 0);
+  using Values = typename Eight<Real>::Values;
+  const Real* rows[8];
   std::memcpy(rows, steps, sizeof rows);
-  for (std::int64_t i = 0; i < n; ++i)
-    for (int step = 0; step < steps_together; ++step)
-      together[i * steps_together + step] = double(rows[step][i]);
+  for (std::int64_t i = 0; i < n; i += 8) {
+    Values r[8];
+    for (int step = 0; step < 8; ++step) std::memcpy(&r[step], rows[step] + i, sizeof r[step]);
+    for (int step = 0; step < 8; step += 2) interleave(r[step], r[step + 1]);
+    for (int four = 0; four < 8; four += 4) {
+      interleave_pairs(r[four], r[four + 2]);
+      interleave_pairs(r[four + 1], r[four + 3]);
+    }
+    for (int step = 0; step < 4; ++step) interleave_halves(r[step], r[step + 4]);
+    // Where each value came to stand.
+    constexpr int place[8] = {0, 2, 1, 3, 4, 6, 5, 7};
+    for (int value = 0; value < 8; ++value) {
+      const Steps values = __builtin_convertvector(r[place[value]], Steps);
+      std::memcpy(together + (i + value) * steps_together, &values, sizeof values);
+    }
+  }
 }
 
 /// Each sum of products is four sums that do not wait for each other.

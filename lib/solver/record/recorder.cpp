@@ -301,8 +301,11 @@ void Recorder<D, Real>::interpolate(std::size_t first, std::size_t last) {
   }
   for (auto one = first; one < last; ++one) {
     auto& samples = samples_of(one);
-    for (std::size_t n = 0; n < sample_weights_.size(); ++n)
-      samples.push_back(new_samples_[n * series_together + one - first]);
+    const auto before = samples.size(), more = sample_weights_.size();
+    samples.resize(before + more);
+    double* const to = samples.data() + before;
+    const double* const from = new_samples_.data() + (one - first);
+    for (std::size_t n = 0; n < more; ++n) to[n] = from[n * series_together];
   }
 }
 

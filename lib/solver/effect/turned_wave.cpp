@@ -1,0 +1,274 @@
+#include "solver/effect/turned_wave.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/effect/layered_wave.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+using Rows = FieldRows<3>;
+constexpr std::size_t field_count = std::size_t(Rows::count);
+
+int shear(int one, int other) { return Rows::shear_stress(std::min(one, other), std::max(one, other)); }
+
+/// The waves along an axis that fields are made of, and their velocities.
+std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const MotionAlongX& medium,
+                                                        const SpaceFields& fields) {
+  std::vector<std::pair<SpaceFields, double>> waves;
+  const auto of = [&](int row) { return fields[std::size_t(row)]; };
+  SpaceFields rest = fields;
+  for (const double sign : {1., -1.}) {
+    SpaceFields p{}, s{};
+    const auto set = [&](SpaceFields& wave, int row, double value) {
+      wave[std::size_t(row)] = value;
+      rest[std::size_t(row)] -= value;
+    };
+    const double v = (of(axis) - sign * of(Rows::normal_stress(axis)) / medium.zp) / 2;
+    set(p, axis, v);
+    set(p, Rows::normal_stress(axis), -sign * medium.zp * v);
+    for (int other = 0; other < 3; ++other) {
+      if (other == axis) continue;
+      set(p, Rows::normal_stress(other), -sign * medium.zp * medium.passive * v);
+      if (medium.zs == 0) continue;
+      const double across = (of(other) - sign * of(shear(axis, other)) / medium.zs) / 2;
+      set(s, other, across);
+      set(s, shear(axis, other), -sign * medium.zs * across);
+    }
+    waves.emplace_back(p, sign * medium.vp);
+    if (medium.zs > 0) waves.emplace_back(s, sign * medium.vs);
+  }
+  waves.emplace_back(rest, 0);
+  return waves;
+}
+
+/// Of every stage between sweeps of a step.
+std::vector<SweepsAhead> all_ahead(int time_order, double dt_s) {
+  const auto sweeps = splitting(3, time_order);
+  const SweepClocks<3> clocks(sweeps, dt_s);
+  std::vector<SweepsAhead> all;
+  for (std::size_t n = 0; n < sweeps.size(); ++n) {
+    const auto at = clocks.before({0, n}).axis_s;
+    all.push_back({at[0] - at[2], at[1] - at[2]});
+  }
+  return all;
+}
+
+using SpaceSeries = std::array<TimeSeries, field_count>;
+
+template <class Real>
+class TurnedWave : public IncidentWave<3, Real> {
+ public:
+  TurnedWave(const Domain<3>& domain, const Source<3>& source, const std::array<double, 2>& slowness,
+             double vp, std::vector<SweepsAhead> stages, double dt_s)
+      : grid_(domain.grid),
+        at_m_{source.position_m[0], source.position_m[1]},
+        slowness_(slowness),
+        beside_(3 * (1 + (std::abs(slowness[0]) + std::abs(slowness[1])) * vp)),
+        stages_(std::move(stages)),
+        rounding_s_(1e-6 * dt_s),
+        later_s_(std::size_t(domain.grid.shape[2]), 0) {}
+
+  /// Known in the zone of that side of z alone.
+  void enters_only(int side) { only_ = side; }
+  /// By how much a row is later than its series say.
+  void set_delay(std::size_t row, double later_s) { later_s_[row] = later_s; }
+  /// Of a stage in all rows, or of the next row.
+  void add(std::size_t stage, SpaceSeries series) {
+    series_.resize(stages_.size());
+    series_[stage].push_back(std::move(series));
+  }
+
+  void begin(State<3, Real>& state) override {
+    for (std::int64_t line = 0; line < state.layout.lines(); ++line)
+      values({}, 0, 0, state.layout.line_index(line), 0, grid_.shape[0],
+             state.field_row(state.layout.line_index(line), 0), state.layout.row_pitch());
+  }
+  bool enters(int axis, int side) const override { return only_ < 0 || (axis == 2 && side == only_); }
+  bool reaches(const StepTime& time, const Index<3>& line) const override {
+    const double apart = beside_ * time.dt_s, later = later_by(line);
+    const double one = slowness_[0] * (grid_.origin_m[0] - at_m_[0]),
+                 other = slowness_[0] * (grid_.end(0) - at_m_[0]);
+    for (const auto& series : series_of(0, line))
+      if (!series.is_zero(time.end_s() - later - std::max(one, other) - apart,
+                          time.end_s() - later - std::min(one, other) + apart))
+        return true;
+    return false;
+  }
+  bool values(const Clocks<3>& clocks, int, int, const Index<3>& line, std::int64_t x_first,
+              std::int64_t count, Real* to, std::int64_t pitch) const override {
+    const auto& series = series_of(stage_of(clocks), line);
+    const double step_s = -slowness_[0] * grid_.spacing_m,
+                 t_s = clocks.axis_s[2] - later_by(line) - slowness_[0] * (grid_.centre(0, 0) - at_m_[0]),
+                 begin_s = t_s + double(x_first) * step_s, end_s = begin_s + double(count - 1) * step_s;
+    bool any = false;
+    for (const auto& one : series)
+      any = any || !one.is_zero(std::min(begin_s, end_s), std::max(begin_s, end_s));
+    if (!any) return false;
+    for (std::size_t row = 0; row < field_count; ++row)
+      series[row].values(t_s, step_s, x_first, count, 1, to + std::int64_t(row) * pitch);
+    return true;
+  }
+  std::int64_t memory_bytes() const override {
+    std::int64_t bytes = 0;
+    for (const auto& stage : series_)
+      for (const auto& row : stage)
+        for (const auto& one : row) bytes += one.memory_bytes();
+    return bytes;
+  }
+
+ private:
+  double later_by(const Index<3>& line) const {
+    return later_s_[std::size_t(line[2])] + slowness_[1] * (grid_.centre(1, line[1]) - at_m_[1]);
+  }
+  std::size_t stage_of(const Clocks<3>& clocks) const {
+    const double x_s = clocks.axis_s[0] - clocks.axis_s[2], y_s = clocks.axis_s[1] - clocks.axis_s[2];
+    for (std::size_t n = 0; n < stages_.size(); ++n)
+      if (std::abs(stages_[n].x_s - x_s) < rounding_s_ && std::abs(stages_[n].y_s - y_s) < rounding_s_)
+        return n;
+    return 0;
+  }
+  const SpaceSeries& series_of(std::size_t stage, const Index<3>& line) const {
+    const auto& rows = series_[stage];
+    return rows[rows.size() == 1 ? 0 : std::size_t(line[2])];
+  }
+
+  Grid<3> grid_;
+  std::array<double, 2> at_m_, slowness_;
+  double beside_;  // steps
+  std::vector<SweepsAhead> stages_;
+  double rounding_s_;
+  std::vector<double> later_s_;                   // of each row
+  std::vector<std::vector<SpaceSeries>> series_;  // [stage][row]
+  int only_ = -1;
+};
+
+/// The wavelet's sum over parts, in closed form.
+SpaceSeries series_of_wavelet(const Wavelet& wavelet, const std::vector<ShiftedFields>& parts) {
+  const double interval_s =
+      std::visit([](const auto& shape) { return shape.fine_interval_s(); }, wavelet.shape());
+  double longest_s = 0;
+  for (const auto& part : parts) longest_s = std::max(longest_s, std::abs(part.earlier_s));
+  const auto beside = std::int64_t(std::ceil(longest_s / interval_s)) + 3;
+  const auto count = std::int64_t(std::ceil(wavelet.duration_s() / interval_s)) + 2 * beside + 1;
+  std::array<std::vector<float>, field_count> samples;
+  for (std::int64_t n = 0; n < count; ++n) {
+    SpaceFields sum{};
+    for (const auto& part : parts) {
+      const double w = wavelet(double(n - beside) * interval_s + part.earlier_s);
+      for (std::size_t row = 0; row < field_count; ++row) sum[row] += part.fields[row] * w;
+    }
+    for (std::size_t row = 0; row < field_count; ++row) samples[row].push_back(float(sum[row]));
+  }
+  SpaceSeries series;
+  for (std::size_t row = 0; row < field_count; ++row) {
+    const bool none =
+        std::all_of(samples[row].begin(), samples[row].end(), [](float sample) { return sample == 0; });
+    if (!none) series[row] = {std::move(samples[row]), -double(beside) * interval_s, interval_s};
+  }
+  return series;
+}
+
+/// Of a row in layers; `parts_of` says what becomes of fields there.
+template <class PartsOf>
+SpaceSeries series_of_layers(const LayeredSeries<3>& layers,
+                             const std::array<std::vector<LayeredSeries<3>::Complex>, 5>& spectra,
+                             const PartsOf& parts_of) {
+  std::vector<double> earlier_s;
+  std::array<std::vector<std::array<double, 5>>, field_count> factors;  // [row][part][field]
+  for (std::size_t field = 0; field < 5; ++field) {
+    PlaneFields one{};
+    one[field] = 1;
+    const auto parts = parts_of(one);
+    earlier_s.resize(parts.size());
+    for (auto& of_row : factors) of_row.resize(parts.size());
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      earlier_s[part] = parts[part].earlier_s;
+      for (std::size_t row = 0; row < field_count; ++row) factors[row][part][field] = parts[part].fields[row];
+    }
+  }
+  SpaceSeries series;
+  for (std::size_t row = 0; row < field_count; ++row)
+    series[row] = layers.sum_of(spectra, factors[row], earlier_s);
+  return series;
+}
+
+}  // namespace
+
+std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
+                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
+  std::vector<ShiftedFields> parts = {{fields, 0}};
+  for (const int axis : {0, 1}) {
+    const double ahead_s = axis == 0 ? ahead.x_s : ahead.y_s;
+    if (ahead_s == 0 || slowness[std::size_t(axis)] == 0) continue;
+    std::vector<ShiftedFields> split;
+    for (const auto& part : parts)
+      for (const auto& [wave, velocity] : waves_along(axis, medium, part.fields))
+        split.push_back({wave, part.earlier_s + slowness[std::size_t(axis)] * velocity * ahead_s});
+    parts = std::move(split);
+  }
+  return parts;
+}
+
+SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields,
+                   const std::array<double, 2>& along) {
+  const auto [x, y] = along;
+  // Plane strain: lambda (e_rr + e_zz).
+  const double srr = fields[plane_sxx], szz = fields[plane_szz],
+               across = medium.passive / (1 + medium.passive) * (srr + szz);
+  SpaceFields space{};
+  const auto set = [&](int row, double value) { space[std::size_t(row)] = value; };
+  set(Rows::velocity(0), fields[plane_vx] * x);
+  set(Rows::velocity(1), fields[plane_vx] * y);
+  set(Rows::velocity(2), fields[plane_vz]);
+  set(Rows::normal_stress(0), srr * x * x + across * y * y);
+  set(Rows::normal_stress(1), srr * y * y + across * x * x);
+  set(Rows::normal_stress(2), szz);
+  set(shear(0, 1), (srr - across) * x * y);
+  set(shear(0, 2), fields[plane_sxz] * x);
+  set(shear(1, 2), fields[plane_sxz] * y);
+  return space;
+}
+
+template <class Real>
+std::unique_ptr<IncidentWave<3, Real>> make_turned_wave(const Scene<3>& scene, const Source<3>& source,
+                                                        const PlaneForm<3>& form, const Domain<3>& domain,
+                                                        const PlaneWaveWay<3>& way, double dt_s) {
+  const auto& plane = std::get<PlaneWave<3>>(source.mechanism);
+  const std::array<double, 2> slowness = {form.slowness()[0] * plane.along[0],
+                                          form.slowness()[0] * plane.along[1]};
+  const auto stages = all_ahead(scene.numerics.time_order, dt_s);
+  auto wave = std::make_unique<TurnedWave<Real>>(domain, source, slowness, fastest_speed(scene.model.medium),
+                                                 stages, dt_s);
+  const auto depths = depths_of_rows(domain);
+  if (way.kind == PlaneWaveKind::layered) {
+    const LayeredSeries<3> layers(scene, source, form, domain, way);
+    for (std::size_t row = 0; row < depths.size(); ++row) {
+      const auto medium = layers.medium(row);
+      const auto spectra = layers.fields_at(row);
+      for (std::size_t stage = 0; stage < stages.size(); ++stage)
+        wave->add(stage, series_of_layers(layers, spectra, [&](const PlaneFields& fields) {
+                    return parts_ahead(medium, turned(medium, fields, plane.along), slowness, stages[stage]);
+                  }));
+    }
+    return wave;
+  }
+  if (way.by_entry_only) wave->enters_only(way.entry_side);
+  for (std::size_t row = 0; row < depths.size(); ++row)
+    wave->set_delay(row, form.slowness()[1] * (depths[row] - form.origin()[1]));
+  const auto fields = turned(form.medium(), form.factors(), plane.along);
+  for (std::size_t stage = 0; stage < stages.size(); ++stage)
+    wave->add(stage,
+              series_of_wavelet(source.wavelet, parts_ahead(form.medium(), fields, slowness, stages[stage])));
+  return wave;
+}
+
+template std::unique_ptr<IncidentWave<3, float>> make_turned_wave(const Scene<3>&, const Source<3>&,
+                                                                  const PlaneForm<3>&, const Domain<3>&,
+                                                                  const PlaneWaveWay<3>&, double);
+template std::unique_ptr<IncidentWave<3, double>> make_turned_wave(const Scene<3>&, const Source<3>&,
+                                                                   const PlaneForm<3>&, const Domain<3>&,
+                                                                   const PlaneWaveWay<3>&, double);
+
+}  // namespace slipwave::solver
