@@ -129,6 +129,7 @@ TEST(Pauses, ChangeNoBitWhereAllIsFluid) {
   scene.model.medium = uniform_medium(130, 120, 5, water);
   scene.model.fracture = {};
   scene.model.fracture_sets.clear();
+  scene.recording.duration_s = 0.3;
   expect_same(scene, "water");
 }
 
