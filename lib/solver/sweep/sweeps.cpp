@@ -145,8 +145,8 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     const Pair& pair = pairs_[axis][p];
     Real* const up = outgoing.up(p);
     Real* const down = outgoing.down(p);
-    const Real *const v = fields + pair.v * pitch + columns.first, *const s = fields + pair.s * pitch +
-                                                                              columns.first;
+    const Real* const v = fields + pair.v * pitch + columns.first;
+    const Real* const s = fields + pair.s * pitch + columns.first;
     reconstruct(pair, whole, up, down);
     reconstruct(pair, {whole.last, columns.last}, up, down);
     stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, up, down,
