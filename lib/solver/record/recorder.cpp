@@ -299,9 +299,11 @@ void Recorder<D, Real>::interpolate(std::size_t first, std::size_t last) {
       for (auto one = from; one < to; ++one) integrals_[one] += sums[one - from];
     });
   }
+  const auto more = sample_weights_.size();
+  if (more == 0) return;
   for (auto one = first; one < last; ++one) {
     auto& samples = samples_of(one);
-    const auto before = samples.size(), more = sample_weights_.size();
+    const auto before = samples.size();
     samples.resize(before + more);
     double* const to = samples.data() + before;
     const double* const from = new_samples_.data() + (one - first);
