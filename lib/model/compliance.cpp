@@ -13,10 +13,10 @@ namespace {
 /// "NORMAL,TANGENTIAL", neither below zero.
 std::array<double, 2> pair_of(const std::string& option, const std::string& text) {
   return in_place(option, [&] {
-    const auto pair = parse_point<2>(text);
-    for (const double value : pair)
-      if (!(value >= 0)) refuse("found '" + text + "', expected two numbers not below zero");
-    return pair;
+    const auto numbers = parse_numbers(text, ',');
+    if (numbers.size() != 2 || !(numbers[0] >= 0) || !(numbers[1] >= 0))
+      refuse("found '" + text + "', expected two numbers not below zero");
+    return std::array{numbers[0], numbers[1]};
   });
 }
 

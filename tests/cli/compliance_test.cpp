@@ -39,6 +39,8 @@ TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
   done(model + "-o m.nc");
   expect_misuse("--compliance -1e-12,1e-12 --spacing 1",
                 "--compliance: found '-1e-12,1e-12', expected two numbers not below zero");
+  expect_misuse("--compliance 1e-12 --spacing 1",
+                "--compliance: found '1e-12', expected two numbers not below zero");
   expect_misuse("--compliance 1e-12,1e-12 --spacing 0",
                 "--spacing: found 0, expected it above zero, the distance between planes in m");
   expect_misuse("--compliance 1e-12,1e-12", "--spacing is missing");
