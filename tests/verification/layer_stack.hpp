@@ -4,9 +4,9 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <utility>
 #include <vector>
 
+#include "complex_system.hpp"
 #include "lab.hpp"
 #include "viscoelastic.hpp"
 
@@ -73,7 +73,6 @@ struct LayerStack {
     std::size_t layer;
     bool shear, down;
   };
-  using System = std::vector<std::vector<Complex>>;  // rows with their right-hand side behind
 
   bool fluid(std::size_t layer) const { return layers[layer].vs == 0; }
   std::size_t layer_of(double b) const {
@@ -161,8 +160,8 @@ struct LayerStack {
     return row;
   }
 
-  System system(const std::vector<Unknown>& all, Complex omega, double k) const {
-    System rows;
+  ComplexSystem system(const std::vector<Unknown>& all, Complex omega, double k) const {
+    ComplexSystem rows;
     const auto add = [&](const std::vector<Side>& sides, std::size_t quantity, double b) {
       rows.push_back(equation(all, sides, quantity, b, omega, k));
     };
@@ -184,29 +183,6 @@ struct LayerStack {
       }
     }
     return rows;
-  }
-
-  /// Gauss with pivots.
-  static std::vector<Complex> solved(System a) {
-    const auto count = a.size();
-    for (std::size_t column = 0; column < count; ++column) {
-      std::size_t best = column;
-      for (std::size_t row = column; row < count; ++row)
-        if (std::norm(a[row][column]) > std::norm(a[best][column])) best = row;
-      std::swap(a[column], a[best]);
-      for (std::size_t row = column + 1; row < count; ++row) {
-        const auto factor = a[row][column] / a[column][column];
-        if (factor == 0.) continue;
-        for (std::size_t n = column; n <= count; ++n) a[row][n] -= factor * a[column][n];
-      }
-    }
-    std::vector<Complex> x(count);
-    for (std::size_t row = count; row-- > 0;) {
-      x[row] = a[row][count];
-      for (std::size_t n = row + 1; n < count; ++n) x[row] -= a[row][n] * x[n];
-      x[row] /= a[row][row];
-    }
-    return x;
   }
 
   /// The least way across the layers of any scattered wave: wave numbers are needed until it has decayed

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "complex_system.hpp"
 #include "model/anisotropy.hpp"
 
 namespace slipwave::solver {
@@ -68,7 +69,6 @@ struct VtiStack {
   static constexpr Complex i{0, 1};
   /// ux, uz, szz, sxz.
   using Fields = std::array<Complex, 4>;
-  using System = std::vector<std::vector<Complex>>;  // rows with their right-hand side behind
   /// A wave that decays as exp(-m |z - z0|), with its fields at z0.
   struct Wave {
     Complex m;
@@ -118,28 +118,6 @@ struct VtiStack {
     return both;
   }
 
-  static std::vector<Complex> solved(System a) {
-    const auto count = a.size();
-    for (std::size_t column = 0; column < count; ++column) {
-      std::size_t best = column;
-      for (std::size_t row = column; row < count; ++row)
-        if (std::norm(a[row][column]) > std::norm(a[best][column])) best = row;
-      std::swap(a[column], a[best]);
-      for (std::size_t row = column + 1; row < count; ++row) {
-        const auto factor = a[row][column] / a[column][column];
-        if (factor == 0.) continue;
-        for (std::size_t n = column; n <= count; ++n) a[row][n] -= factor * a[column][n];
-      }
-    }
-    std::vector<Complex> x(count);
-    for (std::size_t row = count; row-- > 0;) {
-      x[row] = a[row][count];
-      for (std::size_t n = row + 1; n < count; ++n) x[row] -= a[row][n] * x[n];
-      x[row] /= a[row][row];
-    }
-    return x;
-  }
-
   /// What the source makes of the fields from just above it to just below.
   Fields jump(double k) const {
     const auto& c = layers[layer_of(source_m)].c;
@@ -154,7 +132,7 @@ struct VtiStack {
     const std::vector<std::size_t> rows =
         fluid(layer) ? std::vector<std::size_t>{1, 2} : std::vector<std::size_t>{0, 1, 2, 3};
     const auto jumps = jump(k);
-    System system;
+    ComplexSystem system;
     for (const auto row : rows) {
       const double scale = row < 2 ? 1 : 1 / (layers[layer].rho * std::abs(omega) * 1000);
       auto& equation = system.emplace_back();
@@ -188,7 +166,7 @@ struct VtiStack {
 
   std::vector<Complex> scattered(const std::vector<Unknown>& all,
                                  const std::array<std::vector<Wave>, 2>& from, Complex omega) const {
-    System system;
+    ComplexSystem system;
     const auto layer_of_source = layer_of(source_m);
     const auto add_equation = [&](std::size_t row, double z, std::size_t above, bool of_above,
                                   bool of_below) {
