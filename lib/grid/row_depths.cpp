@@ -148,6 +148,13 @@ bool RowDepths<D>::row_is_level(std::int64_t row) const {
 }
 
 template <int D>
+std::optional<std::int64_t> RowDepths<D>::first_bent_row() const {
+  for (std::int64_t row = 0; row <= cells_[D - 1]; ++row)
+    if (!row_is_level(row)) return row;
+  return std::nullopt;
+}
+
+template <int D>
 std::array<double, 2> RowDepths<D>::heights() const {
   std::array<double, 2> range{std::numeric_limits<double>::infinity(), 0};
   const std::size_t a_row = row(0).size();

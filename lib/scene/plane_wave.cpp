@@ -155,12 +155,10 @@ void check_layers(const Scene<D>& scene, const PlaneWaveWay<D>& way) {
 template <int D>
 void check_edges(const Scene<D>& scene, const PlaneWave<D>& wave) {
   constexpr int z = D - 1;
-  const auto& rows = scene.model.grid().rows;
-  for (std::int64_t row = 0; rows && row <= rows->cells()[z]; ++row)
-    if (!rows->row_is_level(row))
-      throw Error(
-          "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
-          "model with --fit none");
+  if (const auto& rows = scene.model.grid().rows; rows && rows->first_bent_row())
+    throw Error(
+        "a plane wave needs a grid with level rows, found rows that follow a horizon; build the "
+        "model with --fit none");
   const double down = wave.direction[z];
   const int entry = down > 0 ? 0 : 1;
   const char* entry_name = entry == 0 ? "top" : "bottom";

@@ -227,11 +227,10 @@ void check_monotone(const Scene<D>& scene) {
                     ", expected --time-order 2: sweeps back in time have no criterion of monotonicity",
                 ErrorKind::usage);
   const auto& rows = scene.model.grid().rows;
-  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
-    if (!rows->row_is_level(row))
-      throw Error("found --monotone in a model whose row " + std::to_string(row) +
-                      " follows a horizon, expected level rows; build the model with --fit none",
-                  ErrorKind::usage);
+  if (const auto bent = rows ? rows->first_bent_row() : std::nullopt)
+    throw Error("found --monotone in a model whose row " + std::to_string(*bent) +
+                    " follows a horizon, expected level rows; build the model with --fit none",
+                ErrorKind::usage);
 }
 
 template <int D>

@@ -34,9 +34,7 @@ Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
 
 template <int D>
 bool has_shear(const Medium<D>& medium) {
-  const auto& rows = medium.grid().rows;
-  for (std::int64_t row = 0; rows && row <= rows->cells()[D - 1]; ++row)
-    if (!rows->row_is_level(row)) return true;
+  if (const auto& rows = medium.grid().rows; rows && rows->first_bent_row()) return true;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (medium.is_solid(cell)) return true;
   return false;
