@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/anisotropy.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 
@@ -41,8 +42,12 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 template <int D>
 double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+  const bool cut = medium.has(Property::cut_epsilon);
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
     for (int axis = 0; axis < D; ++axis) fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
+    if (cut && is_tilted_mean(medium, cell))
+      fastest = std::max(fastest, fastest_in_tilted_mean(medium, cell));
+  }
   return fastest;
 }
 
@@ -55,7 +60,10 @@ double fastest_across_cells(const Medium<D>& medium) {
   for (std::int64_t n = 0; grid.rows && n < grid.size(); ++n) {
     auto at = grid.index(n);
     at[D - 1] += grid.first[D - 1];
-    fastest = std::max(fastest, double(medium.vp[std::size_t(n)]) * grid.rows->stretch(at, grid.spacing_m));
+    const auto cell = std::size_t(n);
+    const double speed =
+        is_tilted_mean(medium, cell) ? fastest_in_tilted_mean(medium, cell) : double(medium.vp[cell]);
+    fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
   }
   return fastest;
 }

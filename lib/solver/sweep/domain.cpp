@@ -149,14 +149,35 @@ void find_bent_rows(Domain<D>& domain) {
     domain.bent_rows.clear();
 }
 
+std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
+  std::vector<TiltedMedium> found;
+  if (tilted_means(medium) == 0) return found;
+  const std::int64_t last = domain.grid.shape[1] - 1;
+  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
+    if (!is_tilted_mean(medium, std::size_t(n))) continue;
+    const auto at = domain.computed_cell(domain.model_grid.index(n));
+    if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
+        domain.bent(std::min(at[1] + 1, last)))
+      continue;
+    found.push_back({domain.grid.flat(at), double(medium.rho[std::size_t(n)]),
+                     tilted_mean_stiffness(medium, std::size_t(n))});
+  }
+  return found;
+}
+
 template <int D, class Real>
 void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
     const auto material = state.material_from(at, 0), across = state.material_from(at, 0, 0);
+    const auto tilted = [&](std::int64_t x) {
+      auto cell = at;
+      cell[0] = x;
+      return domain.is_tilted(cell);
+    };
     const auto same = [&](std::int64_t i, std::int64_t j) {
-      return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
+      return !tilted(i) && !tilted(j) && material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
              material.zs[i] == material.zs[j] &&
              (!state.anisotropic ||
               (across.zp[i] == across.zp[j] && material.coupling[i] == material.coupling[j]));
@@ -165,7 +186,7 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
-      if (x - first >= std::min(shortest_run, nx))
+      if (x - first >= std::min(shortest_run, nx) && !tilted(first))
         state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first],
                                       across.zp[first],
                                       state.anisotropic ? material.coupling[first] : Real(0)});
@@ -188,6 +209,16 @@ template <int D>
 const Field<D>& Domain<D>::impedance(Wave wave, int axis) const {
   if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
   return anisotropic_ && wave == wave_p && axis < D - 1 ? zp_across_ : impedances_[wave];
+}
+
+template <int D>
+const TiltedMedium* Domain<D>::tilted_at(const Index<D>& at) const {
+  if (tilted_.empty()) return nullptr;
+  const auto cell = grid.flat(at);
+  const auto found =
+      std::lower_bound(tilted_.begin(), tilted_.end(), cell,
+                       [](const TiltedMedium& medium, std::int64_t wanted) { return medium.cell < wanted; });
+  return found != tilted_.end() && found->cell == cell ? &*found : nullptr;
 }
 
 template <int D>
@@ -266,6 +297,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   });
   domain.set_impedances(std::move(impedance));
   if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
+  if constexpr (D == 2) domain.set_tilted(find_tilted(domain, medium));
   return domain;
 }
 
@@ -321,6 +353,17 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
 
 namespace {
 
+/// s:C^-1:s of all stresses, of a stiffness whose axes do not lie along the grid.
+double complementary(const PlaneStiffness& c, double sxx, double szz, double sxz) {
+  const double a = c.c33 * c.c55 - c.c35 * c.c35, b = c.c15 * c.c35 - c.c13 * c.c55,
+               d = c.c13 * c.c35 - c.c15 * c.c33, e = c.c11 * c.c55 - c.c15 * c.c15,
+               f = c.c13 * c.c15 - c.c11 * c.c35, g = c.c11 * c.c33 - c.c13 * c.c13;
+  const double determinant = c.c11 * a + c.c13 * b + c.c15 * d;
+  return (a * sxx * sxx + e * szz * szz + g * sxz * sxz +
+          2 * (b * sxx * szz + d * sxx * sxz + f * szz * sxz)) /
+         determinant;
+}
+
 /// s:C^-1:s of normal stresses along x and z in plane strain.
 double complementary(const Stiffness& c, double sxx, double szz) {
   return (c.c33 * sxx * sxx - 2 * c.c13 * sxx * szz + c.c11 * szz * szz) / (c.c11 * c.c33 - c.c13 * c.c13);
@@ -339,6 +382,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   at[0] = 0;
   const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
   const bool anisotropic = is_anisotropic(medium, cell);
+  const auto* const tilted = domain.tilted_at(whole);
   const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
   const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
   double kinetic = 0, squares = 0, trace = 0, shear = 0;
@@ -354,9 +398,11 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
   const double elastic =
-      anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
-                                  value(Rows::normal_stress(D - 1))) +
-                        shear / mu
+      tilted        ? complementary(tilted->stiffness, value(Rows::normal_stress(0)),
+                                    value(Rows::normal_stress(D - 1)), value(Rows::shear_stress(0, D - 1)))
+      : anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
+                                    value(Rows::normal_stress(D - 1))) +
+                          shear / mu
       : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
                : trace * trace / (D * D * lambda);
   const double height = domain.model_grid.height(domain.model_cell(whole));
