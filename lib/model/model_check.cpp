@@ -127,8 +127,9 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
   if (medium.has(Property::epsilon) || medium.has(Property::delta))
     if (const auto fault = fault_of_anisotropy(material_of(medium, cell)))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
-  if (const auto fault = fault_of_tilted_mean(medium, cell))
-    refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
+  if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
+    if (const auto fault = fault_of_tilted_mean(medium, cell))
+      refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (!limits.allow_slow) check_plausible(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };
   if (limits.allow_auxetic) {

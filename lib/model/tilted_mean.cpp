@@ -37,11 +37,17 @@ PlaneStiffness tilted(const Stiffness& upright, double dip_rad) {
 }
 
 template <int D>
-std::int64_t tilted_means(const Medium<D>& medium) {
-  if (!medium.has(Property::cut_epsilon) && !medium.has(Property::cut_delta)) return 0;
-  std::int64_t count = 0;
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) count += is_tilted_mean(medium, cell);
-  return count;
+std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
+  std::vector<std::size_t> cells;
+  const std::array fields{&medium[Property::cut_epsilon], &medium[Property::cut_delta]};
+  const auto is_cut = [&](std::size_t cell) {
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const auto* field) { return !field->empty() && (*field)[cell] != 0; });
+  };
+  if (fields[0]->empty() && fields[1]->empty()) return cells;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (is_cut(cell)) cells.push_back(cell);
+  return cells;
 }
 
 PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell) {
@@ -55,10 +61,10 @@ void add_tilted_means(Medium<D>& medium) {
 
 template <int D>
 void put_tilted_mean(Medium<D>& medium, std::size_t cell, const Material& about_normal, double dip_rad) {
-  if (std::max(std::abs(about_normal.epsilon), std::abs(about_normal.delta)) < least_anisotropy) return;
-  medium[Property::cut_epsilon][cell] = float(about_normal.epsilon);
-  medium[Property::cut_delta][cell] = float(about_normal.delta);
-  medium[Property::cut_dip][cell] = float(dip_rad / degree);
+  const auto rounded = [](double value) { return std::abs(value) < least_anisotropy ? 0 : float(value); };
+  medium[Property::cut_epsilon][cell] = rounded(about_normal.epsilon);
+  medium[Property::cut_delta][cell] = rounded(about_normal.delta);
+  if (is_tilted_mean(medium, cell)) medium[Property::cut_dip][cell] = float(dip_rad / degree);
 }
 
 template <int D>
@@ -69,7 +75,8 @@ void drop_tilted_means(Medium<D>& medium) {
 
 template <int D>
 double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell) {
-  return fastest_p_speed(about_normal(medium, cell));
+  const auto rock = about_normal(medium, cell);
+  return rock.vp * std::sqrt(1 + 2 * std::max({rock.epsilon, rock.delta, 0.}));
 }
 
 template <int D>
@@ -88,8 +95,8 @@ std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<D>& medium, std
   return fault;
 }
 
-template std::int64_t tilted_means(const Medium<2>&);
-template std::int64_t tilted_means(const Medium<3>&);
+template std::vector<std::size_t> cells_of_tilted_means(const Medium<2>&);
+template std::vector<std::size_t> cells_of_tilted_means(const Medium<3>&);
 template void add_tilted_means(Medium<2>&);
 template void add_tilted_means(Medium<3>&);
 template void put_tilted_mean(Medium<2>&, std::size_t, const Material&, double);

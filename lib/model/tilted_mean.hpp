@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "model/anisotropy.hpp"
 
@@ -26,9 +27,13 @@ template <int D>
 bool is_tilted_mean(const Medium<D>& medium, std::size_t cell) {
   return medium.value(Property::cut_epsilon, cell) != 0 || medium.value(Property::cut_delta, cell) != 0;
 }
-/// How many are.
+/// Those that are, and how many.
 template <int D>
-std::int64_t tilted_means(const Medium<D>& medium);
+std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium);
+template <int D>
+std::int64_t tilted_means(const Medium<D>& medium) {
+  return std::int64_t(cells_of_tilted_means(medium).size());
+}
 
 /// The stiffness of such a cell.
 PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell);
@@ -43,7 +48,8 @@ void put_tilted_mean(Medium<D>& medium, std::size_t cell, const Material& about_
 template <int D>
 void drop_tilted_means(Medium<D>& medium);
 
-/// The largest speed of a plane wave in such a cell, m/s.
+/// What the largest speed of a plane wave in such a cell is at most, m/s: vp sqrt(1 + 2 max(epsilon, delta)),
+/// where one of both is positive. Rocks with that epsilon and delta are elliptical, and stiffer.
 template <int D>
 double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell);
 

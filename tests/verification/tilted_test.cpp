@@ -3,12 +3,16 @@
 
 #include <numbers>
 
+#include "accuracy/full_space.hpp"
+#include "base/parse.hpp"
+#include "elastic_disc.hpp"
 #include "lab.hpp"
 #include "model/layers.hpp"
 #include "model/tilted_mean.hpp"
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
 #include "solver/simulation.hpp"
+#include "unit/model_cases.hpp"
 #include "vti_stack.hpp"
 
 namespace slipwave::solver {
@@ -75,6 +79,65 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
       wanted.push_back(1e6 * exact[r][1][n]);
     }
   EXPECT_LT(relative_error(found, wanted), 0.02);
+}
+
+TEST(TiltedMeans, OfAClosedBodyScatterAsInTheClosedForm) {
+  constexpr Rock around{2000, 1150, 2000}, inside{4000, 2300, 2300};
+  constexpr double radius = 100, peak_hz = 15, interval_s = 0.002, size = 1000;
+  const Point<2> centre{503.3, 497.1}, source{-40, -260};
+  const std::vector<Point<2>> receivers = {{-300, -150}, {100, -250}, {300, 30},
+                                           {120, 240},   {-150, 260}, {-40, 30}};
+  // Its upper and its lower half as tops of layers.
+  const auto half = [&](double sign) {
+    std::string lines = "0 " + shown(centre[1]) + "\n";
+    for (int n = 0; n <= 360; ++n) {
+      const double angle = n * std::numbers::pi / 360;
+      lines += shown(centre[0] - radius * std::cos(angle), 9) + ' ' +
+               shown(centre[1] + sign * radius * std::sin(angle), 9) + '\n';
+    }
+    return lines + shown(size) + ' ' + shown(centre[1]) + '\n';
+  };
+  const TextFile upper(half(-1)), lower(half(1));
+  Scene<2> scene;
+  const double cells = std::round(size * 24 * peak_hz / around.vs);
+  const auto medium = [&](Average average) {
+    return layered_medium(
+        grid_of_size<2>({size, size}, size / cells),
+        {parse_layer("0:2000:1150:2000"), parse_layer("@" + upper.path() + ":4000:2300:2300"),
+         parse_layer("@" + lower.path() + ":2000:1150:2000")},
+        average);
+  };
+  scene.model.medium = medium(Average::tilted);
+  const auto place = [&](const Point<2>& at) { return Point<2>{centre[0] + at[0], centre[1] + at[1]}; };
+  scene.survey.sources = {{place(source), parse_mechanism<2>("explosion"), parse_wavelet("ricker:15"), 1e6}};
+  for (const auto& receiver : receivers) scene.survey.receivers_m.push_back(place(receiver));
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {{Component::vx, Component::vz}, 0.6, interval_s};
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const auto count = std::size_t(gather.axis.count);
+  std::vector<Point<2>> polar;
+  for (const auto& at : receivers)
+    polar.push_back({std::hypot(at[0], at[1]), std::atan2(at[1], at[0]) - std::atan2(source[1], source[0])});
+  const auto added = ElasticDisc{around, inside, radius, std::hypot(source[0], source[1])}.ricker(
+      peak_hz, interval_s, count, polar);
+  std::vector<double> found, exact;
+  for (std::size_t r = 0; r < receivers.size(); ++r) {
+    const auto& at = receivers[r];
+    const double c = at[0] / polar[r][0], s = at[1] / polar[r][0];
+    const auto direct = ricker_response(peak_hz, interval_s, std::int64_t(count), [&](double omega) {
+      return explosion_motion(around, omega, at[0] - source[0], at[1] - source[1]);
+    });
+    for (std::size_t row = 0; row < 2; ++row)
+      for (std::size_t n = 0; n < count; ++n) {
+        found.push_back(gather.traces[row * receivers.size() + r].samples[n] / 1e6);
+        const double along = added[r][0][n], across = added[r][1][n];
+        exact.push_back((row == 0 ? c * along - s * across : s * along + c * across) +
+                        (polar[r][0] > radius ? direct[row][n] : 0));
+      }
+  }
+  // 0.012 with isotropic means.
+  EXPECT_LT(relative_error(found, exact), 0.006);
 }
 
 TEST(TiltedMeans, GiveTheBitsOfThePlainExecutorInTiles) {

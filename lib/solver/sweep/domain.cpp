@@ -151,16 +151,13 @@ void find_bent_rows(Domain<D>& domain) {
 
 std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
   std::vector<TiltedMedium> found;
-  if (tilted_means(medium) == 0) return found;
   const std::int64_t last = domain.grid.shape[1] - 1;
-  for (std::int64_t n = 0; n < domain.model_grid.size(); ++n) {
-    if (!is_tilted_mean(medium, std::size_t(n))) continue;
-    const auto at = domain.computed_cell(domain.model_grid.index(n));
+  for (const auto cell : cells_of_tilted_means(medium)) {
+    const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
     if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
         domain.bent(std::min(at[1] + 1, last)))
       continue;
-    found.push_back({domain.grid.flat(at), double(medium.rho[std::size_t(n)]),
-                     tilted_mean_stiffness(medium, std::size_t(n))});
+    found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
   }
   return found;
 }
@@ -168,17 +165,19 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
 template <int D, class Real>
 void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
+  const auto& all_tilted = domain.tilted();
+  std::vector<char> tilted(std::size_t(nx), 0);
+  auto next = all_tilted.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
     const auto material = state.material_from(at, 0), across = state.material_from(at, 0, 0);
-    const auto tilted = [&](std::int64_t x) {
-      auto cell = at;
-      cell[0] = x;
-      return domain.is_tilted(cell);
-    };
+    while (next != all_tilted.end() && next->cell < line * nx) ++next;
+    std::fill(tilted.begin(), tilted.end(), 0);
+    for (auto of = next; of != all_tilted.end() && of->cell < (line + 1) * nx; ++of)
+      tilted[std::size_t(of->cell - line * nx)] = 1;
     const auto same = [&](std::int64_t i, std::int64_t j) {
-      return !tilted(i) && !tilted(j) && material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
-             material.zs[i] == material.zs[j] &&
+      return !tilted[std::size_t(i)] && !tilted[std::size_t(j)] && material.b[i] == material.b[j] &&
+             material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
              (!state.anisotropic ||
               (across.zp[i] == across.zp[j] && material.coupling[i] == material.coupling[j]));
     };
@@ -186,7 +185,7 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
-      if (x - first >= std::min(shortest_run, nx) && !tilted(first))
+      if (x - first >= std::min(shortest_run, nx) && !tilted[std::size_t(first)])
         state.uniform_runs.push_back({first, x, material.b[first], material.zp[first], material.zs[first],
                                       across.zp[first],
                                       state.anisotropic ? material.coupling[first] : Real(0)});
