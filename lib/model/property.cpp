@@ -18,6 +18,19 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
           .if_absent = 0};
 }
 
+PropertyRow dip() {
+  return {.name = "cut_dip",
+          .long_name = "dip of the interface that cuts the cell, deepening towards +x",
+          .help = "",
+          .units = "degree",
+          .shown_unit = "degrees",
+          .si = {"degree", "degrees"},
+          .least = -90,
+          .largest = 90,
+          .mean = Mean::elastic,
+          .if_absent = 0};
+}
+
 /// Of cells that interfaces of solids cut.
 PropertyRow of_cut_cells(PropertyRow row) {
   row.computed = true;
@@ -76,16 +89,7 @@ std::vector<PropertyRow> property_rows() {
           thomsen("delta", "vertical, 0 = isotropic"),
           of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(thomsen("cut_delta", "normal of the interface that cuts the cell, 0 = none")),
-          of_cut_cells({.name = "cut_dip",
-                        .long_name = "dip of the interface that cuts the cell, deepening towards +x",
-                        .help = "",
-                        .units = "degree",
-                        .shown_unit = "degrees",
-                        .si = {"degree", "degrees"},
-                        .least = -90,
-                        .largest = 90,
-                        .mean = Mean::elastic,
-                        .if_absent = 0})};
+          of_cut_cells(dip())};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

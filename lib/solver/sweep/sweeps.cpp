@@ -277,9 +277,7 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto swept = [&](std::int64_t x) { return swept_rows(axis, fields + x, pitch); };
   const auto number = state_.layout.line_number(line);
   const Real own_scale = scale_of(axis, line, scale);
-  const auto run_of = [&](const IndexRange& part) {
-    return state_.uniform_run(number, part.first, part.last);
-  };
+  const auto run_of = [&](const auto& part) { return state_.uniform_run(number, part.first, part.last); };
   const auto without_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     // Its material is known without reading it from memory.
@@ -290,10 +288,9 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     const auto* run = run_of(part);
-    face_kernels(run != nullptr)
-        .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
-                run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
-                swept(part.first));
+    face_kernels(run).update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
+                             run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
+                             swept(part.first));
   };
   if (metric_.bent(number)) {
     update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
