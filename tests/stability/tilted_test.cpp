@@ -40,7 +40,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto random = [&] { return uniform(engine); };
-  const int media = long_form() ? 30 : 3, steps = long_form() ? 20000 : 400;
+  const int media = long_form() ? 30 : 3, steps = long_form() ? 20000 : 250;
   for (int n = 0; n < media; ++n)
     for (const int block : {1, 4})
       for (const int order : {3, 5, 7}) {
@@ -75,7 +75,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
 TEST(EnergyOfTiltedMeans, NeverRisesAtInterfacesOfAnyDipAndContrast) {
   const ThreadLimit one_thread(1);
   const Material soft{1600, 400, 1800}, harder{2500, 1200, 2100}, hardest{6000, 3500, 2800};
-  const int steps = long_form() ? 20000 : 600;
+  const int steps = long_form() ? 20000 : 300;
   for (const double dip : {0., 3., 15., 30., 45., 75.})
     for (const auto& [over, under] :
          {std::pair{soft, harder}, std::pair{soft, hardest}, std::pair{hardest, soft}})

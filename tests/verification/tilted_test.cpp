@@ -19,21 +19,20 @@ namespace slipwave::solver {
 namespace {
 
 /// Water over rocks whose interfaces dip both ways, and meet.
-Scene<2> wedges(double time_order = 2) {
+Scene<2> wedges() {
   Scene<2> scene;
-  const Grid<2> grid{{150, 120}, 5, {0, 0}};
+  const Grid<2> grid{{110, 90}, 5, {0, 0}};
   scene.model.medium = layered_medium(grid,
                                       {{-1e4, 1500, 0, 1000},
                                        {100, 2000, 1150, 2000},
                                        {150, 4000, 2300, 2300, 18},
-                                       {560, 2500, 1200, 2100, -25}},
+                                       {430, 2500, 1200, 2100, -25}},
                                       Average::tilted);
-  scene.survey.sources = {{{301, 203}, parse_mechanism<2>("force:0.6,0.8"), parse_wavelet("ricker:20"), 1e6}};
-  scene.survey.receivers_m = {{150, 140}, {420, 330}, {600, 60}, {333, 480}};
+  scene.survey.sources = {{{231, 183}, parse_mechanism<2>("force:0.6,0.8"), parse_wavelet("ricker:30"), 1e6}};
+  scene.survey.receivers_m = {{150, 140}, {420, 330}, {500, 60}, {333, 420}};
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.edges[1][0] = EdgeLaw::free;
-  scene.numerics.time_order = int(time_order);
-  scene.recording = {{Component::vx, Component::szz}, 0.25, 0.002};
+  scene.recording = {{Component::vx, Component::szz}, 0.12, 0.002};
   return scene;
 }
 
