@@ -149,13 +149,34 @@ void find_bent_rows(Domain<D>& domain) {
     domain.bent_rows.clear();
 }
 
+/// Impedances beside a tilted mean differ by no more: beyond, the reconstruction across its faces can feed
+/// waves with energy.
+constexpr double strongest_tilted = 4;
+
+/// Whether impedances of a wave that all carry differ by more about a cell.
+bool contrast_is_too_strong(const Domain<2>& domain, const Index<2>& at) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const auto& impedance = domain.impedance(wave);
+    double least = std::numeric_limits<double>::max(), largest = 0;
+    for (std::int64_t k = at[1] - 1; k <= at[1] + 1; ++k)
+      for (std::int64_t i = at[0] - 1; i <= at[0] + 1; ++i) {
+        if (i < 0 || k < 0 || i >= domain.grid.shape[0] || k >= domain.grid.shape[1]) continue;
+        const double one = impedance(Index<2>{i, k});
+        if (one == 0) continue;
+        least = std::min(least, one), largest = std::max(largest, one);
+      }
+    if (largest > strongest_tilted * least) return true;
+  }
+  return false;
+}
+
 std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
   std::vector<TiltedMedium> found;
   const std::int64_t last = domain.grid.shape[1] - 1;
   for (const auto cell : cells_of_tilted_means(medium)) {
     const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
     if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
-        domain.bent(std::min(at[1] + 1, last)))
+        domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
       continue;
     found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
   }
