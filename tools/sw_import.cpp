@@ -42,7 +42,8 @@ struct Settings {
 
 void declare(cli::Options& options, Settings& settings) {
   for (const Property property : all_properties())
-    options.add(row_of(property).name, settings.files[std::size_t(property)], "F", row_of(property).help);
+    if (!row_of(property).computed)
+      options.add(row_of(property).name, settings.files[std::size_t(property)], "F", row_of(property).help);
   options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
   options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
   options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");

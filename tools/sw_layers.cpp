@@ -14,6 +14,7 @@ struct Settings {
   double step_m = 0;
   std::vector<std::string> layers;
   std::string fit, units;
+  std::string average = "tilted";
   bool no_average = false;
   MediumLimits limits;
   std::string title = "layered model";
@@ -35,8 +36,10 @@ void declare(cli::Options& options, Settings& settings) {
       "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");
   options.add("units", settings.units, "LIST",
               "units of VP, VS and RHO instead of m/s and kg/m3, as km/s,g/cm3; K stays per second (kg/m4)");
-  options.add("no-average", settings.no_average,
-              "cells cut by a top take the material at their centre, not the average of their parts");
+  options.add("average", settings.average, "tilted|isotropic|none",
+              "what cells cut by a top are made of: where all is solid, in 2-D, the average of layers that "
+              "dip as the top does; the isotropic average of their parts; or what is at their centre");
+  options.add("no-average", settings.no_average, "the same as --average none");
   options.add("title", settings.title, "TEXT", "title of the model file");
   options.add("allow-slow", settings.limits.allow_slow,
               "allow speeds and densities that no rock or fluid has");
@@ -59,10 +62,12 @@ void build(const Settings& settings, const cli::Context& context) {
   const auto choice =
       settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });
   const auto fit = in_place("--layer", [&] { return fit_layers(grid, layers, choice); });
+  const auto average = in_place("--average", [&] { return parse_average(settings.average); });
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<D> model;
-  model.medium =
-      in_place("--layer", [&] { return layered_medium(fit.grid, layers, !settings.no_average, fit.rows); });
+  model.medium = in_place("--layer", [&] {
+    return layered_medium(fit.grid, layers, settings.no_average ? Average::none : average, fit.rows);
+  });
   check(model, settings.limits);
   if (!fit.summary.empty()) context.say(fit.summary);
   for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit says what to follow");

@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/layers.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -37,7 +38,7 @@ struct LayersCommand {
   std::vector<Layer> layers;
   InputUnits units;
   FitChoice choice;
-  bool average = true;
+  Average average = Average::tilted;
 };
 
 /// Nothing where the history is not one command of sw-layers.
@@ -53,7 +54,7 @@ std::optional<LayersCommand> command_of(const std::string& history) {
       value = word.substr(equals + 1);
       word.erase(equals);
     } else if (word == "--no-average") {
-      command.average = false;
+      command.average = Average::none;
       continue;
     } else if (n + 1 < words.size()) {
       value = words[n + 1];
@@ -62,6 +63,7 @@ std::optional<LayersCommand> command_of(const std::string& history) {
     if (word == "--step") command.step = value;
     if (word == "--layer") command.tops.push_back(value);
     if (word == "--units") command.units = InputUnits::parse(value);
+    if (word == "--average") command.average = parse_average(value);
     if (word == "--fit") command.choice = parse_fit(value);
   }
   for (const auto& top : command.tops) command.layers.push_back(parse_layer(top, command.units));
@@ -75,6 +77,7 @@ Medium<2> medium_of(LayersCommand& command, double spacing_m, const Scene<2>& sc
   const auto grid = grid_of_size<2>(parse_size<2>(command.size), spacing_m);
   const auto fit = fit_layers<2>(grid, command.layers, command.choice);
   auto medium = layered_medium<2>(fit.grid, command.layers, command.average, fit.rows);
+  if (tilted_means(scene.model.medium) == 0) drop_tilted_means(medium);
   // Attenuation that was taken out (--without), and what was unrelaxed.
   for (const auto quality : {Property::qp, Property::qs})
     if (!scene.model.medium.has(quality)) medium[quality] = Field<2>();

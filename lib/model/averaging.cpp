@@ -31,13 +31,16 @@ Material MaterialMean::mean() const {
   if (volume_ == 0) return centre_;
   if (uniform_) return first_;
   // All parts are of one kind and differ, so none is void.
-  if (anisotropic_) {
-    const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
-    return material_of_stiffness(
-        {plate_ / volume_ + c33 * ratio * ratio, c33 * ratio, c33, volume_ / compliance_s_}, mass_ / volume_);
-  }
+  if (anisotropic_) return of_layers();
   return {std::sqrt(volume_ * volume_ / (compliance_p_ * mass_)),
           compliance_s_ > 0 ? std::sqrt(volume_ * volume_ / (compliance_s_ * mass_)) : 0, mass_ / volume_};
+}
+
+Material MaterialMean::of_layers() const {
+  if (volume_ == 0 || uniform_ || compliance_s_ == 0) return mean();
+  const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
+  return material_of_stiffness(
+      {plate_ / volume_ + c33 * ratio * ratio, c33 * ratio, c33, volume_ / compliance_s_}, mass_ / volume_);
 }
 
 void ScalarMean::add(float part, double volume) {

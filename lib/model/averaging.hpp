@@ -47,6 +47,12 @@ class MaterialMean {
   bool add(const Material& part, double volume);
   /// The mean; where all that counts is one material, exactly that. The centre's if nothing was added.
   Material mean() const;
+  /// The mean of flat layers of the parts, also where all of them are isotropic: then its epsilon and delta
+  /// are those about the normal of whatever cuts the cell (theory.md (T1)), and its speeds and density those
+  /// of mean(). The centre's where all that counts is one material, or fluid.
+  Material of_layers() const;
+  /// Whether a part is anisotropic by itself.
+  bool has_anisotropic_part() const { return anisotropic_; }
 
  private:
   Material centre_, first_;

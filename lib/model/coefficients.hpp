@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/anisotropy.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 
@@ -43,6 +44,8 @@ double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     for (int axis = 0; axis < D; ++axis) fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
+  for (const auto cell : cells_of_tilted_means(medium))
+    fastest = std::max(fastest, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }
 
@@ -52,11 +55,14 @@ template <int D>
 double fastest_across_cells(const Medium<D>& medium) {
   const auto& grid = medium.grid();
   double fastest = fastest_speed(medium);
-  for (std::int64_t n = 0; grid.rows && n < grid.size(); ++n) {
-    auto at = grid.index(n);
+  if (!grid.rows) return fastest;
+  const auto see = [&](std::size_t cell, double speed) {
+    auto at = grid.index(std::int64_t(cell));
     at[D - 1] += grid.first[D - 1];
-    fastest = std::max(fastest, double(medium.vp[std::size_t(n)]) * grid.rows->stretch(at, grid.spacing_m));
-  }
+    fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
+  };
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) see(cell, double(medium.vp[cell]));
+  for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }
 

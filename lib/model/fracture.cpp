@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 
@@ -139,7 +140,10 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
     if (model.medium.has(property)) model.medium[property] = {};
   };
   if (effect == ModelEffect::attenuation) drop(Property::qp), drop(Property::qs);
-  if (effect == ModelEffect::anisotropy) drop(Property::epsilon), drop(Property::delta);
+  if (effect == ModelEffect::anisotropy) {
+    drop(Property::epsilon), drop(Property::delta);
+    drop_tilted_means(model.medium);
+  }
   for (auto& set : model.fracture_sets)
     for (auto& system : set.systems) {
       if (effect == ModelEffect::friction) system.friction = system.dynamic_friction = 0;

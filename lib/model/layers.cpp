@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cut_cell.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 
@@ -156,11 +158,13 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
 void set_others(Layer& layer, const std::vector<std::string>& named) {
   std::string names;
   for (const Property property : all_properties())
-    if (row_of(property).if_absent) names += (names.empty() ? "" : ", ") + row_of(property).name;
+    if (row_of(property).if_absent && !row_of(property).computed)
+      names += (names.empty() ? "" : ", ") + row_of(property).name;
   for (const auto& text : named) {
     const auto equals = text.find('=');
     const auto property = find_property(text.substr(0, equals));
-    if (equals == std::string::npos || !property || !row_of(*property).if_absent)
+    if (equals == std::string::npos || !property || !row_of(*property).if_absent ||
+        row_of(*property).computed)
       throw Error("found '" + text + "', expected NAME=VALUE, NAME one of " + names, ErrorKind::usage);
     for (const auto& [given, value] : layer.others)
       if (given == *property) throw Error("found " + row_of(given).name + " twice", ErrorKind::usage);
@@ -184,6 +188,22 @@ std::vector<Property> others_of(const std::vector<Layer>& layers) {
         }))
       others.push_back(property);
   return others;
+}
+
+/// The dip of the tops that part a cell of this column in 2-D, of `shares` as shares_of_cell(); the mean one
+/// of several.
+double dip_between(const LineOfTops& over, std::size_t column, const std::vector<double>& shares,
+                   double spacing_m) {
+  double above = shares.back(), across = 0, down = 0;
+  for (std::size_t i = 0; i + 1 < shares.size(); ++i) {
+    if (shares[i] > 0 && above > 0) {
+      const double fall = over.low_edges[column + 1][i] - over.low_edges[column][i];
+      const double length = std::hypot(spacing_m, fall);
+      across += spacing_m / length, down += fall / length;
+    }
+    above += shares[i];
+  }
+  return std::atan2(down, across);
 }
 
 template <int D>
@@ -291,6 +311,13 @@ FitHorizon horizon_of(const std::vector<Layer>& layers, std::size_t i) {
 
 }  // namespace
 
+Average parse_average(std::string_view text) {
+  if (text == "none") return Average::none;
+  if (text == "isotropic") return Average::isotropic;
+  if (text == "tilted") return Average::tilted;
+  throw Error("found '" + std::string(text) + "', expected tilted, isotropic or none", ErrorKind::usage);
+}
+
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
   return {material.vp + gradient.vp * depth, material.vs + gradient.vs * depth,
@@ -372,7 +399,7 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
 }
 
 template <int D>
-Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average,
+Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, Average average,
                          const std::vector<std::int64_t>& rows) {
   check_pile(grid, layers);
   Medium<D> medium(grid);
@@ -381,6 +408,8 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
     medium[property] = Field<D>(grid, float(row_of(property).if_absent.value()));
   complete_anisotropy(medium);
   std::erase_if(others, [](Property property) { return row_of(property).mean == Mean::elastic; });
+  const bool tilts = D == 2 && average == Average::tilted;
+  if (tilts) add_tilted_means(medium);
   const Pile<D> pile(grid, layers, rows);
   const std::int64_t columns = grid.shape[0], lines = lines_of(grid),
                      different = different_lines(grid, layers);
@@ -399,19 +428,27 @@ Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, 
         std::vector<ScalarMean> means;
         for (const Property property : others)
           means.emplace_back(row_of(property).mean, float(layers[centre - 1].value(property)));
-        if (average && pile.cut(over, at, z, cuts)) {
+        std::optional<double> dip;
+        if (average != Average::none && pile.cut(over, at, z, cuts)) {
           const auto shares = shares_of_cell(cuts);
+          bool all_count = true;
           for (std::size_t i = 0; i < layers.size(); ++i)
-            if (mean.add(layers[i].at_depth(z - tops[i]), shares[i]))
+            if (mean.add(layers[i].at_depth(z - tops[i]), shares[i])) {
               for (std::size_t k = 0; k < others.size(); ++k)
                 means[k].add(float(layers[i].value(others[k])), shares[i]);
+            } else if (shares[i] > 0)
+              all_count = false;
+          if (tilts && all_count && shares.back() == 0 && !mean.has_anisotropic_part())
+            dip = dip_between(over, std::size_t(n), shares, grid.spacing_m);
         }
         const auto cell = std::size_t((row * lines + line) * columns + n);
         put(medium, cell, mean.mean());
+        if (dip) put_tilted_mean(medium, cell, mean.of_layers(), *dip);
         for (std::size_t k = 0; k < others.size(); ++k) medium[others[k]][cell] = float(means[k].mean());
       }
     }
   }
+  if (tilted_means(medium) == 0) drop_tilted_means(medium);
   return medium;
 }
 
@@ -452,9 +489,9 @@ template void check_reach(const Grid<2>&, const Horizon&);
 template void check_reach(const Grid<3>&, const Horizon&);
 template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);
 template Fit<3> fit_layers(const Grid<3>&, const std::vector<Layer>&, const FitChoice&);
-template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, bool,
+template Medium<2> layered_medium(const Grid<2>&, const std::vector<Layer>&, Average,
                                   const std::vector<std::int64_t>&);
-template Medium<3> layered_medium(const Grid<3>&, const std::vector<Layer>&, bool,
+template Medium<3> layered_medium(const Grid<3>&, const std::vector<Layer>&, Average,
                                   const std::vector<std::int64_t>&);
 
 template std::vector<std::string> cut_off_layers(const Grid<2>&, const std::vector<Layer>&);

@@ -12,6 +12,13 @@
 
 namespace slipwave {
 
+/// What cells that tops cut are made of: the material at their centre; the isotropic mean of their parts
+/// (theory.md M1, M2); or, where all of them are isotropic solids in 2-D, that with the anisotropy of the
+/// mean about the normal of the tops (theory.md (T1)), else the same.
+enum class Average { none, isotropic, tilted };
+/// Its name; throws a usage Error on others.
+Average parse_average(std::string_view text);
+
 /// Everything below a top, down to the next layer. Properties may change linearly with depth below the top.
 struct Layer {
   Horizon top;
@@ -57,7 +64,7 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
 /// fluid or void as the layer at its centre, that is the last one whose top is there or above; its material
 /// is the mean over its parts of that kind, areas being cut off by the tops (theory.md M1, M2; exact for
 /// planes, for curves with their chords across the cell, for grids with the plane nearest to their depths at
-/// its edges), or with `average` = false that of the centre. Where
+/// its edges), or as `average` says. Where
 /// properties change with depth, each part has those at the centre of the cell, or at its top if that lies
 /// below the centre. At least one layer, from the top down: planes by their depth at x = 0, and no top may
 /// lie above the one before it all along the model (usage Error). A curve must reach from the first to the
@@ -65,8 +72,8 @@ Fit<D> fit_layers(const Grid<D>& regular, const std::vector<Layer>& layers, cons
 /// check(). On a fitted grid `rows` says which tops its rows follow (Fit::rows): those part cells by rows,
 /// the others cut them at their true depths.
 template <int D>
-Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers, bool average = true,
-                         const std::vector<std::int64_t>& rows = {});
+Medium<D> layered_medium(const Grid<D>& grid, const std::vector<Layer>& layers,
+                         Average average = Average::isotropic, const std::vector<std::int64_t>& rows = {});
 
 /// Where a sine or a curve cuts off a layer in a part of the model: a sentence for each layer that ends so.
 template <int D>

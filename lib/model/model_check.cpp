@@ -8,6 +8,7 @@
 #include "model/fracture.hpp"
 #include "model/model.hpp"
 #include "model/prestress.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -126,6 +127,9 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
                ", expected inf in fluid, which carries no S waves");
   if (medium.has(Property::epsilon) || medium.has(Property::delta))
     if (const auto fault = fault_of_anisotropy(material_of(medium, cell)))
+      refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
+  if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
+    if (const auto fault = fault_of_tilted_mean(medium, cell))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (!limits.allow_slow) check_plausible(medium, cell);
   const auto found = [vs] { return "is " + shown_float(vs) + ", expected "; };

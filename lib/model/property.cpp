@@ -6,9 +6,9 @@ namespace {
 /// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
 constexpr double least_thomsen = -0.5;
 
-PropertyRow thomsen(const std::string& name) {
+PropertyRow thomsen(const std::string& name, const std::string& about) {
   return {.name = name,
-          .long_name = "Thomsen's " + name + " about the vertical, 0 = isotropic",
+          .long_name = "Thomsen's " + name.substr(name.find('_') + 1) + " about the " + about,
           .help = "Thomsen's " + name + " of rock layered flat, a file or a number",
           .units = "1",
           .shown_unit = "",
@@ -16,6 +16,25 @@ PropertyRow thomsen(const std::string& name) {
           .least = least_thomsen,
           .mean = Mean::elastic,
           .if_absent = 0};
+}
+
+PropertyRow dip() {
+  return {.name = "cut_dip",
+          .long_name = "dip of the interface that cuts the cell, deepening towards +x",
+          .help = "",
+          .units = "degree",
+          .shown_unit = "degrees",
+          .si = {"degree", "degrees"},
+          .least = -90,
+          .largest = 90,
+          .mean = Mean::elastic,
+          .if_absent = 0};
+}
+
+/// Of cells that interfaces of solids cut.
+PropertyRow of_cut_cells(PropertyRow row) {
+  row.computed = true;
+  return row;
 }
 
 }  // namespace
@@ -66,8 +85,11 @@ std::vector<PropertyRow> property_rows() {
            .least = 1,
            .mean = Mean::harmonic,
            .if_absent = PropertyRow::infinite},
-          thomsen("epsilon"),
-          thomsen("delta")};
+          thomsen("epsilon", "vertical, 0 = isotropic"),
+          thomsen("delta", "vertical, 0 = isotropic"),
+          of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),
+          of_cut_cells(thomsen("cut_delta", "normal of the interface that cuts the cell, 0 = none")),
+          of_cut_cells(dip())};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

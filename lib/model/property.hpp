@@ -29,13 +29,14 @@ struct PropertyRow {
   double least = 0, largest = infinite;    // of what check() lets through; infinite: any finite number
   Mean mean = Mean::arithmetic;
   std::optional<double> if_absent = {};  // stands for it where a model lacks it; none: every model has it
+  bool computed = false;                 // what builders of models find out, not what users give them
 
   static constexpr double infinite = std::numeric_limits<double>::infinity();
 };
 
 /// A row of the table by its place. Those that formulas ask for by name; others are found by
 /// find_property() or met in a walk.
-enum class Property : std::size_t { vp, vs, rho, qp, qs, epsilon, delta };
+enum class Property : std::size_t { vp, vs, rho, qp, qs, epsilon, delta, cut_epsilon, cut_delta, cut_dip };
 
 /// Rows that every model has. They are the first of the table; those after them say what stands for them
 /// where they are absent.

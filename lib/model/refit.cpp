@@ -7,6 +7,7 @@
 #include "model/fit.hpp"
 #include "model/layers.hpp"
 #include "model/resample.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -131,6 +132,8 @@ class Refit {
     to_.history = from.history;
     to_.fracture_sets = from.fracture_sets;
     to_.medium = Medium<D>(grid, from.medium);
+    // Where interfaces lie in old cells is not known.
+    drop_tilted_means(to_.medium);
     if (!from.fracture.empty()) to_.fracture = Field<D, std::uint8_t>(grid);
     to_.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
     scalars_ = from.medium.properties();

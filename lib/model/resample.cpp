@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model/averaging.hpp"
 #include "model/layers.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -102,6 +103,8 @@ struct Regridding {
     model.history = from.history;
     model.fracture_sets = from.fracture_sets;
     model.medium = Medium<D>(grid, from.medium);
+    // Where interfaces lie in old cells is not known.
+    drop_tilted_means(model.medium);
     if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
     model.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
   }
@@ -196,7 +199,7 @@ Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
   check_regular(model.grid());
   if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
   Regridding<D> to(model, spacing_m);
-  const auto properties = model.medium.properties();
+  const auto properties = to.model.medium.properties();
   return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
     std::array<const Foot*, D> round{};
     for (std::size_t axis = 0; axis < D; ++axis) round[axis] = &to.feet[axis][std::size_t(at[axis])];

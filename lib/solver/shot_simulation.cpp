@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
+#include "model/attenuation.hpp"
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/effect/attenuation.hpp"
@@ -66,6 +67,20 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   return all;
 }
 
+/// The computed grid of a shot. Attenuation and slip take cells for isotropic ones: what attenuates or slips
+/// is no tilted mean.
+template <int D>
+Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
+  auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
+                            scene.subdomain, scene.numerics.order);
+  const auto& model = scene.model;
+  domain.drop_tilted([&](std::size_t cell) {
+    return (scene.slips() && model.fracture[cell] != 0) ||
+           (scene.attenuation && attenuates(model.medium, cell));
+  });
+  return domain;
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -78,8 +93,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       steps_(Recorder<D, Real>::steps_needed(scene.recording, dt_s_)),
       unit_(unit_of(scene, shot, dt_s_, ranks)),
       attenuating_(attenuating_medium(scene, dt_s_)),
-      domain_(make_domain(medium(), scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
-                          scene.subdomain, scene.numerics.order)),
+      domain_(domain_of(scene, medium(), shot)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
       effects_(builder().effects(shot, unit_, ranks)),

@@ -39,6 +39,17 @@ double energy_density(const Stiffness& c, double rho, const CellFields& fields) 
   return rho * (vx * vx + vz * vz) / 2 + (sxx * exx + szz * ezz + sxz * sxz / c.c55) / 2;
 }
 
+double energy_density(const PlaneStiffness& c, double rho, const CellFields& fields) {
+  const auto& [vx, vz, sxx, szz, sxz] = fields;
+  // Strains by elimination; the shear strain is twice exz.
+  const double a = c.c33 - c.c13 * c.c13 / c.c11, b = c.c35 - c.c13 * c.c15 / c.c11,
+               d = c.c55 - c.c15 * c.c15 / c.c11;
+  const double normal = szz - c.c13 / c.c11 * sxx, shear = sxz - c.c15 / c.c11 * sxx;
+  const double exz = (shear - b / a * normal) / (d - b * b / a), ezz = (normal - b * exz) / a,
+               exx = (sxx - c.c13 * ezz - c.c15 * exz) / c.c11;
+  return rho * (vx * vx + vz * vz) / 2 + (sxx * exx + szz * ezz + sxz * exz) / 2;
+}
+
 template <class Real>
 Lab<Real>::Lab(const Setup& setup)
     : along_z_only_(setup.along_z_only), splitting_(splitting(2, setup.time_order)) {
@@ -156,10 +167,12 @@ double Lab<Real>::sum(Stress which) const {
         s[c] = c == 2 && state_.fluid ? 0 : double(row[2 + c][i]);
         if (which == Stress::all && !still.empty()) s[c] += still[std::size_t(c)][cell];
       }
+      const CellFields fields = {double(row[0][i]), double(row[1][i]), s[0], s[1], s[2]};
       total += h * h *
-               (is_anisotropic(medium, cell)
-                    ? energy_density(stiffness_of(medium, cell), medium.rho[cell],
-                                     {double(row[0][i]), double(row[1][i]), s[0], s[1], s[2]})
+               (domain_.is_tilted({i, k})
+                    ? energy_density(tilted_mean_stiffness(medium, cell), medium.rho[cell], fields)
+                : is_anisotropic(medium, cell)
+                    ? energy_density(stiffness_of(medium, cell), medium.rho[cell], fields)
                     : energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
                                      double(row[1][i]), s[0], s[1], s[2]));
     }

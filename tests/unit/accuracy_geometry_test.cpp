@@ -13,7 +13,7 @@ Model<2> model_of(const std::vector<Layer>& layers, double spacing_m, const std:
   const Grid<2> grid{{std::int64_t(400 / spacing_m), std::int64_t(300 / spacing_m)}, spacing_m, {0, 0}};
   const auto fit = fit_layers<2>(grid, layers, parse_fit("none"));
   Model<2> model;
-  model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+  model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
   model.history = history;
   return model;
 }

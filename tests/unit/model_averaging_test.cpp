@@ -185,7 +185,7 @@ TEST(Layers, CellsCutByATopTakeTheMeanOverTheirParts) {
   EXPECT_FLOAT_EQ(medium.rho[1], 2350);
   EXPECT_EQ(medium.vp[0], 2500);
   EXPECT_EQ(medium.vp[2], 4500);
-  EXPECT_EQ(layered_medium(grid_of(1, 3, 10), layers, false).vp[1], 4500);
+  EXPECT_EQ(layered_medium(grid_of(1, 3, 10), layers, Average::none).vp[1], 4500);
 }
 
 TEST(Layers, KeepMassUnderADippingTop) {
@@ -202,7 +202,7 @@ TEST(Layers, KeepMassUnderADippingTop) {
 TEST(Layers, AreNeverAveragedAcrossAFluidSolidInterface) {
   const auto grid = grid_of(40, 60, 5);
   const std::vector<Layer> layers = {{40, 1500, 0, 1000, 10}, {100, 3000, 1500, 2000, 30}};
-  const auto mean = layered_medium(grid, layers), centre = layered_medium(grid, layers, false);
+  const auto mean = layered_medium(grid, layers), centre = layered_medium(grid, layers, Average::none);
   for (std::size_t cell = 0; cell < mean.vp.size(); ++cell) {
     EXPECT_EQ(mean.vp[cell], centre.vp[cell]);
     EXPECT_EQ(mean.vs[cell], centre.vs[cell]);

@@ -25,7 +25,7 @@ template <int D>
 Model<D> fitted_model(const Grid<D>& grid, const std::vector<Layer>& pile = layers) {
   const auto fit = fit_layers(grid, pile, FitChoice());
   Model<D> model;
-  model.medium = layered_medium(fit.grid, pile, true, fit.rows);
+  model.medium = layered_medium(fit.grid, pile, Average::isotropic, fit.rows);
   return model;
 }
 

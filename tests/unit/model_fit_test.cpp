@@ -83,7 +83,7 @@ TEST(Fit, FollowsASeaFloorAndIsRegularFarFromIt) {
   EXPECT_GE(least, 0.85);
   EXPECT_LE(largest, 1.15);
   EXPECT_EQ(fit.summary, "fitted: floor at sine,502,10,250, rows 0.85 to 1.15 of 5 m");
-  const auto medium = layered_medium(fit.grid, layers, true, fit.rows);
+  const auto medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   for (std::int64_t cell = 0; cell < fit.grid.size(); ++cell)
     EXPECT_EQ(medium.vp[std::size_t(cell)], fit.grid.index(cell)[1] < 100 ? 1500 : 3000);
 }
@@ -156,7 +156,7 @@ TEST(Fit, MakesAFreeSurfaceTheTop) {
     EXPECT_EQ(corner(fit.grid, i, 0), layers[0].top.at(5 * double(i)));
     EXPECT_EQ(corner(fit.grid, i, 49), 295);  // at its row coordinate
   }
-  const auto medium = layered_medium(fit.grid, layers, true, fit.rows);
+  const auto medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) EXPECT_TRUE(medium.is_solid(cell));
 }
 
@@ -193,7 +193,7 @@ TEST(Fit, FollowsTheFloorWhereALayerCropsOut) {
   ASSERT_NE(fit.grid.rows, nullptr);
   const auto row = fit.rows[1];
   EXPECT_EQ(fit.rows[2], -1);
-  const auto medium = layered_medium(fit.grid, layers, true, fit.rows);
+  const auto medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   for (std::int64_t i = 0; i <= 100; ++i)
     EXPECT_EQ(corner(fit.grid, i, row), std::min(202., layers[2].top.at(5 * double(i))));
   for (std::int64_t cell = 0; cell < fit.grid.size(); ++cell)
@@ -238,7 +238,7 @@ TEST(Fit, TakesGradientsAtTrueDepths) {
   const std::vector<Layer> layers = {{0, 1500, 0, 1000}, {Horizon(53, 10), {2000, 1000, 2000}, {2, 1, 0.5}}};
   const auto fit = fit_layers(grid, layers, as_usual);
   ASSERT_NE(fit.grid.rows, nullptr);
-  const auto medium = layered_medium(fit.grid, layers, true, fit.rows);
+  const auto medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   for (std::int64_t cell = 0; cell < fit.grid.size(); ++cell) {
     const auto at = fit.grid.index(cell);
     if (at[1] < fit.rows[1]) continue;
@@ -254,7 +254,7 @@ TEST(Fit, FollowsPlanesInThreeDimensions) {
   const auto fit = fit_layers(grid, layers, as_usual);
   ASSERT_NE(fit.grid.rows, nullptr);
   EXPECT_EQ(fit.rows[1], 12);
-  const auto medium = layered_medium(fit.grid, layers, true, fit.rows);
+  const auto medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   for (std::int64_t j = 0; j <= 10; ++j)
     for (std::int64_t i = 0; i <= 20; ++i)
       EXPECT_EQ(fit.grid.rows->corner({i, j, 12}), layers[1].top.at(10 * double(i)));
@@ -290,7 +290,7 @@ TEST(FittedModel, IsFracturedAndLoadedAtTrueDepths) {
   const auto fit = fit_layers(grid, layers, as_usual);
   ASSERT_NE(fit.grid.rows, nullptr);
   Model<2> model;
-  model.medium = layered_medium(fit.grid, layers, true, fit.rows);
+  model.medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   FractureSet<2> set{"set", {{}}};
   set.systems[0].normal = {0, 1};
   add_fractures<2>(model, set, [](const Point<2>& at) { return at[1] >= 150 && at[1] <= 170; });
@@ -345,7 +345,7 @@ TEST(Fit, OfAnyPileIsAGridThatFollowsWhatItSays) {
         EXPECT_LE(rows.corner({i, fit.rows[n]}), layers[n].top.at(double(i) * h)) << scene;
     }
     Model<2> model;
-    model.medium = layered_medium(fit.grid, layers, true, fit.rows);
+    model.medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
     check(model);
   }
   EXPECT_GT(fitted, 250);

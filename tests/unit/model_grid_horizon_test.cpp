@@ -198,7 +198,7 @@ TEST(GridHorizon, FollowsADome) {
   const TextFile file(text_of(rows_of(range(0, 600, 20), range(0, 560, 20), dome)));
   const auto grid = cube_of(60, 56, 40, 10);
   const auto layer = parse_layer("@" + file.path() + hard);
-  const auto centres = layered_medium(grid, {soft, layer}, false);
+  const auto centres = layered_medium(grid, {soft, layer}, Average::none);
   int above = 0, below = 0;
   for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
     const auto at = grid.index(cell);

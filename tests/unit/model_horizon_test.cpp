@@ -117,7 +117,7 @@ TEST(Layers, MayGainSpeedAndDensityWithDepth) {
 TEST(Layers, GainWithDepthBelowTheirOwnTop) {
   // Along a dipping top the speed is the same everywhere, and so it is at any distance straight below.
   const auto grid = grid_of(60, 60, 10);
-  const auto medium = layered_medium(grid, {parse_layer("50:2000+1:1000:2000:20")}, false);
+  const auto medium = layered_medium(grid, {parse_layer("50:2000+1:1000:2000:20")}, Average::none);
   const double slope = std::tan(pi / 9);
   for (std::int64_t cell = 0; cell < grid.size(); ++cell) {
     const auto at = grid.index(cell);

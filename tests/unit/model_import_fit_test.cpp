@@ -14,7 +14,7 @@ namespace {
 /// A staircase model of layers.
 Model<2> stairs(const Grid<2>& grid, const std::vector<Layer>& layers) {
   Model<2> model;
-  model.medium = layered_medium(grid, layers, false);
+  model.medium = layered_medium(grid, layers, Average::none);
   return model;
 }
 

@@ -10,7 +10,7 @@ template <int D>
 Model<D> fitted_model(const Grid<D>& grid, const std::vector<Layer>& layers) {
   const auto fit = fit_layers(grid, layers, FitChoice());
   Model<D> model;
-  model.medium = layered_medium(fit.grid, layers, true, fit.rows);
+  model.medium = layered_medium(fit.grid, layers, Average::isotropic, fit.rows);
   return model;
 }
 

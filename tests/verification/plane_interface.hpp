@@ -110,12 +110,6 @@ struct PlaneInterface {
     return traces;
   }
 
- private:
-  /// Decay of a wave of wave number k along the interface with the distance from it.
-  static std::complex<double> decay(double c, std::complex<double> omega, double k) {
-    return std::sqrt(k * k - omega * omega / (c * c));
-  }
-
   /// Gauss with pivots; `a` holds the right-hand side behind the matrix.
   static Coefficients solved(std::array<std::array<std::complex<double>, 5>, 4> a) {
     for (std::size_t column = 0; column < 4; ++column) {
@@ -132,6 +126,12 @@ struct PlaneInterface {
     Coefficients x;
     for (std::size_t row = 0; row < 4; ++row) x[row] = a[row][4] / a[row][row];
     return x;
+  }
+
+ private:
+  /// Decay of a wave of wave number k along the interface with the distance from it.
+  static std::complex<double> decay(double c, std::complex<double> omega, double k) {
+    return std::sqrt(k * k - omega * omega / (c * c));
   }
 };
 

@@ -212,7 +212,7 @@ class DrawnScene {
               << rocks_[n].rho << ':' << (n == 0 && !free_surface_ ? 0 : dip_deg_);
     scene_.model.history = history.str();
     const auto fit = fit_layers<2>(regular, layers, choice);
-    scene_.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+    scene_.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
     const auto place = [&](double a, double b) {
       return Point<2>{x0 + a * cosine_ - b * sine_, z0 + a * sine_ + b * cosine_};
     };
@@ -303,7 +303,7 @@ class BentScene {
     choice.surfaces = choice.floors = choice.layers = fitted_ || parts > 1;
     const auto fit = fit_layers<2>(regular, layers, choice);
     Scene<2> scene;
-    scene.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+    scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
     scene.survey.sources = {
         {source_, parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"), parse_wavelet("ricker:15"), 1e6}};
     scene.survey.receivers_m = receivers_;

@@ -110,7 +110,7 @@ TEST(Promise, OfLessErrorGivesLessError) {
   Scene<2> scene;
   const std::vector<Layer> layers = {{0, 1500, 0, 1000}, {153, 2600, 1400, 2100, 8}};
   const auto fit = fit_layers<2>(Grid<2>{{40, 30}, 10, {0, 0}}, layers, {});
-  scene.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+  scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
   scene.model.history =
       "sw-layers --size 400x300 --step 10 --layer 0:1500:0:1000 --layer 153:2600:1400:2100:8";
   ASSERT_TRUE(has_finer_geometry(scene));
@@ -192,7 +192,7 @@ TEST(Promise, NamesAStaircaseAsTheLargestCauseAndWhatWouldCureIt) {
   EXPECT_NE(choice.reason.find("however fine the cells"), std::string::npos) << choice.reason;
   // Fitted, it is no cause to speak of.
   const auto fit = fit_layers<2>(grid, layers, {});
-  scene.model.medium = layered_medium<2>(fit.grid, layers, true, fit.rows);
+  scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
   const auto fitted = *WavesOfScene(scene).expected().promise;
   EXPECT_LT(fitted.error, stairs.error / 4);
 }

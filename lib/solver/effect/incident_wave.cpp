@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/coefficients.hpp"
+#include "model/tilted_mean.hpp"
 #include "scene/plane_wave.hpp"
 #include "solver/effect/incident_pml.hpp"
 #include "solver/effect/layered_wave.hpp"
@@ -84,6 +85,8 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
     column.vs[cell] = float(column.vs[cell] / height);
     column.rho[cell] = float(column.rho[cell] * height);
   }
+  // Nothing dips in a column.
+  drop_tilted_means(column);
   return column;
 }
 

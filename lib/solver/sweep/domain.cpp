@@ -149,15 +149,56 @@ void find_bent_rows(Domain<D>& domain) {
     domain.bent_rows.clear();
 }
 
+/// Impedances beside a tilted mean differ by no more: beyond, the reconstruction across its faces can feed
+/// waves with energy.
+constexpr double strongest_tilted = 4;
+
+/// Whether impedances of a wave that all carry differ by more about a cell.
+bool contrast_is_too_strong(const Domain<2>& domain, const Index<2>& at) {
+  for (const Wave wave : {wave_p, wave_s}) {
+    const auto& impedance = domain.impedance(wave);
+    double least = std::numeric_limits<double>::max(), largest = 0;
+    for (std::int64_t k = at[1] - 1; k <= at[1] + 1; ++k)
+      for (std::int64_t i = at[0] - 1; i <= at[0] + 1; ++i) {
+        if (i < 0 || k < 0 || i >= domain.grid.shape[0] || k >= domain.grid.shape[1]) continue;
+        const double one = impedance(Index<2>{i, k});
+        if (one == 0) continue;
+        least = std::min(least, one), largest = std::max(largest, one);
+      }
+    if (largest > strongest_tilted * least) return true;
+  }
+  return false;
+}
+
+std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
+  std::vector<TiltedMedium> found;
+  const std::int64_t last = domain.grid.shape[1] - 1;
+  for (const auto cell : cells_of_tilted_means(medium)) {
+    const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
+    if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
+        domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
+      continue;
+    found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
+  }
+  return found;
+}
+
 template <int D, class Real>
 void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
+  const auto& all_tilted = domain.tilted();
+  std::vector<char> tilted(std::size_t(nx), 0);
+  auto next = all_tilted.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
     const auto material = state.material_from(at, 0), across = state.material_from(at, 0, 0);
+    while (next != all_tilted.end() && next->cell < line * nx) ++next;
+    std::fill(tilted.begin(), tilted.end(), 0);
+    for (auto of = next; of != all_tilted.end() && of->cell < (line + 1) * nx; ++of)
+      tilted[std::size_t(of->cell - line * nx)] = 1;
     const auto same = [&](std::int64_t i, std::int64_t j) {
-      return material.b[i] == material.b[j] && material.zp[i] == material.zp[j] &&
-             material.zs[i] == material.zs[j] &&
+      return !tilted[std::size_t(i)] && !tilted[std::size_t(j)] && material.b[i] == material.b[j] &&
+             material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
              (!state.anisotropic ||
               (across.zp[i] == across.zp[j] && material.coupling[i] == material.coupling[j]));
     };
@@ -165,7 +206,7 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
-      if (x - first >= std::min(shortest_run, nx))
+      if (x - first >= std::min(shortest_run, nx) && !tilted[std::size_t(first)])
         state.uniform_runs.push_back({first, x, material.b[first], material.zp[first],
                                       state.fluid ? Real(0) : material.zs[first], across.zp[first],
                                       state.anisotropic ? material.coupling[first] : Real(0)});
@@ -188,6 +229,16 @@ template <int D>
 const Field<D>& Domain<D>::impedance(Wave wave, int axis) const {
   if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
   return anisotropic_ && wave == wave_p && axis < D - 1 ? zp_across_ : impedances_[wave];
+}
+
+template <int D>
+const TiltedMedium* Domain<D>::tilted_at(const Index<D>& at) const {
+  if (tilted_.empty()) return nullptr;
+  const auto cell = grid.flat(at);
+  const auto found =
+      std::lower_bound(tilted_.begin(), tilted_.end(), cell,
+                       [](const TiltedMedium& medium, std::int64_t wanted) { return medium.cell < wanted; });
+  return found != tilted_.end() && found->cell == cell ? &*found : nullptr;
 }
 
 template <int D>
@@ -267,6 +318,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   domain.set_impedances(std::move(impedance));
   if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
   domain.find_material_kind();
+  if constexpr (D == 2) domain.set_tilted(find_tilted(domain, medium));
   return domain;
 }
 
@@ -322,6 +374,17 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
 
 namespace {
 
+/// s:C^-1:s of all stresses, of a stiffness whose axes do not lie along the grid.
+double complementary(const PlaneStiffness& c, double sxx, double szz, double sxz) {
+  const double a = c.c33 * c.c55 - c.c35 * c.c35, b = c.c15 * c.c35 - c.c13 * c.c55,
+               d = c.c13 * c.c35 - c.c15 * c.c33, e = c.c11 * c.c55 - c.c15 * c.c15,
+               f = c.c13 * c.c15 - c.c11 * c.c35, g = c.c11 * c.c33 - c.c13 * c.c13;
+  const double determinant = c.c11 * a + c.c13 * b + c.c15 * d;
+  return (a * sxx * sxx + e * szz * szz + g * sxz * sxz +
+          2 * (b * sxx * szz + d * sxx * sxz + f * szz * sxz)) /
+         determinant;
+}
+
 /// s:C^-1:s of normal stresses along x and z in plane strain.
 double complementary(const Stiffness& c, double sxx, double szz) {
   return (c.c33 * sxx * sxx - 2 * c.c13 * sxx * szz + c.c11 * szz * szz) / (c.c11 * c.c33 - c.c13 * c.c13);
@@ -340,6 +403,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   at[0] = 0;
   const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
   const bool anisotropic = is_anisotropic(medium, cell);
+  const auto* const tilted = domain.tilted_at(whole);
   const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
   const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
   double kinetic = 0, squares = 0, trace = 0, shear = 0;
@@ -355,9 +419,11 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
   const double elastic =
-      anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
-                                  value(Rows::normal_stress(D - 1))) +
-                        shear / mu
+      tilted        ? complementary(tilted->stiffness, value(Rows::normal_stress(0)),
+                                    value(Rows::normal_stress(D - 1)), value(Rows::shear_stress(0, D - 1)))
+      : anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
+                                    value(Rows::normal_stress(D - 1))) +
+                          shear / mu
       : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
                : trace * trace / (D * D * lambda);
   const double height = domain.model_grid.height(domain.model_cell(whole));

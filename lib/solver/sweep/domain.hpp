@@ -2,16 +2,25 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <utility>
 #include <vector>
 
 #include "model/model.hpp"
+#include "model/tilted_mean.hpp"
 #include "scene/edges.hpp"
 #include "scene/subdomain.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
+
+/// A cell of the computed grid that is a tilted mean.
+struct TiltedMedium {
+  std::int64_t cell;
+  double rho;
+  PlaneStiffness stiffness;
+};
 
 /// The computed grid: the model and, outside its absorbing edges, zones (of the PML) with the
 /// medium of the edge.
@@ -47,6 +56,19 @@ class Domain {
   /// What a strain along the edge across an axis puts on the normal stress there, as a share of the modulus
   /// of P along the axis: c13 over c11 or c33, in isotropic media lambda/(lambda + 2 mu).
   double coupling_share(const Index<D>& cell, int axis) const;
+  /// Its tilted means by cell. Those of zones are isotropic, since a PML is stable only where the axes of
+  /// media lie along the grid, and those in bent rows and beside them.
+  const std::vector<TiltedMedium>& tilted() const { return tilted_; }
+  bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
+  /// Null where a cell is none.
+  const TiltedMedium* tilted_at(const Index<D>& at) const;
+  void set_tilted(std::vector<TiltedMedium> cells) { tilted_ = std::move(cells); }
+  /// Takes those cells of the model for isotropic ones.
+  void drop_tilted(const std::function<bool(std::size_t cell)>& which) {
+    std::erase_if(tilted_, [&](const TiltedMedium& of) {
+      return which(std::size_t(model_grid.flat(model_cell(grid.index(of.cell)))));
+    });
+  }
   /// Frees their memory.
   void release_impedances() { impedances_ = {}, zp_across_ = coupling_ = {}; }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
@@ -92,6 +114,7 @@ class Domain {
   bool anisotropic_ = false;
   MaterialKind material_kind_ = MaterialKind::isotropic;
   Field<D> zp_across_, coupling_;
+  std::vector<TiltedMedium> tilted_;
 };
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend

@@ -28,20 +28,26 @@ struct Side {
 template <int D>
 class Walk {
  public:
-  Walk(const Field<D>& impedance, const Index<D>& from, int axis, int step)
-      : impedance_(impedance), at_(from), axis_(axis), step_(step) {}
+  Walk(const Field<D>& impedance, const TiltedFace<D>& tilted, const Index<D>& from, int axis, int step)
+      : impedance_(impedance), tilted_(tilted), at_(from), axis_(axis), step_(step) {}
   bool leaves_grid(int n) const {
     const auto i = at_[std::size_t(axis_)] + n * step_;
     return i < 0 || i >= impedance_.grid().shape[std::size_t(axis_)];
   }
-  double operator()(int n) const {
-    Index<D> at = at_;
-    at[std::size_t(axis_)] += n * step_;
-    return impedance_(at);
+  double operator()(int n) const { return impedance_(place(n)); }
+  /// Whether the face behind cell n is a strong interface of two media that carry the wave.
+  bool strong_behind(int n) const {
+    return strong((*this)(n), (*this)(n + 1)) && !(tilted_ && tilted_(place(n), place(n + 1)));
   }
 
  private:
+  Index<D> place(int n) const {
+    Index<D> at = at_;
+    at[std::size_t(axis_)] += n * step_;
+    return at;
+  }
   const Field<D>& impedance_;
+  const TiltedFace<D>& tilted_;
   Index<D> at_;
   int axis_, step_;
 };
@@ -61,13 +67,13 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
       side.inside = true;
       return side;
     }
-    if (strong(own, other)) {
+    if (z.strong_behind(side.cells)) {
       side.law = Extension::interface;
       side.share = other / (own + other);
       side.inside = true;
       for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
         const int further = next + side.beyond;
-        if (z.leaves_grid(further) || z(further) == 0 || strong(z(further - 1), z(further))) break;
+        if (z.leaves_grid(further) || z(further) == 0 || z.strong_behind(further - 1)) break;
       }
       return side;
     }
@@ -229,7 +235,7 @@ int reach_within(int interfaces, int nearest, bool ends, int others, int reach) 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
                                      int reach, const CorrectedAt<D>& corrected,
-                                     const SlotBefore<D>& slot_before)
+                                     const SlotBefore<D>& slot_before, const TiltedFace<D>& tilted)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -240,7 +246,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
     for (std::int64_t x = 0; x < nx; ++x) {
       if (marks[std::size_t(x)] == 0) continue;
       const auto at = grid.index(line * nx + x);
-      const Walk<D> down(impedance, at, axis, -1), up(impedance, at, axis, +1);
+      const Walk<D> down(impedance, tilted, at, axis, -1), up(impedance, tilted, at, axis, +1);
       constexpr auto on = Extension::none;
       if (impedance(at) == 0) {
         if (carried_near(down, reach) || carried_near(up, reach))
@@ -286,6 +292,22 @@ bool InterfaceStencils::any_of_line(std::int64_t line, const IndexRange& columns
   return cell != stop && cell->x < columns.last;
 }
 
+const InterfaceStencil* InterfaceStencils::find(std::int64_t line, std::int64_t x) const {
+  const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
+  const auto cell =
+      std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, x,
+                       [](const InterfaceStencil& stencil, std::int64_t at) { return stencil.x < at; });
+  return cell != stop && cell->x == x ? &*cell : nullptr;
+}
+
+template <class Real>
+void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
+                   const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
+                   Real* s_at) {
+  const PairOfLine<Real> pair{v, s, nullptr, stride, 0, corrections, scale};
+  for (int k = -reach; k <= reach; ++k) extend(stencil, k, pair, v_at[k + reach], s_at[k + reach]);
+}
+
 template <class Real>
 void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRange& columns,
                                      std::int64_t stride, const Real* v, const Real* s,
@@ -313,10 +335,16 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
   }
 }
 
+template void extended_pair(const InterfaceStencil&, int, std::int64_t, const float*, const float*,
+                            const PairCorrections<float>&, float, float*, float*);
+template void extended_pair(const InterfaceStencil&, int, std::int64_t, const double*, const double*,
+                            const PairCorrections<double>&, double, double*, double*);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
-                                              const CorrectedAt<2>&, const SlotBefore<2>&);
+                                              const CorrectedAt<2>&, const SlotBefore<2>&,
+                                              const TiltedFace<2>&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
-                                              const CorrectedAt<3>&, const SlotBefore<3>&);
+                                              const CorrectedAt<3>&, const SlotBefore<3>&,
+                                              const TiltedFace<3>&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
                                               float*, float*, const PairCorrections<float>&,

@@ -82,16 +82,31 @@ struct PairCorrections {
   const Real *v, *s;
 };
 
+/// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
+/// stencil says ((E10), (E11)); `v` and `s` point at the cell.
+template <class Real>
+void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
+                   const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
+                   Real* s_at);
+
+/// Whether of these neighbours, both solid, one is a tilted mean (TiltedCells); empty: none is anywhere.
+template <int D>
+using TiltedFace = std::function<bool(const Index<D>& at, const Index<D>& beside)>;
+
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
 /// these are corrected.
 class InterfaceStencils {
  public:
   InterfaceStencils() = default;
   /// `impedance` of the wave on the computed grid, 0 where it is not carried; laws of
-  /// the grid's edges; cells the reconstruction reaches to each side.
+  /// the grid's edges; cells the reconstruction reaches to each side. Stencils do not end at faces of
+  /// tilted means, which part what would be a strong interface in two.
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before);
+                    const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before,
+                    const TiltedFace<D>& tilted = {});
+  /// That of a cell, null where the bulk kernel serves.
+  const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 
   std::size_t size() const { return cells_.size(); }
   /// Whether it would correct anything of these columns.

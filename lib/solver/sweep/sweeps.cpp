@@ -1,6 +1,7 @@
 #include "solver/sweep/sweeps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
@@ -37,6 +38,12 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     for (const int side : {0, 1})
       if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
   }
+  TiltedFace<D> tilted;
+  if (!domain.tilted().empty())
+    tilted = [&](const Index<D>& at, const Index<D>& beside) {
+      const auto& s_waves = domain.impedance(wave_s);
+      return (domain.is_tilted(at) || domain.is_tilted(beside)) && s_waves(at) > 0 && s_waves(beside) > 0;
+    };
   // Each reads all cells.
   parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto n = begin; n < end; ++n) {
@@ -49,10 +56,11 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      stencils_[axis][wave] =
-          InterfaceStencils(domain.impedance(wave, axis), edges_, axis, wave, reach_, corrected, slot_before);
+      stencils_[axis][wave] = InterfaceStencils(domain.impedance(wave, axis), edges_, axis, wave, reach_,
+                                                corrected, slot_before, tilted);
     }
   });
+  tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
 }
 
 template <int D, class Real>
@@ -157,6 +165,21 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                              pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up, down);
     prefetch.prefetch_one();
   }
+  reconstruct_tilted(axis, number, columns, fields, pitch, stride, scale, outgoing);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns,
+                                         const Real* fields, std::int64_t pitch, std::int64_t stride,
+                                         Real scale, OutgoingWaves<Real> outgoing) const {
+  if (tilted_cells_.empty()) return;
+  const auto pair = [&](int p) {
+    const auto& of = pairs_[axis][std::size_t(p)];
+    return typename TiltedCells<D, Real>::PairFields{fields + of.v * pitch + columns.first,
+                                                     fields + of.s * pitch + columns.first,
+                                                     corrections_of(axis, p)};
+  };
+  tilted_cells_.reconstruct(axis, row, columns, stride, {pair(0), pair(1)}, scale, outgoing);
 }
 
 template <int D, class Real>
@@ -266,9 +289,7 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto swept = [&](std::int64_t x) { return swept_rows(axis, fields + x, pitch); };
   const auto number = state_.layout.line_number(line);
   const Real own_scale = scale_of(axis, line, scale);
-  const auto run_of = [&](const IndexRange& part) {
-    return state_.uniform_run(number, part.first, part.last);
-  };
+  const auto run_of = [&](const auto& part) { return state_.uniform_run(number, part.first, part.last); };
   const auto without_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     // Its material is known without reading it from memory.
@@ -279,17 +300,19 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     const auto* run = run_of(part);
-    face_kernels(run != nullptr)
-        .update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
-                run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
-                swept(part.first));
+    face_kernels(run).update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
+                             run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
+                             swept(part.first));
   };
   if (metric_.bent(number)) {
     update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
     work.prefetch().prefetch(prefetched_by_bent);
-  } else
+  } else {
     split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                   between_faces);
+    tilted_cells_.add_stress(axis, number, columns, std::abs(own_scale), flux.lo, flux.hi,
+                             swept(columns.first));
+  }
   work.prefetch().prefetch_one();
   each_filtered([&](auto& filter, const IndexRange& part, const Real* before) {
     filter.filter({axis,
@@ -485,6 +508,8 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     const auto lo = run ? run->rows(true) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
                                     run ? lo : state_.material_from(at, part.first, 0), faces.at(from));
+    tilted_cells_.solve(0, line, part, here.at(-1), here, material, state_.material_from(at, part.first, 0),
+                        faces.at(from));
   };
   if (metric_.bent(line)) return solve(cells);
   // The faces at the ends of a row have other material on one side.
@@ -558,6 +583,7 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   face_kernels(uniform).solve_riemann(columns.count(), up, down,
                                       uniform ? lo->rows(axis < z_axis) : material_lo,
                                       uniform ? hi->rows(axis < z_axis) : material_hi, faces);
+  if (axis == z_axis) tilted_cells_.solve(axis, row, columns, up, down, material_lo, material_hi, faces);
 }
 
 template <int D, class Real>
@@ -671,6 +697,8 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
       if (run.first < columns.last && run.last > columns.first) return false;
   for (int wave = wave_p; wave <= (shear_ ? wave_s : wave_p); ++wave)
     if (stencils_[axis][wave].any(number, columns)) return false;
+  for (const auto& line : {here, below, advanced})
+    if (tilted_cells_.any(layout.line_number(line), columns)) return false;
   if (filters(axis, advanced, columns)) return false;
   const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);

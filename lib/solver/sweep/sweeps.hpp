@@ -12,6 +12,7 @@
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
+#include "solver/sweep/tilted_cells.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -98,7 +99,8 @@ class Sweeps {
   std::int64_t interface_stencil_cells() const;
   /// What it holds of each cell: stencils beside interfaces and the metric.
   std::int64_t memory_bytes() const {
-    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes();
+    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes() +
+           tilted_cells_.memory_bytes();
   }
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
@@ -162,6 +164,10 @@ class Sweeps {
                    OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
+  /// The outgoing waves of tilted means of a row.
+  void reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns, const Real* fields,
+                          std::int64_t pitch, std::int64_t stride, Real scale,
+                          OutgoingWaves<Real> outgoing) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
@@ -181,6 +187,7 @@ class Sweeps {
   int order_, reach_;
   bool shear_, anisotropic_, monotone_ = false;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
+  TiltedCells<D, Real> tilted_cells_;
   Metric<D, Real> metric_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.

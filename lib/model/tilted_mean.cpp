@@ -1,0 +1,111 @@
+#include "model/tilted_mean.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+constexpr std::array cut_properties = {Property::cut_epsilon, Property::cut_delta, Property::cut_dip};
+/// Less is rounding, as where rocks differ in density alone.
+constexpr double least_anisotropy = 1e-5;
+constexpr double degree = std::numbers::pi / 180;
+
+/// Of a tilted mean, as a rock with its normal upright.
+template <int D>
+Material about_normal(const Medium<D>& medium, std::size_t cell) {
+  return {double(medium.vp[cell]), double(medium.vs[cell]), double(medium.rho[cell]),
+          medium.value(Property::cut_epsilon, cell), medium.value(Property::cut_delta, cell)};
+}
+
+}  // namespace
+
+PlaneStiffness tilted(const Stiffness& upright, double dip_rad) {
+  const auto& [c11, c13, c33, c55] = upright;
+  const double c = std::cos(dip_rad), s = std::sin(dip_rad), cc = c * c, ss = s * s, cs = c * s,
+               apart = cc - ss, mixed = c13 + 2 * c55;
+  return {cc * cc * c11 + ss * ss * c33 + 2 * cs * cs * mixed,
+          cs * cs * (c11 + c33 - 4 * c55) + (cc * cc + ss * ss) * c13,
+          cs * (cc * c11 - ss * c33 - apart * mixed),
+          ss * ss * c11 + cc * cc * c33 + 2 * cs * cs * mixed,
+          cs * (ss * c11 - cc * c33 + apart * mixed),
+          cs * cs * (c11 + c33 - 2 * c13) + apart * apart * c55};
+}
+
+template <int D>
+std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
+  std::vector<std::size_t> cells;
+  const std::array fields{&medium[Property::cut_epsilon], &medium[Property::cut_delta]};
+  const auto is_cut = [&](std::size_t cell) {
+    return std::any_of(fields.begin(), fields.end(),
+                       [&](const auto* field) { return !field->empty() && (*field)[cell] != 0; });
+  };
+  if (fields[0]->empty() && fields[1]->empty()) return cells;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (is_cut(cell)) cells.push_back(cell);
+  return cells;
+}
+
+PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell) {
+  return tilted(stiffness_of(about_normal(medium, cell)), medium.value(Property::cut_dip, cell) * degree);
+}
+
+template <int D>
+void add_tilted_means(Medium<D>& medium) {
+  for (const auto property : cut_properties) medium[property] = Field<D>(medium.grid());
+}
+
+template <int D>
+void put_tilted_mean(Medium<D>& medium, std::size_t cell, const Material& about_normal, double dip_rad) {
+  const auto rounded = [](double value) { return std::abs(value) < least_anisotropy ? 0 : float(value); };
+  medium[Property::cut_epsilon][cell] = rounded(about_normal.epsilon);
+  medium[Property::cut_delta][cell] = rounded(about_normal.delta);
+  if (is_tilted_mean(medium, cell)) medium[Property::cut_dip][cell] = float(dip_rad / degree);
+}
+
+template <int D>
+void drop_tilted_means(Medium<D>& medium) {
+  for (const auto property : cut_properties)
+    if (medium.has(property)) medium[property] = {};
+}
+
+template <int D>
+double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell) {
+  const auto rock = about_normal(medium, cell);
+  return rock.vp * std::sqrt(1 + 2 * std::max({rock.epsilon, rock.delta, 0.}));
+}
+
+template <int D>
+std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<D>& medium, std::size_t cell) {
+  if (!is_tilted_mean(medium, cell)) return {};
+  const auto expected_none = [&](const char* where) {
+    const auto of =
+        medium.value(Property::cut_epsilon, cell) != 0 ? Property::cut_epsilon : Property::cut_delta;
+    return AnisotropyFault{of, "is " + shown(medium.value(of, cell), 6) + ", expected 0 " + where};
+  };
+  if (medium.is_fluid(cell)) return expected_none("in fluid: tilted means are of solids");
+  if (is_anisotropic(medium, cell))
+    return expected_none("where epsilon or delta is not 0: tilted means are of isotropic rocks");
+  auto fault = fault_of_anisotropy(about_normal(medium, cell));
+  if (fault) fault->of = fault->of == Property::epsilon ? Property::cut_epsilon : Property::cut_delta;
+  return fault;
+}
+
+template std::vector<std::size_t> cells_of_tilted_means(const Medium<2>&);
+template std::vector<std::size_t> cells_of_tilted_means(const Medium<3>&);
+template void add_tilted_means(Medium<2>&);
+template void add_tilted_means(Medium<3>&);
+template void put_tilted_mean(Medium<2>&, std::size_t, const Material&, double);
+template void put_tilted_mean(Medium<3>&, std::size_t, const Material&, double);
+template void drop_tilted_means(Medium<2>&);
+template void drop_tilted_means(Medium<3>&);
+template double fastest_in_tilted_mean(const Medium<2>&, std::size_t);
+template double fastest_in_tilted_mean(const Medium<3>&, std::size_t);
+template std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<2>&, std::size_t);
+template std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<3>&, std::size_t);
+
+}  // namespace slipwave

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "model/anisotropy.hpp"
+
+namespace slipwave {
+
+// Cells that an interface of two isotropic solids cuts are transversely isotropic about its normal (theory.md
+// (T1)). vp, vs and rho are the speeds along the normal and the mean density: what the isotropic mean has,
+// too. The cell's cut_epsilon, cut_delta and cut_dip say the rest.
+
+/// Stiffnesses in the plane of x and z, Pa: sxx = c11 exx + c13 ezz + 2 c15 exz, szz = c13 exx + c33 ezz
+/// + 2 c35 exz, sxz = c15 exx + c35 ezz + 2 c55 exz.
+struct PlaneStiffness {
+  double c11 = 0, c13 = 0, c15 = 0, c33 = 0, c35 = 0, c55 = 0;
+};
+
+/// Of a rock whose axis of symmetry, the vertical of `upright`, is tilted: its beds dip at this angle,
+/// deepening towards +x (theory.md (T2)).
+PlaneStiffness tilted(const Stiffness& upright, double dip_rad);
+
+/// Whether a cell is a tilted mean.
+template <int D>
+bool is_tilted_mean(const Medium<D>& medium, std::size_t cell) {
+  return medium.value(Property::cut_epsilon, cell) != 0 || medium.value(Property::cut_delta, cell) != 0;
+}
+/// Those that are, and how many.
+template <int D>
+std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium);
+template <int D>
+std::int64_t tilted_means(const Medium<D>& medium) {
+  return std::int64_t(cells_of_tilted_means(medium).size());
+}
+
+/// The stiffness of such a cell.
+PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell);
+
+/// Gives a medium the properties of tilted means, none anywhere.
+template <int D>
+void add_tilted_means(Medium<D>& medium);
+/// Makes a cell one: epsilon and delta are those of a mean about the normal of beds with that dip.
+template <int D>
+void put_tilted_mean(Medium<D>& medium, std::size_t cell, const Material& about_normal, double dip_rad);
+/// Takes all of them away: cells are isotropic means.
+template <int D>
+void drop_tilted_means(Medium<D>& medium);
+
+/// What the largest speed of a plane wave in such a cell is at most, m/s: vp sqrt(1 + 2 max(epsilon, delta)),
+/// where one of both is positive. Rocks with that epsilon and delta are elliptical, and stiffer.
+template <int D>
+double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell);
+
+/// What keeps a cell from being a tilted mean; nothing where all is well.
+template <int D>
+std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<D>& medium, std::size_t cell);
+
+}  // namespace slipwave
