@@ -12,6 +12,7 @@
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
+#include "model/tilted_mean.hpp"
 #include "scene/anisotropy_check.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/plane_wave.hpp"
@@ -219,7 +220,7 @@ int zone_cells(const Scene<D>& scene, const Source<D>& source) {
   return int(std::clamp(cells, double(usual), 10000.)) + reach_of(scene.numerics.order) + 1;
 }
 
-/// Sweeps back in time, and waves that turn with their row, have no criterion of monotonicity.
+/// Sweeps back in time, and waves that turn with their row or cell, have no criterion of monotonicity.
 template <int D>
 void check_monotone(const Scene<D>& scene) {
   if (scene.numerics.time_order != 2)
@@ -228,9 +229,16 @@ void check_monotone(const Scene<D>& scene) {
                 ErrorKind::usage);
   const auto& rows = scene.model.grid().rows;
   if (const auto bent = rows ? rows->first_bent_row() : std::nullopt)
-    throw Error("found --monotone in a model whose row " + std::to_string(*bent) +
-                    " follows a horizon, expected level rows; build the model with --fit none",
-                ErrorKind::usage);
+    throw Error(
+        "found --monotone in a model whose row " + std::to_string(*bent) +
+            " follows a horizon, expected level rows; build the model with --fit none --average isotropic",
+        ErrorKind::usage);
+  if (scene.subdomain.tilted_means || tilted_means(scene.model.medium) > 0)
+    throw Error(
+        "found --monotone in a model with cells that interfaces cut as tilted means, expected isotropic "
+        "ones; "
+        "use --without anisotropy, or build the model with --average isotropic",
+        ErrorKind::usage);
 }
 
 template <int D>
