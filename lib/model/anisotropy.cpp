@@ -29,6 +29,22 @@ Material material_of_stiffness(const Stiffness& stiffness, double rho) {
           (sum * sum - apart * apart) / (2 * c33 * apart)};
 }
 
+PlaneStiffness tilted(const Stiffness& upright, double dip_rad) {
+  const auto& [c11, c13, c33, c55] = upright;
+  const double c = std::cos(dip_rad), s = std::sin(dip_rad), cc = c * c, ss = s * s, cs = c * s,
+               apart = cc - ss, mixed = c13 + 2 * c55;
+  return {cc * cc * c11 + ss * ss * c33 + 2 * cs * cs * mixed,
+          cs * cs * (c11 + c33 - 4 * c55) + (cc * cc + ss * ss) * c13,
+          cs * (cc * c11 - ss * c33 - apart * mixed),
+          ss * ss * c11 + cc * cc * c33 + 2 * cs * cs * mixed,
+          cs * (ss * c11 - cc * c33 + apart * mixed),
+          cs * cs * (c11 + c33 - 2 * c13) + apart * apart * c55};
+}
+
+PlaneStiffness plane_stiffness_of(const Material& material) {
+  return tilted(stiffness_of(material), material.tilt * std::numbers::pi / 180);
+}
+
 template <int D>
 std::int64_t anisotropic_cells(const Medium<D>& medium) {
   if (!medium.has(Property::epsilon) && !medium.has(Property::delta)) return 0;
@@ -79,18 +95,28 @@ double fastest_p_speed(const Material& material) {
   return fastest;
 }
 
-double largest_turning(const Stiffness& stiffness, bool vertical) {
-  const auto& [c11, c13, c33, c55] = stiffness;
+double fastest_p_speed_at_most(const Material& material) {
+  return material.vp * std::sqrt(1 + 2 * std::max({material.epsilon, material.delta, 0.}));
+}
+
+double largest_turning(const PlaneStiffness& stiffness, bool vertical) {
+  const auto& [c11, c13, c15, c33, c35, c55] = stiffness;
   double most = 0;
-  for (int n = 1; n < directions; ++n) {
+  // Where the axis is upright both quadrants are alike.
+  const bool upright = c15 == 0 && c35 == 0;
+  for (int n = 1; n < (upright ? 1 : 2) * directions; ++n) {
     const double angle = n * std::numbers::pi / 2 / directions, x = std::sin(angle), z = std::cos(angle);
-    const double xx = c11 * x * x + c55 * z * z, zz = c55 * x * x + c33 * z * z, xz = (c13 + c55) * x * z;
+    const double xx = c11 * x * x + c55 * z * z + 2 * c15 * x * z,
+                 zz = c55 * x * x + c33 * z * z + 2 * c35 * x * z,
+                 xz = (c13 + c55) * x * z + c15 * x * x + c35 * z * z;
     const double mean = (xx + zz) / 2, half = std::hypot((xx - zz) / 2, xz);
     for (const double inertia : {mean + half, mean - half}) {
       // Motion (a, b) of that wave; the energy of the group moves with the derivative of omega by k.
       const double size = std::hypot(xz, inertia - xx), a = xz / size, b = (inertia - xx) / size;
-      const double group = vertical ? c55 * z * a * a + (c13 + c55) * x * a * b + c33 * z * b * b
-                                    : c11 * x * a * a + (c13 + c55) * z * a * b + c55 * x * b * b;
+      const double group = vertical ? (c55 * z + c15 * x) * a * a + ((c13 + c55) * x + 2 * c35 * z) * a * b +
+                                          (c33 * z + c35 * x) * b * b
+                                    : (c11 * x + c15 * z) * a * a + ((c13 + c55) * z + 2 * c15 * x) * a * b +
+                                          (c55 * x + c35 * z) * b * b;
       most = std::max(most, -(vertical ? z : x) * group / inertia);
     }
   }
@@ -100,7 +126,7 @@ double largest_turning(const Stiffness& stiffness, bool vertical) {
 template <int D>
 Medium<D> in_slowest_directions(const Medium<D>& medium) {
   Medium<D> slowest = medium;
-  for (const auto property : {Property::epsilon, Property::delta})
+  for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
     if (slowest.has(property)) slowest[property] = {};
   // Speeds go over all directions; most cells are like the one before them.
   Material last;
@@ -116,7 +142,12 @@ Medium<D> in_slowest_directions(const Medium<D>& medium) {
 }
 
 std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material) {
-  const auto& [vp, vs, rho, epsilon, delta] = material;
+  const auto& [vp, vs, rho, epsilon, delta, tilt] = material;
+  if (!material.is_anisotropic() && tilt != 0)
+    return AnisotropyFault{Property::tilt,
+                           "is " + shown(tilt, 6) +
+                               ", expected 0 where epsilon and delta are 0: isotropic rock has "
+                               "no axis; set one of them, or leave the tilt out there"};
   if (!material.is_anisotropic() || rho == 0) return {};
   if (vs == 0) {
     const auto of = epsilon != 0 ? Property::epsilon : Property::delta;

@@ -16,12 +16,29 @@ struct Stiffness {
   bool operator==(const Stiffness&) const = default;
 };
 
-/// From the speeds along the vertical and Thomsen's (1986) epsilon and delta (theory.md (V2)); those of an
-/// isotropic rock where both are zero. NaN where delta leaves none.
+/// Before its axis is tilted: from the speeds along it and Thomsen's (1986) epsilon and delta (theory.md
+/// (V2)); those of an isotropic rock where both are zero. NaN where delta leaves none.
 Stiffness stiffness_of(const Material& material);
 template <int D>
 Stiffness stiffness_of(const Medium<D>& medium, std::size_t cell) {
   return stiffness_of(material_of(medium, cell));
+}
+
+/// Stiffnesses in the plane of x and z, Pa: sxx = c11 exx + c13 ezz + 2 c15 exz, szz = c13 exx + c33 ezz
+/// + 2 c35 exz, sxz = c15 exx + c35 ezz + 2 c55 exz.
+struct PlaneStiffness {
+  double c11 = 0, c13 = 0, c15 = 0, c33 = 0, c35 = 0, c55 = 0;
+  bool operator==(const PlaneStiffness&) const = default;
+};
+
+/// Of a rock whose axis of symmetry, the vertical of `upright`, is tilted: its beds dip at this angle,
+/// deepening towards +x (theory.md (T2)).
+PlaneStiffness tilted(const Stiffness& upright, double dip_rad);
+/// Of a rock with its tilt.
+PlaneStiffness plane_stiffness_of(const Material& material);
+template <int D>
+PlaneStiffness plane_stiffness_of(const Medium<D>& medium, std::size_t cell) {
+  return plane_stiffness_of(material_of(medium, cell));
 }
 
 /// The rock of these stiffnesses, in terms of speeds, epsilon and delta.
@@ -31,6 +48,11 @@ Material material_of_stiffness(const Stiffness& stiffness, double rho);
 template <int D>
 bool is_anisotropic(const Medium<D>& medium, std::size_t cell) {
   return medium.value(Property::epsilon, cell) != 0 || medium.value(Property::delta, cell) != 0;
+}
+/// Whether its axis of symmetry lies along no axis of the grid.
+template <int D>
+bool has_tilted_axis(const Medium<D>& medium, std::size_t cell) {
+  return medium.value(Property::tilt, cell) != 0;
 }
 /// How many cells are anisotropic.
 template <int D>
@@ -50,6 +72,9 @@ PlaneSpeeds phase_speeds(const Stiffness& stiffness, double rho, double angle_ra
 PlaneSpeeds slowest_speeds(const Material& material);
 /// The largest speed of quasi-P waves in any direction, m/s.
 double fastest_p_speed(const Material& material);
+/// What that is at most, m/s, told without a search: vp sqrt(1 + 2 max(epsilon, delta)), where one of both is
+/// positive. Rocks with that epsilon and delta are elliptical, and stiffer.
+double fastest_p_speed_at_most(const Material& material);
 /// The medium with the speeds of the slowest directions as those of an isotropic one: wavelengths are nowhere
 /// shorter.
 template <int D>
@@ -58,14 +83,15 @@ Medium<D> in_slowest_directions(const Medium<D>& medium);
 /// How far waves turn: the largest share of its phase speed at which energy moves back along an axis (the
 /// vertical, or x) while the front of the wave moves on along it, -k_a g_a/omega (theory.md (V6)); 0 where
 /// none does, as in any isotropic rock.
-double largest_turning(const Stiffness& stiffness, bool vertical);
+double largest_turning(const PlaneStiffness& stiffness, bool vertical);
 
 /// A property that no rock has, and what follows its place in an error: "is 0.1, expected ...".
 struct AnisotropyFault {
   Property of;
   std::string text;
 };
-/// What keeps the stiffness from being positive, or a fluid with epsilon or delta; nothing where all is well.
+/// What keeps the stiffness from being positive, a fluid with epsilon or delta, a tilt of what has no axis;
+/// nothing where all is well.
 std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material);
 
 }  // namespace slipwave

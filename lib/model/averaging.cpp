@@ -21,6 +21,7 @@ bool MaterialMean::add(const Material& part, double volume) {
   if (part.vs > 0) {
     const auto [c11, c13, c33, c55] = stiffness_of(part);
     anisotropic_ = anisotropic_ || part.is_anisotropic();
+    if (part.is_anisotropic() && volume > tilted_volume_) tilted_volume_ = volume, tilt_ = part.tilt;
     ratio_ += volume * c13 / c33;
     plate_ += volume * (c11 - c13 * c13 / c33);
   }
@@ -39,8 +40,11 @@ Material MaterialMean::mean() const {
 Material MaterialMean::of_layers() const {
   if (volume_ == 0 || uniform_ || compliance_s_ == 0) return mean();
   const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
-  return material_of_stiffness(
+  auto mean = material_of_stiffness(
       {plate_ / volume_ + c33 * ratio * ratio, c33 * ratio, c33, volume_ / compliance_s_}, mass_ / volume_);
+  // Rounding makes no isotropic rock of one with an axis; parts may make one.
+  if (mean.is_anisotropic()) mean.tilt = tilt_;
+  return mean;
 }
 
 void ScalarMean::add(float part, double volume) {

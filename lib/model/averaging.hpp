@@ -8,7 +8,8 @@ namespace slipwave {
 struct Material {
   double vp = 0, vs = 0;          // m/s
   double rho = 0;                 // kg/m3
-  double epsilon = 0, delta = 0;  // of Thomsen; then vp and vs are those along the vertical
+  double epsilon = 0, delta = 0;  // of Thomsen; then vp and vs are those along the axis of symmetry
+  double tilt = 0;                // of that axis from the vertical, degrees: the dip of beds, deepening to +x
 
   bool is_anisotropic() const { return epsilon != 0 || delta != 0; }
   bool operator==(const Material&) const = default;
@@ -17,8 +18,12 @@ struct Material {
 /// The material of a cell.
 template <int D>
 Material material_of(const Medium<D>& medium, std::size_t cell) {
-  return {double(medium.vp[cell]), double(medium.vs[cell]), double(medium.rho[cell]),
-          medium.value(Property::epsilon, cell), medium.value(Property::delta, cell)};
+  return {double(medium.vp[cell]),
+          double(medium.vs[cell]),
+          double(medium.rho[cell]),
+          medium.value(Property::epsilon, cell),
+          medium.value(Property::delta, cell),
+          medium.value(Property::tilt, cell)};
 }
 
 /// Writes the material of a cell, rounded to float.
@@ -29,6 +34,7 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
   medium.rho[cell] = float(material.rho);
   if (medium.has(Property::epsilon)) medium[Property::epsilon][cell] = float(material.epsilon);
   if (medium.has(Property::delta)) medium[Property::delta][cell] = float(material.delta);
+  if (medium.has(Property::tilt)) medium[Property::tilt][cell] = float(material.tilt);
 }
 
 /// Both solid, both fluid or both void.
@@ -37,7 +43,8 @@ bool same_kind(const Material& a, const Material& b);
 /// The material that stands for a cell made of several (theory.md M1, M2): density is the arithmetic mean
 /// over the parts, lambda + 2 mu and mu are the harmonic ones, weighted by volume. Where a part is
 /// anisotropic the mean is that of flat layers of the parts (Backus 1962; theory.md V5), whose lambda + 2 mu
-/// along the vertical and mu are the same. Only parts of the kind of the cell's centre count, so nothing is
+/// along the vertical and mu are the same; where their axes are tilted, that is the mean about the axis of
+/// the largest anisotropic part. Only parts of the kind of the cell's centre count, so nothing is
 /// ever averaged across an interface of solid, fluid and void. Parts may come from anywhere: pieces cut off
 /// by planes, smaller cells, samples of a curved horizon.
 class MaterialMean {
@@ -61,6 +68,7 @@ class MaterialMean {
   double mass_ = 0, compliance_p_ = 0, compliance_s_ = 0;  // sums of volume times rho, 1/(lambda+2mu), 1/mu
   double ratio_ = 0, plate_ = 0;  // of anisotropic parts and others: volume times c13/c33, c11 - c13^2/c33
   bool anisotropic_ = false;
+  double tilt_ = 0, tilted_volume_ = 0;  // of the largest anisotropic part
 };
 
 /// The mean of a property that stands by itself, over the parts of a cell that count for MaterialMean.

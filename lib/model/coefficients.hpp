@@ -15,10 +15,15 @@ namespace slipwave {
 enum Wave : int { wave_p, wave_s };
 
 /// Their speed c, m/s; 0 in a cell that does not carry the wave. In an anisotropic cell the P wave along x is
-/// faster by sqrt(1 + 2 epsilon) (theory.md (V1)).
+/// faster by sqrt(1 + 2 epsilon) (theory.md (V1)). Where its axis is tilted, waves with motion along and
+/// across an axis of the grid are not independent: then these are the speeds of the diagonal of (T3).
 template <int D>
 double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave) {
   if (medium.is_void(cell)) return 0;
+  if (has_tilted_axis(medium, cell)) {
+    const auto c = plane_stiffness_of(medium, cell);
+    return std::sqrt((wave == wave_s ? c.c55 : axis < D - 1 ? c.c11 : c.c33) / double(medium.rho[cell]));
+  }
   if (wave == wave_p && axis < D - 1 && medium.has(Property::epsilon))
     return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon, cell));
   return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
@@ -29,7 +34,8 @@ double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave
 template <int D>
 double wave_coupling(const Medium<D>& medium, std::size_t cell) {
   if (medium.is_void(cell)) return 0;
-  return double(medium.rho[cell]) * stiffness_of(medium, cell).c13;
+  return double(medium.rho[cell]) * (has_tilted_axis(medium, cell) ? plane_stiffness_of(medium, cell).c13
+                                                                   : stiffness_of(medium, cell).c13);
 }
 
 /// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.
@@ -43,7 +49,11 @@ template <int D>
 double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-    for (int axis = 0; axis < D; ++axis) fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
+    if (has_tilted_axis(medium, cell))
+      fastest = std::max(fastest, fastest_p_speed_at_most(material_of(medium, cell)));
+    else
+      for (int axis = 0; axis < D; ++axis)
+        fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
   for (const auto cell : cells_of_tilted_means(medium))
     fastest = std::max(fastest, fastest_in_tilted_mean(medium, cell));
   return fastest;
@@ -61,7 +71,9 @@ double fastest_across_cells(const Medium<D>& medium) {
     at[D - 1] += grid.first[D - 1];
     fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
   };
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) see(cell, double(medium.vp[cell]));
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    see(cell, has_tilted_axis(medium, cell) ? fastest_p_speed_at_most(material_of(medium, cell))
+                                            : double(medium.vp[cell]));
   for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }

@@ -42,6 +42,10 @@ FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& 
   for (const auto property : {Property::epsilon, Property::delta})
     if (!medium.has(property)) medium[property] = Field<2>(medium.grid());
   for (const auto cell : cells) {
+    if (has_tilted_axis(medium, cell))
+      refuse("the rock of the cell at " + place_of(model.grid(), std::int64_t(cell)) +
+             " has a tilted axis, expected an upright one or isotropic rock; leave --effective out, or the "
+             "tilt");
     const auto stiffness = effective_stiffness(stiffness_of(medium, cell), systems);
     if (stiffness.c33 <= stiffness.c55)
       refuse("in the cell at " + place_of(model.grid(), std::int64_t(cell)) +

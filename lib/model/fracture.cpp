@@ -141,7 +141,7 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
   };
   if (effect == ModelEffect::attenuation) drop(Property::qp), drop(Property::qs);
   if (effect == ModelEffect::anisotropy) {
-    drop(Property::epsilon), drop(Property::delta);
+    drop(Property::epsilon), drop(Property::delta), drop(Property::tilt);
     drop_tilted_means(model.medium);
   }
   for (auto& set : model.fracture_sets)

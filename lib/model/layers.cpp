@@ -175,6 +175,7 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     layer.others.emplace_back(*property, value);
     if (property == Property::epsilon) layer.material.epsilon = value;
     if (property == Property::delta) layer.material.delta = value;
+    if (property == Property::tilt) layer.material.tilt = value;
   }
 }
 
@@ -320,8 +321,12 @@ Average parse_average(std::string_view text) {
 
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
-  return {material.vp + gradient.vp * depth, material.vs + gradient.vs * depth,
-          material.rho + gradient.rho * depth, material.epsilon, material.delta};
+  return {material.vp + gradient.vp * depth,
+          material.vs + gradient.vs * depth,
+          material.rho + gradient.rho * depth,
+          material.epsilon,
+          material.delta,
+          material.tilt};
 }
 
 double Layer::value(Property property) const {

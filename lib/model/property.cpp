@@ -9,7 +9,7 @@ constexpr double least_thomsen = -0.5;
 PropertyRow thomsen(const std::string& name, const std::string& about) {
   return {.name = name,
           .long_name = "Thomsen's " + name.substr(name.find('_') + 1) + " about the " + about,
-          .help = "Thomsen's " + name + " of rock layered flat, a file or a number",
+          .help = "Thomsen's " + name + " of layered rock, a file or a number",
           .units = "1",
           .shown_unit = "",
           .si = {"1", ""},
@@ -18,10 +18,10 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
           .if_absent = 0};
 }
 
-PropertyRow dip() {
-  return {.name = "cut_dip",
-          .long_name = "dip of the interface that cuts the cell, deepening towards +x",
-          .help = "",
+PropertyRow dip(const std::string& name, const std::string& of, const std::string& help) {
+  return {.name = name,
+          .long_name = "dip of the " + of + ", deepening towards +x",
+          .help = help,
           .units = "degree",
           .shown_unit = "degrees",
           .si = {"degree", "degrees"},
@@ -85,11 +85,13 @@ std::vector<PropertyRow> property_rows() {
            .least = 1,
            .mean = Mean::harmonic,
            .if_absent = PropertyRow::infinite},
-          thomsen("epsilon", "vertical, 0 = isotropic"),
-          thomsen("delta", "vertical, 0 = isotropic"),
+          thomsen("epsilon", "axis of symmetry, 0 = isotropic"),
+          thomsen("delta", "axis of symmetry, 0 = isotropic"),
+          dip("tilt", "beds of anisotropic rock, the tilt of its axis of symmetry",
+              "dip of such layers, degrees: the tilt of their axis from the vertical, a file or a number"),
           of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(thomsen("cut_delta", "normal of the interface that cuts the cell, 0 = none")),
-          of_cut_cells(dip())};
+          of_cut_cells(dip("cut_dip", "interface that cuts the cell", ""))};
 }
 
 const PropertyRow& row_of(Property property) { return material_properties()[std::size_t(property)]; }

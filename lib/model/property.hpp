@@ -36,7 +36,19 @@ struct PropertyRow {
 
 /// A row of the table by its place. Those that formulas ask for by name; others are found by
 /// find_property() or met in a walk.
-enum class Property : std::size_t { vp, vs, rho, qp, qs, epsilon, delta, cut_epsilon, cut_delta, cut_dip };
+enum class Property : std::size_t {
+  vp,
+  vs,
+  rho,
+  qp,
+  qs,
+  epsilon,
+  delta,
+  tilt,
+  cut_epsilon,
+  cut_delta,
+  cut_dip
+};
 
 /// Rows that every model has. They are the first of the table; those after them say what stands for them
 /// where they are absent.

@@ -24,18 +24,6 @@ Material about_normal(const Medium<D>& medium, std::size_t cell) {
 
 }  // namespace
 
-PlaneStiffness tilted(const Stiffness& upright, double dip_rad) {
-  const auto& [c11, c13, c33, c55] = upright;
-  const double c = std::cos(dip_rad), s = std::sin(dip_rad), cc = c * c, ss = s * s, cs = c * s,
-               apart = cc - ss, mixed = c13 + 2 * c55;
-  return {cc * cc * c11 + ss * ss * c33 + 2 * cs * cs * mixed,
-          cs * cs * (c11 + c33 - 4 * c55) + (cc * cc + ss * ss) * c13,
-          cs * (cc * c11 - ss * c33 - apart * mixed),
-          ss * ss * c11 + cc * cc * c33 + 2 * cs * cs * mixed,
-          cs * (ss * c11 - cc * c33 + apart * mixed),
-          cs * cs * (c11 + c33 - 2 * c13) + apart * apart * c55};
-}
-
 template <int D>
 std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
   std::vector<std::size_t> cells;
@@ -75,8 +63,7 @@ void drop_tilted_means(Medium<D>& medium) {
 
 template <int D>
 double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell) {
-  const auto rock = about_normal(medium, cell);
-  return rock.vp * std::sqrt(1 + 2 * std::max({rock.epsilon, rock.delta, 0.}));
+  return fastest_p_speed_at_most(about_normal(medium, cell));
 }
 
 template <int D>

@@ -12,16 +12,6 @@ namespace slipwave {
 // (T1)). vp, vs and rho are the speeds along the normal and the mean density: what the isotropic mean has,
 // too. The cell's cut_epsilon, cut_delta and cut_dip say the rest.
 
-/// Stiffnesses in the plane of x and z, Pa: sxx = c11 exx + c13 ezz + 2 c15 exz, szz = c13 exx + c33 ezz
-/// + 2 c35 exz, sxz = c15 exx + c35 ezz + 2 c55 exz.
-struct PlaneStiffness {
-  double c11 = 0, c13 = 0, c15 = 0, c33 = 0, c35 = 0, c55 = 0;
-};
-
-/// Of a rock whose axis of symmetry, the vertical of `upright`, is tilted: its beds dip at this angle,
-/// deepening towards +x (theory.md (T2)).
-PlaneStiffness tilted(const Stiffness& upright, double dip_rad);
-
 /// Whether a cell is a tilted mean.
 template <int D>
 bool is_tilted_mean(const Medium<D>& medium, std::size_t cell) {
@@ -48,8 +38,7 @@ void put_tilted_mean(Medium<D>& medium, std::size_t cell, const Material& about_
 template <int D>
 void drop_tilted_means(Medium<D>& medium);
 
-/// What the largest speed of a plane wave in such a cell is at most, m/s: vp sqrt(1 + 2 max(epsilon, delta)),
-/// where one of both is positive. Rocks with that epsilon and delta are elliptical, and stiffer.
+/// What the largest speed of a plane wave in such a cell is at most, m/s (fastest_p_speed_at_most()).
 template <int D>
 double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell);
 

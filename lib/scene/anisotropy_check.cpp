@@ -39,7 +39,11 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   const auto refuse = [&](const std::string& what) {
     throw Error("the cell at " + place_of(model.grid(), std::int64_t(cell)) + " is anisotropic (epsilon " +
                 shown(model.medium.value(Property::epsilon, cell), 6) + ", delta " +
-                shown(model.medium.value(Property::delta, cell), 6) + ") and " + what);
+                shown(model.medium.value(Property::delta, cell), 6) +
+                (has_tilted_axis(model.medium, cell)
+                     ? ", tilt " + shown(model.medium.value(Property::tilt, cell), 6)
+                     : "") +
+                ") and " + what);
   };
   if (scene.attenuation && attenuates(model.medium, cell))
     refuse("attenuates, expected one of both; use --without attenuation" + std::string(isotropic_instead));
@@ -50,6 +54,10 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
         "--fit none, or use --without anisotropy");
   if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
+  if (has_tilted_axis(model.medium, cell))
+    refuse("its fracture set '" + set.name +
+           "' slips, expected rock whose axis is upright; use --without slip" +
+           std::string(isotropic_instead));
   if (const auto fault = fault_of(set); !fault.empty())
     refuse("the planes of its fracture set '" + set.name + "' " + fault +
            ", expected closed ones with a dip of 0 or 90; use --without " +

@@ -131,10 +131,13 @@ std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>
   if (point_injection(source))
     nearby.add("the source",
                cells_apart<D>(cell_of(scene.subdomain.whole(grid), source.position_m), of_whole));
-  const std::string anisotropy = !is_anisotropic(medium, inside)
-                                     ? ""
-                                     : " epsilon=" + shown(medium.value(Property::epsilon, inside)) +
-                                           " delta=" + shown(medium.value(Property::delta, inside));
+  const std::string anisotropy =
+      !is_anisotropic(medium, inside)
+          ? ""
+          : " epsilon=" + shown(medium.value(Property::epsilon, inside)) +
+                " delta=" + shown(medium.value(Property::delta, inside)) +
+                (has_tilted_axis(medium, inside) ? " tilt=" + shown(medium.value(Property::tilt, inside))
+                                                 : "");
   return "vp=" + shown(medium.vp[inside]) + " vs=" + shown(medium.vs[inside]) +
          " rho=" + shown(medium.rho[inside]) + anisotropy + nearby.text(grid.spacing_m);
 }

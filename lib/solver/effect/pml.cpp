@@ -128,7 +128,7 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
       most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
-  Stiffness last;
+  PlaneStiffness last;
   double turning = 0;
   for (std::int64_t n = 0; n < edge.size(); ++n) {
     auto at = edge.index(n);
@@ -137,7 +137,10 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
                  s = domain.impedance(wave_s)(at);
     if (s == 0) continue;
     // Times the density; only ratios count.
-    const Stiffness stiffness = {across * across, domain.coupling(at), down * down, s * s};
+    const auto* const tilted = domain.tilted_at(at);
+    const PlaneStiffness stiffness =
+        tilted ? tilted->stiffness
+               : PlaneStiffness{across * across, domain.coupling(at), 0, down * down, 0, s * s};
     if (!(stiffness == last)) turning = largest_turning((last = stiffness), axis == D - 1);
     auto& plate = plates[std::size_t(along_edge(axis, at))];
     plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));

@@ -170,6 +170,17 @@ bool contrast_is_too_strong(const Domain<2>& domain, const Index<2>& at) {
   return false;
 }
 
+/// Rock continues beyond the edges of the model as it is.
+void add_tilted_rock(const Domain<2>& domain, const Medium<2>& medium, std::vector<TiltedMedium>& found) {
+  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
+    if (has_tilted_axis(medium, cell))
+      found.push_back({n, double(medium.rho[cell]), plane_stiffness_of(medium, cell)});
+  }
+  std::sort(found.begin(), found.end(),
+            [](const TiltedMedium& one, const TiltedMedium& other) { return one.cell < other.cell; });
+}
+
 std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
   std::vector<TiltedMedium> found;
   const std::int64_t last = domain.grid.shape[1] - 1;
@@ -180,6 +191,7 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
       continue;
     found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
   }
+  if (medium.has(Property::tilt)) add_tilted_rock(domain, medium, found);
   return found;
 }
 
@@ -218,6 +230,21 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
 
 }  // namespace
 
+TiltedWaves waves_along(const TiltedMedium& medium, int axis) {
+  const auto& c = medium.stiffness;
+  const double normal = axis == 0 ? c.c11 : c.c33, mixed = axis == 0 ? c.c15 : c.c35;
+  const double angle = std::atan2(2 * mixed, normal - c.c55) / 2;
+  const double mean = (normal + c.c55) / 2, half = std::hypot(normal - c.c55, 2 * mixed) / 2;
+  const double cosine = std::cos(angle), sine = std::sin(angle);
+  const std::array<double, 2> z{std::sqrt(medium.rho * (mean + half)), std::sqrt(medium.rho * (mean - half))};
+  return {cosine,
+          sine,
+          z,
+          z[0] * cosine * cosine + z[1] * sine * sine,
+          (z[0] - z[1]) * cosine * sine,
+          z[0] * sine * sine + z[1] * cosine * cosine};
+}
+
 template <int D>
 Index<D> Domain<D>::model_cell(Index<D> at) const {
   for (int axis = 0; axis < D; ++axis)
@@ -242,9 +269,16 @@ const TiltedMedium* Domain<D>::tilted_at(const Index<D>& at) const {
 }
 
 template <int D>
-double Domain<D>::coupling_share(const Index<D>& cell, int axis) const {
+EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis) const {
+  if (const auto* const tilted = tilted_at(cell)) {
+    const auto& [c11, c13, c15, c33, c35, c55] = tilted->stiffness;
+    const bool upright = axis < D - 1;
+    const double across = upright ? c11 : c33, mixed = upright ? c15 : c35, beside = upright ? c35 : c15;
+    const double determinant = across * c55 - mixed * mixed;
+    return {(c13 * c55 - mixed * beside) / determinant, (across * beside - mixed * c13) / determinant};
+  }
   const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
-  return anisotropic_ ? coupling_(cell) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp);
+  return {anisotropic_ ? coupling_(cell) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp), 0};
 }
 
 template <int D>

@@ -15,11 +15,27 @@
 
 namespace slipwave::solver {
 
-/// A cell of the computed grid that is a tilted mean.
+/// A cell of the computed grid that is a tilted mean, or rock whose axis of symmetry is tilted.
 struct TiltedMedium {
   std::int64_t cell;
   double rho;
   PlaneStiffness stiffness;
+};
+
+/// The waves of such a cell in sweeps along an axis: the motion of the faster one along the axis and across
+/// it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
+struct TiltedWaves {
+  double cosine, sine;
+  std::array<double, 2> z;
+  double along, mixed, across;
+};
+TiltedWaves waves_along(const TiltedMedium& medium, int axis);
+
+/// What strains along an edge leave of strains across it where no traction acts there: strain across =
+/// -normal times strain along, shear strain = -shear times that. lambda/(lambda + 2 mu) and 0 in isotropic
+/// media (theory.md (V4), (V8)).
+struct EdgeCoupling {
+  double normal = 0, shear = 0;
 };
 
 /// The computed grid: the model and, outside its absorbing edges, zones (of the PML) with the
@@ -53,11 +69,10 @@ class Domain {
   bool anisotropic() const { return anisotropic_; }
   /// The density times c13 of a cell of an anisotropic medium (wave_coupling()).
   double coupling(const Index<D>& cell) const { return coupling_(cell); }
-  /// What a strain along the edge across an axis puts on the normal stress there, as a share of the modulus
-  /// of P along the axis: c13 over c11 or c33, in isotropic media lambda/(lambda + 2 mu).
-  double coupling_share(const Index<D>& cell, int axis) const;
-  /// Its tilted means by cell. Those of zones are isotropic, since a PML is stable only where the axes of
-  /// media lie along the grid, and those in bent rows and beside them.
+  /// Of the edge across an axis.
+  EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis) const;
+  /// Tilted means and cells of rock whose axis is tilted, by cell. Tilted means of zones are isotropic, and
+  /// those in bent rows and beside them.
   const std::vector<TiltedMedium>& tilted() const { return tilted_; }
   bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
   /// Null where a cell is none.

@@ -117,12 +117,15 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       if (ends_free(domain, along)) return {};
       continue;
     }
+    const auto coupling = domain.coupling_at_edge(at, axis);
+    const auto add = [&](int of, double factor) {
+      return factor == 0 || add_difference(domain, at, along, Rows::velocity(of), outward * factor, terms);
+    };
     bool found = true;
     if (row == Rows::velocity(axis))
-      found = add_difference(domain, at, along, Rows::velocity(along),
-                             outward * domain.coupling_share(at, axis), terms);
+      found = add(along, coupling.normal);
     else if (row == Rows::velocity(along))
-      found = add_difference(domain, at, along, Rows::velocity(axis), outward, terms);
+      found = add(axis, 1) && add(along, coupling.shear);
     if (!found) return {};
   }
   return terms;
@@ -166,6 +169,10 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
         bent_ends_.push_back(end);
       }
       ++pair;
+      if (const auto* const tilted = domain.tilted_at(at); tilted && pair == D && !terms.empty()) {
+        const double mixed = axis < D - 1 ? tilted->stiffness.c15 : tilted->stiffness.c35;
+        tilted_ends_.push_back({number(at), place(row_b), Real(mixed * tilted->rho * outward_ / height)});
+      }
     };
     add(FieldRows<D>::velocity(axis), zp_row);
     for (int along = 0; along < D; ++along)
@@ -215,7 +222,22 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::
     traction_corrections_[std::size_t(cell->pair)][std::size_t(cell->number)] =
         cell->outward * stiffness * slope;
   }
+  correct_tilted_ends(state, first, last);
   correct_bent_ends(state, first, last);
+}
+
+/// Tractions that the bend of one velocity puts on the other component (theory.md (V8)).
+template <int D, class Real>
+void FreeSurface<D, Real>::correct_tilted_ends(const State<D, Real>& state, std::int64_t first,
+                                               std::int64_t last) {
+  auto end = std::lower_bound(tilted_ends_.begin(), tilted_ends_.end(), first,
+                              [](const TiltedEnd& one, std::int64_t number) { return one.number < number; });
+  for (; end != tilted_ends_.end() && end->number < last; ++end) {
+    const auto n = std::size_t(end->number);
+    const Real mixed = end->mixed * state.material.data()[end->b];
+    for (const std::size_t pair : {0, 1})
+      traction_corrections_[pair][n] += mixed * velocity_corrections_[1 - pair][n];
+  }
 }
 
 /// The traction that bends velocities as the corrections do, as stresses of the first ghost cells: with that

@@ -71,6 +71,13 @@ class FreeSurface {
     Real factor;
   };
   void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  /// A cell of rock whose axis is tilted: the place of b, and the density times the modulus by which shear
+  /// across the edge puts normal stress on it, over the height of the row, negative at a high side.
+  struct TiltedEnd {
+    std::int64_t number, b;
+    Real mixed;
+  };
+  void correct_tilted_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
 
   int axis_ = 0, side_ = 0;
   Real outward_ = 1;
@@ -78,6 +85,7 @@ class FreeSurface {
   Index<D> shape_{};
   std::vector<Cell> cells_;  // by number
   std::vector<BentEnd> bent_ends_;
+  std::vector<TiltedEnd> tilted_ends_;
   std::vector<Term> terms_;     // places in the fields, at the edges of all axes but the last in retained_
   std::vector<Real> retained_;  // [number][velocity]
   std::array<std::vector<Real>, D> velocity_corrections_, traction_corrections_;

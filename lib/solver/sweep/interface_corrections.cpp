@@ -127,6 +127,16 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
+        if constexpr (D == 2)
+          if (const auto* const tilted = domain.tilted_at(cell); tilted && !bent) {
+            to.tilted = std::int32_t(tilted_.size());
+            const auto& c = tilted->stiffness;
+            const auto of = waves_along(*tilted, z);
+            const auto real = [&](double value) { return Real(value); };
+            tilted_.push_back({real(c.c13 * tilted->rho), real(c.c15 * tilted->rho),
+                               real(c.c35 * tilted->rho), real(c.c55 * tilted->rho), real(of.along),
+                               real(of.mixed), real(of.across)});
+          }
       }
       slots_.push_back(slot);
     }
@@ -181,7 +191,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();
   Vector velocity{}, traction{};
-  Real sum_p = 0, sum_s = 0;
+  Real sum_p = 0, sum_s = 0, sum_mixed = 0;
   bool beside_void = false;
   for (const int which : {0, 1}) {
     const Side& side = slot.sides[std::size_t(which)];
@@ -200,20 +210,38 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
             along[axis] +
             Real(weights_along[k]) *
                 row_velocity<D>(state.fields.data() + side.cells[axis * offsets_along.size() + k], pitch);
+    const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
+    if constexpr (D == 2)
+      if (side.tilted != none) {
+        const Tilted& of = tilted_[std::size_t(side.tilted)];
+        const Real dx = along[0].x, dz = along[0].z, z_mixed = of.z_mixed;
+        // (T3): Z over the tensor is the density times the inverse of Z.
+        const Vector t{of.c13 * dx + of.c35 * dz, of.c15 * dx + of.c55 * dz};
+        const Real share = -sign * side.j / (of.z_along * of.z_across - z_mixed * z_mixed);
+        velocity =
+            velocity + share * Vector{of.z_across * t.z - z_mixed * t.x, of.z_along * t.x - z_mixed * t.z};
+        traction = traction + (-sign / 2 * b) * t;
+        sum_p += of.z_along, sum_s += of.z_across, sum_mixed += z_mixed;
+        continue;
+      }
     // Moduli times dt/h.
     const Real p = zp * zp * b, mu = zs * zs * b;
     const Vector t = side.coupled
                          ? traction_on_level_face<D>(material[row_coupling * material_pitch_] * b, mu, along)
                          : traction_of_motion_along<D>(normal, p, mu, along);
     const Vector t_p = (dot(normal, t) / square) * normal, t_s = t - t_p;
-    const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
     velocity = velocity + (-sign * side.j / square * (zp / p)) * t_p;
     if (zs > 0) velocity = velocity + (-sign * side.j / square * (zs / mu)) * t_s;
     traction = traction + (-sign / 2) * (zs > 0 ? t : t_p);
     sum_p += zp, sum_s += zs;
   }
   const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
-  const Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
+  Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
+  if (sum_mixed != 0) {
+    const Real share = 1 / (sum_p * sum_s - sum_mixed * sum_mixed);
+    v.z = share * (sum_s * velocity.z - sum_mixed * velocity.x);
+    v.x = share * (sum_p * velocity.x - sum_mixed * velocity.z);
+  }
   velocities_[0][n] = v.z, velocities_[1][n] = v.x;
   if (!beside_void) traction = Real(traction_share) * traction;
   tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;

@@ -42,7 +42,13 @@ class InterfaceCorrections {
     std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0 of the fields
     std::int64_t b;                                        // of the material
     Real j;
-    bool coupled;  // on a level face of an anisotropic medium, which its material describes
+    bool coupled;                // on a level face of an anisotropic medium, which its material describes
+    std::int32_t tilted = none;  // of rock whose axis is tilted: its place in tilted_
+  };
+  /// Stiffnesses times the density, and the inverse of the impedance matrix of sweeps along z.
+  struct Tilted {
+    Real c13, c15, c35, c55;
+    Real z_along, z_mixed, z_across;
   };
   struct Slot {
     std::int64_t row, column;
@@ -53,7 +59,8 @@ class InterfaceCorrections {
   void update_slot(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
-  std::vector<Slot> slots_;         // by row, then column
+  std::vector<Slot> slots_;  // by row, then column
+  std::vector<Tilted> tilted_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;
 };

@@ -38,26 +38,21 @@ TiltedCells<D, Real>::TiltedCells(
       const double step = double(state.material.data()[state.material_layout.cell(at)]) * tilted.rho;  // dt/h
       const bool along_x = axis == 0;
       const double normal = along_x ? c.c11 : c.c33, mixed = along_x ? c.c15 : c.c35;
-      // The acoustic tensor of the axis and its eigenvectors (theory.md (T3)).
-      const double angle = std::atan2(2 * mixed, normal - c.c55) / 2;
-      const double mean = (normal + c.c55) / 2, half = std::hypot(normal - c.c55, 2 * mixed) / 2;
-      const double cosine = std::cos(angle), sine = std::sin(angle);
-      const std::array<double, 2> z{std::sqrt(tilted.rho * (mean + half)),
-                                    std::sqrt(tilted.rho * (mean - half))};
-      const double p = domain.impedance(wave_p)(at) * domain.impedance(wave_p)(at) / tilted.rho;
-      const double mu = domain.impedance(wave_s)(at) * domain.impedance(wave_s)(at) / tilted.rho;
+      const auto waves = waves_along(tilted, axis);
+      // Of the cell as loops take it.
+      const double zp = domain.impedance(wave_p, axis)(at), zs = domain.impedance(wave_s)(at);
+      const double p = zp * zp / tilted.rho, mu = zs * zs / tilted.rho;
+      const double coupling = domain.anisotropic() ? domain.coupling(at) / tilted.rho : p - 2 * mu;
       Cell cell{};
       cell.x = std::int32_t(at[0]);
-      cell.cosine = Real(cosine), cell.sine = Real(sine);
+      cell.cosine = Real(waves.cosine), cell.sine = Real(waves.sine);
       for (std::size_t wave : {0, 1}) {
-        cell.z[wave] = Real(z[wave]);
-        cell.courant[wave] = Real(z[wave] / tilted.rho * step);
+        cell.z[wave] = Real(waves.z[wave]);
+        cell.courant[wave] = Real(waves.z[wave] / tilted.rho * step);
       }
-      cell.impedance = {Real(z[0] * cosine * cosine + z[1] * sine * sine),
-                        Real((z[0] - z[1]) * cosine * sine),
-                        Real(z[0] * sine * sine + z[1] * cosine * cosine)};
+      cell.impedance = {Real(waves.along), Real(waves.mixed), Real(waves.across)};
       cell.more = {Real((normal - p) * step), Real(mixed * step), Real((c.c55 - mu) * step)};
-      cell.passive = Real((c.c13 - (p - 2 * mu)) * step);
+      cell.passive = Real((c.c13 - coupling) * step);
       cell.passive_across = Real((along_x ? c.c35 : c.c15) * step);
       cell.reach = reach;
       for (const Wave wave : {wave_p, wave_s}) {
