@@ -13,7 +13,7 @@
 #include "shared_out.hpp"
 #include "solver/simulation.hpp"
 #include "unit/model_cases.hpp"
-#include "vti_stack.hpp"
+#include "anisotropic_stack.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -53,7 +53,7 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
     put(scene.model.medium, cell, {shale.vp, shale.vs, shale.rho});
     put_tilted_mean(scene.model.medium, cell, shale, dip);
   }
-  const std::vector<VtiStack::Receiver> receivers = {{0, 100}, {60, 80}, {90, 40}, {-90, 50}, {70, -80}};
+  const std::vector<AnisotropicStack::Receiver> receivers = {{0, 100}, {60, 80}, {90, 40}, {-90, 50}, {70, -80}};
   const auto force = turned(0.6, 0.8);
   scene.survey.sources = {{{middle, middle}, PointForce<2>{force}, parse_wavelet("ricker:20"), 1e6}};
   for (const auto& at : receivers) {
@@ -65,7 +65,7 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
   scene.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
   check(scene);
   const auto gather = shoot(scene, 1);
-  VtiStack stack{{{stiffness_of(shale), shale.rho}}, {}};
+  AnisotropicStack stack{{{plane_stiffness_of(shale), shale.rho}}, {}};
   stack.force = {0.6, 0.8};
   const auto exact = stack.ricker(20, 0.001, std::size_t(gather.axis.count), receivers);
   std::vector<double> found, wanted;

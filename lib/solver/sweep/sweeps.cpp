@@ -165,13 +165,13 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                              pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up, down);
     prefetch.prefetch_one();
   }
-  reconstruct_tilted(axis, number, columns, fields, pitch, stride, scale, outgoing);
+  reconstruct_tilted(axis, number, columns, fields, pitch, stride, material.b, scale, outgoing);
 }
 
 template <int D, class Real>
 void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns,
                                          const Real* fields, std::int64_t pitch, std::int64_t stride,
-                                         Real scale, OutgoingWaves<Real> outgoing) const {
+                                         const Real* b, Real scale, OutgoingWaves<Real> outgoing) const {
   if (tilted_cells_.empty()) return;
   const auto pair = [&](int p) {
     const auto& of = pairs_[axis][std::size_t(p)];
@@ -179,7 +179,8 @@ void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const Index
                                                      fields + of.s * pitch + columns.first,
                                                      corrections_of(axis, p)};
   };
-  tilted_cells_.reconstruct(axis, row, columns, stride, {pair(0), pair(1)}, scale, outgoing);
+  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride, {pair(0), pair(1)}, b, scale,
+                            outgoing);
 }
 
 template <int D, class Real>

@@ -166,7 +166,7 @@ class Sweeps {
                     Ring<Real>& ring) const;
   /// The outgoing waves of tilted means of a row.
   void reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns, const Real* fields,
-                          std::int64_t pitch, std::int64_t stride, Real scale,
+                          std::int64_t pitch, std::int64_t stride, const Real* b, Real scale,
                           OutgoingWaves<Real> outgoing) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);

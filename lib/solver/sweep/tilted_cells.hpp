@@ -4,11 +4,18 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/kernels/kernels.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
+
+/// Rows of symmetric matrices of the components along and across an axis.
+template <class Real>
+struct MatrixRows {
+  const Real *along, *mixed, *across;
+};
 
 /// Cells whose axes of symmetry do not lie along the grid, in 2-D: interfaces cut them (theory.md 1.11), or
 /// their beds dip (1.12). The
@@ -22,7 +29,7 @@ class TiltedCells {
   TiltedCells(const State<D, Real>& state, const Domain<D>& domain, int reach,
               const std::array<std::array<InterfaceStencils, 2>, std::size_t(D)>& stencils);
 
-  bool empty() const { return of_axis_[0].cells.empty(); }
+  bool empty() const { return of_axis_[0].x.empty(); }
   /// Whether a row holds any in these columns.
   bool any(std::int64_t row, const IndexRange& columns) const;
 
@@ -32,9 +39,11 @@ class TiltedCells {
     PairCorrections<Real> corrections;
   };
   using Pairs = std::array<PairFields, 2>;
-  /// Outgoing waves of the cells of these columns of a row, from the fields of P and S.
-  void reconstruct(int axis, std::int64_t row, const IndexRange& columns, std::int64_t stride,
-                   const Pairs& pairs, Real scale, OutgoingWaves<Real> outgoing) const;
+  /// Outgoing waves of the cells of these columns of a row, from the fields of P and S; `b` is dt/(rho h) of
+  /// the first of them.
+  void reconstruct(int axis, std::int64_t row, const IndexRange& columns, const Kernels<Real>& kernels,
+                   std::int64_t stride, const Pairs& pairs, const Real* b, Real scale,
+                   OutgoingWaves<Real> outgoing) const;
   /// States of the faces before the cells of these columns (along x of a row, along z before row `row`),
   /// between the outgoing waves of the cells before (`below`) and behind them.
   void solve(int axis, std::int64_t row, const IndexRange& columns, OutgoingWaves<Real> below,
@@ -48,36 +57,58 @@ class TiltedCells {
   std::int64_t memory_bytes() const;
 
  private:
+  static constexpr std::int32_t none = -1;
+  /// A value of each cell of an axis, in their order.
+  using Values = std::vector<Real>;
   /// A symmetric matrix of the components along and across the axis.
   struct Matrix {
     Real along, mixed, across;
   };
-  struct Cell {
-    std::int32_t x;
-    int reach;                     // of the reconstruction
-    Real cosine, sine;             // motion of the faster wave: along the axis and across it
-    std::array<Real, 2> z;         // impedances of both waves
-    std::array<Real, 2> courant;   // Courant numbers of both waves over a whole step
-    Matrix impedance;              // the same as a matrix
-    Matrix more;                   // stiffness times dt/h, less that of the isotropic cell
-    Real passive, passive_across;  // the same, of the passive stress
+  struct Matrices {
+    Values along, mixed, across;
+    void add(double of_along, double of_mixed, double of_across) {
+      along.push_back(Real(of_along)), mixed.push_back(Real(of_mixed)), across.push_back(Real(of_across));
+    }
+    MatrixRows<Real> from(std::int32_t n) const {
+      return {along.data() + n, mixed.data() + n, across.data() + n};
+    }
+    Matrix operator[](std::int32_t n) const {
+      return {along[std::size_t(n)], mixed[std::size_t(n)], across[std::size_t(n)]};
+    }
+  };
+  /// A cell whose stencils end at interfaces or edges.
+  struct Ending {
+    int reach;                    // of the reconstruction
+    std::array<Real, 2> courant;  // Courant numbers of both waves over a whole step
     std::array<InterfaceStencil, 2> stencils;
   };
   /// A face before column x; numbers of the cells before and behind it, or `none`.
   struct Face {
     std::int32_t x, lo, hi;
   };
-  static constexpr std::int32_t none = -1;
   struct Axis {
-    std::vector<Cell> cells;                // by row, then x
+    std::vector<std::int32_t> x;            // by row, then x
     std::vector<std::int64_t> first_cells;  // of each row, and the end
+    Values cosine, sine;                    // motion of the faster wave: along the axis and across it
+    std::array<Values, 2> z;                // impedances of both waves
+    Matrices impedance;                     // the same as a matrix
+    Matrices more;                          // stiffness times dt/h, less that of the cell as loops take it
+    Values passive, passive_across;         // the same, of the passive stress
+    std::vector<std::int32_t> ending;       // its place among `endings`, or `none`
+    std::vector<Ending> endings;
     std::vector<Face> faces;
     std::vector<std::int64_t> first_faces;
   };
+  static IndexRange cells_of(const Axis& of, std::int64_t row, const IndexRange& columns);
+  void add_cell(const State<D, Real>& state, const Domain<D>& domain, int axis, const TiltedMedium& tilted,
+                int reach, const std::array<InterfaceStencils, 2>& stencils);
   void add_faces(int axis, const Index<D>& shape);
+  void reconstruct_run(const Axis& of, const IndexRange& run, const Kernels<Real>& kernels,
+                       std::int64_t stride, std::int64_t at, const Pairs& pairs, const Real* b, Real scale,
+                       OutgoingWaves<Real> outgoing) const;
   template <int Order>
-  void reconstruct_cell_of(const Cell& cell, std::int64_t stride, std::int64_t at, const Pairs& pairs,
-                           Real scale, std::array<Real, 2>& up, std::array<Real, 2>& down) const;
+  void reconstruct_ending(const Axis& of, std::size_t n, std::int64_t stride, std::int64_t at,
+                          const Pairs& pairs, Real scale, OutgoingWaves<Real> outgoing) const;
 
   std::array<Axis, std::size_t(D)> of_axis_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -13,15 +14,15 @@
 
 namespace slipwave::solver {
 
-/// A stack of flat VTI solids (and fluids, where c55 is 0) with a line source in one of them, by wave number:
-/// in each layer plane quasi-P and quasi-S waves go down and up, the roots of the Christoffel equation for a
-/// horizontal wave number; motion and traction are continuous at interfaces, one system of equations for all
-/// of them (the plane-wave coefficients of Daley & Hron 1977 are its solution for one interface). Nothing is
-/// shared with the solver but the struct of stiffnesses.
-struct VtiStack {
+/// A stack of flat layers, VTI or tilted, of solids (and fluids, where c55 is 0) with a line source in one of
+/// them, by wave number: in each layer plane quasi-P and quasi-S waves go down and up, the roots of the
+/// Christoffel equation for a horizontal wave number; motion and traction are continuous at interfaces, one
+/// system of equations for all of them (the plane-wave coefficients of Daley & Hron 1977 are its solution for
+/// one interface). Nothing is shared with the solver but the struct of stiffnesses.
+struct AnisotropicStack {
   using Complex = std::complex<double>;
   struct Layer {
-    Stiffness c;
+    PlaneStiffness c;
     double rho;
   };
   std::vector<Layer> layers;   // from the top down
@@ -92,12 +93,13 @@ struct VtiStack {
 
   /// Both waves of a solid, the one of a fluid, down or up.
   std::vector<Wave> waves(std::size_t layer, bool down, Complex omega, double k) const {
-    const auto& [c11, c13, c33, c55] = layers[layer].c;
+    const auto& [c11, c13, c15, c33, c35, c55] = layers[layer].c;
     const Complex inertia = layers[layer].rho * omega * omega;
     if (fluid(layer)) {
       const auto m = std::sqrt(k * k - inertia / c33), s = down ? -m : m;
       return {{m, {-i * k, s, -inertia, 0}}};
     }
+    if (c15 != 0 || c35 != 0) return tilted_waves(layers[layer].c, down, inertia, k);
     const double a = c33 * c55, sum = c13 + c55;
     const Complex x = inertia - c11 * k * k, z = inertia - c55 * k * k,
                   b = c55 * z + c33 * x + k * k * sum * sum, root = std::sqrt(b * b - 4 * a * x * z);
@@ -118,12 +120,63 @@ struct VtiStack {
     return both;
   }
 
+  /// Where the axis is tilted: the roots are those of a polynomial of fourth degree, two decay down, two up.
+  static std::vector<Wave> tilted_waves(const PlaneStiffness& c, bool down, Complex inertia, double k) {
+    const Complex q = -i * k;
+    // The Christoffel matrix by powers of s, the derivative along z.
+    const std::array<Complex, 3> xx = {inertia + q * q * c.c11, 2. * q * c.c15, c.c55},
+                                 zz = {inertia + q * q * c.c55, 2. * q * c.c35, c.c33},
+                                 xz = {q * q * c.c15, q * (c.c13 + c.c55), c.c35};
+    std::array<Complex, 5> of{};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b) of[a + b] += xx[a] * zz[b] - xz[a] * xz[b];
+    const auto at = [](const auto& powers, Complex s) {
+      Complex sum = 0;
+      for (std::size_t n = powers.size(); n-- > 0;) sum = sum * s + powers[n];
+      return sum;
+    };
+    // All roots at once (Durand and Kerner).
+    const double size = std::sqrt(std::abs(inertia) / c.c55) + std::abs(k);
+    std::array<Complex, 4> roots;
+    for (std::size_t n = 0; n < 4; ++n) roots[n] = size * std::exp(Complex(0, 0.4 + 1.5 * double(n)));
+    for (int round = 0; round < 200; ++round) {
+      double most = 0;
+      for (std::size_t n = 0; n < 4; ++n) {
+        Complex others = of[4];
+        for (std::size_t m = 0; m < 4; ++m)
+          if (m != n) others *= roots[n] - roots[m];
+        const auto change = at(of, roots[n]) / others;
+        roots[n] -= change;
+        most = std::max(most, std::abs(change));
+      }
+      if (most < 1e-14 * size) break;
+    }
+    std::sort(roots.begin(), roots.end(), [](Complex a, Complex b) { return a.real() < b.real(); });
+    std::vector<Wave> both;
+    for (std::size_t n = 0; n < 2; ++n) {
+      const auto s = roots[down ? n : n + 2];
+      std::array<Complex, 2> u = {-at(xz, s), at(xx, s)};
+      const std::array<Complex, 2> other = {at(zz, s), -at(xz, s)};
+      if (std::norm(other[0]) + std::norm(other[1]) > std::norm(u[0]) + std::norm(u[1])) u = other;
+      const double length = std::sqrt(std::norm(u[0]) + std::norm(u[1]));
+      const auto ux = u[0] / length, uz = u[1] / length;
+      const auto exx = q * ux, ezz = s * uz, shear = s * ux + q * uz;
+      both.push_back(
+          {down ? -s : s,
+           {ux, uz, c.c13 * exx + c.c33 * ezz + c.c35 * shear, c.c15 * exx + c.c35 * ezz + c.c55 * shear}});
+    }
+    return both;
+  }
+
   /// What the source makes of the fields from just above it to just below.
   Fields jump(double k) const {
     const auto& c = layers[layer_of(source_m)].c;
-    const bool solid = c.c55 > 0;
-    return {solid ? couple / c.c55 : 0, explosion / c.c33, -force[1],
-            -force[0] - (solid ? i * k * explosion * (1 - c.c13 / c.c33) : 0)};
+    if (c.c55 == 0) return {0, explosion / c.c33, -force[1], -force[0]};
+    // A moment is what strains across the source would hold.
+    const double size = c.c33 * c.c55 - c.c35 * c.c35;
+    const double ux = (c.c33 * couple - c.c35 * explosion) / size,
+                 uz = (c.c55 * explosion - c.c35 * couple) / size;
+    return {ux, uz, -force[1], -force[0] - i * k * (explosion - c.c13 * uz - c.c15 * ux)};
   }
   /// The waves that leave the source up and down, with their amplitudes.
   std::array<std::vector<Wave>, 2> direct(Complex omega, double k) const {

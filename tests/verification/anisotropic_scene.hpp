@@ -1,0 +1,104 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "anisotropic_stack.hpp"
+#include "lab.hpp"
+#include "model/anisotropy.hpp"
+#include "solver/simulation.hpp"
+
+namespace slipwave::solver {
+
+constexpr double peak_hz = 20;
+
+inline AnisotropicStack::Layer layer_of(const Material& material) {
+  return {plane_stiffness_of(material), material.rho};
+}
+
+/// Flat layers in a box that absorbs, or has a free surface; all in units of cells of the step.
+struct Stack {
+  std::vector<Material> layers;
+  std::vector<double> tops_m;
+  bool free_surface = false;
+  std::string kind = "force:0.6,0.8";
+  double source_m = 0;
+  std::vector<AnisotropicStack::Receiver> receivers;  // x from the source
+  double duration_s = 0.4;
+  double cells = 24;  // per wavelength of the slowest wave at the peak
+  int order = 5;
+  double cfl = 0.9;
+  double depth_m = 1000, width_m = 1200;
+
+  double spacing() const {
+    double slowest = 1e9;
+    for (const auto& layer : layers) {
+      const auto speeds = slowest_speeds(layer);
+      slowest = std::min(slowest, speeds.s > 0 ? speeds.s : speeds.p);
+    }
+    // Interfaces lie on faces: a whole number of cells in 20 m.
+    return 20 / std::ceil(20 * cells * peak_hz / slowest);
+  }
+  Scene<2> scene() const {
+    const double h = spacing();
+    Scene<2> scene;
+    const Grid<2> grid{{std::llround(width_m / h), std::llround(depth_m / h)}, h, {0, 0}};
+    Medium<2> medium(grid);
+    medium[Property::epsilon] = medium[Property::delta] = Field<2>(grid);
+    if (std::any_of(layers.begin(), layers.end(), [](const Material& layer) { return layer.tilt != 0; }))
+      medium[Property::tilt] = Field<2>(grid);
+    for (std::int64_t n = 0; n < grid.size(); ++n) {
+      std::size_t layer = 0;
+      for (const double top : tops_m) layer += grid.centre(1, grid.index(n)[1]) > top;
+      put(medium, std::size_t(n), layers[layer]);
+    }
+    scene.model.medium = medium;
+    const double x = width_m / 2;
+    scene.survey.sources = {{{x, source_m}, parse_mechanism<2>(kind), parse_wavelet("ricker:20"), 1e6}};
+    for (const auto& at : receivers) scene.survey.receivers_m.push_back({x + at.x, at.z});
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    if (free_surface) scene.edges[1][0] = EdgeLaw::free;
+    scene.numerics.order = order;
+    scene.numerics.cfl = cfl;
+    scene.recording = {{Component::vx, Component::vz}, duration_s, 0.001};
+    check(scene);
+    return scene;
+  }
+  AnisotropicStack exact() const {
+    AnisotropicStack stack;
+    for (const auto& layer : layers) stack.layers.push_back(layer_of(layer));
+    stack.tops_m = tops_m, stack.free_surface = free_surface, stack.source_m = source_m;
+    if (kind == "explosion") stack.explosion = 1;
+    if (kind == "force:0.6,0.8") stack.force = {0.6, 0.8};
+    if (kind == "moment:0,0,1") stack.couple = 1;
+    return stack;
+  }
+  /// Of all traces together.
+  double error() const {
+    const auto gather = shoot(scene(), 1);
+    const auto exact_traces = exact().ricker(peak_hz, 0.001, std::size_t(gather.axis.count), receivers);
+    std::vector<double> found, wanted;
+    for (std::size_t n = 0; n < gather.traces.size(); ++n) {
+      const auto& samples = gather.traces[n].samples;
+      const auto& wave = exact_traces[n % receivers.size()][n / receivers.size()];
+      found.insert(found.end(), samples.begin(), samples.end());
+      for (const double value : wave) wanted.push_back(1e6 * value);
+    }
+    return relative_error(found, wanted);
+  }
+};
+
+/// Receivers at a distance in all directions but that along x.
+inline std::vector<AnisotropicStack::Receiver> around(double z, double distance_m) {
+  std::vector<AnisotropicStack::Receiver> all;
+  for (const double degrees : {0., 20., 40., 60., 75., 105., 150.}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    all.push_back({distance_m * std::sin(angle), z + distance_m * std::cos(angle)});
+  }
+  return all;
+}
+
+}  // namespace slipwave::solver
