@@ -228,6 +228,37 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   }
 }
 
+/// What sweeps know of the medium, in zones that of the edge of the model.
+template <int D>
+void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
+  constexpr int z = D - 1;
+  std::array<Field<D>, 2> impedance;
+  for (auto& z : impedance) z = Field<D>(domain.grid);
+  const bool anisotropic = domain.subdomain.anisotropic || anisotropic_cells(medium) > 0;
+  Field<D> zp_across, coupling;
+  if (anisotropic) zp_across = coupling = Field<D>(domain.grid);
+  const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
+  parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t line = begin; line < end; ++line) {
+      auto first = domain.model_cell(domain.grid.index(line * nx));
+      first[0] = 0;
+      const std::int64_t of_line = domain.model_grid.flat(first);
+      for (std::int64_t x = 0; x < nx; ++x) {
+        const auto cell =
+            std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
+        const auto to = std::size_t(line * nx + x);
+        for (const Wave wave : {wave_p, wave_s})
+          impedance[wave][to] = float(wave_impedance(medium, cell, z, wave));
+        if (!anisotropic) continue;
+        zp_across[to] = float(wave_impedance(medium, cell, 0, wave_p));
+        coupling[to] = float(wave_coupling(medium, cell));
+      }
+    }
+  });
+  domain.set_impedances(std::move(impedance));
+  if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
+}
+
 }  // namespace
 
 TiltedWaves waves_along(const TiltedMedium& medium, int axis) {
@@ -326,31 +357,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   const auto held = domain.model_grid.first[z];
   if (part.cut(0)) domain.own.first = part.first - held;
   if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
-  std::array<Field<D>, 2> impedance;
-  for (auto& z : impedance) z = Field<D>(domain.grid);
-  const bool anisotropic = part.anisotropic || anisotropic_cells(medium) > 0;
-  Field<D> zp_across, coupling;
-  if (anisotropic) zp_across = coupling = Field<D>(domain.grid);
-  const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
-  parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t line = begin; line < end; ++line) {
-      auto first = domain.model_cell(domain.grid.index(line * nx));
-      first[0] = 0;
-      const std::int64_t of_line = domain.model_grid.flat(first);
-      for (std::int64_t x = 0; x < nx; ++x) {
-        const auto cell =
-            std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
-        const auto to = std::size_t(line * nx + x);
-        for (const Wave wave : {wave_p, wave_s})
-          impedance[wave][to] = float(wave_impedance(medium, cell, z, wave));
-        if (!anisotropic) continue;
-        zp_across[to] = float(wave_impedance(medium, cell, 0, wave_p));
-        coupling[to] = float(wave_coupling(medium, cell));
-      }
-    }
-  });
-  domain.set_impedances(std::move(impedance));
-  if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
+  set_impedances(domain, medium);
   domain.find_material_kind();
   if constexpr (D == 2) domain.set_tilted(find_tilted(domain, medium));
   return domain;

@@ -35,12 +35,19 @@ class Walk {
     return i < 0 || i >= impedance_.grid().shape[std::size_t(axis_)];
   }
   double operator()(int n) const { return impedance_(place(n)); }
-  /// Whether the face behind cell n is a strong interface of two media that carry the wave.
-  bool strong_behind(int n) const {
-    return strong((*this)(n), (*this)(n + 1)) && !(tilted_ && tilted_(place(n), place(n + 1)));
+  /// Whether the face behind cell n is a strong interface of two media that carry the wave, where stencils
+  /// end.
+  bool strong_behind(int n) const { return strong((*this)(n), (*this)(n + 1)) && !parted_by_mean(n); }
+  /// Cells up to the next strong interface at a tilted mean, which stencils cross; at most `reach`.
+  int cells_to_tilted(int reach) const {
+    if (!tilted_) return reach;
+    for (int n = 0; n < reach && !leaves_grid(n + 1) && (*this)(n + 1) > 0; ++n)
+      if (strong((*this)(n), (*this)(n + 1)) && parted_by_mean(n)) return n;
+    return reach;
   }
 
  private:
+  bool parted_by_mean(int n) const { return tilted_ && tilted_(place(n), place(n + 1)); }
   Index<D> place(int n) const {
     Index<D> at = at_;
     at[std::size_t(axis_)] += n * step_;
@@ -256,6 +263,9 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
       const int to_contrast = std::min(cells_to_contrast(down, reach), cells_to_contrast(up, reach));
+      // Across such a contrast higher orders feed waves, and damp too little of it elsewhere.
+      const int to_tilted = std::min(down.cells_to_tilted(reach), up.cells_to_tilted(reach));
+      const int at_most = reach > most_reach_at_contrasts ? reach_up_to(to_tilted, 1, reach) : reach;
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         const auto slot = [&](const Side& side, std::int64_t cells) {
@@ -267,6 +277,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
         int within = reach_within(low, high, reach_up_to(to_contrast, most_reach_at_mirrors, reach));
         if (slot_low >= 0) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
         if (slot_high >= 0) within = reach_up_to(high.cells, most_reach_at_contrasts, within);
+        within = std::min(within, at_most);
         cells_.push_back({std::int32_t(x), std::int8_t(low.cells), std::int8_t(high.cells), low.law, high.law,
                           std::int8_t(low.beyond), std::int8_t(high.beyond), float(low.share),
                           float(high.share), std::int8_t(within), slot_low, slot_high});
@@ -276,6 +287,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       if (low.at_edge() && corrected(at, 0)) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
       if (high.at_edge() && corrected(at, 1))
         within = reach_up_to(high.cells, most_reach_at_contrasts, within);
+      within = std::min(within, at_most);
       if (within < reach)
         cells_.push_back({std::int32_t(x), std::int8_t(reach), std::int8_t(reach), on, on, 0, 0, 0, 0,
                           std::int8_t(within)});
