@@ -170,7 +170,7 @@ double Lab<Real>::sum(Stress which) const {
       const CellFields fields = {double(row[0][i]), double(row[1][i]), s[0], s[1], s[2]};
       total += h * h *
                (domain_.is_tilted({i, k})
-                    ? energy_density(tilted_mean_stiffness(medium, cell), medium.rho[cell], fields)
+                    ? energy_density(domain_.tilted_at({i, k})->stiffness, medium.rho[cell], fields)
                 : is_anisotropic(medium, cell)
                     ? energy_density(stiffness_of(medium, cell), medium.rho[cell], fields)
                     : energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),

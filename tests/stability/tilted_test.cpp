@@ -135,4 +135,37 @@ TEST(EnergyOfTiltedMeans, NeverRisesAtInterfacesOfAnyDipAndContrast) {
       }
 }
 
+TEST(EnergyOfTiltedRock, NeverRisesWhateverItIs) {
+  const ThreadLimit one_thread(1);
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const std::function<double()> random = [&] { return uniform(engine); };
+  const int media = long_form() ? 30 : 4, steps = long_form() ? 20000 : 200;
+  constexpr int cells = 24;
+  for (int n = 0; n < media; ++n)
+    for (const int block : {1, 6})
+      for (const int order : long_form() ? std::vector{3, 5, 7, 11} : std::vector{5, 9}) {
+        SCOPED_TRACE("medium " + std::to_string(n) + " block " + std::to_string(block) + " order " +
+                     std::to_string(order));
+        std::vector<Material> rocks;
+        const auto draw = n / 2 % 2 == 0
+                              ? rocks_alike(random)
+                              : std::function<Material()>([&] { return random_anisotropic(random); });
+        for (int k = 0; k < cells * cells; ++k) {
+          auto any = draw();
+          any.tilt = 180 * random() - 90;
+          if (n % 2 == 1 && random() < 0.2) any = {1500, 0, 1000};
+          rocks.push_back(any);
+        }
+        Medium<2> medium = rock(cells, cells);
+        for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
+          medium[property] = Field<2>(medium.grid());
+        for (int cell = 0; cell < cells * cells; ++cell)
+          put(medium, std::size_t(cell),
+              rocks[std::size_t(cell / cells / block * cells + cell % cells / block)]);
+        expect_no_growth_of<double>(medium, EdgeLaw::rigid, order, n % 3 ? 1 : 0.6, steps);
+        if (n == 0) expect_no_growth_of<float>(medium, EdgeLaw::rigid, order, 1, steps);
+      }
+}
+
 }  // namespace slipwave
