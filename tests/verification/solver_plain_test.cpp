@@ -37,8 +37,8 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
 
 TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
   for (const int order : orders)
-    for (const auto correction :
-         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred}) {
       auto scene = sea();
       scene.numerics.order = order;
       scene.numerics.correction = correction;
