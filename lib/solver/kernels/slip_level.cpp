@@ -65,10 +65,68 @@ template <int D, class Real>
   return slips ? greater(lesser(strength + excess, size), Real(0)) : size;
 }
 
+/// The traction that welded planes would carry by the centred rule: what was taken off ahead put back.
+template <int D, class Real>
+[[gnu::always_inline]] inline ResolvedTraction<Real> put_back(ResolvedTraction<Real> of,
+                                                              const Beginning<D, Real>& began,
+                                                              std::int64_t i) {
+  of.t1 += began.losses[i];
+  if constexpr (D == 3) of.t2 += began.losses2[i];
+  of.size = D == 2 ? (of.t1 < 0 ? -of.t1 : of.t1) : length(of.t1, of.t2);
+  return of;
+}
+
+/// |tau| after the explicit half of a step, and what the rule retains for the end of it.
+template <int D, SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline Real size_after_beginning(const Beginning<D, Real>& began, std::int64_t i,
+                                                        const ResolvedTraction<Real>& of, Real relaxation) {
+  if constexpr (Correction == SlipCorrection::exponential || Correction == SlipCorrection::centred) {
+    began.tau1[i] = of.t1;
+    if constexpr (D == 3) began.tau2[i] = of.t2;
+    began.strengths[i] = of.strength;
+    if constexpr (Correction == SlipCorrection::centred) return of.size;
+    const Real loss = slip::unloaded_loss(of.size, of.strength, relaxation * Real(0.5));
+    began.losses[i] = loss;
+    return of.size - loss;
+  } else {
+    return of.size - slip::explicit_half(of.size, of.strength, relaxation, 1);
+  }
+}
+
+/// |tau| at the end of a step along (u1, u2), at the strength `end` of then.
+template <int D, SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline Real size_at_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
+                                               Real u2, Real size, Real end, Real relaxation) {
+  if constexpr (Correction == SlipCorrection::exponential) {
+    return exponential_end<D>(began, i, u1, u2, size, end, relaxation);
+  } else if constexpr (Correction == SlipCorrection::centred) {
+    return centred_end<D>(began, i, u1, u2, size, end, relaxation);
+  } else {
+    Real over;
+    return slip::relaxed(size, end, weighted<Correction>(relaxation, end, 1), over);
+  }
+}
+
+/// Makes of the change of the traction by slip, (d1, d2), that of the stress by the centred rule: half of
+/// what slip took off the last time goes ahead, and comes back at the end.
+template <int D, Half Now, class Real>
+[[gnu::always_inline]] inline void change_ahead(const Beginning<D, Real>& began, std::int64_t i, Real& d1,
+                                                Real& d2) {
+  const Real ahead1 = began.losses[i], ahead2 = D == 3 ? began.losses2[i] : Real(0);
+  if constexpr (Now == Half::beginning) {
+    d1 = -ahead1;
+    d2 = -ahead2;
+  } else {
+    began.losses[i] = Real(-0.5) * d1;
+    if constexpr (D == 3) began.losses2[i] = Real(-0.5) * d2;
+    d1 += ahead1;
+    d2 += ahead2;
+  }
+}
+
 /// The correction of stress by one system.
 template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 [[gnu::noinline]] void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  constexpr bool exponential = Correction == SlipCorrection::exponential;
   constexpr bool centred = Correction == SlipCorrection::centred;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
   Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
@@ -87,61 +145,29 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real relaxation = relaxations[i], slip_m = Law::has_state ? slips[i] : Real(0),
                slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
-    const auto on_planes = resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
-    const Real s_n = on_planes.s_n, strength = on_planes.strength;
-    // What was taken off ahead, by the centred rule.
-    constexpr bool ahead = centred && Now == Half::end;
-    const Real ahead1 = ahead ? began.losses[i] : Real(0),
-               ahead2 = ahead && D == 3 ? began.losses2[i] : Real(0);
-    const Real t1 = ahead ? on_planes.t1 + ahead1 : on_planes.t1,
-               t2 = ahead ? on_planes.t2 + ahead2 : on_planes.t2;
-    const Real size = !ahead ? on_planes.size : D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
+    auto of = resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
+    if constexpr (centred && Now == Half::end) of = put_back<D>(of, began, i);
+    const Real size = of.size, strength = of.strength;
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
-    const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
-               u2 = D == 2 ? Real(0) : t2 * reciprocal;
+    const Real u1 = D == 2 ? (of.t1 < 0 ? Real(-1) : Real(1)) : of.t1 * reciprocal,
+               u2 = D == 2 ? Real(0) : of.t2 * reciprocal;
     Real now = size;
-    if constexpr (Now == Half::beginning && exponential) {
-      const Real loss = slip::unloaded_loss(size, strength, relaxation * Real(0.5));
-      now = size - loss;
-      began.tau1[i] = t1;
-      if constexpr (D == 3) began.tau2[i] = t2;
-      began.losses[i] = loss;
-      began.strengths[i] = strength;
-    } else if constexpr (Now == Half::beginning && centred) {
-      began.tau1[i] = t1;
-      if constexpr (D == 3) began.tau2[i] = t2;
-      began.strengths[i] = strength;
-    } else if constexpr (Now == Half::beginning) {
-      now = size - slip::explicit_half(size, strength, relaxation, 1);
+    if constexpr (Now == Half::beginning) {
+      now = size_after_beginning<D, Correction>(began, i, of, relaxation);
     } else {
       Real over, end = strength;
       if constexpr (Law::has_state) {
         const Real theta_c = weighted<Correction>(relaxation, strength, 1);
         const Real loss = size - slip::relaxed(size, strength, theta_c, over);
-        end = strength_at_end<Law, Extended>(one.law, s_n, slip_m, slip_per_pa,
+        end = strength_at_end<Law, Extended>(one.law, of.s_n, slip_m, slip_per_pa,
                                              Extended ? on.gaps[i] : Real(0), strength, theta_c, loss);
       }
-      if constexpr (exponential)
-        now = exponential_end<D>(began, i, u1, u2, size, end, relaxation);
-      else if constexpr (centred)
-        now = centred_end<D>(began, i, u1, u2, size, end, relaxation);
-      else
-        now = slip::relaxed(size, end, weighted<Correction>(relaxation, end, 1), over);
+      now = size_at_end<D, Correction>(began, i, u1, u2, size, end, relaxation);
     }
     if constexpr (Law::has_state) slips[i] = Law::slip_after(slip_m, slip_per_pa, size - now);
     Real d1 = u1 * (now - size), d2 = u2 * (now - size);
-    if constexpr (centred && Now == Half::beginning) {
-      d1 = -began.losses[i];
-      if constexpr (D == 3) d2 = -began.losses2[i];
-    } else if constexpr (centred) {
-      began.losses[i] = Real(-0.5) * d1;
-      d1 += ahead1;
-      if constexpr (D == 3) {
-        began.losses2[i] = Real(-0.5) * d2;
-        d2 += ahead2;
-      }
-    }
+    if constexpr (centred) change_ahead<D, Now>(began, i, d1, d2);
     r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
     r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
     r2[i] = s2 + (m1[2] * d1 + (D == 3 ? m2[2] * d2 : Real(0)));
