@@ -16,15 +16,6 @@ struct PlanesUnderWave {
   double competing_viscosity_s = 0;  // with which 2 pi f eta S = mu (S24); 0 without strength
 };
 
-/// How fast the shortest waves along slipping planes grow, because friction follows the pressure (S29).
-struct BandGrowth {
-  double dry_m_s = 0;   // of dry planes: growth rate over wave number
-  double relaxing = 0;  // of viscous ones: growth rate times relaxation time, at any wave number
-};
-
-/// In the direction in which they grow fastest; none without friction. `friction` is that times |tau|/S.
-BandGrowth band_growth(double friction, double vp, double vs);
-
 /// The pressure of the wave is lambda + 2 mu times its strain; springs below the friction count.
 template <int D>
 PlanesUnderWave planes_under(const Model<D>& model, std::size_t cell, const SlipSystem<D>& system,

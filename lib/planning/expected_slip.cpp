@@ -49,39 +49,12 @@ double strain_rate_at(const Scene<D>& scene, const Source<D>& source, std::size_
 struct Regime {
   double traction_over_strength, viscosity_over_competing;
   PlanesUnderWave under;
-  // What the wavelengths of `cells_per_band` cells along the planes grow by while a half cycle of the wave
-  // slips, as an exponent, and the viscosity with which no wavelength exceeds 1.
-  double growth = 0, bounding_viscosity_s = 0;
 };
-
-/// Shortest waves that a grid carries rather than damps, in cells; and the exponent from which they change
-/// the answer.
-constexpr double cells_per_band = 8, much_growth = 2;
-
-/// Fills what waves along slipping planes grow by (S29).
-template <int D>
-void add_growth(Regime& of, const Model<D>& model, std::size_t cell, const SlipSystem<D>& system, double hz) {
-  const double vp = double(model.medium.vp[cell]), vs = double(model.medium.vs[cell]);
-  const double mu = double(model.medium.rho[cell]) * vs * vs, half_cycle_s = 0.5 / hz;
-  const auto dry = band_growth(system.friction, vp, vs);
-  const auto viscous = band_growth(system.friction * std::max(of.traction_over_strength, 1.), vp, vs);
-  const double k = 2 * std::numbers::pi / (cells_per_band * model.grid().spacing_m);
-  const double relaxation_s = system.viscosity_s * of.under.strength_pa / mu;
-  of.growth = half_cycle_s * std::min(dry.dry_m_s * k, viscous.relaxing / std::max(relaxation_s, 1e-300));
-  of.bounding_viscosity_s = half_cycle_s * viscous.relaxing * mu / of.under.strength_pa;
-}
 
 std::string sentence(const std::string& name, double viscosity_s, const Regime& of) {
   const std::string set = "fractures '" + name + "' ";
   const std::string remedy = "; slip competes with the waves at a viscosity of about " +
                              shown(of.under.competing_viscosity_s, 2) + " s (sw-fracture --for-frequency)";
-  const std::string bands =
-      of.growth > much_growth
-          ? "; waves of " + shown(cells_per_band, 1) + " cells along the planes grow by a factor of " +
-                shown(std::exp(std::min(of.growth, 30.)), 1) +
-                " while they slide: the answer depends on the size of the cells, with less than " +
-                shown(of.bounding_viscosity_s, 2) + " s of viscosity"
-          : "";
   if (of.traction_over_strength < 1 / far_from)
     return set + "can not slip: the shear traction of the waves, about " + shown(of.under.traction_pa, 2) +
            " Pa, is far below the strength of " + shown(of.under.strength_pa, 2) + " Pa";
@@ -89,8 +62,8 @@ std::string sentence(const std::string& name, double viscosity_s, const Regime& 
     return set + "hardly slip: their viscosity of " + shown(viscosity_s, 3) + " s is too large" + remedy;
   if (of.viscosity_over_competing < 1 / far_from)
     return set + "slip like dry friction: their viscosity of " + shown(viscosity_s, 3) +
-           " s makes no difference" + remedy + bands;
-  return bands.empty() ? "" : set + "slide" + bands;
+           " s makes no difference" + remedy;
+  return "";
 }
 
 }  // namespace
@@ -113,12 +86,11 @@ std::vector<std::string> expected_slip(const Scene<D>& scene) {
         if (!system.slides()) continue;
         const auto under = planes_under(scene.model, cell, system, wave);
         if (!(under.strength_pa > 0)) continue;
-        Regime here = {under.traction_pa / under.strength_pa,
-                       system.viscosity_s / under.competing_viscosity_s, under};
+        const Regime here = {under.traction_pa / under.strength_pa,
+                             system.viscosity_s / under.competing_viscosity_s, under};
         if (most && most->traction_over_strength / std::max(most->viscosity_over_competing, 1.) >=
                         here.traction_over_strength / std::max(here.viscosity_over_competing, 1.))
           continue;
-        add_growth(here, scene.model, cell, system, hz);
         most = here;
         viscosity_s = system.viscosity_s;
       }

@@ -65,17 +65,6 @@ template <int D, class Real>
   return slips ? greater(lesser(strength + excess, size), Real(0)) : size;
 }
 
-/// The traction that welded planes would carry by the centred rule: what was taken off ahead put back.
-template <int D, class Real>
-[[gnu::always_inline]] inline ResolvedTraction<Real> put_back(ResolvedTraction<Real> of,
-                                                              const Beginning<D, Real>& began,
-                                                              std::int64_t i) {
-  of.t1 += began.losses[i];
-  if constexpr (D == 3) of.t2 += began.losses2[i];
-  of.size = D == 2 ? (of.t1 < 0 ? -of.t1 : of.t1) : length(of.t1, of.t2);
-  return of;
-}
-
 /// |tau| after the explicit half of a step, and what the rule retains for the end of it.
 template <int D, SlipCorrection Correction, class Real>
 [[gnu::always_inline]] inline Real size_after_beginning(const Beginning<D, Real>& began, std::int64_t i,
@@ -145,13 +134,17 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real relaxation = relaxations[i], slip_m = Law::has_state ? slips[i] : Real(0),
                slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
-    auto of = resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
-    if constexpr (centred && Now == Half::end) of = put_back<D>(of, began, i);
-    const Real size = of.size, strength = of.strength;
+    const auto of = resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
+    // At the end of a step of the centred rule what was taken off ahead is put back. (In scalars: GCC makes
+    // no vectors of a structure that is put together anew.)
+    constexpr bool ahead = centred && Now == Half::end;
+    const Real t1 = ahead ? of.t1 + began.losses[i] : of.t1,
+               t2 = ahead && D == 3 ? of.t2 + began.losses2[i] : of.t2, strength = of.strength;
+    const Real size = !ahead ? of.size : D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
-    const Real u1 = D == 2 ? (of.t1 < 0 ? Real(-1) : Real(1)) : of.t1 * reciprocal,
-               u2 = D == 2 ? Real(0) : of.t2 * reciprocal;
+    const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
+               u2 = D == 2 ? Real(0) : t2 * reciprocal;
     Real now = size;
     if constexpr (Now == Half::beginning) {
       now = size_after_beginning<D, Correction>(began, i, of, relaxation);
