@@ -349,7 +349,7 @@ TEST(RandomScenes, StopGrowingWithTheirSource) {
 TEST(RandomScenes, StopGrowingWithTheCentredCorrectionToo) {
   const ThreadLimit one_thread(1);
   int scenes = 0;
-  for (unsigned seed = 1; scenes < (long_form() ? 500 : 12); ++seed) {
+  for (unsigned seed = 1; scenes < (long_form() ? 500 : 8); ++seed) {
     Drawn drawn = draw(seed);
     if (drawn.scene.model.fracture_sets.empty()) continue;
     ++scenes;

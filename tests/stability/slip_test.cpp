@@ -153,9 +153,13 @@ class CentredSlip : public ::testing::TestWithParam<Planes> {
 TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWith) {
   const ThreadLimit one_thread(1);
   Rotation rotation;
-  for (const auto& law : laws())
+  int number = GetParam().open ? 1 : 0;
+  for (const auto& law : laws()) {
+    ++number;  // the other clusters
     for (const auto& cluster : clusters()) {
       rotation.next();
+      // Every other case, of all kinds of planes and clusters, in the short form.
+      if (!long_form() && ++number % 2 == 0) continue;
       SCOPED_TRACE(std::string(cluster.name) + " in " + cluster.medium + ", friction " +
                    std::to_string(law.friction) + ", viscosity " + std::to_string(law.viscosity_s) + ", " +
                    rotation.shown());
@@ -170,6 +174,7 @@ TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWith) {
       else
         expect(fractured<float>(medium, cluster, set_of(GetParam(), law)), float());
     }
+  }
 }
 
 TEST_P(CentredSlip, LetsNothingGrowInThousandsOfSteps) {
