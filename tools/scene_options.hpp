@@ -80,8 +80,9 @@ inline void declare_numerics(cli::Options& options, SceneOptions& s) {
   options.add_choice("time-order", s.time_order, texts_of(time_orders),
                      "order in time; 4: six times the work per step, --cfl up to 2");
   options.add("monotone", s.monotone, "no overshoots: keep waves to the criterion of monotonicity");
-  options.add_choice("correction", s.correction, {"first", "second", "exponential"},
-                     "time integration of slip: first order, second order, or exact per step");
+  options.add_choice("correction", s.correction, {"first", "second", "exponential", "centred"},
+                     "time integration of slip: of first or second order, exact per step, or of second order "
+                     "for the waves, too");
   options.add("cfl", s.cfl, "C", "Courant number: time step over h/vp_max");
   options.add("time-step", s.time_step_s, "S", "time step, s, instead of --cfl");
   // For who checks the program: the reference executor, slow and on one process.

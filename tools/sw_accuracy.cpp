@@ -17,7 +17,7 @@ namespace {
 
 struct Settings {
   SceneOptions shot;
-  std::string built_in, orders = "5,7", time_orders = "2", cfls = "0.9,0.5", steps, corrections = "second",
+  std::string built_in, orders = "5,7", time_orders = "2", cfls = "0.9,0.5", steps, corrections = "centred",
                         limits = "none", reference;
   std::optional<double> wanted;
   std::string output;
@@ -32,7 +32,8 @@ void declare(cli::Options& options, Settings& s) {
   options.add("orders", s.orders, "LIST", "orders of the scheme in space: " + joined(texts_of(orders), ", "));
   options.add("cfls", s.cfls, "LIST", "Courant numbers, up to 1; with order 4 in time up to 2");
   options.add("time-orders", s.time_orders, "LIST", "orders in time: " + joined(texts_of(time_orders), ", "));
-  options.add("corrections", s.corrections, "LIST", "time integration of slip: first, second, exponential");
+  options.add("corrections", s.corrections, "LIST",
+              "time integration of slip: first, second, exponential, centred");
   options.add("limits", s.limits, "LIST",
               "limits of outgoing waves: none, monotone (as sw-shoot --monotone)");
   options.add("reference", s.reference, "ORDER,CFL,STEP",
@@ -77,7 +78,9 @@ SlipCorrection correction_of(const std::string& name) {
   if (name == "first") return SlipCorrection::first;
   if (name == "second") return SlipCorrection::second;
   if (name == "exponential") return SlipCorrection::exponential;
-  throw Error("--corrections: found " + name + ", expected first, second or exponential", ErrorKind::usage);
+  if (name == "centred") return SlipCorrection::centred;
+  throw Error("--corrections: found " + name + ", expected first, second, exponential or centred",
+              ErrorKind::usage);
 }
 
 bool is_monotone(const std::string& limit) {
@@ -105,11 +108,11 @@ std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene)
 }
 
 AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySetting>& ladder) {
-  if (s.reference.empty()) return {7, 0.4, ladder.back().spacing_m, SlipCorrection::second};
+  if (s.reference.empty()) return {7, 0.4, ladder.back().spacing_m, SlipCorrection::centred};
   const auto numbers = numbers_of("--reference", s.reference);
   if (numbers.size() != 3)
     throw Error("--reference: found " + s.reference + ", expected ORDER,CFL,STEP", ErrorKind::usage);
-  return {one_of("--reference", numbers[0], orders), numbers[1], numbers[2], SlipCorrection::second};
+  return {one_of("--reference", numbers[0], orders), numbers[1], numbers[2], SlipCorrection::centred};
 }
 
 /// The user's scene; nothing of it is asked for where a built-in case is.

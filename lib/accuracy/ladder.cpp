@@ -42,9 +42,10 @@ std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
                      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl) + ", " +
                      shown(setting.spacing_m, 4) + " m";
   if (scene.slips())
-    name += setting.correction == SlipCorrection::first    ? ", first-order slip"
-            : setting.correction == SlipCorrection::second ? ", second-order slip"
-                                                           : ", exponential slip";
+    name += setting.correction == SlipCorrection::first     ? ", first-order slip"
+            : setting.correction == SlipCorrection::second  ? ", second-order slip"
+            : setting.correction == SlipCorrection::centred ? ", centred slip"
+                                                            : ", exponential slip";
   return name;
 }
 

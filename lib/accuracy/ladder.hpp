@@ -11,7 +11,7 @@ struct AccuracySetting {
   int order = 5;
   double cfl = 0.9;
   double spacing_m = 0;
-  SlipCorrection correction = SlipCorrection::second;
+  SlipCorrection correction = SlipCorrection::centred;
   int time_order = 2;
   bool monotone = false;
 };

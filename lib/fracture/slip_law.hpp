@@ -22,7 +22,7 @@ namespace slipwave {
 inline constexpr double most_relaxation_pa = 1e30;
 
 /// Rule of the slip correction of a step (theory.md 2.1).
-enum class SlipCorrection { first, second, exponential };
+enum class SlipCorrection { first, second, exponential, centred };
 
 namespace slip {
 

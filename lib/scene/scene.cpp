@@ -151,9 +151,10 @@ std::int64_t Recording::samples() const {
 }
 
 const char* name_of(SlipCorrection correction) {
-  return correction == SlipCorrection::first    ? "first order"
-         : correction == SlipCorrection::second ? "second order"
-                                                : "exponential";
+  return correction == SlipCorrection::first     ? "first order"
+         : correction == SlipCorrection::second  ? "second order"
+         : correction == SlipCorrection::centred ? "centred"
+                                                 : "exponential";
 }
 
 template <int D>

@@ -37,7 +37,7 @@ struct Numerics {
   double cfl = 0.9;                   // time step over h/vp_max
   std::optional<double> time_step_s;  // instead of cfl
   int zone_cells = 0;  // width of the absorbing layers; 0: as their kind needs, see zone_cells()
-  SlipCorrection correction = SlipCorrection::second;
+  SlipCorrection correction = SlipCorrection::centred;
   bool double_precision = false;
   int time_order = 2;     // of the splitting in time: one of `time_orders`
   bool monotone = false;  // sweeps keep to the criterion of monotonicity

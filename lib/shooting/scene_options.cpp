@@ -119,9 +119,10 @@ Scene<D> SceneOptions::without_model() const {
   scene.numerics.cfl = cfl;
   scene.numerics.time_step_s = time_step_s;
   scene.numerics.zone_cells = edge_width;
-  scene.numerics.correction = correction == "first"    ? SlipCorrection::first
-                              : correction == "second" ? SlipCorrection::second
-                                                       : SlipCorrection::exponential;
+  scene.numerics.correction = correction == "first"     ? SlipCorrection::first
+                              : correction == "second"  ? SlipCorrection::second
+                              : correction == "centred" ? SlipCorrection::centred
+                                                        : SlipCorrection::exponential;
   scene.numerics.double_precision = precision == "double";
   scene.numerics.tiling.plain = executor == "plain";
   scene.numerics.time_order = std::stoi(time_order);

@@ -19,7 +19,7 @@ struct SceneOptions {
   SurveyOptions survey;
   std::string kind = "explosion", wavelet, record = "vz,vx,p";
   std::string top = "free", sides = "absorbing", bottom = "absorbing";
-  std::string order = "5", time_order = "2", correction = "second", precision = "float", without,
+  std::string order = "5", time_order = "2", correction = "centred", precision = "float", without,
               executor = "tiled";
   double amplitude = 1, duration_s = 0, interval_s = 0.001, cfl = 0.9;
   std::optional<double> time_step_s, q_frequency_hz;

@@ -219,7 +219,7 @@ TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {
       {tool + endless + "--time-orders 3", 2, "--time-orders: found 3, expected one of 2, 4"},
       {tool + endless + "--cfls 0", 2, "--cfls: found 0, expected numbers above 0"},
       {tool + endless + "--corrections third", 2,
-       "--corrections: found third, expected first, second or exponential"},
+       "--corrections: found third, expected first, second, exponential or centred"},
       {tool + endless + "--reference 7,0.4", 2, "--reference: found 7,0.4, expected ORDER,CFL,STEP"},
       {tool + endless + "--error 0", 2, "--error: found 0, expected it above 0"},
       {tool + endless + "--error -1", 2, "--error: found -1, expected it above 0"},

@@ -64,7 +64,7 @@ TEST_F(Cube, IsShotIntoAnAreaOfReceivers) {
   done("sw-shoot m.nc " + shot + "--receivers 20:180:20,30:90:20,5 --record vx,vy,vz --threads 1 -o b.sgy");
   done("cmp a.sgy b.sgy");
   const auto plan = done("sw-shoot m.nc " + shot + "--plan -v");
-  EXPECT_TRUE(has(plan, "slip, second order"));
+  EXPECT_TRUE(has(plan, "slip, centred"));
   EXPECT_TRUE(has(plan, "% (cells that no wave has reached")) << plan;
   expect_refused("sw-shoot m.nc " + shot + "--error 0.01 --receivers 20,30,5 -o no.sgy", 2,
                  "sw-shoot: --error needs a model in 2-D, found one in 3-D");

@@ -40,7 +40,7 @@ TEST_F(ShootOptions, EachChangesTheTraces) {
 TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
   done(shoot + at +
        "--kind explosion --amplitude 1 --record vz,vx,p --dt 0.001 --top free --sides absorbing --bottom "
-       "absorbing --order 5 --time-order 2 --correction second --precision float --cfl 0.9 -o other.sgy");
+       "absorbing --order 5 --time-order 2 --correction centred --precision float --cfl 0.9 -o other.sgy");
   done("cmp <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)");
 }
 
@@ -142,8 +142,8 @@ TEST_F(ShootOptions, ComeFromAFileAndTheCommandLineWins) {
 TEST_F(ShootOptions, PlanTellsWhatWouldBeComputedAndStops) {
   const std::string long_shot = "sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1000 --plan ";
   const auto text = done(long_shot + "-v");
-  for (const std::string word : {"grid", "steps", "time step", "Courant number  ", "memory",
-                                 "slip, second order", "cells per shortest wavelength"})
+  for (const std::string word : {"grid", "steps", "time step", "Courant number  ", "memory", "slip, centred",
+                                 "cells per shortest wavelength"})
     EXPECT_TRUE(has(text, word)) << word << " in " << text;
   EXPECT_FALSE(has(
       done("sw-shoot m.nc --source 100,50 --wavelet ricker:20 --time 1 --without slip --plan -v"), "slip,"));

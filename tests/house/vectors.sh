@@ -165,10 +165,10 @@ want_slip() {
         printf "%s: %s: %d operations on vectors of %d bits in a loop, expected %d\n", level, kernel, most[kernel], width, least
         bad = 1
       }
-      # Two friction laws, three corrections by halves, with and without static stress and opening, in 2-D, 3-D and for
+      # Two friction laws, four corrections by halves, with and without static stress and opening, in 2-D, 3-D and for
       # blocks; opening.
-      if (kernels != 2 * (2 * 5 * 2 * 3 + 2)) {
-        printf "%s: %d kernels of slip, expected 124\n", level, kernels
+      if (kernels != 2 * (2 * 7 * 2 * 3 + 2)) {
+        printf "%s: %d kernels of slip, expected 172\n", level, kernels
         bad = 1
       }
       if (!bad) printf "%s: %d kernels of slip on vectors of %d bits\n", level, kernels, width

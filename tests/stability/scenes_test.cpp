@@ -346,6 +346,19 @@ TEST(RandomScenes, StopGrowingWithTheirSource) {
   }
 }
 
+TEST(RandomScenes, StopGrowingWithTheCentredCorrectionToo) {
+  const ThreadLimit one_thread(1);
+  int scenes = 0;
+  for (unsigned seed = 1; scenes < (long_form() ? 500 : 8); ++seed) {
+    Drawn drawn = draw(seed);
+    if (drawn.scene.model.fracture_sets.empty()) continue;
+    ++scenes;
+    drawn.scene.numerics.correction = SlipCorrection::centred;
+    SCOPED_TRACE(shown(drawn, seed));
+    ASSERT_NO_THROW(expect_no_growth(drawn));
+  }
+}
+
 TEST(RandomScenes, OfPlanesThatGiveWayStopGrowingToo) {
   const ThreadLimit one_thread(1);
   int scenes = 0;

@@ -126,6 +126,74 @@ INSTANTIATE_TEST_SUITE_P(PlanesAndCorrections, Slip,
                                             ::testing::ValuesIn(corrections())),
                          [](const auto& info) { return std::apply(name_of_case, info.param); });
 
+/// The centred rule takes off ahead what it may have to give back: energy wavers from step to step, within
+/// what slip has taken before. It never passes its first value, and what it reaches late is not above what it
+/// reached before.
+class CentredSlip : public ::testing::TestWithParam<Planes> {
+ protected:
+  template <class Real>
+  static void expect_bounded(const typename Lab<Real>::Setup& setup, int steps) {
+    Lab<Real> lab(setup);
+    const double begin = lab.energy();
+    ASSERT_GT(begin, 0);
+    double highest[4] = {};
+    for (int n = 0; n < steps; ++n) {
+      lab.step();
+      const double now = lab.energy();
+      // Written so that NaN fails.
+      ASSERT_TRUE(now <= begin * (1 + rounding<Real>())) << "step " << n << ": " << now << " after " << begin;
+      auto& here = highest[4 * n / steps];
+      here = std::max(here, now);
+    }
+    for (const int quarter : {2, 3})
+      EXPECT_LE(highest[quarter], highest[1] * (1 + 1e-3)) << quarter << ", first " << begin;
+  }
+};
+
+TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWith) {
+  const ThreadLimit one_thread(1);
+  Rotation rotation;
+  int number = GetParam().open ? 1 : 0;
+  for (const auto& law : laws()) {
+    ++number;  // the other clusters
+    for (const auto& cluster : clusters()) {
+      rotation.next();
+      // Every other case, of all kinds of planes and clusters, in the short form.
+      if (!long_form() && ++number % 2 == 0) continue;
+      SCOPED_TRACE(std::string(cluster.name) + " in " + cluster.medium + ", friction " +
+                   std::to_string(law.friction) + ", viscosity " + std::to_string(law.viscosity_s) + ", " +
+                   rotation.shown());
+      const auto expect = [&](auto setup, auto real) {
+        setup.correction = SlipCorrection::centred;
+        rotation.into(setup);
+        expect_bounded<decltype(real)>(setup, steps());
+      };
+      const auto medium = medium_named(cluster.medium, cells());
+      if (rotation.in_double())
+        expect(fractured<double>(medium, cluster, set_of(GetParam(), law)), double());
+      else
+        expect(fractured<float>(medium, cluster, set_of(GetParam(), law)), float());
+    }
+  }
+}
+
+TEST_P(CentredSlip, LetsNothingGrowInThousandsOfSteps) {
+  const ThreadLimit one_thread(1);
+  for (const Law& law : {Law{0.1, 0}, Law{0.7, 0}, Law{0.3, 1e3}, Law{3, 1}}) {
+    SCOPED_TRACE("friction " + std::to_string(law.friction));
+    auto setup = fractured<double>(rock(cells(), cells()), cluster_named("everywhere, so every edge"),
+                                   set_of(GetParam(), law));
+    setup.order = 11;
+    setup.cfl = 1;
+    setup.edges = all_edges(EdgeLaw::rigid);
+    setup.correction = SlipCorrection::centred;
+    expect_bounded<double>(setup, long_form() ? 20000 : 500);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Planes, CentredSlip, ::testing::ValuesIn(kinds_of_planes()),
+                         [](const auto& info) { return std::string(info.param.name); });
+
 TEST(SlipInEveryDirection, NeverAddsEnergyAtAnyOrder) {
   const ThreadLimit one_thread(1);
   for (const int order : orders)

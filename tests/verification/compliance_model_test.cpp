@@ -2,7 +2,9 @@
 // waves (docs/slip.md).
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <complex>
 #include <filesystem>
 #include <numbers>
 
@@ -157,6 +159,89 @@ TEST(CompetingSlip, IsWhereTheRelaxationTakesARadian) {
   EXPECT_NEAR(pressed.competing_viscosity_s * pressed.strength_pa / rock.mu() * omega, 1, 1e-9);
   model.fracture_sets[0].systems[0].friction = 0;
   EXPECT_NE(error_of([&] { competing_slip(model, 1, wave); }), "");
+}
+
+/// Rate at which the waves exp(i k.x) of the linearised law grow: vn, vt, snn, stt and snt in the frame of
+/// normal and slip, integrated by the classical Runge-Kutta rule. `relaxation_s` 0: dry planes.
+double growth_rate(double k, double angle, double friction, double relaxation_s, double vp, double vs) {
+  using Wave = std::array<std::complex<double>, 5>;
+  const double mu = vs * vs, lambda = vp * vp - 2 * mu;  // of a density of 1
+  const std::complex<double> kn(0, k * std::cos(angle)), kt(0, k * std::sin(angle));
+  const auto rate = [&](const Wave& w) {
+    const auto pull = (lambda + 2 * mu) * kn * w[0] + lambda * kt * w[1];
+    const auto shear = mu * (kt * w[0] + kn * w[1]);
+    // mu times the rate of slip: it keeps dry planes at their strength, viscous ones relax to it.
+    const auto slip = relaxation_s > 0 ? (w[4] + friction * w[2]) / relaxation_s : shear + friction * pull;
+    return Wave{kn * w[2] + kt * w[4], kn * w[4] + kt * w[3], pull,
+                lambda * kn * w[0] + (lambda + 2 * mu) * kt * w[1], shear - slip};
+  };
+  const auto plus = [](const Wave& a, double factor, const Wave& b) {
+    Wave sum = a;
+    for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += factor * b[n];
+    return sum;
+  };
+  const auto size = [&](const Wave& w) {
+    double sum = 0;
+    for (std::size_t n = 0; n < w.size(); ++n) sum += std::norm(w[n]) / (n < 2 ? 1 : vp * vp);
+    return std::sqrt(sum);
+  };
+  Wave wave = {1, 0.3, vp, 0.5 * vp, -0.2 * vp};
+  const double dt_s = 0.3 / (vp * k);
+  const int steps = 4000;
+  double sum = 0;
+  for (int n = 0; n < steps; ++n) {
+    const auto a = rate(wave), b = rate(plus(wave, dt_s / 2, a)), c = rate(plus(wave, dt_s / 2, b)),
+               d = rate(plus(wave, dt_s, c));
+    wave = plus(plus(plus(plus(wave, dt_s / 6, a), dt_s / 3, b), dt_s / 3, c), dt_s / 6, d);
+    const double now = size(wave);
+    if (n >= steps / 2) sum += std::log(now);
+    for (auto& value : wave) value /= now;
+  }
+  return sum / (steps - steps / 2) / dt_s;
+}
+
+/// How fast the shortest waves along slipping planes grow (S29), in the direction in which they grow fastest.
+struct BandGrowth {
+  double dry_m_s = 0;   // of dry planes: growth rate over wave number
+  double relaxing = 0;  // of viscous ones: growth rate times relaxation time, of the shortest waves
+};
+
+BandGrowth band_growth(double friction, double vp, double vs) {
+  // The acoustic tensor of the direction (c, s) in the frame of normal and slip (S28).
+  constexpr int directions = 2000;
+  const double p = vp * vp, m = vs * vs, lambda = p - 2 * m;
+  BandGrowth most;
+  for (int n = 0; n <= directions; ++n) {
+    const double angle = std::numbers::pi / 2 * n / directions, c = std::cos(angle), s = std::sin(angle);
+    const double d_n = m * s + friction * (lambda + 2 * m) * c, d_t = m * c + friction * lambda * s;
+    const double nn = (p - m) * c * c + m - s * d_n, nt = (p - m) * c * s - s * d_t;
+    const double tn = (p - m) * c * s - c * d_n, tt = (p - m) * s * s + m - c * d_t;
+    const double trace = nn + tt, determinant = nn * tt - nt * tn;
+    if (!(determinant < 0)) continue;
+    const double slowest = trace / 2 - std::sqrt(trace * trace / 4 - determinant);
+    most.dry_m_s = std::max(most.dry_m_s, std::sqrt(-slowest));
+    most.relaxing = std::max(most.relaxing, -determinant / (p * m));
+  }
+  return most;
+}
+
+TEST(BandGrowth, IsThatOfTheLinearisedLaw) {
+  for (const double vs : {2250., 1500.})
+    for (const double friction : {0.1, 0.6}) {
+      const double vp = 4500, k = 0.5, relaxation_s = 20 / (vp * k);
+      double dry = 0, viscous = 0;
+      for (double angle = 0; angle <= 0.5 * std::numbers::pi; angle += 0.02) {
+        dry = std::max(dry, growth_rate(k, angle, friction, 0, vp, vs));
+        viscous = std::max(viscous, growth_rate(k, angle, friction, relaxation_s, vp, vs));
+      }
+      const auto of = band_growth(friction, vp, vs);
+      EXPECT_NEAR(of.dry_m_s * k, dry, 0.03 * dry) << friction;
+      // A bound, reached by short waves. Those that hardly grow would want many more steps.
+      if (friction < 0.5) continue;
+      EXPECT_LT(viscous, of.relaxing / relaxation_s) << friction;
+      EXPECT_GT(viscous, 0.8 * of.relaxing / relaxation_s) << friction;
+    }
+  EXPECT_EQ(band_growth(0, 4500, 2250).dry_m_s, 0);
 }
 
 TEST(ExpectedSlip, SpeaksOnlyOfPlanesThatStickOrAreDry) {

@@ -10,7 +10,7 @@ namespace slipwave::solver {
 namespace {
 
 constexpr SlipCorrection corrections[] = {SlipCorrection::first, SlipCorrection::second,
-                                          SlipCorrection::exponential};
+                                          SlipCorrection::exponential, SlipCorrection::centred};
 
 /// What slip changes of the traces, as a share of them.
 double effect_of_slip(Scene<2> scene) {

@@ -164,7 +164,8 @@ TEST(Ranks, WhereSlipWeakensFrictionToo) {
     set.systems[0].law = FrictionLaw::slip_weakening;
     set.systems[0].slip_distance_m = 1e-11;
   }
-  for (const auto correction : {SlipCorrection::second, SlipCorrection::exponential}) {
+  for (const auto correction :
+       {SlipCorrection::second, SlipCorrection::exponential, SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     const auto alone = all_samples(shoot(scene, 1));
     EXPECT_TRUE(all_samples(shared_out(scene, 3, 2)) == alone);

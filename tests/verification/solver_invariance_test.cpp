@@ -117,7 +117,8 @@ TEST(Traces, OfSlippingRockDoNotDependOnWhatIsLeftOutAtRest) {
   planes.opens = true;
   scene.model.prestress_pa.assign(3, Field<2>(scene.model.grid(), -0.02F));
   scene.model.prestress_pa[2] = Field<2>(scene.model.grid(), 0.005F);
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     scene.numerics.tiling = {1, 1 << 20, true};
     const auto everywhere = samples_of(shoot(scene, 1));
@@ -134,7 +135,8 @@ TEST(Traces, OfSlippingRockScaleWithTheSourceAndAllOtherStress) {
   auto scene = reef();
   auto& planes = scene.model.fracture_sets[0].systems[0];
   planes.strength_pa = 0.01;
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::exponential}) {
+  for (const auto correction :
+       {SlipCorrection::first, SlipCorrection::exponential, SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     const auto scaled_by = [&](int power) {
       auto other = scene;
@@ -201,7 +203,7 @@ TEST(Traces, WithoutSlipAreThoseOfTheModelWithoutStrengthLimits) {
   const auto intact = samples_of(shoot(scene, 1));
   scene.with_slip = true;
   const auto slipping = samples_of(shoot(scene, 1));
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second}) {
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     scene.model.fracture_sets[0].systems[0].strength_pa = 1e20;
     EXPECT_EQ(intact, samples_of(shoot(scene, 1)));

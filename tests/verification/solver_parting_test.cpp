@@ -32,8 +32,8 @@ TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
   };
   const double dt_s = 0.9 * 5 / rock.vp;
   for (const auto& set : sets)
-    for (const auto correction :
-         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred}) {
       auto with = box(set), without = box(set);
       for (const double value : still) with.model.prestress_pa.emplace_back(with.model.grid(), float(value));
       check(with.model);

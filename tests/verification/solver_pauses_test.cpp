@@ -114,7 +114,7 @@ TEST(Pauses, ChangeNoBitAtAnyOrderAndPrecision) {
 }
 
 TEST(Pauses, ChangeNoBitWithAnyCorrectionAndTimeOrder) {
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second})
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::centred})
     for (const int time_order : {2, 4}) {
       auto scene = reef();
       scene.numerics.correction = correction;
@@ -141,7 +141,8 @@ TEST(Pauses, ChangeNoBitWhereSlipWeakensFriction) {
                                {"one", {{{0.6, 0.8}, 0.5, 10, 0}}}};
   for (std::int64_t k = 50; k < 60; ++k)
     for (std::int64_t i = 50; i < 80; ++i) scene.model.fracture({i, k}) = std::uint8_t(1 + i / 10 % 3);
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     auto weak = scene;
     for (auto& set : weak.model.fracture_sets) {

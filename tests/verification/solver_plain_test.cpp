@@ -37,8 +37,8 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
 
 TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
   for (const int order : orders)
-    for (const auto correction :
-         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred}) {
       auto scene = sea();
       scene.numerics.order = order;
       scene.numerics.correction = correction;
@@ -151,8 +151,8 @@ TEST(TimeStep, IsAListOfSweepsEffectsAndRecords) {
   slip.survey.sources = {{{0, 0}, parse_mechanism<2>("plane:0"), parse_wavelet("ricker:40"), 1}};
   EXPECT_EQ(list_of(slip),
             (Lines{"sweep along x, 0.5 (PML, incident wave)", "sweep along z, 1 (PML, incident wave)",
-                   "sweep along x, 0.5 (PML, incident wave)", "slip, second order", "record",
-                   "slip, second order, after recording"}));
+                   "sweep along x, 0.5 (PML, incident wave)", "slip, centred", "record",
+                   "slip, centred, after recording"}));
 }
 
 /// Numbers of the field rows that differ.

@@ -42,8 +42,8 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
   const double dt_s = 0.9 * 5 / 4500;
   for (const bool crossing : {true, false}) {
     if (!crossing) scene.model.fracture_sets[0].systems.pop_back();
-    for (const auto correction :
-         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred}) {
       scene.numerics.correction = correction;
       using L = Lab<double>;
       L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
@@ -75,7 +75,8 @@ TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
     scene.model.prestress_pa.emplace_back(scene.model.grid(), value);
   scene.slip_diary = true;
   const double dt_s = 0.9 * 5 / 4500;
-  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                SlipCorrection::centred}) {
     scene.numerics.correction = correction;
     using L = Lab<double>;
     L lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);
@@ -108,8 +109,8 @@ TEST(SlipDiary, BalancesPlanesThatWeakenUnderStaticStress) {
   scene.slip_diary = true;
   const double dt_s = 0.9 * 5 / 4500;
   for (const auto& systems : {std::vector{first}, std::vector{first, across}, std::vector{first, crossing}})
-    for (const auto correction :
-         {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred}) {
       scene.model.fracture_sets = {{"weak", systems}};
       scene.numerics.correction = correction;
       Lab<double> lab(scene.model.medium, edges_all(EdgeLaw::rigid), 5, dt_s);

@@ -158,17 +158,21 @@ TEST(SlipLayerOfOneCell, IsAnInterfaceOfSomeMoreViscosity) {
     const Errors of_order_3[] = {{15, 28.5}, {4.5, 9.6}, {1.9, 4.0}};
     const Errors of_order_5[] = {{8.4, 16.7}, {3.4, 6.6}, {1.6, 3.2}};
     const auto& bounds = order == 3 ? of_order_3 : of_order_5;
-    for (const auto correction : {SlipCorrection::first, SlipCorrection::second})
+    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::centred})
       for (const double r : {0.1, 1., 10., 100.}) {
         // d S = t_r/dt = 1/(2 r a) in (S7).
-        const double theta = correction == SlipCorrection::first ? 1 : std::max(0.5, 1 - 1 / (r * courant_s));
+        const double theta = correction == SlipCorrection::first     ? 1
+                             : correction == SlipCorrection::centred ? 0.5
+                                                                     : std::max(0.5, 1 - 1 / (r * courant_s));
         const double k = own_viscosity(order, courant_s, theta);
         Errors found[3];
         for (const int n : {0, 1, 2}) {
           const double h = 5 / std::exp2(n);
           const auto waves = solved({h, r, correction, order}, h, times_s);
           found[n] = errors(waves, of_interface(times_s, h, 1 / (1 / r + k)));
-          EXPECT_LT(found[n].through, bounds[n].through) << order << ' ' << r << ' ' << h;
+          // Where strong slip sets in the centred correction is a step late.
+          const double late = correction == SlipCorrection::centred ? 1.4 : 1;
+          EXPECT_LT(found[n].through, late * bounds[n].through) << order << ' ' << r << ' ' << h;
           EXPECT_LT(found[n].back, bounds[n].back) << order << ' ' << r << ' ' << h;
         }
         EXPECT_GT(observed_order(found[1].back, found[2].back), 1) << order << ' ' << r;

@@ -59,6 +59,7 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
                            const Real* after, std::int64_t pitch, SlipAct act) {
   constexpr int components = SymmetricTensor<D, Real>::components;
   const std::int64_t piece = 64;
+  const bool centred = correction_ == SlipCorrection::centred;
   for (std::int64_t i = 0; i < n; ++i) {
     const auto at = place + std::size_t(i);
     const double mu = groups_[group].shear_modulus(at), lambda = groups_[group].lambda(at);
@@ -71,7 +72,10 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
       const double twice = c < D ? 1 : 2;  // off-diagonal components stand for two
       const double was = before[c * piece + i], is = after[c * pitch + i], off = was - is;
       const double stays = prestress.values[std::size_t(c)];
-      square += twice * off * off;
+      auto& ahead = entry.taken_ahead.values[std::size_t(c)];
+      const double in_step = centred && act == SlipAct::slip ? ahead + off : off;
+      if (centred && act == SlipAct::begin) ahead = off;
+      square += twice * in_step * in_step;
       mean += twice * off * (was + is) / 2;
       of_prestress += twice * off * stays;
       if (c >= D) continue;
@@ -81,7 +85,8 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
     const double share = off_trace * lambda / (2 * mu + D * lambda);
     entry.out_of_waves += (mean - share * mean_trace) / (2 * mu);
     entry.heat += (mean + of_prestress - share * (mean_trace + prestress_trace)) / (2 * mu);
-    if (act == SlipAct::open) continue;
+    // What is taken off ahead is no slip yet.
+    if (act == SlipAct::open || (centred && act == SlipAct::begin)) continue;
     const double strain = std::sqrt(square / 2) / mu;
     if (act == SlipAct::slip) entry.in_step = entry.ahead + strain;
     entry.ahead = act == SlipAct::slip ? 0 : strain;

@@ -46,7 +46,9 @@ class Slip : public Effect<D, Real> {
   struct Entry {
     double slip = 0, ahead = 0, in_step = 0;  // strain: in all, of it in the explicit half, and of one step
     double heat = 0, out_of_waves = 0;        // J/m3
-  };                                          // as the fields are
+    // Centred rule: what the beginning of a step took off the stress ahead.
+    SymmetricTensor<D, double> taken_ahead;
+  };  // as the fields are
   void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
                     std::initializer_list<SlipAct> acts);
   void record(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,

@@ -105,7 +105,11 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
     if (extended)
       for (std::size_t t = 0; t < D - 1; ++t) add_row(planes_.shear[t], Real(0.5));
   } else {
-    law() == FrictionLaw::coulomb ? add_joint<Coulomb>(correction) : add_joint<SlipWeakening>(correction);
+    // By the centred rule slip follows the law as by the second-order one; only the waves feel it otherwise.
+    centred_ = correction == SlipCorrection::centred;
+    const auto rule = centred_ ? SlipCorrection::second : correction;
+    if (centred_) retained_.assign(count_ * std::size_t(2 * SymmetricTensor<D, Real>::components), 0);
+    law() == FrictionLaw::coulomb ? add_joint<Coulomb>(rule) : add_joint<SlipWeakening>(rule);
   }
   resolved_ = std::move(resolved);
 }
@@ -246,8 +250,10 @@ void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real
     SymmetricTensor<D, Real> s, total = prestress(at);
     for (std::size_t c = 0; c < s.values.size(); ++c) {
       s.values[c] = stress[std::int64_t(c) * pitch + i];
+      if (centred_ && !begins) s.values[c] += ahead(c, at) - explicit_half(c, at);
       total.values[c] += s.values[c];
     }
+    const auto before = s;
     for (std::size_t k = 0; k < relaxation_.size(); ++k) {
       relaxation[k] = relaxation_[k][at];
       open[k] = !gaps_[k].empty() && gaps_[k][at] > 0;
@@ -261,7 +267,15 @@ void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real
     else
       joint.slip(s, total, cell);
     for (std::size_t k = 0; Law::has_state && k < slips_m_.size(); ++k) slips_m_[k][at] = slip_m[k];
-    for (std::size_t c = 0; c < s.values.size(); ++c) stress[std::int64_t(c) * pitch + i] = s.values[c];
+    for (std::size_t c = 0; c < s.values.size(); ++c) {
+      if (centred_ && begins) {
+        explicit_half(c, at) = before.values[c] - s.values[c];
+        s.values[c] = before.values[c] - ahead(c, at);
+      } else if (centred_) {
+        ahead(c, at) = (before.values[c] - s.values[c] + explicit_half(c, at)) / 2;
+      }
+      stress[std::int64_t(c) * pitch + i] = s.values[c];
+    }
   }
 }
 

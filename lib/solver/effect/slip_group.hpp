@@ -70,6 +70,12 @@ class SlipGroup {
   void slip_jointly(const JointSlip<D, Real, Law>& joint, Real* stress, std::int64_t pitch, std::size_t place,
                     std::int64_t n, bool begins);
   SlipRows<Real> rows(Real* stress, std::int64_t pitch, std::size_t place);
+  /// Of component c of the stress of a cell, for systems without a kernel and the centred rule: what is taken
+  /// off ahead, and the explicit half of the law.
+  Real& ahead(std::size_t c, std::size_t place) { return retained_[c * count_ + place]; }
+  Real& explicit_half(std::size_t c, std::size_t place) {
+    return retained_[(SymmetricTensor<D, Real>::components + c) * count_ + place];
+  }
 
   const FractureSet<D>* set_;
   double unit_;
@@ -80,6 +86,7 @@ class SlipGroup {
   GapKernel<Real> open_ = nullptr;
   // For systems without a kernel.
   std::variant<std::monostate, JointSlip<D, Real, Coulomb>, JointSlip<D, Real, SlipWeakening>> joint_;
+  bool centred_ = false;
   std::vector<std::vector<Real>> relaxation_;  // [system][cell], as stress
   std::vector<std::vector<Real>> gaps_;        // [system][cell], of systems that open; else empty
   std::vector<Real> shut_;                     // the gap of the others, where kernels read gaps

@@ -12,25 +12,29 @@ namespace {
 /// Which half: that of the end of a step or the explicit half of the next one.
 enum class Half { end, beginning };
 
-/// What the exponential rule retains from the beginning of a step: tau, S and the decrease of tau.
+/// What rules retain from the beginning of a step: tau, S, and the decrease of tau (exponential) or half of
+/// what slip of the last step took off (centred).
 template <int D, class Real>
 struct Beginning {
   Real* __restrict const tau1;
   Real* __restrict const tau2;
   Real* __restrict const strengths;
   Real* __restrict const losses;
+  Real* __restrict const losses2;
   [[gnu::always_inline]] explicit Beginning(const SlipRows<Real>& rows)
       : tau1(rows.retained),
         tau2(rows.retained + (D - 2) * rows.retained_pitch),
         strengths(rows.retained + (D - 1) * rows.retained_pitch),
-        losses(rows.retained + D * rows.retained_pitch) {}
+        losses(rows.retained + D * rows.retained_pitch),
+        losses2(rows.retained + (2 * D - 2) * rows.retained_pitch) {}
 };
 
 /// theta c.
 template <SlipCorrection Correction, class Real>
 [[gnu::always_inline]] inline Real weighted(Real relaxation, Real strength, int sharing) {
   if constexpr (Correction == SlipCorrection::first) return relaxation;
-  if constexpr (Correction == SlipCorrection::exponential) return Real(0.5) * relaxation;
+  if constexpr (Correction == SlipCorrection::exponential || Correction == SlipCorrection::centred)
+    return Real(0.5) * relaxation;
   return slip::relaxation_of_end(relaxation, strength, sharing);
 }
 
@@ -49,10 +53,70 @@ template <int D, class Real>
   return relaxation > 0 && size > strength ? greater(lesser(strength + excess, size), Real(0)) : size;
 }
 
+/// The same by the centred rule: (u1, u2) is along the traction that welded planes would carry.
+template <int D, class Real>
+[[gnu::always_inline]] inline Real centred_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
+                                               Real u2, Real size, Real strength, Real relaxation) {
+  const Real old = began.strengths[i], b2 = D == 3 ? began.tau2[i] : Real(0);
+  const Real start = u1 * began.tau1[i] + u2 * b2;
+  const Real excess = slip::excess_after(start - old, (size - start) - (strength - old),
+                                         Real(0.5) * (strength + old), relaxation);
+  const bool slips = relaxation > 0 && greater(size - strength, start - old) > 0;
+  return slips ? greater(lesser(strength + excess, size), Real(0)) : size;
+}
+
+/// |tau| after the explicit half of a step, and what the rule retains for the end of it.
+template <int D, SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline Real size_after_beginning(const Beginning<D, Real>& began, std::int64_t i,
+                                                        const ResolvedTraction<Real>& of, Real relaxation) {
+  if constexpr (Correction == SlipCorrection::exponential || Correction == SlipCorrection::centred) {
+    began.tau1[i] = of.t1;
+    if constexpr (D == 3) began.tau2[i] = of.t2;
+    began.strengths[i] = of.strength;
+    if constexpr (Correction == SlipCorrection::centred) return of.size;
+    const Real loss = slip::unloaded_loss(of.size, of.strength, relaxation * Real(0.5));
+    began.losses[i] = loss;
+    return of.size - loss;
+  } else {
+    return of.size - slip::explicit_half(of.size, of.strength, relaxation, 1);
+  }
+}
+
+/// |tau| at the end of a step along (u1, u2), at the strength `end` of then.
+template <int D, SlipCorrection Correction, class Real>
+[[gnu::always_inline]] inline Real size_at_end(const Beginning<D, Real>& began, std::int64_t i, Real u1,
+                                               Real u2, Real size, Real end, Real relaxation) {
+  if constexpr (Correction == SlipCorrection::exponential) {
+    return exponential_end<D>(began, i, u1, u2, size, end, relaxation);
+  } else if constexpr (Correction == SlipCorrection::centred) {
+    return centred_end<D>(began, i, u1, u2, size, end, relaxation);
+  } else {
+    Real over;
+    return slip::relaxed(size, end, weighted<Correction>(relaxation, end, 1), over);
+  }
+}
+
+/// Makes of the change of the traction by slip, (d1, d2), that of the stress by the centred rule: half of
+/// what slip took off the last time goes ahead, and comes back at the end.
+template <int D, Half Now, class Real>
+[[gnu::always_inline]] inline void change_ahead(const Beginning<D, Real>& began, std::int64_t i, Real& d1,
+                                                Real& d2) {
+  const Real ahead1 = began.losses[i], ahead2 = D == 3 ? began.losses2[i] : Real(0);
+  if constexpr (Now == Half::beginning) {
+    d1 = -ahead1;
+    d2 = -ahead2;
+  } else {
+    began.losses[i] = Real(-0.5) * d1;
+    if constexpr (D == 3) began.losses2[i] = Real(-0.5) * d2;
+    d1 += ahead1;
+    d2 += ahead2;
+  }
+}
+
 /// The correction of stress by one system.
 template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 [[gnu::noinline]] void slip_one(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
-  constexpr bool exponential = Correction == SlipCorrection::exponential;
+  constexpr bool centred = Correction == SlipCorrection::centred;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch;
   Real* __restrict const r2 = r1 + rows.pitch, * __restrict const r3 = D == 2 ? r2 : r2 + rows.pitch;
   Real* __restrict const r4 = D == 2 ? r2 : r3 + rows.pitch, * __restrict const r5 =
@@ -70,37 +134,33 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
                s4 = D == 2 ? Real(0) : r4[i], s5 = D == 2 ? Real(0) : r5[i];
     const Real relaxation = relaxations[i], slip_m = Law::has_state ? slips[i] : Real(0),
                slip_per_pa = Law::has_state ? slips_per_pa[i] : Real(0);
-    const auto [s_n, t1, t2, size, strength] =
-        resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
+    const auto of = resolved_traction<D, Law, Extended>(one, s0, s1, s2, s3, s4, s5, on, slip_m, i);
+    // At the end of a step of the centred rule what was taken off ahead is put back. (In scalars: GCC makes
+    // no vectors of a structure that is put together anew.)
+    constexpr bool ahead = centred && Now == Half::end;
+    const Real t1 = ahead ? of.t1 + began.losses[i] : of.t1,
+               t2 = ahead && D == 3 ? of.t2 + began.losses2[i] : of.t2, strength = of.strength;
+    const Real size = !ahead ? of.size : D == 2 ? (t1 < 0 ? -t1 : t1) : length(t1, t2);
     // Unit vector along tau.
     const Real reciprocal = D == 2 ? Real(1) : 1 / greater(size, slip::least<Real>);
     const Real u1 = D == 2 ? (t1 < 0 ? Real(-1) : Real(1)) : t1 * reciprocal,
                u2 = D == 2 ? Real(0) : t2 * reciprocal;
     Real now = size;
-    if constexpr (Now == Half::beginning && exponential) {
-      const Real loss = slip::unloaded_loss(size, strength, relaxation * Real(0.5));
-      now = size - loss;
-      began.tau1[i] = t1;
-      if constexpr (D == 3) began.tau2[i] = t2;
-      began.losses[i] = loss;
-      began.strengths[i] = strength;
-    } else if constexpr (Now == Half::beginning) {
-      now = size - slip::explicit_half(size, strength, relaxation, 1);
+    if constexpr (Now == Half::beginning) {
+      now = size_after_beginning<D, Correction>(began, i, of, relaxation);
     } else {
       Real over, end = strength;
       if constexpr (Law::has_state) {
         const Real theta_c = weighted<Correction>(relaxation, strength, 1);
         const Real loss = size - slip::relaxed(size, strength, theta_c, over);
-        end = strength_at_end<Law, Extended>(one.law, s_n, slip_m, slip_per_pa,
+        end = strength_at_end<Law, Extended>(one.law, of.s_n, slip_m, slip_per_pa,
                                              Extended ? on.gaps[i] : Real(0), strength, theta_c, loss);
       }
-      if constexpr (exponential)
-        now = exponential_end<D>(began, i, u1, u2, size, end, relaxation);
-      else
-        now = slip::relaxed(size, end, weighted<Correction>(relaxation, end, 1), over);
+      now = size_at_end<D, Correction>(began, i, u1, u2, size, end, relaxation);
     }
     if constexpr (Law::has_state) slips[i] = Law::slip_after(slip_m, slip_per_pa, size - now);
-    const Real d1 = u1 * (now - size), d2 = u2 * (now - size);
+    Real d1 = u1 * (now - size), d2 = u2 * (now - size);
+    if constexpr (centred) change_ahead<D, Now>(began, i, d1, d2);
     r0[i] = s0 + (m1[0] * d1 + (D == 3 ? m2[0] * d2 : Real(0)));
     r1[i] = s1 + (m1[1] * d1 + (D == 3 ? m2[1] * d2 : Real(0)));
     r2[i] = s2 + (m1[2] * d1 + (D == 3 ? m2[2] * d2 : Real(0)));
@@ -112,8 +172,9 @@ template <int D, SlipCorrection Correction, class Law, bool Extended, Half Now, 
   }
 }
 
-/// Whether any of these cells has more shear traction than strength.
-template <int D, class Law, bool Extended, class Real>
+/// Whether any of these cells has more shear traction than strength, or, by the centred rule, did slip in the
+/// last step.
+template <int D, SlipCorrection Correction, class Law, bool Extended, class Real>
 bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
   const Real *const r0 = rows.stress, *const r1 = r0 + rows.pitch, *const r2 = r1 + rows.pitch;
   const Real *const r3 = D == 2 ? r2 : r2 + rows.pitch, *const r4 = D == 2 ? r2 : r3 + rows.pitch,
@@ -121,6 +182,7 @@ bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>&
   const Real* const slips_m = rows.slip_m[0];
   const OneSystem<D, Real> one(planes);
   const OnSystem<Real> on(rows, D - 1);
+  const Beginning<D, Real> began(rows);
   using Whole = typename smooth::Bits<Real>::Whole;
   Whole any = 0;
 #pragma omp simd reduction(| : any)
@@ -129,6 +191,10 @@ bool slips(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>&
         one, r0[i], r1[i], r2[i], D == 2 ? Real(0) : r3[i], D == 2 ? Real(0) : r4[i],
         D == 2 ? Real(0) : r5[i], on, Law::has_state ? slips_m[i] : Real(0), i);
     any |= size > strength ? Whole(1) : Whole(0);
+    if constexpr (Correction == SlipCorrection::centred) {
+      any |= began.losses[i] != 0 ? Whole(1) : Whole(0);
+      if constexpr (D == 3) any |= began.losses2[i] != 0 ? Whole(1) : Whole(0);
+    }
   }
   return any != 0;
 }
@@ -146,7 +212,7 @@ void slip_where_needed(std::int64_t n, const SlipPlanes<Real>& planes, const Sli
     if (rows.gap[0]) here.gap[0] += first;
     if (Law::has_state) here.slip_m[0] += first, here.slip_per_pa += first;
     const std::int64_t count = n - first < piece ? n - first : piece;
-    if (slips<D, Law, Extended>(count, planes, here))
+    if (slips<D, Correction, Law, Extended>(count, planes, here))
       slip_one<D, Correction, Law, Extended, Half::end>(count, planes, here);
   }
 }
@@ -245,6 +311,11 @@ template <SlipCorrection Correction, class Law, bool Extended, Half Now, class R
 /// Two systems at right angles in 2-D: one shear stress, two strengths.
 template <SlipCorrection Correction, class Law, bool Extended, Half Now, class Real>
 void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Real>& rows) {
+  constexpr bool centred = Correction == SlipCorrection::centred;
+  // By the centred rule slip follows the law as by the second-order one; only the waves feel it otherwise.
+  constexpr SlipCorrection rule = centred ? SlipCorrection::second : Correction;
+  Real* __restrict const halves = rows.retained, * __restrict const explicit_halves =
+                                                     rows.retained + rows.retained_pitch;
   Real* __restrict const r0 = rows.stress, * __restrict const r1 = r0 + rows.pitch, * __restrict const r2 = r1 + rows.pitch;
   const Real* __restrict const relaxations_a = rows.relaxation[0], * __restrict const relaxations_b =
                                                                        rows.relaxation[1];
@@ -262,6 +333,9 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
     const Real s0 = r0[i], s1 = r1[i], s2 = r2[i];
     Real n_a = na0 * s0 + na1 * s1 + na2 * s2, n_b = s0 + s1 - n_a;
     Real t = Real(0.5) * (m0 * s0 + m1 * s1) + m2 * s2;
+    constexpr bool ahead = centred && Now == Half::end;
+    const Real half = centred ? halves[i] : Real(0), gone = ahead ? explicit_halves[i] : Real(0);
+    if constexpr (ahead) t += half - gone;
     if constexpr (Extended) {
       n_a += prestress_a[i];
       n_b += prestress_b[i];
@@ -276,12 +350,19 @@ void slip_two(std::int64_t n, const SlipPlanes<Real>& planes, const SlipRows<Rea
     const Pair<Real> pair = {t < 0 ? -t : t,   strength_a,  strength_b, relaxations_a[i],
                              relaxations_b[i], n_a,         n_b,        slip_a,
                              slip_b,           slip_per_pa, gap_a,      gap_b};
-    const auto loss = pair_loss<Correction, Law, Extended, Now>(law_a, law_b, pair);
+    const auto loss = pair_loss<rule, Law, Extended, Now>(law_a, law_b, pair);
     if constexpr (Law::has_state) {
       slips_a[i] = Law::slip_after(slip_a, slip_per_pa, loss.a);
       slips_b[i] = Law::slip_after(slip_b, slip_per_pa, loss.b);
     }
-    const Real d = t < 0 ? pair.size - loss.now : loss.now - pair.size;
+    Real d = t < 0 ? pair.size - loss.now : loss.now - pair.size;
+    if constexpr (ahead) {
+      halves[i] = Real(0.5) * (gone - d);
+      d += half - gone;
+    } else if constexpr (centred) {
+      explicit_halves[i] = -d;
+      d = -half;
+    }
     r0[i] = s0 + m0 * d;
     r1[i] = s1 + m1 * d;
     r2[i] = s2 + m2 * d;
@@ -335,7 +416,8 @@ SlipKernels<Real> one() {
   else if constexpr (Correction == SlipCorrection::second)
     return {slip_one<D, Correction, Law, Extended, Half::end, Real>, begin, 0};
   else  // divisions and roots: not where nothing slips
-    return {slip_where_needed<D, Correction, Law, Extended, Real>, begin, D + 1};
+    return {slip_where_needed<D, Correction, Law, Extended, Real>, begin,
+            Correction == SlipCorrection::centred ? 2 * D - 1 : D + 1};
 }
 template <SlipCorrection Correction, class Law, bool Extended, class Real>
 SlipKernels<Real> two() {
@@ -343,7 +425,8 @@ SlipKernels<Real> two() {
     return {slip_two<Correction, Law, Extended, Half::end, Real>, nothing<Real>, 0};
   else
     return {slip_two<Correction, Law, Extended, Half::end, Real>,
-            slip_two<Correction, Law, Extended, Half::beginning, Real>, 0};
+            slip_two<Correction, Law, Extended, Half::beginning, Real>,
+            Correction == SlipCorrection::centred ? 2 : 0};
 }
 
 template <SlipCorrection Correction, class Law, bool Extended, class Real>
@@ -357,6 +440,8 @@ SlipKernels<Real> of_correction(const SlipCase& of) {
   if (of.correction == SlipCorrection::first) return of_case<SlipCorrection::first, Law, Extended, Real>(of);
   if (of.correction == SlipCorrection::second)
     return of_case<SlipCorrection::second, Law, Extended, Real>(of);
+  if (of.correction == SlipCorrection::centred)
+    return of_case<SlipCorrection::centred, Law, Extended, Real>(of);
   return of_case<SlipCorrection::exponential, Law, Extended, Real>(of);
 }
 
