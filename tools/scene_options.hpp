@@ -78,7 +78,7 @@ std::vector<std::string> texts_of(const int (&numbers)[Count]) {
 inline void declare_numerics(cli::Options& options, SceneOptions& s) {
   options.add_choice("order", s.order, texts_of(orders), "order of the scheme in space");
   options.add_choice("time-order", s.time_order, texts_of(time_orders),
-                     "order in time; 4: six times the work per step, --cfl up to 2");
+                     "order in time; 4: five times the work per step, --cfl up to 2");
   options.add("monotone", s.monotone, "no overshoots: keep waves to the criterion of monotonicity");
   options.add_choice("correction", s.correction, {"first", "second", "exponential", "centred"},
                      "time integration of slip: of first or second order, exact per step, or of second order "

@@ -3,18 +3,17 @@
 namespace slipwave {
 namespace {
 
-/// Blanes & Moan (2002), table 2, order 4, 6 stages: the parts a of one flow and b of the other, to the
-/// middle.
-constexpr double a1 = 0.0792036964311957, a2 = 0.353172906049774, a3 = -0.0420650803577195;
-constexpr double b1 = 0.209515106613362, b2 = -0.143851773179818;
+/// Theory.md (E18): the parts a of one flow and b of the other, to the middle.
+constexpr double a1 = 0.2316, a2 = -0.067498409365708231;
+constexpr double b1 = -0.1312, b2 = 0.45306344962548994;
 
 /// The same as steps of first order, x y z and its mirror image z y x by turns (McLachlan 1995): the first
 /// half of them, the other is its mirror image.
 std::vector<double> half_of_stages(int time_order) {
   if (time_order == 2) return {0.5};
-  constexpr double b3 = 0.5 - (b1 + b2);
+  constexpr double a3 = 0.5 - (a1 + a2);
   std::vector<double> stages{a1};
-  for (const double sum : {b1, a2, b2, a3, b3}) stages.push_back(sum - stages.back());
+  for (const double sum : {b1, a2, b2, a3}) stages.push_back(sum - stages.back());
   return stages;
 }
 

@@ -10,7 +10,7 @@ struct SweepFraction {
   double fraction;
 };
 
-/// The sweeps of a time step of that order in time (2: theory.md (E3), 4: (E16)) in the order they are made.
+/// The sweeps of a time step of that order in time (2: theory.md (E3), 4: (E18)) in the order they are made.
 /// The first and the last run along x over equal parts: those of neighbouring steps may be one.
 std::vector<SweepFraction> splitting(int dimension, int time_order);
 

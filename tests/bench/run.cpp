@@ -45,7 +45,7 @@ int flops_of_leaving(int order, bool uniform) {
   const int m = reach_of(order);
   // As written in reconstruction.hpp.
   // Courant number 2, then by neighbours on each side as they are computed there.
-  constexpr int weights_by_reach[] = {0, 2 + 7, 2 + 18, 2 + 32};
+  constexpr int weights_by_reach[] = {0, 2 + 7, 2 + 18, 2 + 32, 2 + 50, 2 + 72};
   // Of each of two fields: e0 u, sum, times, plus; difference, times, plus but for the first.
   const int sums = m == 0 ? 0 : 2 * (1 + 6 * m - 1);
   return sums + (m == 0 ? 3 : 6) + (uniform ? 0 : weights_by_reach[m]);
