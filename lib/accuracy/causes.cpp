@@ -19,6 +19,8 @@ using Kind = LocalInterface::Kind;
 constexpr std::size_t shots_followed = 2, receivers_followed = 12;
 /// Directions of travel, over a quarter circle, that dispersion is taken for.
 constexpr std::size_t directions = 6;
+/// Frequencies at which it is computed.
+constexpr std::size_t frequencies = 40;
 
 // Fitted to the errors of 400 drawn scenes of layers against exact traces (docs/accuracy.md).
 /// What linear terms leave out of dispersion.
@@ -67,13 +69,16 @@ Shift shift_of(const LocalInterface& interface) {
   switch (interface.representation) {
     case on_faces:
     case fitted:
+    case gradual:
       return {interface.kind == Kind::inner     ? shift_on_faces
               : interface.kind == Kind::surface ? shift_of_surface
                                                 : shift_of_floor,
               2};
     case averaged:
-      // Where it is nearly level, its errors differ from place to place and cancel.
-      return {interface.stairs > 1 && interface.steepest_deg < 10 ? shift_of_gentle_means : shift_of_means,
+      // Where it is nearly level or bends, its errors differ from place to place and cancel.
+      return {interface.stairs > 1 && (interface.steepest_deg < 10 || interface.is_curved())
+                  ? shift_of_gentle_means
+                  : shift_of_means,
               0};
     case staircase:
       return {interface.stairs < few_stairs ? shift_of_few_stairs : shift_of_stairs, 0};
@@ -111,7 +116,8 @@ ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool b
   const std::string fit = interface.kind == Kind::surface       ? "surface"
                           : interface.kind == Kind::fluid_solid ? "floor"
                                                                 : "all";
-  const bool represented = interface.representation == on_faces || interface.representation == fitted;
+  const bool represented = interface.representation == on_faces || interface.representation == fitted ||
+                           interface.representation == gradual;
   const bool known = represented && !beside_face;
   cause.curable = known || finer_geometry;
   if (!known) cause.remedy = "fit it (sw-layers --fit " + fit + ")";
@@ -122,6 +128,7 @@ ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool b
   if (interface.representation == averaged)
     cause.name += range_of(interface) + ", means in the cells it cuts";
   if (interface.representation == fitted) cause.name += ", fitted";
+  if (interface.representation == gradual) cause.name += range_of(interface) + ", over several cells";
   if (interface.representation == on_faces)
     cause.name += beside_face ? ", " + shown(std::abs(interface.true_depth_m - interface.depth_m), 2) +
                                     " m beside the face that stands for it"
@@ -208,6 +215,7 @@ struct ErrorSources::Shot {
     double stable_time_step_s;
     bool slips, in_3d, x_is_known;
   };
+  std::vector<FollowedReceiver> followed;
   LocalStack stack;
   StackResponse response;
   double nominal_hz, highest_hz;
@@ -231,16 +239,15 @@ struct ErrorSources::Shot {
       : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
     std::vector<Point<2>> receivers;
     const auto all = scene.survey.receivers_of(shot + 1);
-    const std::size_t stride =
-        std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
-    for (std::size_t n = stride / 2; n < all.size() && receivers.size() < energies.size(); n += stride)
-      receivers.push_back(all[n].point_m);
+    for (const auto& receiver : followed) receivers.push_back(all[receiver.index].point_m);
     add_edges(scene, scene.survey.sources[shot], receivers);
   }
   /// Of some receivers of a shot in 3-D.
   Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
       : Shot(plane.scene, 0, false, Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
-    add_edges(scene, scene.survey.sources[shot], plane.receivers_m);
+    std::vector<Point<3>> receivers;
+    for (const auto& receiver : followed) receivers.push_back(plane.receivers_m[receiver.index]);
+    add_edges(scene, scene.survey.sources[shot], receivers);
   }
 
   struct Dispersion {
@@ -282,7 +289,8 @@ struct ErrorSources::Shot {
 
  private:
   Shot(const Scene<2>& scene, std::size_t shot, bool finer, const Whole& whole)
-      : stack(stack_of(scene, shot, whole)),
+      : followed(followed_receivers(scene, shot, receivers_followed)),
+        stack(stack_of(scene, shot, whole, followed)),
         response(stack.places, scene.survey.sources[shot].wavelet,
                  scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
         nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
@@ -293,14 +301,16 @@ struct ErrorSources::Shot {
         slips(whole.slips) {
     for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
       const auto& at = stack.places.receivers[r];
-      weights.push_back(whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1);
+      weights.push_back(followed[r].count *
+                        (whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1));
       energies.push_back(energy_of(response.motion(r), r));
       energy += energies.back();
     }
     for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
     if (scene.attenuates()) fit_of_quality = quality_error(*scene.attenuation);
   }
-  static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole);
+  static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
+                             const std::vector<FollowedReceiver>& followed);
   /// Of a spectrum at a receiver.
   double energy_of(const MotionSpectrum& spectrum, std::size_t receiver) const {
     return weights[receiver] * response.energy(spectrum);
@@ -354,8 +364,9 @@ void ErrorSources::Shot::add_edges(const Scene<D>& scene, const Source<D>& sourc
     }
 }
 
-LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole) {
-  auto stack = local_stack(scene, shot, receivers_followed);
+LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
+                                        const std::vector<FollowedReceiver>& followed) {
+  auto stack = local_stack(scene, shot, followed);
   auto& places = stack.places;
   places.point_source = whole.in_3d;
   for (auto& interface : stack.interfaces) {
@@ -452,6 +463,7 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const auto& interface = stack.interfaces[face];
   const auto& places = stack.places;
   const auto& below = places.layers[places.free_surface ? face : face + 1];
+  const auto& above = places.layers[places.free_surface && face > 0 ? face - 1 : face];
   if (interface.kind == Kind::inner || (interface.kind == Kind::surface && !(below.vs > 0))) return 0;
   const double wavelength = 0.93 * slowest_beside(places, face) / nominal_hz;
   const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
@@ -475,12 +487,16 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   if (stairs && !floor)
     rate = std::max(
         rate, bound_to_surface_stairs * coarser * std::min(1., interface.steepest_deg / steep_stairs_deg));
+  // The slower they are the less far they reach into the fluid.
+  const double in_fluid =
+      floor ? std::max(bound_decay, std::sqrt(std::max(0., 1 - std::pow(wavelength * nominal_hz / above.vp, 2)))) : bound_decay;
+  const auto decay = [&](double above_m) { return above_m > 0 ? in_fluid * above_m : -bound_decay * above_m; };
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
-    const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
     const double error = rate * std::abs(at.a_m) / wavelength *
-                         std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
+                         std::exp(-2 * std::numbers::pi / wavelength *
+                                  (decay(places.faces_m[face]) + decay(places.faces_m[face] - at.b_m)));
     sum += std::pow(saturated(error * error), 2) * energies[r];
   }
   return sum;
@@ -542,10 +558,21 @@ ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells)
         const double speed = kind == WaveKind::p ? rock.vp : rock.vs;
         if (!(speed > 0)) continue;
         const UniformScheme scheme{cells.order, rock.vp * per_cell, rock.vs * per_cell, cells.time_order};
-        for (std::size_t bin = 0; bin < of.size(); ++bin) {
+        const auto at = [&](std::size_t bin) {
           const double per_wave = 2 * std::numbers::pi * speed / response.omega(bin).real() / cells.spacing_m;
           // Waves shorter than two cells are not on the grid at all: they are lost.
-          of[bin] = per_wave <= 2.05 ? Complex(-1, 0) : std::conj(step_error(scheme, kind, per_wave, angle));
+          return per_wave <= 2.05 ? Complex(-1, 0) : std::conj(step_error(scheme, kind, per_wave, angle));
+        };
+        // From one of some frequencies to the next on a straight line.
+        const auto apart = 1 + of.size() / frequencies;
+        for (std::size_t bin = 0; bin < of.size(); ++bin) {
+          const auto from = bin % apart;
+          if (from == 0) of[bin] = at(bin);
+          const auto next = std::min(bin - from + apart, of.size() - 1);
+          if (from == 0 && next > bin) of[next] = at(next);
+          if (from > 0 && bin < next)
+            of[bin] = of[bin - from] +
+                      double(from) / double(next - (bin - from)) * (of[next] - of[bin - from]);
         }
       }
   }
@@ -576,7 +603,8 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
           // By which share the wave is slower: the imaginary part is loss. No wave is more wrong than absent.
           const auto whole = count * all[n][m][bin];
           const double size = std::abs(whole);
-          const auto limited = size < 1e-6 ? whole : whole * (std::abs(std::exp(whole) - 1.) / size);
+          const auto limited =
+              whole * (size < 0.1 ? 1 + whole.real() / 2 : std::abs(std::exp(whole) - 1.) / size);
           const auto slower = limited / (count * dt) * Complex(0, 1) / response.omega(bin).real();
           for (const auto of : {m % 2, std::size_t(2)})
             for (const std::size_t c : {0, 1}) wrong[of][bin][c] -= slower * change[bin][c];

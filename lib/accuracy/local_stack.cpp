@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -326,6 +327,21 @@ std::vector<double> tops_in_history(const std::string& history) {
   return tops;
 }
 
+/// Whether the last sw-import in a model's history interpolated what it read (--resample to smaller cells).
+bool is_interpolated(const std::string& history) {
+  const auto command = history.rfind("sw-import");
+  if (command == std::string::npos) return false;
+  const auto number = [&](const std::string& option) {
+    const auto at = history.find(option, command);
+    if (at == std::string::npos) return 0.;
+    std::istringstream text(history.substr(at + option.size() + 1));
+    double value = 0;
+    return text >> value ? value : 0.;
+  };
+  const double resampled_m = number("--resample");
+  return resampled_m > 0 && resampled_m < number("--step");
+}
+
 /// What is followed round one source.
 class Tracker {
  public:
@@ -335,7 +351,8 @@ class Tracker {
         source_(scene.survey.sources[shot]),
         receivers_(scene.survey.receivers_of(shot + 1)),
         column_(columns_.at(source_.position_m[0])),
-        tops_(tops_in_history(scene.model.history)) {
+        tops_(tops_in_history(scene.model.history)),
+        interpolated_(is_interpolated(scene.model.history)) {
     low_ = high_ = column_;
     for (const auto& receiver : receivers_) {
       low_ = std::min(low_, columns_.at(receiver.point_m[0]));
@@ -349,10 +366,8 @@ class Tracker {
     follow_all();
     flatten();
   }
-  void add_receivers(std::size_t most) {
-    const auto& all = receivers_;
-    const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
-    for (std::size_t n = stride / 2; n < all.size(); n += stride) add_receiver(all[n].point_m);
+  void add_receivers(const std::vector<FollowedReceiver>& followed) {
+    for (const auto& receiver : followed) add_receiver(receivers_[receiver.index].point_m);
   }
   LocalStack take() { return std::move(stack_); }
 
@@ -393,6 +408,8 @@ class Tracker {
       for (auto& at : line.rows) at += below;
     }
     describe(columns_, line, interface, fitted());
+    if (interface.representation == Representation::averaged && interpolated_)
+      interface.representation = Representation::gradual;
     interface.depth_m = columns_.depth(column_, line.row(column_));
     interface.true_depth_m = interface.depth_m;
     if (interface.representation == Representation::on_faces && interface.kind != LocalInterface::Kind::inner)
@@ -458,22 +475,30 @@ class Tracker {
     const double dx = at[0] - source_.position_m[0], dz = at[1] - source_.position_m[1];
     LayeredPlaces::Receiver receiver{dx * cosine_ + dz * sine_, dz * cosine_ - dx * sine_, 0};
     const auto i = columns_.at(at[0]);
-    // Above or below each interface as in the model, and as far from the nearest.
-    double nearest = std::numeric_limits<double>::infinity();
+    // Above or below each interface as in the model, and as far from the nearer of those round its layer.
+    std::vector<double> below(lines_.size());
     for (std::size_t n = 0; n < lines_.size(); ++n) {
       const auto& interface = stack_.interfaces[n];
       const double beyond = at[0] - std::clamp(at[0], interface.from_x_m, interface.to_x_m);
       const double own = std::tan(interface.dip_deg * std::numbers::pi / 180);
       const double column_off = at[0] - columns_.x(i);
       const double depth = columns_.depth(i, lines_[n].row(i)) + (beyond != 0 ? beyond : column_off) * own;
-      const double below = (at[1] - depth) * cosine_;
+      below[n] = (at[1] - depth) * cosine_;
       const bool surface = interface.kind == LocalInterface::Kind::surface;
-      if (!surface && below >= 0) receiver.layer = n + (places.free_surface ? 0 : 1);
-      if (std::abs(below) < std::abs(nearest)) {
-        nearest = below;
-        receiver.b_m = places.faces_m[n] + (surface ? std::max(below, 0.) : below);
-      }
+      if (surface) below[n] = std::max(below[n], 0.);
+      if (!surface && below[n] >= 0) receiver.layer = n + (places.free_surface ? 0 : 1);
     }
+    const auto upper = std::ptrdiff_t(receiver.layer) - (places.free_surface ? 0 : 1);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto n = std::max<std::ptrdiff_t>(upper, 0); n <= upper + 1 && n < std::ptrdiff_t(below.size()); ++n)
+      if (const double own = below[std::size_t(n)]; std::abs(own) < std::abs(nearest)) {
+        nearest = own;
+        receiver.b_m = places.faces_m[std::size_t(n)] + own;
+      }
+    // Interfaces that cross elsewhere are in order here.
+    if (upper >= 0) receiver.b_m = std::max(receiver.b_m, places.faces_m[std::size_t(upper)]);
+    if (upper + 1 < std::ptrdiff_t(below.size()))
+      receiver.b_m = std::min(receiver.b_m, places.faces_m[std::size_t(upper + 1)]);
     places.receivers.push_back(receiver);
   }
 
@@ -483,6 +508,7 @@ class Tracker {
   std::vector<Receiver<2>> receivers_;
   std::int64_t column_, low_ = 0, high_ = 0;
   std::vector<double> tops_;
+  bool interpolated_;
   std::vector<Segment> segments_;
   std::vector<Followed> lines_;
   LocalStack stack_;
@@ -499,7 +525,27 @@ std::string LocalInterface::name() const {
          shown(depth_m, 4) + " m";
 }
 
-LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers) {
+std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most) {
+  const auto all = scene.survey.receivers_of(shot + 1);
+  const auto& from = scene.survey.sources[shot].position_m;
+  std::vector<std::pair<double, std::size_t>> by_way;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    by_way.emplace_back(std::hypot(all[n].point_m[0] - from[0], all[n].point_m[1] - from[1]), n);
+  std::sort(by_way.begin(), by_way.end());
+  std::vector<FollowedReceiver> followed;
+  const std::size_t largest = (all.size() + most - 1) / most;
+  for (std::size_t first = 0, count = 0; first < all.size(); first += count) {
+    count = std::clamp<std::size_t>((first + 1) / 2, 1, largest);
+    count = std::min(count, all.size() - first);
+    followed.push_back({by_way[first + count / 2].second, double(count)});
+  }
+  std::sort(followed.begin(), followed.end(),
+            [](const FollowedReceiver& a, const FollowedReceiver& b) { return a.index < b.index; });
+  return followed;
+}
+
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot,
+                       const std::vector<FollowedReceiver>& receivers) {
   Tracker tracker(scene, shot);
   tracker.add_receivers(receivers);
   return tracker.take();

@@ -15,6 +15,7 @@ enum class Representation {
   on_faces,  // of the grid, level
   fitted,    // rows of cells follow it
   averaged,  // cells that it cuts have the mean of both rocks
+  gradual,   // rock changes over several cells, as the model's history says that it was interpolated
   staircase  // of whole cells: fluid, solid or void by their centre
 };
 
@@ -52,7 +53,17 @@ struct LocalStack {
   std::vector<std::array<double, 2>> losses;
 };
 
-/// Of a shot with a point source; at most `receivers` of its receivers, evenly chosen.
-LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers);
+/// One of the receivers of a shot and how many of them it stands for.
+struct FollowedReceiver {
+  std::size_t index;
+  double count;
+};
+/// Each of those nearest to the source, which may record most, and ever fewer of those farther away: some
+/// 10 + `most` in all, in their order.
+std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most);
+
+/// Of a shot with a point source and those receivers.
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot,
+                       const std::vector<FollowedReceiver>& receivers);
 
 }  // namespace slipwave
