@@ -55,6 +55,8 @@ constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
 constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
+/// What receivers in corners of stairs record too much, as part of what they should.
+constexpr double too_much_in_corners = 4;
 /// Stairs that count as such, in rows.
 constexpr double few_stairs = 1.5;
 
@@ -110,17 +112,25 @@ std::string range_of(const LocalInterface& interface) {
   return " between x=" + shown(interface.from_x_m, 4) + " and " + shown(interface.to_x_m, 4);
 }
 
+/// How an interface is put at its true place.
+std::string fit_of(const LocalInterface& interface, Maker maker) {
+  const bool inner = interface.kind == Kind::inner, floor = interface.kind == Kind::fluid_solid;
+  if (maker == Maker::sw_marmousi)
+    return inner ? "make it in smaller cells (sw-marmousi --step)" : "fit it (sw-marmousi --fit floor)";
+  if (maker == Maker::sw_import)
+    return inner ? ""
+                 : "fit it (sw-import " + std::string(floor ? "--floor found" : "--surface FILE") + ")";
+  return "fit it (sw-layers --fit " + std::string(inner ? "all" : floor ? "floor" : "surface") + ")";
+}
+
 /// Name and remedy of the error of an interface.
-ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool beside_face) {
+ErrorCause cause_of(const LocalInterface& interface, Maker maker, bool finer_geometry, bool beside_face) {
   ErrorCause cause;
-  const std::string fit = interface.kind == Kind::surface       ? "surface"
-                          : interface.kind == Kind::fluid_solid ? "floor"
-                                                                : "all";
   const bool represented = interface.representation == on_faces || interface.representation == fitted ||
                            interface.representation == gradual;
   const bool known = represented && !beside_face;
   cause.curable = known || finer_geometry;
-  if (!known) cause.remedy = "fit it (sw-layers --fit " + fit + ")";
+  if (!known) cause.remedy = fit_of(interface, maker);
   cause.name = interface.name();
   if (interface.representation == staircase)
     cause.name +=
@@ -228,6 +238,11 @@ struct ErrorSources::Shot {
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
+  struct Corners {
+    std::size_t first = 0, count = 0;  // number of the first receiver, from 1
+    double share = 0;                  // of all receivers
+    std::string place;
+  } corners;
   struct Edge {
     std::string name;
     double zone_cells;
@@ -240,6 +255,11 @@ struct ErrorSources::Shot {
     std::vector<Point<2>> receivers;
     const auto all = scene.survey.receivers_of(shot + 1);
     for (const auto& receiver : followed) receivers.push_back(all[receiver.index].point_m);
+    if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
+      const auto& at = all[found[0]].point_m;
+      corners = {found[0] + 1, found.size(), double(found.size()) / double(all.size()),
+                 "x=" + shown(at[0], 5) + " z=" + shown(at[1], 5)};
+    }
     add_edges(scene, scene.survey.sources[shot], receivers);
   }
   /// Of some receivers of a shot in 3-D.
@@ -666,6 +686,16 @@ void ErrorSources::note_left_out(double duration_s) {
       not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
     cut = cut || shot->response.seconds() < 0.999 * duration_s;
   }
+  for (const auto& shot : shots_) {
+    const auto& corners = shot->corners;
+    if (corners.count == 0) continue;
+    const auto others = corners.count > 1 ? " and " + std::to_string(corners.count - 1) + " others" : "";
+    not_covered_.push_back("how wrong receiver " + std::to_string(corners.first) + " at " + corners.place + others +
+                           (corners.count > 1 ? " are" : " is") +
+                           ", in a corner of a staircase where motion can be several times too large: " +
+                           fit_of({.kind = Kind::fluid_solid}, shot->stack.maker));
+    break;
+  }
   if (left_out > 0)
     not_covered_.push_back(std::to_string(left_out) + " weak interfaces or parts of gradients");
   if (curved) not_covered_.emplace_back("focusing by curved interfaces");
@@ -730,7 +760,7 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
     causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add(cause_of(shot->stack.interfaces[face], shot->finer_geometry, shot->offset_m(face, cells) > 0),
+      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry, shot->offset_m(face, cells) > 0),
           shot->face_error(face, cells));
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
       add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
@@ -742,6 +772,9 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
         shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
+    if (shot->corners.count > 0)
+      add({"receivers in corners of a staircase", fit_of({.kind = Kind::fluid_solid}, shot->stack.maker), 0, false},
+          std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
           shot->edge_error(edge, cells));

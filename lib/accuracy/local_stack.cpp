@@ -327,6 +327,11 @@ std::vector<double> tops_in_history(const std::string& history) {
   return tops;
 }
 
+Maker maker_of(const std::string& history) {
+  if (history.find("sw-marmousi") != std::string::npos) return Maker::sw_marmousi;
+  return history.find("sw-import") != std::string::npos ? Maker::sw_import : Maker::sw_layers;
+}
+
 /// Whether the last sw-import in a model's history interpolated what it read (--resample to smaller cells).
 bool is_interpolated(const std::string& history) {
   const auto command = history.rfind("sw-import");
@@ -353,6 +358,7 @@ class Tracker {
         column_(columns_.at(source_.position_m[0])),
         tops_(tops_in_history(scene.model.history)),
         interpolated_(is_interpolated(scene.model.history)) {
+    stack_.maker = maker_of(scene.model.history);
     low_ = high_ = column_;
     for (const auto& receiver : receivers_) {
       low_ = std::min(low_, columns_.at(receiver.point_m[0]));
@@ -542,6 +548,27 @@ std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::siz
   std::sort(followed.begin(), followed.end(),
             [](const FollowedReceiver& a, const FollowedReceiver& b) { return a.index < b.index; });
   return followed;
+}
+
+std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const auto is_solid = [&](Index<2> at, std::size_t axis, std::int64_t way) {
+    at[axis] += way;
+    if (at[axis] < 0 || at[axis] >= grid.shape[axis]) return false;
+    const auto cell = std::size_t(grid.flat(at));
+    return !medium.is_fluid(cell) && !medium.is_void(cell);
+  };
+  const auto beside = [&](const Index<2>& at, std::size_t axis) {
+    return is_solid(at, axis, -1) || is_solid(at, axis, 1);
+  };
+  std::vector<std::size_t> found;
+  const auto all = scene.survey.receivers_of(shot + 1);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const auto at = cell_of(grid, all[n].point_m);
+    if (medium.is_fluid(std::size_t(grid.flat(at))) && beside(at, 0) && beside(at, 1)) found.push_back(n);
+  }
+  return found;
 }
 
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

@@ -42,12 +42,16 @@ struct LocalInterface {
   std::string name() const;
 };
 
+/// What cells of a model were filled by, as far as its history tells: it knows how to do better.
+enum class Maker { sw_layers, sw_marmousi, sw_import };
+
 /// The layers round a source, flattened: each shot is taken as one over parallel layers with the dip that
 /// the strongest interface has there.
 struct LocalStack {
   std::vector<LocalInterface> interfaces;  // those of places.faces_m
   LayeredPlaces places;
   double dip_deg = 0;
+  Maker maker = Maker::sw_layers;
   std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
   /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
   std::vector<std::array<double, 2>> losses;
@@ -61,6 +65,10 @@ struct FollowedReceiver {
 /// Each of those nearest to the source, which may record most, and ever fewer of those farther away: some
 /// 10 + `most` in all, in their order.
 std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most);
+
+/// Receivers in cells of fluid that have solid beside and above or below them: in corners of a staircase, where
+/// they can move several times too much.
+std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
 
 /// Of a shot with a point source and those receivers.
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,
