@@ -43,6 +43,8 @@ constexpr double near_of_order_3 = 5;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
 constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
+/// What comes back from where an interface becomes level beyond a side, by its slope and how well it reflects.
+constexpr double bent_interface = 0.07;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
@@ -113,8 +115,8 @@ std::string range_of(const LocalInterface& interface) {
 }
 
 /// How an interface is put at its true place.
-std::string fit_of(const LocalInterface& interface, Maker maker) {
-  const bool inner = interface.kind == Kind::inner, floor = interface.kind == Kind::fluid_solid;
+std::string fit_of(Kind kind, Maker maker) {
+  const bool inner = kind == Kind::inner, floor = kind == Kind::fluid_solid;
   if (maker == Maker::sw_marmousi)
     return inner ? "make it in smaller cells (sw-marmousi --step)" : "fit it (sw-marmousi --fit floor)";
   if (maker == Maker::sw_import)
@@ -130,7 +132,7 @@ ErrorCause cause_of(const LocalInterface& interface, Maker maker, bool finer_geo
                            interface.representation == gradual;
   const bool known = represented && !beside_face;
   cause.curable = known || finer_geometry;
-  if (!known) cause.remedy = fit_of(interface, maker);
+  if (!known) cause.remedy = fit_of(interface.kind, maker);
   cause.name = interface.name();
   if (interface.representation == staircase)
     cause.name +=
@@ -238,6 +240,8 @@ struct ErrorSources::Shot {
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
+  Point<2> source_m{};
+  std::vector<Point<2>> receivers_m;  // in 2-D
   struct Corners {
     std::size_t first = 0, count = 0;  // number of the first receiver, from 1
     double share = 0;                  // of all receivers
@@ -252,15 +256,15 @@ struct ErrorSources::Shot {
 
   Shot(const Scene<2>& scene, std::size_t shot, bool finer)
       : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
-    std::vector<Point<2>> receivers;
     const auto all = scene.survey.receivers_of(shot + 1);
-    for (const auto& receiver : followed) receivers.push_back(all[receiver.index].point_m);
+    source_m = scene.survey.sources[shot].position_m;
+    for (const auto& receiver : followed) receivers_m.push_back(all[receiver.index].point_m);
     if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
       const auto& at = all[found[0]].point_m;
       corners = {found[0] + 1, found.size(), double(found.size()) / double(all.size()),
                  "x=" + shown(at[0], 5) + " z=" + shown(at[1], 5)};
     }
-    add_edges(scene, scene.survey.sources[shot], receivers);
+    add_edges(scene, scene.survey.sources[shot], receivers_m);
   }
   /// Of some receivers of a shot in 3-D.
   Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
@@ -282,6 +286,13 @@ struct ErrorSources::Shot {
   /// Of waves bound to an interface, where source and receivers are near it.
   double bound_wave(std::size_t face, const Discretisation& cells) const;
   double bent_sides(const LocalInterface& interface) const;
+  /// Of an interface that bends where it leaves the model.
+  double bent_interfaces(const LocalInterface& interface) const;
+  double weak_interfaces(const Discretisation& cells) const;
+  /// Size of the cells that show where interfaces are, of which `block` a side are alike.
+  double geometry_m(const Discretisation& cells, std::int64_t block) const {
+    return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
+  }
   double shallow_source(const Discretisation& cells) const;
   bool source_is_force() const { return stack.places.force[0] != 0 || stack.places.force[1] != 0; }
   bool explodes_in_rock() const {
@@ -438,9 +449,8 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   const auto& interface = stack.interfaces[face];
   const auto shift = shift_of(interface);
   // Cells that are split keep the geometry that there was.
-  double geometry_m = double(interface.block) * own_spacing_m;
-  if (finer_geometry) geometry_m *= cells.spacing_m / own_spacing_m;
-  const double h = shift.power > 0 ? cells.spacing_m : std::max(geometry_m, cells.spacing_m);
+  const double h =
+      shift.power > 0 ? cells.spacing_m : std::max(geometry_m(cells, interface.block), cells.spacing_m);
   const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
   double by = shift.share * h * std::pow(per_wave, -shift.power);
   // Long stencils end at interfaces with less harm.
@@ -530,6 +540,42 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
   const double all = rock.vs > 0 ? bent_rock + bent_bound * std::exp(-bound_decay * k * depth) : bent_water;
   const double share = all * std::tan(radians(interface.steepest_deg));
   return share * share * energy;
+}
+
+double reflection_of(double contrast) { return (contrast - 1) / (contrast + 1); }
+
+double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) const {
+  const auto& places = stack.places;
+  const double wavelength = places.layers[places.source_layer()].vp / nominal_hz;
+  double sum = 0;
+  for (const auto& side : interface.sides) {
+    const double share = bent_interface * std::min(std::abs(side.slope), 1.) * reflection_of(interface.contrast);
+    const double to_side = std::hypot(side.at_m[0] - source_m[0], side.at_m[1] - source_m[1]);
+    for (std::size_t r = 0; r < receivers_m.size(); ++r) {
+      const auto& at = receivers_m[r];
+      const double back = std::hypot(side.at_m[0] - at[0], side.at_m[1] - at[1]);
+      const double way = std::hypot(at[0] - source_m[0], at[1] - source_m[1]);
+      if (to_side + back > stable_speed * places.duration_s) continue;
+      // As waves spread from the source and from the bend, against the direct ones.
+      sum += share * share * energies[r] * wavelength * std::max(way, wavelength) /
+             (std::max(to_side, wavelength) * std::max(back, wavelength));
+    }
+  }
+  return sum;
+}
+
+/// Each of them counts as moved like those that are followed, by what it reflects.
+double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  const double k = 2 * std::numbers::pi * nominal_hz / slowest_of(places.layers[places.source_layer()]);
+  const double moved = 2 * k * shift_of_means * std::max(geometry_m(cells, 1), cells.spacing_m);
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const double way = std::hypot(places.receivers[r].a_m, places.receivers[r].b_m);
+    for (const auto& [contrast, away_m] : stack.left_out)
+      sum += std::pow(moved * reflection_of(contrast), 2) * way / std::hypot(way, 2 * away_m) * energies[r];
+  }
+  return sum;
 }
 
 double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
@@ -680,7 +726,7 @@ void ErrorSources::note_left_out(double duration_s) {
   std::size_t left_out = 0;
   bool curved = false, cut = false;
   for (const auto& shot : shots_) {
-    left_out = std::max(left_out, shot->stack.left_out);
+    left_out = std::max(left_out, shot->stack.left_out.size());
     for (const auto& interface : shot->stack.interfaces) curved = curved || interface.is_curved();
     if (shot->response.seconds() < 0.999 * duration_s && !cut)
       not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
@@ -693,7 +739,7 @@ void ErrorSources::note_left_out(double duration_s) {
     not_covered_.push_back("how wrong receiver " + std::to_string(corners.first) + " at " + corners.place + others +
                            (corners.count > 1 ? " are" : " is") +
                            ", in a corner of a staircase where motion can be several times too large: " +
-                           fit_of({.kind = Kind::fluid_solid}, shot->stack.maker));
+                           fit_of(Kind::fluid_solid, shot->stack.maker));
     break;
   }
   if (left_out > 0)
@@ -769,11 +815,15 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
       if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
         add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
             shot->bent_sides(interface));
+    for (const auto& interface : shot->stack.interfaces)
+      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away", 0, false},
+          shot->bent_interfaces(interface));
+    add({"weak interfaces", "", 0, shot->finer_geometry}, shot->weak_interfaces(cells));
     add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
         shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
     if (shot->corners.count > 0)
-      add({"receivers in corners of a staircase", fit_of({.kind = Kind::fluid_solid}, shot->stack.maker), 0, false},
+      add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot->stack.maker), 0, false},
           std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},

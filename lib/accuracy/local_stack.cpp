@@ -157,9 +157,9 @@ double contrast_of(const Cell& a, const Cell& b) {
   return a.vs > 0 ? std::max(p, ratio(a.rho * a.vs, b.rho * b.vs)) : p;
 }
 
-/// Leaves out the weakest interfaces; the rocks on both sides are joined. Counts them.
-std::size_t join_weakest(std::vector<Segment>& segments) {
-  std::size_t left_out = 0;
+/// Leaves out the weakest interfaces; the rocks on both sides are joined. Their rows and contrasts.
+std::vector<std::pair<std::int64_t, double>> join_weakest(std::vector<Segment>& segments) {
+  std::vector<std::pair<std::int64_t, double>> left_out;
   for (;;) {
     std::size_t weakest = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -171,9 +171,10 @@ std::size_t join_weakest(std::vector<Segment>& segments) {
       if (strength < least) least = strength, weakest = n;
     }
     if (std::isinf(least) || (segments.size() <= most_layers && least > 0.005)) return left_out;
+    left_out.emplace_back(segments[weakest].last,
+                          contrast_of(segments[weakest].rock, segments[weakest + 1].rock));
     segments[weakest] = joined(segments[weakest], segments[weakest + 1]);
     segments.erase(segments.begin() + std::ptrdiff_t(weakest) + 1);
-    ++left_out;
   }
 }
 
@@ -368,7 +369,8 @@ class Tracker {
     high_ = std::min(high_ + 12, columns_.count() - 1);
     segments_ = segments_of(columns_, column_);
     join_cut_cells(segments_);
-    stack_.left_out = join_weakest(segments_);
+    for (const auto& [row, contrast] : join_weakest(segments_))
+      stack_.left_out.push_back({contrast, std::abs(columns_.face(column_, row) - source_.position_m[1])});
     follow_all();
     flatten();
   }
@@ -422,8 +424,27 @@ class Tracker {
       interface.true_depth_m += offset_of(interface.depth_m);
     if (interface.representation == Representation::averaged && interface.stairs < 1e-3)
       interface.block = cells_cut(line.row(column_));
+    if (interface.kind != LocalInterface::Kind::surface)
+      interface.sides = sides_of(Follower(columns_, upper, lower), double(row));
     stack_.interfaces.push_back(interface);
     lines_.push_back(std::move(line));
+  }
+
+  /// Where what begins at a row of the source's column leaves the model.
+  std::vector<LocalInterface::Side> sides_of(const Follower& follower, double row) const {
+    constexpr std::int64_t window = 16;
+    const auto count = columns_.count();
+    const auto line = follow(follower, column_, row, 0, count - 1);
+    const auto size = std::int64_t(line.rows.size());
+    std::vector<LocalInterface::Side> sides;
+    if (size < window) return sides;
+    const auto add = [&](std::int64_t i, std::size_t first) {
+      const double slope = slope_of(columns_, line, first, first + std::size_t(window));
+      sides.push_back({{columns_.x(i), columns_.depth(i, line.row(i))}, slope});
+    };
+    if (line.first == 0) add(0, 0);
+    if (line.first + size == count) add(count - 1, std::size_t(size - window));
+    return sides;
   }
 
   /// How far from a face the top of a layer lies that the model's history names.

@@ -34,6 +34,13 @@ struct LocalInterface {
   std::int64_t block = 1;
   double from_x_m = 0, to_x_m = 0;  // where it was followed
   bool x_is_known = true;           // that these are places of the model
+  /// Where it leaves the model on the left and on the right, and its slope there: beyond, cells are as at the
+  /// side, so it is level.
+  struct Side {
+    Point<2> at_m;
+    double slope;
+  };
+  std::vector<Side> sides;
   /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
   double true_depth_m = 0;
   double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
@@ -52,7 +59,11 @@ struct LocalStack {
   LayeredPlaces places;
   double dip_deg = 0;
   Maker maker = Maker::sw_layers;
-  std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
+  /// An interface too weak to be among those that are followed.
+  struct LeftOut {
+    double contrast = 1, away_m = 0;  // from the source
+  };
+  std::vector<LeftOut> left_out;
   /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
   std::vector<std::array<double, 2>> losses;
 };
