@@ -26,7 +26,7 @@ constexpr std::size_t frequencies = 40;
 /// What linear terms leave out of dispersion.
 constexpr double dispersion_margin = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
-constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4;
+constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4, shift_of_ramps = 2.3;
 /// At order 7 and above; orders 9 and 11 fall to 5 beside an interface, which is felt by the S waves of a
 /// force and at a free surface.
 constexpr double order_7_on_faces = 0.5, high_order_of_forces = 2, high_order_at_surfaces = 1.5;
@@ -43,7 +43,8 @@ constexpr double near_of_order_3 = 5;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
 constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
-/// What comes back from where an interface becomes level beyond a side, by its slope and how well it reflects.
+/// What comes back from where an interface becomes level beyond a side, by its slope and how well it
+/// reflects.
 constexpr double bent_interface = 0.07;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
@@ -58,7 +59,7 @@ constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
 /// What receivers in corners of stairs record too much, as part of what they should.
-constexpr double too_much_in_corners = 4;
+constexpr double too_much_in_corners = 3;
 /// Stairs that count as such, in rows.
 constexpr double few_stairs = 1.5;
 
@@ -73,11 +74,12 @@ Shift shift_of(const LocalInterface& interface) {
   switch (interface.representation) {
     case on_faces:
     case fitted:
-    case gradual:
       return {interface.kind == Kind::inner     ? shift_on_faces
               : interface.kind == Kind::surface ? shift_of_surface
                                                 : shift_of_floor,
               2};
+    case gradual:
+      return {shift_of_ramps, 2};
     case averaged:
       // Where it is nearly level or bends, its errors differ from place to place and cancel.
       return {interface.stairs > 1 && (interface.steepest_deg < 10 || interface.is_curved())
@@ -120,8 +122,7 @@ std::string fit_of(Kind kind, Maker maker) {
   if (maker == Maker::sw_marmousi)
     return inner ? "make it in smaller cells (sw-marmousi --step)" : "fit it (sw-marmousi --fit floor)";
   if (maker == Maker::sw_import)
-    return inner ? ""
-                 : "fit it (sw-import " + std::string(floor ? "--floor found" : "--surface FILE") + ")";
+    return inner ? "" : "fit it (sw-import " + std::string(floor ? "--floor found" : "--surface FILE") + ")";
   return "fit it (sw-layers --fit " + std::string(inner ? "all" : floor ? "floor" : "surface") + ")";
 }
 
@@ -195,7 +196,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
       return (cells.order >= 7 ? 1.1 : 1.8) * cubed / away * std::sqrt(shorter) *
              (cells.time_order < 4 ? 1 : 1 + 1.5 * std::exp(-6 * std::max(0., 1.9 - courant)));
     case NearField::of_explosion_in_fluid:
-      return cubed * (1.3 / away + 0.026 * per_wave * std::max(0., 0.9 - courant));
+      return cubed * (1.05 / away + 0.021 * per_wave * std::max(0., 0.9 - courant));
     case NearField::of_force:
       return std::hypot(0.15 * cubed * std::min(3., std::pow(shorter, 1.3)),
                         sustained_by_force(cells, away, per_wave, courant));
@@ -240,6 +241,7 @@ struct ErrorSources::Shot {
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
+  double at_source = 0;       // change_at_source()
   Point<2> source_m{};
   std::vector<Point<2>> receivers_m;  // in 2-D
   struct Corners {
@@ -258,6 +260,7 @@ struct ErrorSources::Shot {
       : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
     const auto all = scene.survey.receivers_of(shot + 1);
     source_m = scene.survey.sources[shot].position_m;
+    at_source = change_at_source(scene, shot);
     for (const auto& receiver : followed) receivers_m.push_back(all[receiver.index].point_m);
     if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
       const auto& at = all[found[0]].point_m;
@@ -451,7 +454,12 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   // Cells that are split keep the geometry that there was.
   const double h =
       shift.power > 0 ? cells.spacing_m : std::max(geometry_m(cells, interface.block), cells.spacing_m);
-  const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
+  double slowest = slowest_beside(stack.places, face);
+  // Of what an explosion in fluid sends to a soft floor most stays in the fluid.
+  if (const auto& fluid = stack.places.layers[stack.places.source_layer()];
+      interface.kind == Kind::fluid_solid && !(fluid.vs > 0) && slowest < fluid.vp)
+    slowest = std::sqrt(slowest * fluid.vp);
+  const double per_wave = slowest / nominal_hz / h;
   double by = shift.share * h * std::pow(per_wave, -shift.power);
   // Long stencils end at interfaces with less harm.
   if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
@@ -519,8 +527,12 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
         rate, bound_to_surface_stairs * coarser * std::min(1., interface.steepest_deg / steep_stairs_deg));
   // The slower they are the less far they reach into the fluid.
   const double in_fluid =
-      floor ? std::max(bound_decay, std::sqrt(std::max(0., 1 - std::pow(wavelength * nominal_hz / above.vp, 2)))) : bound_decay;
-  const auto decay = [&](double above_m) { return above_m > 0 ? in_fluid * above_m : -bound_decay * above_m; };
+      floor ? std::max(bound_decay,
+                       std::sqrt(std::max(0., 1 - std::pow(wavelength * nominal_hz / above.vp, 2))))
+            : bound_decay;
+  const auto decay = [&](double above_m) {
+    return above_m > 0 ? in_fluid * above_m : -bound_decay * above_m;
+  };
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
@@ -549,7 +561,8 @@ double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) cons
   const double wavelength = places.layers[places.source_layer()].vp / nominal_hz;
   double sum = 0;
   for (const auto& side : interface.sides) {
-    const double share = bent_interface * std::min(std::abs(side.slope), 1.) * reflection_of(interface.contrast);
+    const double share =
+        bent_interface * std::min(std::abs(side.slope), 1.) * reflection_of(interface.contrast);
     const double to_side = std::hypot(side.at_m[0] - source_m[0], side.at_m[1] - source_m[1]);
     for (std::size_t r = 0; r < receivers_m.size(); ++r) {
       const auto& at = receivers_m[r];
@@ -637,8 +650,8 @@ ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells)
           const auto next = std::min(bin - from + apart, of.size() - 1);
           if (from == 0 && next > bin) of[next] = at(next);
           if (from > 0 && bin < next)
-            of[bin] = of[bin - from] +
-                      double(from) / double(next - (bin - from)) * (of[next] - of[bin - from]);
+            of[bin] =
+                of[bin - from] + double(from) / double(next - (bin - from)) * (of[next] - of[bin - from]);
         }
       }
   }
@@ -736,12 +749,18 @@ void ErrorSources::note_left_out(double duration_s) {
     const auto& corners = shot->corners;
     if (corners.count == 0) continue;
     const auto others = corners.count > 1 ? " and " + std::to_string(corners.count - 1) + " others" : "";
-    not_covered_.push_back("how wrong receiver " + std::to_string(corners.first) + " at " + corners.place + others +
-                           (corners.count > 1 ? " are" : " is") +
+    not_covered_.push_back("how wrong receiver " + std::to_string(corners.first) + " at " + corners.place +
+                           others + (corners.count > 1 ? " are" : " is") +
                            ", in a corner of a staircase where motion can be several times too large: " +
                            fit_of(Kind::fluid_solid, shot->stack.maker));
     break;
   }
+  for (const auto& shot : shots_)
+    if (const auto& other = shot->stack.other_fluid) {
+      not_covered_.push_back("fluid beside solid between x=" + shown(other->at(0), 4) + " and " +
+                             shown(other->at(1), 4) + ", which the source does not lie above");
+      break;
+    }
   if (left_out > 0)
     not_covered_.push_back(std::to_string(left_out) + " weak interfaces or parts of gradients");
   if (curved) not_covered_.emplace_back("focusing by curved interfaces");
@@ -792,7 +811,7 @@ std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, d
 PromisedError ErrorSources::promised(const Discretisation& cells) const {
   PromisedError promise;
   Sum causes;
-  double energy = 0, all = 0, floor = 0, slip = 0;
+  double energy = 0, all = 0, floor = 0, slip = 0, sides = 0;
   const auto add = [&](ErrorCause cause, double squared) {
     all += squared;
     if (!cause.curable) floor += squared;
@@ -806,7 +825,8 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
     causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry, shot->offset_m(face, cells) > 0),
+      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry,
+                   shot->offset_m(face, cells) > 0),
           shot->face_error(face, cells));
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
       add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
@@ -815,13 +835,20 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
       if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
         add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
             shot->bent_sides(interface));
-    for (const auto& interface : shot->stack.interfaces)
-      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away", 0, false},
-          shot->bent_interfaces(interface));
+    for (const auto& interface : shot->stack.interfaces) {
+      const double bent = shot->bent_interfaces(interface);
+      sides += bent;
+      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away",
+           0, false},
+          bent);
+    }
     add({"weak interfaces", "", 0, shot->finer_geometry}, shot->weak_interfaces(cells));
     add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
         shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
+    add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
+         shot->finer_geometry},
+        std::pow(shot->at_source, 2) * shot->energy);
     if (shot->corners.count > 0)
       add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot->stack.maker), 0, false},
           std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
@@ -834,7 +861,7 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
   }
   if (!(energy > 0)) return promise;
   promise.error = saturated(all / energy);
-  promise.without_slip = saturated((all - slip) / energy);
+  promise.without_slip = saturated((all - slip - sides) / energy);
   promise.slip = saturated(slip / energy);
   promise.floor = saturated(floor / energy);
   promise.causes = causes.take(energy);

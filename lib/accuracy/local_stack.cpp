@@ -367,6 +367,7 @@ class Tracker {
     }
     low_ = std::max<std::int64_t>(low_ - 12, 0);
     high_ = std::min(high_ + 12, columns_.count() - 1);
+    find_other_fluid();
     segments_ = segments_of(columns_, column_);
     join_cut_cells(segments_);
     for (const auto& [row, contrast] : join_weakest(segments_))
@@ -381,6 +382,24 @@ class Tracker {
 
  private:
   bool fitted() const { return scene_.model.grid().rows != nullptr; }
+
+  void find_other_fluid() {
+    const auto faces = [&](std::int64_t i) {
+      int count = 0;
+      for (std::int64_t k = 1; k < columns_.rows(); ++k) {
+        const auto upper = columns_.cell(i, k - 1).matter, lower = columns_.cell(i, k).matter;
+        count += upper != lower && upper != Matter::empty && lower != Matter::empty;
+      }
+      return count;
+    };
+    const int own = faces(column_);
+    for (auto i = low_; i <= high_; ++i) {
+      if (faces(i) <= own) continue;
+      auto& found = stack_.other_fluid;
+      if (!found) found = {columns_.x(i), 0};
+      found->at(1) = columns_.x(i);
+    }
+  }
 
   void follow_all() {
     auto& places = stack_.places;
@@ -590,6 +609,24 @@ std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t
     if (medium.is_fluid(std::size_t(grid.flat(at))) && beside(at, 0) && beside(at, 1)) found.push_back(n);
   }
   return found;
+}
+
+double change_at_source(const Scene<2>& scene, std::size_t shot) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const auto at = cell_of(grid, scene.survey.sources[shot].position_m);
+  const auto own = std::size_t(grid.flat(at));
+  const auto strength = [&](Index<2> place, std::size_t axis, std::int64_t way) {
+    place[axis] = std::clamp<std::int64_t>(place[axis] + way, 0, grid.shape[axis] - 1);
+    auto cell = std::size_t(grid.flat(place));
+    // What lies behind a floor or surface is another matter.
+    if (medium.is_fluid(cell) != medium.is_fluid(own) || medium.is_void(cell)) cell = own;
+    return std::log(double(medium.rho[cell]) * std::pow(double(medium.vp[cell]), 3));
+  };
+  double most = 0;
+  for (const std::size_t axis : {0, 1})
+    most = std::max(most, std::abs(strength(at, axis, 1) - strength(at, axis, -1)));
+  return most / 8;
 }
 
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,6 +65,9 @@ struct LocalStack {
     double contrast = 1, away_m = 0;  // from the source
   };
   std::vector<LeftOut> left_out;
+  /// Where, between source and receivers, columns have more faces of fluid and solid than that of the source,
+  /// m.
+  std::optional<std::array<double, 2>> other_fluid;
   /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
   std::vector<std::array<double, 2>> losses;
 };
@@ -77,9 +81,13 @@ struct FollowedReceiver {
 /// 10 + `most` in all, in their order.
 std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most);
 
-/// Receivers in cells of fluid that have solid beside and above or below them: in corners of a staircase, where
-/// they can move several times too much.
+/// Receivers in cells of fluid that have solid beside and above or below them: in corners of a staircase,
+/// where they can move several times too much.
 std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
+
+/// By which part what a source sends out, in proportion to 1/(rho vp^3), changes within a quarter of a cell
+/// of it, the mean over places in a cell.
+double change_at_source(const Scene<2>& scene, std::size_t shot);
 
 /// Of a shot with a point source and those receivers.
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

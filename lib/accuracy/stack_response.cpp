@@ -94,15 +94,16 @@ class PlaneProblem {
   /// Its waves, and the matrix that gives them.
   void solve(SparseRows& rows) {
     solution_.assign(waves_, 0);
-    equations([&](std::size_t row, std::size_t column, const Complex& value) { rows.add(row, column, value); },
-              [&](std::size_t row, const Complex& value) { solution_[row] += value; });
+    equations(
+        [&](std::size_t row, std::size_t column, const Complex& value) { rows.add(row, column, value); },
+        [&](std::size_t row, const Complex& value) { solution_[row] += value; });
     rows.factorise();
     rows.solve(solution_);
   }
   /// The problem of places that differ a little from those of `base` in the layers [first, end), to first
   /// order, by the factors of its matrix.
-  void change(const PlaneProblem& base, const SparseRows& rows, const LayeredPlaces& places, std::size_t first,
-              std::size_t end) {
+  void change(const PlaneProblem& base, const SparseRows& rows, const LayeredPlaces& places,
+              std::size_t first, std::size_t end) {
     places_ = &places;
     layers_ = base.layers_;
     for (auto layer = first; layer < end; ++layer) describe(layer);
@@ -220,14 +221,13 @@ class PlaneProblem {
     std::size_t row = 0;
     const auto term = [&](std::size_t quantity, std::size_t layer, bool lower, Complex factor) {
       const auto& of = layers_[layer];
-      const auto count = (layer + 1 < first_wave_.size() ? first_wave_[layer + 1] : waves_) - first_wave_[layer];
+      const auto count =
+          (layer + 1 < first_wave_.size() ? first_wave_[layer + 1] : waves_) - first_wave_[layer];
       for (std::size_t n = 0; n < count; ++n)
         entry(row, first_wave_[layer] + n, times(factor, of.at[lower][n][quantity]));
       if (layer == source_) right(row, -times(factor, of.direct[lower][quantity]));
     };
-    const auto drag = [&](std::size_t face) {
-      return places_->drag_m.empty() ? 0. : places_->drag_m[face];
-    };
+    const auto drag = [&](std::size_t face) { return places_->drag_m.empty() ? 0. : places_->drag_m[face]; };
     const auto square = omega_ * omega_ * traction_;
     if (places_->free_surface) {
       term(2, 0, false, traction_);
@@ -308,8 +308,7 @@ double fastest_of(const LayeredPlaces& places) {
 /// something else.
 double mirror_of(const LayeredPlaces& places) {
   const bool along = places.force[0] != 0 || places.moment_rate(0, 1) != 0;
-  const bool across =
-      places.force[1] != 0 || places.moment_rate(0, 0) != 0 || places.moment_rate(1, 1) != 0;
+  const bool across = places.force[1] != 0 || places.moment_rate(0, 0) != 0 || places.moment_rate(1, 1) != 0;
   return along && across ? 0 : along ? -1 : 1;
 }
 
@@ -468,7 +467,8 @@ double StackResponse::energy(const MotionSpectrum& spectrum) const {
           real[n] = found[n] * std::cos(std::numbers::pi * part);
           continue;
         }
-        const double value = std::exp(damping * part) * (real[n] - found[n] * std::sin(std::numbers::pi * part));
+        const double value =
+            std::exp(damping * part) * (real[n] - found[n] * std::sin(std::numbers::pi * part));
         sum += value * value;
       }
     }

@@ -48,13 +48,14 @@ using MotionSpectrum = std::vector<std::array<std::complex<double>, 2>>;
 /// traction at all interfaces.
 class StackResponse {
  public:
-  /// `band_hz` is the highest frequency that matters. Where records are longer than affordable, waves are taken
-  /// as longer than they are, and their changes as larger by as much; and what is longer still is cut
+  /// `band_hz` is the highest frequency that matters. Where records are longer than affordable, waves are
+  /// taken as longer than they are, and their changes as larger by as much; and what is longer still is cut
   /// (seconds()).
   StackResponse(const LayeredPlaces& places, const Wavelet& wavelet, double band_hz);
 
   std::size_t bins() const { return omega_.size(); }
-  /// True angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window decays.
+  /// True angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window
+  /// decays.
   std::complex<double> omega(std::size_t bin) const { return omega_[bin]; }
   const MotionSpectrum& motion(std::size_t receiver) const { return motion_[receiver]; }
   /// d motion / d b of an interface, 1/m.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -11,11 +12,11 @@
 #include <vector>
 
 #include "io/input_bytes.hpp"
+#include "lab.hpp"
 #include "model/import.hpp"
 #include "model/layers.hpp"
 #include "model/marmousi.hpp"
 #include "model/resample.hpp"
-#include "lab.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave::solver {
@@ -35,7 +36,8 @@ inline std::optional<Model<2>> marmousi_2(const std::string& folder) {
 
 /// A shot over a part of Marmousi-II, drawn from a seed: in the sea above it, with receivers in the water, or
 /// in its rock, some of it below a free surface. Between the centres of its cells of 20 m the model is
-/// interpolated, or it is one of sw-marmousi; scene(parts) gives the same part in cells of a part of the size.
+/// interpolated, or it is one of sw-marmousi; scene(parts) gives the same part in cells of a part of the
+/// size.
 class MarmousiPart {
  public:
   /// Of the real model, or where there is none of one that is drawn, too; `size` of all lengths and times.
@@ -63,23 +65,21 @@ class MarmousiPart {
   }
   std::string name() const {
     std::ostringstream text;
-    text << seed_ << (real_ ? " real" : " drawn") << (marine_ ? " sea " : " rock ") << wide_m_ << 'x' << deep_m_
-         << " at " << left_m_ << ',' << upper_m_ << " water " << water_m_ << (free_ ? " free" : "")
-         << (force_ ? " force " : " explosion ") << source_[0] << ',' << source_[1] << " receivers at "
-         << receivers_[0][1] << " h " << spacing_m_ << " n " << cells_ << " order " << order_ << " Courant " << cfl_
-         << " T " << time_s_ << " slowest " << slowest_ << " f " << peak_hz();
+    text << (real_ ? "Marmousi-II" : "sw-marmousi") << (marine_ ? ", sea, " : ", rock, ") << wide_m_ << 'x'
+         << deep_m_ << " m at " << left_m_ << ',' << upper_m_ << (free_ ? ", free surface" : "")
+         << (force_ ? ", force" : ", explosion") << ", cells of " << spacing_m_ << " m, n " << cells_
+         << ", order " << order_ << ", Courant " << cfl_;
     return text.str();
   }
   Scene<2> scene(int parts = 1) const {
     Scene<2> scene;
     scene.model = model(parts);
-    Source<2> source{{source_[0] + (real_ ? 0 : 0), source_[1]},
-                     parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"),
-                     parse_wavelet("ricker:" + std::to_string(peak_hz())), 1e6};
-    scene.survey.sources = {source};
+    scene.survey.sources = {{{left_m_ + source_[0], source_[1]},
+                             parse_mechanism<2>(force_ ? "force:0.5,1" : "explosion"),
+                             parse_wavelet("ricker:" + std::to_string(peak_hz())),
+                             1e6}};
     scene.survey.receivers_m = receivers_;
     for (auto& at : scene.survey.receivers_m) at[0] += left_m_;
-    scene.survey.sources[0].position_m[0] += left_m_;
     scene.edges = edges_all(EdgeLaw::absorbing);
     if (free_) scene.edges[1][0] = EdgeLaw::free;
     scene.recording = {{Component::vx, Component::vz}, time_s_, 0.002};
@@ -120,8 +120,8 @@ class MarmousiPart {
   std::mt19937_64 engine_;
   std::optional<Model<2>> real_;
   std::uint64_t seed_;
-  double wide_m_ = 0, deep_m_ = 0, water_m_ = 0, left_m_ = 0, upper_m_ = 0, spacing_m_ = 0, cells_ = 0, cfl_ = 0,
-         time_s_ = 0, slowest_ = 0;
+  double wide_m_ = 0, deep_m_ = 0, water_m_ = 0, left_m_ = 0, upper_m_ = 0, spacing_m_ = 0, cells_ = 0,
+         cfl_ = 0, time_s_ = 0, slowest_ = 0;
   bool marine_ = false, free_ = false, force_ = false;
   int order_ = 5;
   Point<2> source_{};
