@@ -59,7 +59,7 @@ constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
 /// What receivers in corners of stairs record too much, as part of what they should.
-constexpr double too_much_in_corners = 3;
+constexpr double too_much_in_corners = 2.8;
 /// Stairs that count as such, in rows.
 constexpr double few_stairs = 1.5;
 

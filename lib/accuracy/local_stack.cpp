@@ -626,7 +626,7 @@ double change_at_source(const Scene<2>& scene, std::size_t shot) {
   double most = 0;
   for (const std::size_t axis : {0, 1})
     most = std::max(most, std::abs(strength(at, axis, 1) - strength(at, axis, -1)));
-  return most / 8;
+  return most / 6;
 }
 
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

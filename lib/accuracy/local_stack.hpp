@@ -85,8 +85,8 @@ std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::siz
 /// where they can move several times too much.
 std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
 
-/// By which part what a source sends out, in proportion to 1/(rho vp^3), changes within a quarter of a cell
-/// of it, the mean over places in a cell.
+/// By which part what a source sends out, in proportion to 1/(rho vp^3), is uncertain where rock changes from
+/// cell to cell: a sixth of the change between the neighbours of its cell.
 double change_at_source(const Scene<2>& scene, std::size_t shot);
 
 /// Of a shot with a point source and those receivers.
