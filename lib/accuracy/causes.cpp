@@ -19,12 +19,14 @@ using Kind = LocalInterface::Kind;
 constexpr std::size_t shots_followed = 2, receivers_followed = 12;
 /// Directions of travel, over a quarter circle, that dispersion is taken for.
 constexpr std::size_t directions = 6;
+/// Frequencies at which it is computed.
+constexpr std::size_t frequencies = 40;
 
 // Fitted to the errors of 400 drawn scenes of layers against exact traces (docs/accuracy.md).
 /// What linear terms leave out of dispersion.
 constexpr double dispersion_margin = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
-constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4;
+constexpr double shift_on_faces = 4.6, shift_of_surface = 1.9, shift_of_floor = 4, shift_of_ramps = 2.3;
 /// At order 7 and above; orders 9 and 11 fall to 5 beside an interface, which is felt by the S waves of a
 /// force and at a free surface.
 constexpr double order_7_on_faces = 0.5, high_order_of_forces = 2, high_order_at_surfaces = 1.5;
@@ -41,6 +43,9 @@ constexpr double near_of_order_3 = 5;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
 constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
+/// What comes back from where an interface becomes level beyond a side, by its slope and how well it
+/// reflects.
+constexpr double bent_interface = 0.07;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
@@ -53,6 +58,8 @@ constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
 constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
 /// Their decay with the distance from it, over the wave number.
 constexpr double bound_decay = 0.3;
+/// What receivers in corners of stairs record too much, as part of what they should.
+constexpr double too_much_in_corners = 2.8;
 /// Stairs that count as such, in rows.
 constexpr double few_stairs = 1.5;
 
@@ -71,9 +78,13 @@ Shift shift_of(const LocalInterface& interface) {
               : interface.kind == Kind::surface ? shift_of_surface
                                                 : shift_of_floor,
               2};
+    case gradual:
+      return {shift_of_ramps, 2};
     case averaged:
-      // Where it is nearly level, its errors differ from place to place and cancel.
-      return {interface.stairs > 1 && interface.steepest_deg < 10 ? shift_of_gentle_means : shift_of_means,
+      // Where it is nearly level or bends, its errors differ from place to place and cancel.
+      return {interface.stairs > 1 && (interface.steepest_deg < 10 || interface.is_curved())
+                  ? shift_of_gentle_means
+                  : shift_of_means,
               0};
     case staircase:
       return {interface.stairs < few_stairs ? shift_of_few_stairs : shift_of_stairs, 0};
@@ -105,16 +116,24 @@ std::string range_of(const LocalInterface& interface) {
   return " between x=" + shown(interface.from_x_m, 4) + " and " + shown(interface.to_x_m, 4);
 }
 
+/// How an interface is put at its true place.
+std::string fit_of(Kind kind, Maker maker) {
+  const bool inner = kind == Kind::inner, floor = kind == Kind::fluid_solid;
+  if (maker == Maker::sw_marmousi)
+    return inner ? "make it in smaller cells (sw-marmousi --step)" : "fit it (sw-marmousi --fit floor)";
+  if (maker == Maker::sw_import)
+    return inner ? "" : "fit it (sw-import " + std::string(floor ? "--floor found" : "--surface FILE") + ")";
+  return "fit it (sw-layers --fit " + std::string(inner ? "all" : floor ? "floor" : "surface") + ")";
+}
+
 /// Name and remedy of the error of an interface.
-ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool beside_face) {
+ErrorCause cause_of(const LocalInterface& interface, Maker maker, bool finer_geometry, bool beside_face) {
   ErrorCause cause;
-  const std::string fit = interface.kind == Kind::surface       ? "surface"
-                          : interface.kind == Kind::fluid_solid ? "floor"
-                                                                : "all";
-  const bool represented = interface.representation == on_faces || interface.representation == fitted;
+  const bool represented = interface.representation == on_faces || interface.representation == fitted ||
+                           interface.representation == gradual;
   const bool known = represented && !beside_face;
   cause.curable = known || finer_geometry;
-  if (!known) cause.remedy = "fit it (sw-layers --fit " + fit + ")";
+  if (!known) cause.remedy = fit_of(interface.kind, maker);
   cause.name = interface.name();
   if (interface.representation == staircase)
     cause.name +=
@@ -122,6 +141,7 @@ ErrorCause cause_of(const LocalInterface& interface, bool finer_geometry, bool b
   if (interface.representation == averaged)
     cause.name += range_of(interface) + ", means in the cells it cuts";
   if (interface.representation == fitted) cause.name += ", fitted";
+  if (interface.representation == gradual) cause.name += range_of(interface) + ", over several cells";
   if (interface.representation == on_faces)
     cause.name += beside_face ? ", " + shown(std::abs(interface.true_depth_m - interface.depth_m), 2) +
                                     " m beside the face that stands for it"
@@ -176,7 +196,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
       return (cells.order >= 7 ? 1.1 : 1.8) * cubed / away * std::sqrt(shorter) *
              (cells.time_order < 4 ? 1 : 1 + 1.5 * std::exp(-6 * std::max(0., 1.9 - courant)));
     case NearField::of_explosion_in_fluid:
-      return cubed * (1.3 / away + 0.026 * per_wave * std::max(0., 0.9 - courant));
+      return cubed * (1.05 / away + 0.021 * per_wave * std::max(0., 0.9 - courant));
     case NearField::of_force:
       return std::hypot(0.15 * cubed * std::min(3., std::pow(shorter, 1.3)),
                         sustained_by_force(cells, away, per_wave, courant));
@@ -208,6 +228,7 @@ struct ErrorSources::Shot {
     double stable_time_step_s;
     bool slips, in_3d, x_is_known;
   };
+  std::vector<FollowedReceiver> followed;
   LocalStack stack;
   StackResponse response;
   double nominal_hz, highest_hz;
@@ -220,6 +241,14 @@ struct ErrorSources::Shot {
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
+  double at_source = 0;       // change_at_source()
+  Point<2> source_m{};
+  std::vector<Point<2>> receivers_m;  // in 2-D
+  struct Corners {
+    std::size_t first = 0, count = 0;  // number of the first receiver, from 1
+    double share = 0;                  // of all receivers
+    std::string place;
+  } corners;
   struct Edge {
     std::string name;
     double zone_cells;
@@ -229,18 +258,23 @@ struct ErrorSources::Shot {
 
   Shot(const Scene<2>& scene, std::size_t shot, bool finer)
       : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
-    std::vector<Point<2>> receivers;
     const auto all = scene.survey.receivers_of(shot + 1);
-    const std::size_t stride =
-        std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
-    for (std::size_t n = stride / 2; n < all.size() && receivers.size() < energies.size(); n += stride)
-      receivers.push_back(all[n].point_m);
-    add_edges(scene, scene.survey.sources[shot], receivers);
+    source_m = scene.survey.sources[shot].position_m;
+    at_source = change_at_source(scene, shot);
+    for (const auto& receiver : followed) receivers_m.push_back(all[receiver.index].point_m);
+    if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
+      const auto& at = all[found[0]].point_m;
+      corners = {found[0] + 1, found.size(), double(found.size()) / double(all.size()),
+                 "x=" + shown(at[0], 5) + " z=" + shown(at[1], 5)};
+    }
+    add_edges(scene, scene.survey.sources[shot], receivers_m);
   }
   /// Of some receivers of a shot in 3-D.
   Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
       : Shot(plane.scene, 0, false, Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
-    add_edges(scene, scene.survey.sources[shot], plane.receivers_m);
+    std::vector<Point<3>> receivers;
+    for (const auto& receiver : followed) receivers.push_back(plane.receivers_m[receiver.index]);
+    add_edges(scene, scene.survey.sources[shot], receivers);
   }
 
   struct Dispersion {
@@ -255,6 +289,13 @@ struct ErrorSources::Shot {
   /// Of waves bound to an interface, where source and receivers are near it.
   double bound_wave(std::size_t face, const Discretisation& cells) const;
   double bent_sides(const LocalInterface& interface) const;
+  /// Of an interface that bends where it leaves the model.
+  double bent_interfaces(const LocalInterface& interface) const;
+  double weak_interfaces(const Discretisation& cells) const;
+  /// Size of the cells that show where interfaces are, of which `block` a side are alike.
+  double geometry_m(const Discretisation& cells, std::int64_t block) const {
+    return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
+  }
   double shallow_source(const Discretisation& cells) const;
   bool source_is_force() const { return stack.places.force[0] != 0 || stack.places.force[1] != 0; }
   bool explodes_in_rock() const {
@@ -282,7 +323,8 @@ struct ErrorSources::Shot {
 
  private:
   Shot(const Scene<2>& scene, std::size_t shot, bool finer, const Whole& whole)
-      : stack(stack_of(scene, shot, whole)),
+      : followed(followed_receivers(scene, shot, receivers_followed)),
+        stack(stack_of(scene, shot, whole, followed)),
         response(stack.places, scene.survey.sources[shot].wavelet,
                  scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
         nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
@@ -293,14 +335,16 @@ struct ErrorSources::Shot {
         slips(whole.slips) {
     for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
       const auto& at = stack.places.receivers[r];
-      weights.push_back(whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1);
+      weights.push_back(followed[r].count *
+                        (whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1));
       energies.push_back(energy_of(response.motion(r), r));
       energy += energies.back();
     }
     for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
     if (scene.attenuates()) fit_of_quality = quality_error(*scene.attenuation);
   }
-  static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole);
+  static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
+                             const std::vector<FollowedReceiver>& followed);
   /// Of a spectrum at a receiver.
   double energy_of(const MotionSpectrum& spectrum, std::size_t receiver) const {
     return weights[receiver] * response.energy(spectrum);
@@ -354,8 +398,9 @@ void ErrorSources::Shot::add_edges(const Scene<D>& scene, const Source<D>& sourc
     }
 }
 
-LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole) {
-  auto stack = local_stack(scene, shot, receivers_followed);
+LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
+                                        const std::vector<FollowedReceiver>& followed) {
+  auto stack = local_stack(scene, shot, followed);
   auto& places = stack.places;
   places.point_source = whole.in_3d;
   for (auto& interface : stack.interfaces) {
@@ -407,10 +452,14 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   const auto& interface = stack.interfaces[face];
   const auto shift = shift_of(interface);
   // Cells that are split keep the geometry that there was.
-  double geometry_m = double(interface.block) * own_spacing_m;
-  if (finer_geometry) geometry_m *= cells.spacing_m / own_spacing_m;
-  const double h = shift.power > 0 ? cells.spacing_m : std::max(geometry_m, cells.spacing_m);
-  const double per_wave = slowest_beside(stack.places, face) / nominal_hz / h;
+  const double h =
+      shift.power > 0 ? cells.spacing_m : std::max(geometry_m(cells, interface.block), cells.spacing_m);
+  double slowest = slowest_beside(stack.places, face);
+  // Of what an explosion in fluid sends to a soft floor most stays in the fluid.
+  if (const auto& fluid = stack.places.layers[stack.places.source_layer()];
+      interface.kind == Kind::fluid_solid && !(fluid.vs > 0) && slowest < fluid.vp)
+    slowest = std::sqrt(slowest * fluid.vp);
+  const double per_wave = slowest / nominal_hz / h;
   double by = shift.share * h * std::pow(per_wave, -shift.power);
   // Long stencils end at interfaces with less harm.
   if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
@@ -452,6 +501,7 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const auto& interface = stack.interfaces[face];
   const auto& places = stack.places;
   const auto& below = places.layers[places.free_surface ? face : face + 1];
+  const auto& above = places.layers[places.free_surface && face > 0 ? face - 1 : face];
   if (interface.kind == Kind::inner || (interface.kind == Kind::surface && !(below.vs > 0))) return 0;
   const double wavelength = 0.93 * slowest_beside(places, face) / nominal_hz;
   const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
@@ -475,12 +525,20 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   if (stairs && !floor)
     rate = std::max(
         rate, bound_to_surface_stairs * coarser * std::min(1., interface.steepest_deg / steep_stairs_deg));
+  // The slower they are the less far they reach into the fluid.
+  const double in_fluid =
+      floor ? std::max(bound_decay,
+                       std::sqrt(std::max(0., 1 - std::pow(wavelength * nominal_hz / above.vp, 2))))
+            : bound_decay;
+  const auto decay = [&](double above_m) {
+    return above_m > 0 ? in_fluid * above_m : -bound_decay * above_m;
+  };
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
-    const double away = std::abs(places.faces_m[face]) + std::abs(at.b_m - places.faces_m[face]);
     const double error = rate * std::abs(at.a_m) / wavelength *
-                         std::exp(-bound_decay * 2 * std::numbers::pi / wavelength * away);
+                         std::exp(-2 * std::numbers::pi / wavelength *
+                                  (decay(places.faces_m[face]) + decay(places.faces_m[face] - at.b_m)));
     sum += std::pow(saturated(error * error), 2) * energies[r];
   }
   return sum;
@@ -494,6 +552,43 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
   const double all = rock.vs > 0 ? bent_rock + bent_bound * std::exp(-bound_decay * k * depth) : bent_water;
   const double share = all * std::tan(radians(interface.steepest_deg));
   return share * share * energy;
+}
+
+double reflection_of(double contrast) { return (contrast - 1) / (contrast + 1); }
+
+double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) const {
+  const auto& places = stack.places;
+  const double wavelength = places.layers[places.source_layer()].vp / nominal_hz;
+  double sum = 0;
+  for (const auto& side : interface.sides) {
+    const double share =
+        bent_interface * std::min(std::abs(side.slope), 1.) * reflection_of(interface.contrast);
+    const double to_side = std::hypot(side.at_m[0] - source_m[0], side.at_m[1] - source_m[1]);
+    for (std::size_t r = 0; r < receivers_m.size(); ++r) {
+      const auto& at = receivers_m[r];
+      const double back = std::hypot(side.at_m[0] - at[0], side.at_m[1] - at[1]);
+      const double way = std::hypot(at[0] - source_m[0], at[1] - source_m[1]);
+      if (to_side + back > stable_speed * places.duration_s) continue;
+      // As waves spread from the source and from the bend, against the direct ones.
+      sum += share * share * energies[r] * wavelength * std::max(way, wavelength) /
+             (std::max(to_side, wavelength) * std::max(back, wavelength));
+    }
+  }
+  return sum;
+}
+
+/// Each of them counts as moved like those that are followed, by what it reflects.
+double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  const double k = 2 * std::numbers::pi * nominal_hz / slowest_of(places.layers[places.source_layer()]);
+  const double moved = 2 * k * shift_of_means * std::max(geometry_m(cells, 1), cells.spacing_m);
+  double sum = 0;
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    const double way = std::hypot(places.receivers[r].a_m, places.receivers[r].b_m);
+    for (const auto& [contrast, away_m] : stack.left_out)
+      sum += std::pow(moved * reflection_of(contrast), 2) * way / std::hypot(way, 2 * away_m) * energies[r];
+  }
+  return sum;
 }
 
 double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
@@ -542,10 +637,21 @@ ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells)
         const double speed = kind == WaveKind::p ? rock.vp : rock.vs;
         if (!(speed > 0)) continue;
         const UniformScheme scheme{cells.order, rock.vp * per_cell, rock.vs * per_cell, cells.time_order};
-        for (std::size_t bin = 0; bin < of.size(); ++bin) {
+        const auto at = [&](std::size_t bin) {
           const double per_wave = 2 * std::numbers::pi * speed / response.omega(bin).real() / cells.spacing_m;
           // Waves shorter than two cells are not on the grid at all: they are lost.
-          of[bin] = per_wave <= 2.05 ? Complex(-1, 0) : std::conj(step_error(scheme, kind, per_wave, angle));
+          return per_wave <= 2.05 ? Complex(-1, 0) : std::conj(step_error(scheme, kind, per_wave, angle));
+        };
+        // From one of some frequencies to the next on a straight line.
+        const auto apart = 1 + of.size() / frequencies;
+        for (std::size_t bin = 0; bin < of.size(); ++bin) {
+          const auto from = bin % apart;
+          if (from == 0) of[bin] = at(bin);
+          const auto next = std::min(bin - from + apart, of.size() - 1);
+          if (from == 0 && next > bin) of[next] = at(next);
+          if (from > 0 && bin < next)
+            of[bin] =
+                of[bin - from] + double(from) / double(next - (bin - from)) * (of[next] - of[bin - from]);
         }
       }
   }
@@ -576,7 +682,8 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
           // By which share the wave is slower: the imaginary part is loss. No wave is more wrong than absent.
           const auto whole = count * all[n][m][bin];
           const double size = std::abs(whole);
-          const auto limited = size < 1e-6 ? whole : whole * (std::abs(std::exp(whole) - 1.) / size);
+          const auto limited =
+              whole * (size < 0.1 ? 1 + whole.real() / 2 : std::abs(std::exp(whole) - 1.) / size);
           const auto slower = limited / (count * dt) * Complex(0, 1) / response.omega(bin).real();
           for (const auto of : {m % 2, std::size_t(2)})
             for (const std::size_t c : {0, 1}) wrong[of][bin][c] -= slower * change[bin][c];
@@ -632,12 +739,28 @@ void ErrorSources::note_left_out(double duration_s) {
   std::size_t left_out = 0;
   bool curved = false, cut = false;
   for (const auto& shot : shots_) {
-    left_out = std::max(left_out, shot->stack.left_out);
+    left_out = std::max(left_out, shot->stack.left_out.size());
     for (const auto& interface : shot->stack.interfaces) curved = curved || interface.is_curved();
     if (shot->response.seconds() < 0.999 * duration_s && !cut)
       not_covered_.push_back("waves after " + shown(shot->response.seconds(), 2) + " s");
     cut = cut || shot->response.seconds() < 0.999 * duration_s;
   }
+  for (const auto& shot : shots_) {
+    const auto& corners = shot->corners;
+    if (corners.count == 0) continue;
+    const auto others = corners.count > 1 ? " and " + std::to_string(corners.count - 1) + " others" : "";
+    not_covered_.push_back("how wrong receiver " + std::to_string(corners.first) + " at " + corners.place +
+                           others + (corners.count > 1 ? " are" : " is") +
+                           ", in a corner of a staircase where motion can be several times too large: " +
+                           fit_of(Kind::fluid_solid, shot->stack.maker));
+    break;
+  }
+  for (const auto& shot : shots_)
+    if (const auto& other = shot->stack.other_fluid) {
+      not_covered_.push_back("fluid beside solid between x=" + shown(other->at(0), 4) + " and " +
+                             shown(other->at(1), 4) + ", which the source does not lie above");
+      break;
+    }
   if (left_out > 0)
     not_covered_.push_back(std::to_string(left_out) + " weak interfaces or parts of gradients");
   if (curved) not_covered_.emplace_back("focusing by curved interfaces");
@@ -688,7 +811,7 @@ std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, d
 PromisedError ErrorSources::promised(const Discretisation& cells) const {
   PromisedError promise;
   Sum causes;
-  double energy = 0, all = 0, floor = 0, slip = 0;
+  double energy = 0, all = 0, floor = 0, slip = 0, sides = 0;
   const auto add = [&](ErrorCause cause, double squared) {
     all += squared;
     if (!cause.curable) floor += squared;
@@ -702,7 +825,8 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
     causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
     causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add(cause_of(shot->stack.interfaces[face], shot->finer_geometry, shot->offset_m(face, cells) > 0),
+      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry,
+                   shot->offset_m(face, cells) > 0),
           shot->face_error(face, cells));
     for (std::size_t face = 0; face < shot->by_face.size(); ++face)
       add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
@@ -711,9 +835,23 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
       if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
         add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
             shot->bent_sides(interface));
+    for (const auto& interface : shot->stack.interfaces) {
+      const double bent = shot->bent_interfaces(interface);
+      sides += bent;
+      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away",
+           0, false},
+          bent);
+    }
+    add({"weak interfaces", "", 0, shot->finer_geometry}, shot->weak_interfaces(cells));
     add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
         shot->shallow_source(cells));
     add({"near fields of the source", "", 0, true}, shot->near_field(cells));
+    add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
+         shot->finer_geometry},
+        std::pow(shot->at_source, 2) * shot->energy);
+    if (shot->corners.count > 0)
+      add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot->stack.maker), 0, false},
+          std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
     for (const auto& edge : shot->edges)
       add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
           shot->edge_error(edge, cells));
@@ -723,7 +861,7 @@ PromisedError ErrorSources::promised(const Discretisation& cells) const {
   }
   if (!(energy > 0)) return promise;
   promise.error = saturated(all / energy);
-  promise.without_slip = saturated((all - slip) / energy);
+  promise.without_slip = saturated((all - slip - sides) / energy);
   promise.slip = saturated(slip / energy);
   promise.floor = saturated(floor / energy);
   promise.causes = causes.take(energy);

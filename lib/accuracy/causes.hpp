@@ -19,8 +19,10 @@ struct ErrorCause {
 
 /// What is promised of a scene: the error of all traces together, and where it comes from.
 struct PromisedError {
-  double error = 0;                // up to
-  double without_slip = 0;         // of it, all but the response of fractures, which is a first estimate
+  double error = 0;  // up to
+  /// Of it, all that a setting may change: not the response of fractures, which is a first estimate, nor what
+  /// comes back from the sides of the model where interfaces bend.
+  double without_slip = 0;
   double slip = 0;                 // that
   double floor = 0;                // of it, what smaller cells and shorter steps do not cure
   std::vector<ErrorCause> causes;  // largest first

@@ -72,10 +72,15 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const double stable_per_m = stable_time_step_s(scene) / own_m;
   const auto in = [&](const AccuracySetting& setting) {
     const double time_step_s = setting.cfl * stable_per_m * setting.spacing_m;
-    return waves.expected({setting.order, time_step_s, setting.spacing_m, setting.time_order});
+    return Discretisation{setting.order, time_step_s, setting.spacing_m, setting.time_order};
   };
   for (auto& candidate : candidates) {
-    const auto expected = in(candidate.setting);
+    const auto cells = in(candidate.setting);
+    // The promise alone may tell that it is neither better nor good enough.
+    if (const auto promise = best ? waves.promised(cells) : std::nullopt;
+        promise && promise->without_slip >= best->error && margin * promise->without_slip > wanted)
+      continue;
+    const auto expected = waves.expected(cells);
     candidate.error = expected.of_reflections_too();
     // Where most of the error has no cure, what gains a little is not worth more time.
     const bool in_vain = expected.promise && expected.promise->floor > 0.5 * candidate.error;
@@ -85,7 +90,7 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
     break;
   }
   Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, ""};
-  const auto expected = in(best->setting);
+  const auto expected = waves.expected(in(best->setting));
   if (expected.promise) choice.slip_error = expected.promise->slip;
   if (choice.good_enough) return choice;
   if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {

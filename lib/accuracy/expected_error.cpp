@@ -255,8 +255,13 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
   if (anisotropic_)
     error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
   if (monotone_) error.not_covered.emplace_back(flattened_extrema);
-  if (sources_.any()) error.promise = sources_.promised(cells);
+  error.promise = promised(cells);
   return error;
+}
+
+std::optional<PromisedError> WavesOfScene::promised(const Discretisation& cells) const {
+  if (!sources_.any()) return std::nullopt;
+  return sources_.promised(cells);
 }
 
 ExpectedError expected_error(const Scene<2>& scene) {

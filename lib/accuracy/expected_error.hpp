@@ -41,6 +41,8 @@ class WavesOfScene {
   ExpectedError expected() const { return expected(own_); }
   /// For others, of the same model, survey and recording.
   ExpectedError expected(const Discretisation& cells) const;
+  /// Of that the promise alone, which takes less time.
+  std::optional<PromisedError> promised(const Discretisation& cells) const;
 
  private:
   WavesOfScene(const Discretisation& own, const Scene<2>& isotropic, bool finer_geometry);

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <sstream>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -156,9 +157,9 @@ double contrast_of(const Cell& a, const Cell& b) {
   return a.vs > 0 ? std::max(p, ratio(a.rho * a.vs, b.rho * b.vs)) : p;
 }
 
-/// Leaves out the weakest interfaces; the rocks on both sides are joined. Counts them.
-std::size_t join_weakest(std::vector<Segment>& segments) {
-  std::size_t left_out = 0;
+/// Leaves out the weakest interfaces; the rocks on both sides are joined. Their rows and contrasts.
+std::vector<std::pair<std::int64_t, double>> join_weakest(std::vector<Segment>& segments) {
+  std::vector<std::pair<std::int64_t, double>> left_out;
   for (;;) {
     std::size_t weakest = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -170,9 +171,10 @@ std::size_t join_weakest(std::vector<Segment>& segments) {
       if (strength < least) least = strength, weakest = n;
     }
     if (std::isinf(least) || (segments.size() <= most_layers && least > 0.005)) return left_out;
+    left_out.emplace_back(segments[weakest].last,
+                          contrast_of(segments[weakest].rock, segments[weakest + 1].rock));
     segments[weakest] = joined(segments[weakest], segments[weakest + 1]);
     segments.erase(segments.begin() + std::ptrdiff_t(weakest) + 1);
-    ++left_out;
   }
 }
 
@@ -326,6 +328,26 @@ std::vector<double> tops_in_history(const std::string& history) {
   return tops;
 }
 
+Maker maker_of(const std::string& history) {
+  if (history.find("sw-marmousi") != std::string::npos) return Maker::sw_marmousi;
+  return history.find("sw-import") != std::string::npos ? Maker::sw_import : Maker::sw_layers;
+}
+
+/// Whether the last sw-import in a model's history interpolated what it read (--resample to smaller cells).
+bool is_interpolated(const std::string& history) {
+  const auto command = history.rfind("sw-import");
+  if (command == std::string::npos) return false;
+  const auto number = [&](const std::string& option) {
+    const auto at = history.find(option, command);
+    if (at == std::string::npos) return 0.;
+    std::istringstream text(history.substr(at + option.size() + 1));
+    double value = 0;
+    return text >> value ? value : 0.;
+  };
+  const double resampled_m = number("--resample");
+  return resampled_m > 0 && resampled_m < number("--step");
+}
+
 /// What is followed round one source.
 class Tracker {
  public:
@@ -335,7 +357,9 @@ class Tracker {
         source_(scene.survey.sources[shot]),
         receivers_(scene.survey.receivers_of(shot + 1)),
         column_(columns_.at(source_.position_m[0])),
-        tops_(tops_in_history(scene.model.history)) {
+        tops_(tops_in_history(scene.model.history)),
+        interpolated_(is_interpolated(scene.model.history)) {
+    stack_.maker = maker_of(scene.model.history);
     low_ = high_ = column_;
     for (const auto& receiver : receivers_) {
       low_ = std::min(low_, columns_.at(receiver.point_m[0]));
@@ -343,21 +367,39 @@ class Tracker {
     }
     low_ = std::max<std::int64_t>(low_ - 12, 0);
     high_ = std::min(high_ + 12, columns_.count() - 1);
+    find_other_fluid();
     segments_ = segments_of(columns_, column_);
     join_cut_cells(segments_);
-    stack_.left_out = join_weakest(segments_);
+    for (const auto& [row, contrast] : join_weakest(segments_))
+      stack_.left_out.push_back({contrast, std::abs(columns_.face(column_, row) - source_.position_m[1])});
     follow_all();
     flatten();
   }
-  void add_receivers(std::size_t most) {
-    const auto& all = receivers_;
-    const std::size_t stride = std::max<std::size_t>(1, (all.size() + most - 1) / most);
-    for (std::size_t n = stride / 2; n < all.size(); n += stride) add_receiver(all[n].point_m);
+  void add_receivers(const std::vector<FollowedReceiver>& followed) {
+    for (const auto& receiver : followed) add_receiver(receivers_[receiver.index].point_m);
   }
   LocalStack take() { return std::move(stack_); }
 
  private:
   bool fitted() const { return scene_.model.grid().rows != nullptr; }
+
+  void find_other_fluid() {
+    const auto faces = [&](std::int64_t i) {
+      int count = 0;
+      for (std::int64_t k = 1; k < columns_.rows(); ++k) {
+        const auto upper = columns_.cell(i, k - 1).matter, lower = columns_.cell(i, k).matter;
+        count += upper != lower && upper != Matter::empty && lower != Matter::empty;
+      }
+      return count;
+    };
+    const int own = faces(column_);
+    for (auto i = low_; i <= high_; ++i) {
+      if (faces(i) <= own) continue;
+      auto& found = stack_.other_fluid;
+      if (!found) found = {columns_.x(i), 0};
+      found->at(1) = columns_.x(i);
+    }
+  }
 
   void follow_all() {
     auto& places = stack_.places;
@@ -393,14 +435,35 @@ class Tracker {
       for (auto& at : line.rows) at += below;
     }
     describe(columns_, line, interface, fitted());
+    if (interface.representation == Representation::averaged && interpolated_)
+      interface.representation = Representation::gradual;
     interface.depth_m = columns_.depth(column_, line.row(column_));
     interface.true_depth_m = interface.depth_m;
     if (interface.representation == Representation::on_faces && interface.kind != LocalInterface::Kind::inner)
       interface.true_depth_m += offset_of(interface.depth_m);
     if (interface.representation == Representation::averaged && interface.stairs < 1e-3)
       interface.block = cells_cut(line.row(column_));
+    if (interface.kind != LocalInterface::Kind::surface)
+      interface.sides = sides_of(Follower(columns_, upper, lower), double(row));
     stack_.interfaces.push_back(interface);
     lines_.push_back(std::move(line));
+  }
+
+  /// Where what begins at a row of the source's column leaves the model.
+  std::vector<LocalInterface::Side> sides_of(const Follower& follower, double row) const {
+    constexpr std::int64_t window = 16;
+    const auto count = columns_.count();
+    const auto line = follow(follower, column_, row, 0, count - 1);
+    const auto size = std::int64_t(line.rows.size());
+    std::vector<LocalInterface::Side> sides;
+    if (size < window) return sides;
+    const auto add = [&](std::int64_t i, std::size_t first) {
+      const double slope = slope_of(columns_, line, first, first + std::size_t(window));
+      sides.push_back({{columns_.x(i), columns_.depth(i, line.row(i))}, slope});
+    };
+    if (line.first == 0) add(0, 0);
+    if (line.first + size == count) add(count - 1, std::size_t(size - window));
+    return sides;
   }
 
   /// How far from a face the top of a layer lies that the model's history names.
@@ -458,22 +521,30 @@ class Tracker {
     const double dx = at[0] - source_.position_m[0], dz = at[1] - source_.position_m[1];
     LayeredPlaces::Receiver receiver{dx * cosine_ + dz * sine_, dz * cosine_ - dx * sine_, 0};
     const auto i = columns_.at(at[0]);
-    // Above or below each interface as in the model, and as far from the nearest.
-    double nearest = std::numeric_limits<double>::infinity();
+    // Above or below each interface as in the model, and as far from the nearer of those round its layer.
+    std::vector<double> below(lines_.size());
     for (std::size_t n = 0; n < lines_.size(); ++n) {
       const auto& interface = stack_.interfaces[n];
       const double beyond = at[0] - std::clamp(at[0], interface.from_x_m, interface.to_x_m);
       const double own = std::tan(interface.dip_deg * std::numbers::pi / 180);
       const double column_off = at[0] - columns_.x(i);
       const double depth = columns_.depth(i, lines_[n].row(i)) + (beyond != 0 ? beyond : column_off) * own;
-      const double below = (at[1] - depth) * cosine_;
+      below[n] = (at[1] - depth) * cosine_;
       const bool surface = interface.kind == LocalInterface::Kind::surface;
-      if (!surface && below >= 0) receiver.layer = n + (places.free_surface ? 0 : 1);
-      if (std::abs(below) < std::abs(nearest)) {
-        nearest = below;
-        receiver.b_m = places.faces_m[n] + (surface ? std::max(below, 0.) : below);
-      }
+      if (surface) below[n] = std::max(below[n], 0.);
+      if (!surface && below[n] >= 0) receiver.layer = n + (places.free_surface ? 0 : 1);
     }
+    const auto upper = std::ptrdiff_t(receiver.layer) - (places.free_surface ? 0 : 1);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (auto n = std::max<std::ptrdiff_t>(upper, 0); n <= upper + 1 && n < std::ptrdiff_t(below.size()); ++n)
+      if (const double own = below[std::size_t(n)]; std::abs(own) < std::abs(nearest)) {
+        nearest = own;
+        receiver.b_m = places.faces_m[std::size_t(n)] + own;
+      }
+    // Interfaces that cross elsewhere are in order here.
+    if (upper >= 0) receiver.b_m = std::max(receiver.b_m, places.faces_m[std::size_t(upper)]);
+    if (upper + 1 < std::ptrdiff_t(below.size()))
+      receiver.b_m = std::min(receiver.b_m, places.faces_m[std::size_t(upper + 1)]);
     places.receivers.push_back(receiver);
   }
 
@@ -483,6 +554,7 @@ class Tracker {
   std::vector<Receiver<2>> receivers_;
   std::int64_t column_, low_ = 0, high_ = 0;
   std::vector<double> tops_;
+  bool interpolated_;
   std::vector<Segment> segments_;
   std::vector<Followed> lines_;
   LocalStack stack_;
@@ -499,7 +571,66 @@ std::string LocalInterface::name() const {
          shown(depth_m, 4) + " m";
 }
 
-LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers) {
+std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most) {
+  const auto all = scene.survey.receivers_of(shot + 1);
+  const auto& from = scene.survey.sources[shot].position_m;
+  std::vector<std::pair<double, std::size_t>> by_way;
+  for (std::size_t n = 0; n < all.size(); ++n)
+    by_way.emplace_back(std::hypot(all[n].point_m[0] - from[0], all[n].point_m[1] - from[1]), n);
+  std::sort(by_way.begin(), by_way.end());
+  std::vector<FollowedReceiver> followed;
+  const std::size_t largest = (all.size() + most - 1) / most;
+  for (std::size_t first = 0, count = 0; first < all.size(); first += count) {
+    count = std::clamp<std::size_t>((first + 1) / 2, 1, largest);
+    count = std::min(count, all.size() - first);
+    followed.push_back({by_way[first + count / 2].second, double(count)});
+  }
+  std::sort(followed.begin(), followed.end(),
+            [](const FollowedReceiver& a, const FollowedReceiver& b) { return a.index < b.index; });
+  return followed;
+}
+
+std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const auto is_solid = [&](Index<2> at, std::size_t axis, std::int64_t way) {
+    at[axis] += way;
+    if (at[axis] < 0 || at[axis] >= grid.shape[axis]) return false;
+    const auto cell = std::size_t(grid.flat(at));
+    return !medium.is_fluid(cell) && !medium.is_void(cell);
+  };
+  const auto beside = [&](const Index<2>& at, std::size_t axis) {
+    return is_solid(at, axis, -1) || is_solid(at, axis, 1);
+  };
+  std::vector<std::size_t> found;
+  const auto all = scene.survey.receivers_of(shot + 1);
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    const auto at = cell_of(grid, all[n].point_m);
+    if (medium.is_fluid(std::size_t(grid.flat(at))) && beside(at, 0) && beside(at, 1)) found.push_back(n);
+  }
+  return found;
+}
+
+double change_at_source(const Scene<2>& scene, std::size_t shot) {
+  const auto& medium = scene.model.medium;
+  const auto& grid = medium.grid();
+  const auto at = cell_of(grid, scene.survey.sources[shot].position_m);
+  const auto own = std::size_t(grid.flat(at));
+  const auto strength = [&](Index<2> place, std::size_t axis, std::int64_t way) {
+    place[axis] = std::clamp<std::int64_t>(place[axis] + way, 0, grid.shape[axis] - 1);
+    auto cell = std::size_t(grid.flat(place));
+    // What lies behind a floor or surface is another matter.
+    if (medium.is_fluid(cell) != medium.is_fluid(own) || medium.is_void(cell)) cell = own;
+    return std::log(double(medium.rho[cell]) * std::pow(double(medium.vp[cell]), 3));
+  };
+  double most = 0;
+  for (const std::size_t axis : {0, 1})
+    most = std::max(most, std::abs(strength(at, axis, 1) - strength(at, axis, -1)));
+  return most / 6;
+}
+
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot,
+                       const std::vector<FollowedReceiver>& receivers) {
   Tracker tracker(scene, shot);
   tracker.add_receivers(receivers);
   return tracker.take();

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ enum class Representation {
   on_faces,  // of the grid, level
   fitted,    // rows of cells follow it
   averaged,  // cells that it cuts have the mean of both rocks
+  gradual,   // rock changes over several cells, as the model's history says that it was interpolated
   staircase  // of whole cells: fluid, solid or void by their centre
 };
 
@@ -33,6 +35,13 @@ struct LocalInterface {
   std::int64_t block = 1;
   double from_x_m = 0, to_x_m = 0;  // where it was followed
   bool x_is_known = true;           // that these are places of the model
+  /// Where it leaves the model on the left and on the right, and its slope there: beyond, cells are as at the
+  /// side, so it is level.
+  struct Side {
+    Point<2> at_m;
+    double slope;
+  };
+  std::vector<Side> sides;
   /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
   double true_depth_m = 0;
   double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
@@ -41,18 +50,47 @@ struct LocalInterface {
   std::string name() const;
 };
 
+/// What cells of a model were filled by, as far as its history tells: it knows how to do better.
+enum class Maker { sw_layers, sw_marmousi, sw_import };
+
 /// The layers round a source, flattened: each shot is taken as one over parallel layers with the dip that
 /// the strongest interface has there.
 struct LocalStack {
   std::vector<LocalInterface> interfaces;  // those of places.faces_m
   LayeredPlaces places;
   double dip_deg = 0;
-  std::size_t left_out = 0;  // interfaces too weak to be among those that are followed
+  Maker maker = Maker::sw_layers;
+  /// An interface too weak to be among those that are followed.
+  struct LeftOut {
+    double contrast = 1, away_m = 0;  // from the source
+  };
+  std::vector<LeftOut> left_out;
+  /// Where, between source and receivers, columns have more faces of fluid and solid than that of the source,
+  /// m.
+  std::optional<std::array<double, 2>> other_fluid;
   /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
   std::vector<std::array<double, 2>> losses;
 };
 
-/// Of a shot with a point source; at most `receivers` of its receivers, evenly chosen.
-LocalStack local_stack(const Scene<2>& scene, std::size_t shot, std::size_t receivers);
+/// One of the receivers of a shot and how many of them it stands for.
+struct FollowedReceiver {
+  std::size_t index;
+  double count;
+};
+/// Each of those nearest to the source, which may record most, and ever fewer of those farther away: some
+/// 10 + `most` in all, in their order.
+std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::size_t shot, std::size_t most);
+
+/// Receivers in cells of fluid that have solid beside and above or below them: in corners of a staircase,
+/// where they can move several times too much.
+std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
+
+/// By which part what a source sends out, in proportion to 1/(rho vp^3), is uncertain where rock changes from
+/// cell to cell: a sixth of the change between the neighbours of its cell.
+double change_at_source(const Scene<2>& scene, std::size_t shot);
+
+/// Of a shot with a point source and those receivers.
+LocalStack local_stack(const Scene<2>& scene, std::size_t shot,
+                       const std::vector<FollowedReceiver>& receivers);
 
 }  // namespace slipwave

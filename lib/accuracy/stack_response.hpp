@@ -3,10 +3,12 @@
 #include <array>
 #include <complex>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "accuracy/full_space.hpp"
 #include "acquisition/survey.hpp"
+#include "base/fft.hpp"
 
 namespace slipwave {
 
@@ -46,11 +48,14 @@ using MotionSpectrum = std::vector<std::array<std::complex<double>, 2>>;
 /// traction at all interfaces.
 class StackResponse {
  public:
-  /// `band_hz` is the highest frequency that matters. Longer records than affordable are cut (seconds()).
+  /// `band_hz` is the highest frequency that matters. Where records are longer than affordable, waves are
+  /// taken as longer than they are, and their changes as larger by as much; and what is longer still is cut
+  /// (seconds()).
   StackResponse(const LayeredPlaces& places, const Wavelet& wavelet, double band_hz);
 
   std::size_t bins() const { return omega_.size(); }
-  /// Angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window decays.
+  /// True angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window
+  /// decays.
   std::complex<double> omega(std::size_t bin) const { return omega_[bin]; }
   const MotionSpectrum& motion(std::size_t receiver) const { return motion_[receiver]; }
   /// d motion / d b of an interface, 1/m.
@@ -70,13 +75,11 @@ class StackResponse {
   double energy(const MotionSpectrum& spectrum) const;
 
  private:
-  void add_wave_number(const LayeredPlaces& places, std::size_t bin, double k, std::complex<double> scale,
-                       double slowest);
+  class PlaneWaves;
 
-  double seconds_ = 0;
+  double seconds_ = 0, window_s_ = 0, slower_ = 1;
   std::vector<std::complex<double>> omega_;
-  std::vector<std::complex<double>> phases_;  // exp(i omega t), times fastest
-  std::size_t times_ = 0;
+  std::unique_ptr<RealTransform> transform_;
   std::vector<MotionSpectrum> motion_;
   std::vector<std::vector<MotionSpectrum>> by_face_, by_drag_, by_speed_;
 };

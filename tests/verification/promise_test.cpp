@@ -7,8 +7,10 @@
 #include "accuracy/choice.hpp"
 #include "accuracy/expected_error.hpp"
 #include "accuracy/finer_model.hpp"
+#include "marmousi_parts.hpp"
 #include "promise_scenes.hpp"
 #include "solver/simulation.hpp"
+#include "unprepared_scenes.hpp"
 
 // What --plan promises against the errors of drawn scenes of layers, by their exact traces (LayerStack).
 namespace slipwave::solver {
@@ -103,6 +105,151 @@ TEST(Promise, HoldsForHillsAndFloorsThatRoll) {
   }
   EXPECT_GE(10 * score.within, 9 * score.scenes) << score.within << " of " << score.scenes;
   EXPECT_LE(score.too_small, all ? 1 : 0);
+}
+
+TEST(Promise, HoldsForPartsOfMarmousi) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  const char* shared = std::getenv("SLIPWAVE_SHARED");
+  const auto folder = std::string(shared ? shared : SLIPWAVE_SHARED_DEFAULT) + "/data/marmousi2";
+  const auto real = marmousi_2(folder);
+  if (!real) GTEST_LOG_(WARNING) << "no " << folder << ": parts of models of sw-marmousi only";
+  Score score;
+  const auto add = [&](const MarmousiPart& part) {
+    const auto exact = traces_of(part.scene(3));
+    score.add(part.name(), expected_error(part.scene()).promise->error,
+              relative_error(traces_of(part.scene()), exact));
+  };
+  // The short form takes one of each, and small.
+  for (std::uint64_t n = 1; n <= (all ? 18 : 1); ++n) {
+    if (real) add(MarmousiPart(n, real, all ? 1 : 0.5));
+    add(MarmousiPart(n, std::nullopt, all ? 1 : 0.5));
+  }
+  EXPECT_GE(10 * score.within, 9 * score.scenes) << score.within << " of " << score.scenes;
+  EXPECT_EQ(score.too_small, 0);
+}
+
+TEST(Promise, HoldsForScenesItWasNotFittedToOrSaysWhatItLeavesOut) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  Score score;
+  for (const auto& unprepared : unprepared_scenes()) {
+    if (!all && score.scenes > 0) break;
+    const auto expected = expected_error(unprepared.scene());
+    const double found =
+        relative_error(traces_of(unprepared.scene()), traces_of(unprepared.scene(all ? 4 : 2)));
+    const int before = score.within;
+    score.add(unprepared.name, expected.promise->error, found);
+    const auto left_out = std::find_if(
+        expected.not_covered.begin(), expected.not_covered.end(),
+        [](const std::string& sentence) { return sentence.find("fluid beside solid") != std::string::npos; });
+    EXPECT_TRUE(score.within > before || left_out != expected.not_covered.end()) << unprepared.name;
+    EXPECT_EQ(left_out != expected.not_covered.end(),
+              bool(unprepared.name.find("fluid") != std::string::npos));
+  }
+}
+
+/// Water over rock, a floor that dips through both sides, on a fitted grid or in stairs.
+struct DippingFloor {
+  static constexpr double dip_deg = 15, x_m = 350, z_m = 300;
+  Scene<2> scene;
+  std::vector<LayerStack::Receiver> places;
+  DippingFloor(double cells, bool fit) {
+    const double h = 100 / cells;
+    const std::vector<Layer> layers = {{-1e5, 1500, 0, 1000},
+                                       {z_m - x_m * std::tan(radians), 3000, 1700, 2200, dip_deg}};
+    FitChoice choice;
+    choice.surfaces = choice.floors = choice.layers = fit;
+    const auto fitted =
+        fit_layers<2>(Grid<2>{{std::llround(720 / h), std::llround(640 / h)}, h, {0, 0}}, layers, choice);
+    scene.model.medium = layered_medium<2>(fitted.grid, layers, true, fitted.rows);
+    scene.survey.sources = {{place(0, -60), Explosion{}, parse_wavelet("ricker:15"), 1e6}};
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
+    scene.numerics.order = 7;
+  }
+  static constexpr double radians = dip_deg * std::numbers::pi / 180;
+  /// Of a place along the floor and below it.
+  static Point<2> place(double a, double b) {
+    return {x_m + a * std::cos(radians) - b * std::sin(radians),
+            z_m + a * std::sin(radians) + b * std::cos(radians)};
+  }
+  void add(double a, double b) {
+    places.push_back({a, b});
+    scene.survey.receivers_m.push_back(place(a, b));
+  }
+  double error() const {
+    const LayerStack stack{{{1500, 0, 1000}, {3000, 1700, 2200}}, {0}, false, -60, true, {}};
+    const auto motions = stack.ricker(15, 0.001, std::size_t(scene.recording.samples()), places);
+    std::vector<double> exact;
+    for (const bool vertical : {false, true})
+      for (const auto& motion : motions)
+        for (std::size_t n = 0; n < motion[0].size(); ++n)
+          exact.push_back(vertical ? motion[0][n] * std::sin(radians) + motion[1][n] * std::cos(radians)
+                                   : motion[0][n] * std::cos(radians) - motion[1][n] * std::sin(radians));
+    return relative_error(traces_of(scene), exact);
+  }
+};
+
+double cause_named(const PromisedError& promise, const std::string& part) {
+  for (const auto& cause : promise.causes)
+    if (cause.name.find(part) != std::string::npos) return cause.error;
+  return 0;
+}
+
+TEST(Promise, CountsAFittedFloorThatBendsAtTheSidesOfTheModel) {
+  DippingFloor floor(24, true);
+  for (const double b : {-90., 60.})
+    for (const double a : {-200., -120., 90., 150., 220.}) floor.add(a, b);
+  const auto promise = *expected_error(floor.scene).promise;
+  const double found = floor.error();
+  EXPECT_GT(promise.error, found / 2) << found;
+  EXPECT_LT(promise.error, found * 2) << found;
+  // No cell is small enough to cure that, as everything else.
+  const auto fine = *WavesOfScene(floor.scene).promised({7, time_step_s(floor.scene) / 4, 1.05});
+  EXPECT_GT(cause_named(fine, "bend there"), 0.9 * fine.error);
+  EXPECT_NEAR(fine.floor, cause_named(fine, "bend there"), 1e-3 * fine.floor);
+}
+
+TEST(Promise, SaysWhichReceiversLieInCornersOfAStaircase) {
+  DippingFloor floor(16, false);
+  for (double a = 60; a < 250; a += 6) floor.add(a, 0.3 * 6.25);
+  const auto with = expected_error(floor.scene);
+  const double found = floor.error();
+  EXPECT_GT(found, 1);
+  EXPECT_GT(with.promise->error, found / 3);
+  const auto told = [](const ExpectedError& error) {
+    for (const auto& sentence : error.not_covered)
+      if (sentence.find("corner of a staircase") != std::string::npos) return sentence;
+    return std::string();
+  };
+  EXPECT_NE(told(with).find("fit it (sw-layers --fit floor)"), std::string::npos) << told(with);
+  // Two cells below the floor there are no corners.
+  floor.scene.survey.receivers_m.clear();
+  floor.places.clear();
+  for (double a = 60; a < 250; a += 6) floor.add(a, 2 * 6.25);
+  const auto without = expected_error(floor.scene);
+  EXPECT_EQ(told(without), "");
+  EXPECT_LT(without.promise->error, 0.6 * with.promise->error);
+  EXPECT_LT(floor.error(), 2 * without.promise->error);
+}
+
+TEST(Promise, FollowsReceiversNearTheSourceOfLongLines) {
+  // The nearest of 400 receivers, of which most are far away, record nearly all.
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(1500, 40, 5, {1500, 0, 1000});
+  scene.survey.sources = {{{6000, 5}, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
+  for (double x = 0; x < 7500; x += 20)
+    if (x != 6000) scene.survey.receivers_m.push_back({x, 15});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz}, 1, 0.001};
+  const auto all = *expected_error(scene).promise;
+  auto near = scene;
+  auto& kept = near.survey.receivers_m;
+  std::erase_if(kept, [](const Point<2>& at) { return std::abs(at[0] - 6000) > 200; });
+  const auto nearest = *expected_error(near).promise;
+  EXPECT_GT(cause_named(all, "near fields"), cause_named(nearest, "near fields") / 2);
+  EXPECT_LT(cause_named(all, "near fields"), cause_named(nearest, "near fields") * 1.1);
+  EXPECT_GT(cause_named(all, "near fields"), 0.005);
 }
 
 TEST(Promise, OfLessErrorGivesLessError) {
