@@ -15,14 +15,17 @@ constexpr std::array cut_properties = {Property::cut_epsilon, Property::cut_delt
 constexpr double least_anisotropy = 1e-5;
 constexpr double degree = std::numbers::pi / 180;
 
-/// Of a tilted mean, as a rock with its normal upright.
-template <int D>
-Material about_normal(const Medium<D>& medium, std::size_t cell) {
-  return {double(medium.vp[cell]), double(medium.vs[cell]), double(medium.rho[cell]),
-          medium.value(Property::cut_epsilon, cell), medium.value(Property::cut_delta, cell)};
-}
-
 }  // namespace
+
+template <int D>
+Material tilted_mean_of(const Medium<D>& medium, std::size_t cell) {
+  return {double(medium.vp[cell]),
+          double(medium.vs[cell]),
+          double(medium.rho[cell]),
+          medium.value(Property::cut_epsilon, cell),
+          medium.value(Property::cut_delta, cell),
+          medium.value(Property::cut_dip, cell)};
+}
 
 template <int D>
 std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
@@ -39,7 +42,7 @@ std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
 }
 
 PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell) {
-  return tilted(stiffness_of(about_normal(medium, cell)), medium.value(Property::cut_dip, cell) * degree);
+  return plane_stiffness_of(tilted_mean_of(medium, cell));
 }
 
 template <int D>
@@ -63,7 +66,7 @@ void drop_tilted_means(Medium<D>& medium) {
 
 template <int D>
 double fastest_in_tilted_mean(const Medium<D>& medium, std::size_t cell) {
-  return fastest_p_speed_at_most(about_normal(medium, cell));
+  return fastest_p_speed_at_most(tilted_mean_of(medium, cell));
 }
 
 template <int D>
@@ -77,13 +80,15 @@ std::optional<AnisotropyFault> fault_of_tilted_mean(const Medium<D>& medium, std
   if (medium.is_fluid(cell)) return expected_none("in fluid: tilted means are of solids");
   if (is_anisotropic(medium, cell))
     return expected_none("where epsilon or delta is not 0: tilted means are of isotropic rocks");
-  auto fault = fault_of_anisotropy(about_normal(medium, cell));
+  auto fault = fault_of_anisotropy(tilted_mean_of(medium, cell));
   if (fault) fault->of = fault->of == Property::epsilon ? Property::cut_epsilon : Property::cut_delta;
   return fault;
 }
 
 template std::vector<std::size_t> cells_of_tilted_means(const Medium<2>&);
 template std::vector<std::size_t> cells_of_tilted_means(const Medium<3>&);
+template Material tilted_mean_of(const Medium<2>&, std::size_t);
+template Material tilted_mean_of(const Medium<3>&, std::size_t);
 template void add_tilted_means(Medium<2>&);
 template void add_tilted_means(Medium<3>&);
 template void put_tilted_mean(Medium<2>&, std::size_t, const Material&, double);

@@ -28,6 +28,10 @@ std::int64_t tilted_means(const Medium<D>& medium) {
 /// The stiffness of such a cell.
 PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell);
 
+/// What it is about the normal, with the dip as its tilt.
+template <int D>
+Material tilted_mean_of(const Medium<D>& medium, std::size_t cell);
+
 /// Gives a medium the properties of tilted means, none anywhere.
 template <int D>
 void add_tilted_means(Medium<D>& medium);

@@ -17,6 +17,7 @@
 #include "plot/input_file.hpp"
 #include "plot/model_picture.hpp"
 #include "plot/movie.hpp"
+#include "plot/rock_picture.hpp"
 #include "plot/snapshot_file.hpp"
 #include "plot/snapshot_picture.hpp"
 #include "plot/spectrum_picture.hpp"
@@ -81,7 +82,40 @@ Page on_plane(Page page, const std::optional<Slice>& slice) {
   return page;
 }
 
+/// Where the rock attenuates, as sw-shoot would let it for a wavelet of the frequency given.
+std::optional<Attenuation> attenuation_of(const RockAt& rock, const AttenuationChoice& choice) {
+  if (!rock.attenuates()) return {};
+  if (!choice.reference_hz)
+    throw Error("--at: the rock at " + rock.place +
+                    " attenuates, expected --q-frequency F, at which it has the model's speeds, Hz",
+                ErrorKind::usage);
+  const double hz = *choice.reference_hz;
+  if (!(hz > 0) || !std::isfinite(hz))
+    throw Error("--q-frequency: found " + shown(hz) + " Hz, expected it above 0", ErrorKind::usage);
+  const auto band = choice.band_hz.value_or(std::array{hz / 5, 2.5 * hz});
+  return Attenuation{in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms",
+                              [&] { return Mechanisms(choice.mechanisms, band[0], band[1]); }),
+                     hz};
+}
+
+template <int D>
+Picture rock_picture(InputFile& input, const PlotOptions& options, const Page& page) {
+  if (options.at.size() != D)
+    throw Error("--at: found " + std::to_string(options.at.size()) + " numbers, expected " +
+                    (D == 2 ? "X,Z" : "X,Y,Z") + " of a model in " + std::to_string(D) + "-D",
+                ErrorKind::usage);
+  Point<D> point{};
+  std::copy(options.at.begin(), options.at.end(), point.begin());
+  const auto model = read_model<D>(*input.file);
+  const auto rock = in_place("--at", [&] { return rock_at(model, point); });
+  return in_place(input.file->shown_name(),
+                  [&] { return draw_rock(rock, attenuation_of(rock, options.quality), page); });
+}
+
 Picture model_picture(InputFile& input, const PlotOptions& options, const Page& page) {
+  if (!options.at.empty())
+    return dimension_of(*input.file) == 2 ? rock_picture<2>(input, options, page)
+                                          : rock_picture<3>(input, options, page);
   const bool as_sets = options.property == "fractures";
   const std::string property = as_sets ? "vp" : options.property;
   if (dimension_of(*input.file) == 2) {
@@ -210,6 +244,8 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
     if (input.file) history += input.history() + "\n";
   }
   const auto page = with_history(given, history);
+  if (!options.at.empty() && kind != Kind::model)
+    throw Error(shown_input(inputs.front().path) + ": holds no model, expected one for --at");
   if (kind == Kind::gather) return gather_picture(inputs, options, page);
   if (kind == Kind::model) return model_picture(inputs.front(), options, page);
   if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), options, page);

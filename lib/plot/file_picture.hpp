@@ -11,6 +11,7 @@
 #include "plot/look.hpp"
 #include "plot/page.hpp"
 #include "plot/picture.hpp"
+#include "scene/scene.hpp"
 #include "segy/input_options.hpp"
 
 namespace slipwave::plot {
@@ -31,6 +32,8 @@ struct PlotOptions {
   std::optional<double> time_s;
   std::optional<Slice> slice;       // of what is in 3-D
   std::optional<Point<3>> through;  // or three of them
+  std::vector<double> at;           // of a model, the point whose rock is drawn; empty: none
+  AttenuationChoice quality;        // for that
   bool movie = false;
   double frames_per_s = 10;
   // spectra and errors

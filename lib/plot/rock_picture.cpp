@@ -1,0 +1,183 @@
+#include "plot/rock_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <utility>
+
+#include "base/error.hpp"
+#include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
+#include "model/tilted_mean.hpp"
+#include "plot/panel.hpp"
+
+namespace slipwave::plot {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr int points = 361;
+
+/// A value of each of P and S waves; S is left out in fluid.
+using OfWaves = std::function<PlaneSpeeds(double)>;
+
+struct Curves {
+  Axis x, y;
+  std::vector<std::pair<std::string, std::vector<double>>> lines;  // of `points` values each
+  double at(int n) const { return x.low + (x.high - x.low) * n / (points - 1); }
+};
+
+Curves curves_of(const Axis& x, const Axis& y, bool solid, const std::array<std::string, 2>& names,
+                 const OfWaves& of_waves) {
+  Curves curves{x, y, {{names[0], {}}}};
+  if (solid) curves.lines.push_back({names[1], {}});
+  double low = 1e300, high = 0;
+  for (int n = 0; n < points; ++n) {
+    const auto both = of_waves(curves.at(n));
+    for (std::size_t wave = 0; wave < curves.lines.size(); ++wave) {
+      const double value = wave == 0 ? both.p : both.s;
+      curves.lines[wave].second.push_back(value);
+      low = std::min(low, value), high = std::max(high, value);
+    }
+  }
+  const double room = std::max(0.08 * (high - low), 0.01 * high);
+  curves.y.low = std::max(low - room, 0.), curves.y.high = high + room;
+  return curves;
+}
+
+Curves speeds_by_angle(const Material& material) {
+  const auto stiffness = stiffness_of(material);
+  return curves_of({"angle of the front from the vertical, towards +x", "degrees", -90, 90},
+                   {"phase speed", "m/s"}, material.vs > 0, {"P", "S"}, [&](double angle) {
+                     // The axis of beds that deepen towards +x leans towards -x.
+                     return phase_speeds(stiffness, material.rho, (angle + material.tilt) * degree);
+                   });
+}
+
+/// The rock as a medium of one cell, unrelaxed, and its mechanisms.
+class Relaxing {
+ public:
+  Relaxing(const RockAt& rock, const Attenuation& attenuation)
+      : mechanisms_(attenuation.mechanisms), medium_(Grid<2>{{1, 1}, 1, {0, 0}}) {
+    put(medium_, 0, {rock.material.vp, rock.material.vs, rock.material.rho});
+    medium_[Property::qp] = Field<2>(medium_.grid(), float(rock.qp));
+    medium_[Property::qs] = Field<2>(medium_.grid(), float(rock.qs));
+    unrelax(medium_, attenuation);
+    shares_ = StepwiseRelaxation<2>(medium_, mechanisms_, 0).shares(0);
+  }
+  /// Moduli over the density of P and S waves; (m/s)^2.
+  std::array<std::complex<double>, 2> moduli(double hz) const {
+    const double p = double(medium_.vp[0]) * double(medium_.vp[0]),
+                 s = double(medium_.vs[0]) * double(medium_.vs[0]);
+    const auto shear = s * mechanisms_.modulus(shares_.shear, hz);
+    return {(p - s) * mechanisms_.modulus(shares_.bulk, hz) + shear, shear};
+  }
+  PlaneSpeeds quality(double hz) const {
+    const auto [p, s] = moduli(hz);
+    return {p.real() / p.imag(), s.real() / s.imag()};
+  }
+  PlaneSpeeds speeds(double hz) const {
+    const auto [p, s] = moduli(hz);
+    const auto speed = [](std::complex<double> modulus) { return 1 / (1. / std::sqrt(modulus)).real(); };
+    return {speed(p), s == 0. ? 0 : speed(s)};
+  }
+
+ private:
+  Mechanisms mechanisms_;
+  Medium<2> medium_;
+  CellShares shares_;
+};
+
+void add_attenuation(const RockAt& rock, const Attenuation& attenuation, std::vector<Curves>& all) {
+  const Relaxing relaxing(rock, attenuation);
+  const auto& mechanisms = attenuation.mechanisms;
+  Axis frequency{"frequency", "Hz", mechanisms.low_hz() / 2, 2 * mechanisms.high_hz()};
+  const bool s_too = rock.material.vs > 0 && std::isfinite(rock.qs) && rock.qs < double(elastic_quality);
+  all.push_back(curves_of(frequency, {"quality factor", ""}, s_too, {"P", "S"},
+                          [&](double hz) { return relaxing.quality(hz); }));
+  const auto reference = relaxing.speeds(attenuation.reference_hz);
+  all.push_back(
+      curves_of(frequency, {"phase speed, as a share of the model's", ""}, s_too, {"P", "S"}, [&](double hz) {
+        const auto speeds = relaxing.speeds(hz);
+        return PlaneSpeeds{speeds.p / reference.p, reference.s > 0 ? speeds.s / reference.s : 0};
+      }));
+}
+
+std::string words_of(const RockAt& rock) {
+  const auto& of = rock.material;
+  std::string words = rock.place + ": vp " + shown(of.vp, 4) + " m/s, vs " + shown(of.vs, 4) + " m/s";
+  if (of.is_anisotropic()) words += ", epsilon " + shown(of.epsilon, 3) + ", delta " + shown(of.delta, 3);
+  if (of.tilt != 0) words += ", tilt " + shown(of.tilt, 3) + "\u00b0";
+  if (rock.attenuates()) words += ", qp " + shown(rock.qp, 3) + ", qs " + shown(rock.qs, 3);
+  return words;
+}
+
+}  // namespace
+
+bool RockAt::attenuates() const {
+  const auto finite = [](double q) { return q < double(elastic_quality); };
+  return finite(qp) || finite(qs);
+}
+
+template <int D>
+RockAt rock_at(const Model<D>& model, const Point<D>& point_m) {
+  const auto& medium = model.medium;
+  const auto& grid = medium.grid();
+  const auto at = cell_of(grid, point_m);
+  const auto place = grid.row_coordinates(point_m);
+  const auto refuse = [&](const std::string& what) {
+    throw Error("found a point " + what + ", expected one in rock or fluid of " + shown(grid),
+                ErrorKind::usage);
+  };
+  for (std::size_t axis = 0; axis < D; ++axis)
+    if (!(place[axis] >= grid.origin_m[axis] && place[axis] <= grid.end(int(axis))))
+      refuse("outside the model");
+  const auto cell = std::size_t(grid.flat(at));
+  if (medium.is_void(cell)) refuse("in void");
+  RockAt rock{material_of(medium, cell), medium.value(Property::qp, cell), medium.value(Property::qs, cell),
+              place_of(grid, std::int64_t(cell))};
+  if (is_tilted_mean(medium, cell)) rock.material = tilted_mean_of(medium, cell);
+  return rock;
+}
+
+Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page) {
+  std::vector<Curves> all = {speeds_by_angle(rock.material)};
+  if (attenuation && rock.attenuates()) add_attenuation(rock, *attenuation, all);
+  if (page.height_pt == 0) page.height_pt = double(all.size()) * 7.5 * points_per_cm;
+  const double height = page.height_pt / double(all.size());
+  std::vector<PanelSpec> specs;
+  double left = 0, right = 0;
+  const auto room = [&](std::size_t n) { return Rect{0, double(n) * height, page.width_pt, height}; };
+  for (const auto& curves : all) {
+    PanelSpec spec{specs.empty() ? (page.title.empty() ? words_of(rock) : page.title) : "", curves.x,
+                   curves.y};
+    for (std::size_t n = 0; n < curves.lines.size(); ++n)
+      spec.legend.push_back(
+          {.text = curves.lines[n].first, .colour = line_colour(n), .line = Stroke{line_colour(n), 1.2, {}}});
+    const Panel panel(spec, room(specs.size()), page);
+    left = std::max(left, panel.plot().x), right = std::max(right, page.width_pt - panel.plot().right());
+    specs.push_back(std::move(spec));
+  }
+  Canvas canvas(page);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    specs[k].least_left_pt = left, specs[k].least_right_pt = right;
+    const Panel panel(specs[k], room(k), page);
+    panel.draw_grid(canvas);
+    canvas.within(panel.plot(), [&] {
+      for (std::size_t line = 0; line < all[k].lines.size(); ++line) {
+        std::vector<Spot> spots;
+        for (int n = 0; n < points; ++n)
+          spots.push_back({panel.x(all[k].at(n)), panel.y(all[k].lines[line].second[std::size_t(n)])});
+        canvas.polyline(spots, {line_colour(line), 1.2, {}});
+      }
+    });
+    panel.draw(canvas);
+  }
+  return {canvas.finish(), canvas.words()};
+}
+
+template RockAt rock_at(const Model<2>&, const Point<2>&);
+template RockAt rock_at(const Model<3>&, const Point<3>&);
+
+}  // namespace slipwave::plot

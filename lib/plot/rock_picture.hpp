@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "model/attenuation.hpp"
+#include "model/averaging.hpp"
+#include "model/model.hpp"
+#include "plot/page.hpp"
+#include "plot/picture.hpp"
+
+namespace slipwave::plot {
+
+/// What a model is made of at a point.
+struct RockAt {
+  Material material;  // of a cell that an interface cuts its mean about the normal
+  double qp, qs;      // infinite where it does not attenuate
+  std::string place;  // as words tell it
+
+  bool attenuates() const;
+};
+
+/// Of the cell that holds a point of the plane or of space. Throws a usage Error where there is none, or
+/// void.
+template <int D>
+RockAt rock_at(const Model<D>& model, const Point<D>& point_m);
+
+/// Phase speeds of waves by the angle of their fronts from the vertical (theory.md (V3)); with `attenuation`,
+/// where the rock attenuates, the quality factors and the speeds by frequency of the mechanisms that sweeps
+/// would relax ((Q1)-(Q6)).
+Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page);
+
+}  // namespace slipwave::plot
