@@ -63,8 +63,7 @@ void Sweeps<D, Real>::find_plain_lines() {
     plain.resize(std::size_t(state_.layout.lines()));
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       const IndexRange all{0, state_.layout.padded_nx()};
-      plain[std::size_t(line)] = !metric_.bent(line) && state_.uniform_runs_of(line).empty() &&
-                                 !stencils_[axis][wave_p].any(line, all) &&
+      plain[std::size_t(line)] = !metric_.bent(line) && !stencils_[axis][wave_p].any(line, all) &&
                                  !(shear_ && stencils_[axis][wave_s].any(line, all));
     }
   }
@@ -689,8 +688,11 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   // Rows in between become those before and behind others.
   if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
   const auto& plain = plain_lines_[std::size_t(axis)];
-  if (std::all_of(lines.begin(), lines.end(), [&](auto line) { return plain[std::size_t(line)]; }))
-    return true;
+  // The material may have been filled in since these were found.
+  const auto is_plain = [&](auto line) {
+    return plain[std::size_t(line)] && state_.uniform_runs_of(line).empty();
+  };
+  if (std::all_of(lines.begin(), lines.end(), is_plain)) return true;
   const auto number = *lines.begin();
   for (const auto line : lines)
     if (metric_.bent(line)) return false;

@@ -194,8 +194,7 @@ class Sweeps {
   bool shear_, anisotropic_, monotone_ = false;
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   Metric<D, Real> metric_;
-  /// [axis][line]: whether every cell of it can be in a fused row: level, without stencils of its own and
-  /// uniform runs.
+  /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.
