@@ -9,6 +9,17 @@ namespace slipwave::solver {
 
 namespace {
 
+/// The face of a pair between the wave upwards from the row before and that downwards of this one; stores it
+/// and the wave upwards for later rows.
+template <class Real>
+[[gnu::always_inline]] inline void meet(Real from, Real up, Real down, Real z_lo, Real z_hi, Real share,
+                                        Real& up_to, Real& face_v, Real& face_s, Real& v, Real& s) {
+  up_to = up;
+  riemann(from, down, z_lo, z_hi, share, v, s);
+  face_v = v;
+  face_s = s;
+}
+
 /// Reconstruction, Riemann solution and update of a row of a sweep across the rows in one loop: the same bits
 /// as the three loops (Kernels.OfAFusedRowGiveTheSameBits). Outgoing waves downwards and half of the new
 /// values stay in registers, and while one part waits for memory or the division the others continue.
@@ -39,25 +50,13 @@ template <int Order, int Sign, int Shears, bool Coupled, class Real>
 
     Real share_p, share_s, v_p, s_p, v_s, s_s, v_s2, s_s2;
     riemann_shares<Shear>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
-    const Real from_p = up_from[i];
-    up_to[i] = up_p;
-    riemann(from_p, down_p, p_lo, p_hi, share_p, v_p, s_p);
-    faces[i] = v_p;
-    faces[i + f] = s_p;
-    if constexpr (Shear) {
-      const Real from_s = up_from[i + ups];
-      up_to[i + ups] = up_s;
-      riemann(from_s, down_s, s_lo, s_hi, share_s, v_s, s_s);
-      faces[i + 2 * f] = v_s;
-      faces[i + 3 * f] = s_s;
-    }
-    if constexpr (Shear2) {
-      const Real from_s = up_from[i + 2 * ups];
-      up_to[i + 2 * ups] = up_s2;
-      riemann(from_s, down_s2, s_lo, s_hi, share_s, v_s2, s_s2);
-      faces[i + 4 * f] = v_s2;
-      faces[i + 5 * f] = s_s2;
-    }
+    meet(up_from[i], up_p, down_p, p_lo, p_hi, share_p, up_to[i], faces[i], faces[i + f], v_p, s_p);
+    if constexpr (Shear)
+      meet(up_from[i + ups], up_s, down_s, s_lo, s_hi, share_s, up_to[i + ups], faces[i + 2 * f],
+           faces[i + 3 * f], v_s, s_s);
+    if constexpr (Shear2)
+      meet(up_from[i + 2 * ups], up_s2, down_s2, s_lo, s_hi, share_s, up_to[i + 2 * ups], faces[i + 4 * f],
+           faces[i + 5 * f], v_s2, s_s2);
 
     // At order 1, just one row behind, these are the faces behind the cell.
     const Real v_hi = behind == 1 ? v_p : hi[i], n_hi = behind == 1 ? s_p : hi[i + f];
