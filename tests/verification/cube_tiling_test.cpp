@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "cube.hpp"
 #include "parallel/threads.hpp"
 #include "solver/schedule/tiled.hpp"
@@ -37,40 +39,71 @@ std::vector<Real> fields_of(Cube<Real>& cube) {
   return all;
 }
 
-TEST(TilingOfACube, DoesWhatSweepsOneAfterTheOtherDo) {
-  struct Case {
-    const char* name;
-    EdgeLaw edges;
-    int order, time_order;
-  };
-  // More planes than two bands, rows for several stripes.
-  const Index<3> shape = {21, 37, 97};
-  const auto medium = lumps(shape, 5, 3);
-  for (const auto& [name, law, order, time_order] :
-       {Case{"free edges", EdgeLaw::free, 5, 2}, Case{"free edges, order 3", EdgeLaw::free, 3, 2},
-        Case{"free edges, order 4 in time", EdgeLaw::free, 7, 4}, Case{"rigid", EdgeLaw::rigid, 1, 2},
-        Case{"mirrors, order 4 in time", EdgeLaw::mirror, 3, 4}, Case{"mirrors", EdgeLaw::mirror, 7, 2}}) {
-    SCOPED_TRACE(name);
-    const double dt_s = 0.9 * 5 / 5500;
-    const std::int64_t steps = 4;
-    const auto edges = edges_all_3d(law);
-    Cube<float> one(medium, edges, order, dt_s, time_order);
-    one.shake(1);
-    sweep_by_sweep(one, steps, time_order);
-    const auto expected = fields_of(one);
-    for (const auto& [tiling, threads] : {std::pair(Tiling{1, 100, true}, 3), std::pair(Tiling{2, 7}, 1),
-                                          std::pair(Tiling{3, 12, true}, 3), std::pair(Tiling{0, 0}, 1)}) {
-      const ThreadLimit limit(threads);
-      Cube<float> cube(medium, edges, order, dt_s, time_order);
-      cube.shake(1);
-      auto step = sweeps_of(cube, dt_s, time_order, steps);
-      TiledExecutor<3, float> executor(cube.sweeps(), cube.state(), step, tiling);
-      executor.fields_changed();
-      executor.run(0, steps);
-      EXPECT_TRUE(fields_of(cube) == expected)
-          << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
-    }
+/// A setting and some ways to tile it.
+struct TilingCase {
+  const char* name;
+  EdgeLaw edges;
+  int order, time_order;
+};
+using TilingAndThreads = std::pair<Tiling, int>;
+
+/// The fields of some steps in time tiles are those of whole sweeps.
+void expect_same_as_sweeps(const Medium<3>& medium, const TilingCase& of,
+                           const std::vector<TilingAndThreads>& tilings) {
+  SCOPED_TRACE(of.name);
+  const double dt_s = 0.9 * 5 / 5500;
+  const std::int64_t steps = 4;
+  const auto edges = edges_all_3d(of.edges);
+  Cube<float> one(medium, edges, of.order, dt_s, of.time_order);
+  one.shake(1);
+  sweep_by_sweep(one, steps, of.time_order);
+  const auto expected = fields_of(one);
+  for (const auto& [tiling, threads] : tilings) {
+    const ThreadLimit limit(threads);
+    Cube<float> cube(medium, edges, of.order, dt_s, of.time_order);
+    cube.shake(1);
+    auto step = sweeps_of(cube, dt_s, of.time_order, steps);
+    TiledExecutor<3, float> executor(cube.sweeps(), cube.state(), step, tiling);
+    executor.fields_changed();
+    executor.run(0, steps);
+    EXPECT_TRUE(fields_of(cube) == expected)
+        << tiling.steps << " steps, " << tiling.stripe_cells << " rows, " << threads << " threads";
   }
+}
+
+TEST(TilingOfACube, DoesWhatSweepsOneAfterTheOtherDo) {
+  // More planes than two bands, rows for several stripes.
+  const auto medium = lumps({21, 37, 97}, 5, 3);
+  for (const auto& of :
+       {TilingCase{"free edges", EdgeLaw::free, 5, 2}, TilingCase{"free edges, order 3", EdgeLaw::free, 3, 2},
+        TilingCase{"free edges, order 4 in time", EdgeLaw::free, 7, 4},
+        TilingCase{"rigid", EdgeLaw::rigid, 1, 2},
+        TilingCase{"mirrors, order 4 in time", EdgeLaw::mirror, 3, 4},
+        TilingCase{"mirrors", EdgeLaw::mirror, 7, 2}})
+    expect_same_as_sweeps(medium, of, {{{1, 100, true}, 3}, {{2, 7}, 1}, {{3, 12, true}, 3}, {{0, 0}, 1}});
+}
+
+/// A medium of gently different cells: no interfaces and no uniform runs, so that all rows are fused.
+Medium<3> grains(const Index<3>& shape) {
+  auto medium = lumps(shape, 5, 3);
+  std::mt19937 engine(3);
+  std::uniform_real_distribution<float> size(0.93F, 1);
+  for (std::size_t n = 0; n < medium.vp.size(); ++n) {
+    const float here = size(engine);
+    medium.vp[n] = 4500 * here, medium.vs[n] = 2250 * here, medium.rho[n] = 2500 * here;
+  }
+  return medium;
+}
+
+TEST(TilingOfACube, HasNoSeamsBetweenColumnsSweptTogetherAndBlocksOfPlanes) {
+  // More columns than are swept together, fewer rows and planes than stencils and blocks, whole blocks and
+  // none.
+  for (const auto& shape : {Index<3>{130, 9, 35}, Index<3>{128, 4, 3}, Index<3>{257, 1, 2}})
+    for (const auto& medium : {grains(shape), lumps(shape, 5, 3)})
+      for (const auto& of : {TilingCase{"free edges", EdgeLaw::free, 5, 2},
+                             TilingCase{"mirrors, order 11", EdgeLaw::mirror, 11, 2},
+                             TilingCase{"rigid, order 1, 4 in time", EdgeLaw::rigid, 1, 4}})
+        expect_same_as_sweeps(medium, of, {{{0, 0}, 1}, {{2, 5, true}, 2}});
 }
 
 /// Fields where the axes of `from` are those that `axis_of` says.

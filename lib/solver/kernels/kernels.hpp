@@ -200,9 +200,10 @@ struct Kernels {
   InterfaceKernels<Real> fluid_face;
   /// Of anisotropic media, in 2-D.
   InterfaceKernels<Real> anisotropic_face;
-  /// Reconstruction, Riemann solution and update of a row across in 2-D (null for uniform runs), by whether
-  /// the medium is anisotropic.
+  /// Reconstruction, Riemann solution and update of a row across (null for uniform runs), by dimension.
   void (*fused_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  /// Of an anisotropic medium, in 2-D.
+  void (*fused_anisotropic_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// The same where all is fluid, in 2-D and 3-D.
   void (*fused_fluid_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.

@@ -210,9 +210,10 @@ constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  {face<Uniform, 2, true, false, Real>, face<Uniform, 3, true, false, Real>},
                                  face<Uniform, 2, false, false, Real>,
                                  face<Uniform, 2, true, true, Real>,
-                                 {Uniform ? nullptr : fused_row<Order, true, false, Real>,
-                                  Uniform ? nullptr : fused_row<Order, true, true, Real>},
-                                 Uniform ? nullptr : fused_row<Order, false, false, Real>,
+                                 {Uniform ? nullptr : fused_row<Order, 1, false, Real>,
+                                  Uniform ? nullptr : fused_row<Order, 2, false, Real>},
+                                 Uniform ? nullptr : fused_row<Order, 1, true, Real>,
+                                 Uniform ? nullptr : fused_row<Order, 0, false, Real>,
                                  {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 
 /// Those of the n-th order in the list, or of a later one.

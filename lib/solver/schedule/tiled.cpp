@@ -16,6 +16,11 @@ constexpr std::int64_t usual_stripe = 256, stripe_in_fluid = 512;
 /// In 3-D cells of a plane of a stripe: the second cache, of 1 MiB or more, holds what the sweeps along z
 /// need.
 constexpr std::int64_t usual_cells_of_a_plane = 1536;
+/// Columns swept together along y and z, and planes that a sweep does at once: a sweep along z then reads
+/// most planes from the first cache.
+constexpr std::int64_t usual_chunk = 128, usual_planes = 4;
+/// Cache lines of the next planes that are fetched at a time, while a row of a sweep across is swept.
+constexpr int fetched_together = 24;
 /// Rows of a band, at least. Between bands some rows leave the cache.
 constexpr std::int64_t fewest_band_rows = 32;
 
@@ -38,6 +43,8 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
       step_(step),
       steps_per_tile_(steps_of_a_tile(tiling)),
       stripe_width_(tiling.stripe_cells > 0 ? tiling.stripe_cells : stripe_for(layout_)),
+      chunk_(usual_chunk),
+      together_(D == 2 ? 1 : usual_planes),
       rows_(layout_.shape()[D - 1]),
       cut_cells_(layout_.shape()[D - 2]) {
   const auto longest = stages(0, steps_per_tile_);
@@ -255,25 +262,58 @@ constexpr std::int64_t rows_ahead = 1;
 
 }  // namespace
 
+/// Some cache lines into the second cache.
+template <int D, class Real>
+void TiledExecutor<D, Real>::Ahead::fetch() {
+  constexpr int cache_line = 64;
+  for (int n = 0; n < fetched_together && next < parts.size(); ++n) {
+    auto& [first, last] = parts[next];
+    __builtin_prefetch(first, 1, 2);
+    first += cache_line;
+    if (first >= last) ++next;
+  }
+}
+
+/// Finds what the first stage reads of these planes: their lines follow each other in memory.
+template <int D, class Real>
+void TiledExecutor<D, Real>::look_ahead(const TileInProgress& tile, const IndexRange& planes,
+                                        Worker& worker) const {
+  worker.ahead.clear();
+  if (D == 2) return;
+  const auto& columns = worker.columns.front();
+  const std::int64_t beyond = tile.stages.front().kind == Stage::along_y ? sweeps_.rows_behind() : 0;
+  const IndexRange lines{columns.first == 0 ? 0 : columns.first + beyond,
+                         std::min(columns.last + beyond, cut_cells_)};
+  for (auto plane = planes.first; plane < std::min(planes.last, rows_) && !lines.empty(); ++plane) {
+    const auto at = layout_.line_index(line_of(plane, lines.first));
+    worker.ahead.add(state_.field_row(at, 0), lines.count() * layout_.stride(1));
+    if (!state_.uniform_run(line_of(plane, lines.first), 0, layout_.shape()[0]))
+      worker.ahead.add(state_.material_row(at, 0), lines.count() * state_.material_layout.stride(1));
+  }
+}
+
 template <int D, class Real>
 void TiledExecutor<D, Real>::run_stripe(TileInProgress& tile, const IndexRange& rows, Worker& worker) {
-  for (std::int64_t arriving = rows.first; arriving < rows.last; ++arriving) {
-    if (D == 2 && arriving + rows_ahead < rows_)
-      sweeps_.queue_prefetch(arriving + rows_ahead, worker.columns.front(), worker.work.prefetch());
-    const std::int64_t in_band = stripes() > 1 ? arriving - rows.first : 0;
+  for (std::int64_t first = rows.first; first < rows.last; first += together_) {
+    const IndexRange arriving{first, std::min(first + together_, rows.last)};
+    if (D == 2 && first + rows_ahead < rows_)
+      sweeps_.queue_prefetch(first + rows_ahead, worker.columns.front(), worker.work.prefetch());
+    look_ahead(tile, {arriving.last, std::min(arriving.last + together_, rows.last)}, worker);
     for (std::size_t n = 0; n < tile.stages.size(); ++n) {
       const auto& stage = tile.stages[n];
       const auto* const columns = &worker.columns[2 * n];
-      const std::int64_t row = arriving - stage.behind;
+      const IndexRange here{arriving.first - stage.behind, arriving.last - stage.behind};
       if (stage.kind == Stage::along_z) {
-        if (row >= 0 && row < rows_ + sweeps_.rows_behind() && !columns->empty())
-          along_z(stage, row, *columns, tile, worker);
-      } else if (stage.kind == Stage::along_y) {
-        if (!columns->empty())
+        if (!columns->empty()) along_z(stage, here, *columns, tile, worker);
+        continue;
+      }
+      for (auto row = here.first; row < here.last; ++row) {
+        const std::int64_t in_band = stripes() > 1 ? row + stage.behind - rows.first : 0;
+        if (stage.kind != Stage::along_y)
+          sweep_rows(stage, row, in_band, columns, worker);
+        else if (!columns->empty())
           sweep_plane(stage, row, *columns,
                       worker.rings[std::size_t(stage.number * boundaries_per_sweep() + in_band)], worker);
-      } else {
-        sweep_rows(stage, row, in_band, columns, worker);
       }
     }
   }
@@ -336,17 +376,36 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     row -= flank_rows;
     if (row < 0 || row >= rows_ || !stage.needed.meets({row, row + 1}, {lines.first, steps.last + 1})) return;
     if (low || high) sweeps_.correct_flank_surfaces(row);
-    for (auto step = steps.first; step < steps.last; ++step) {
-      const auto done = step - behind;
-      if (is_zero(stage.time, {row - flank_rows, row + flank_rows + 1},
-                  {done - 1 - sweeps_.reach(), step + 1}, whole_lines())) {
-        sweeps_.skip(step, whole_lines(), ring);
-        continue;
-      }
-      worker.work.time() = {stage.time.step, stage.sweep};
-      sweeps_.across(1, {0, 0, row}, step, whole_lines(), stage.fraction, ring, worker.work);
-      if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), whole_lines());
+    worker.work.time() = {stage.time.step, stage.sweep};
+    each_chunk([&](const IndexRange& cells) {
+      march(
+          1, {0, 0, row}, steps, cells, stage.fraction, ring, worker,
+          [&](std::int64_t step) {
+            return is_zero(stage.time, {row - flank_rows, row + flank_rows + 1},
+                           {step - behind - 1 - sweeps_.reach(), step + 1}, read_across(cells));
+          },
+          [&](std::int64_t step) {
+            const auto done = step - behind;
+            if (done >= 0 && done < cut_cells_) mark_active(line_of(row, done), cells);
+          });
+    });
+  }
+}
+
+/// Steps of a sweep across of these cells; `end` is called after each.
+template <int D, class Real>
+template <class IsZero, class End>
+void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRange& steps,
+                                   const IndexRange& cells, Real fraction, Ring<Real>& ring, Worker& worker,
+                                   IsZero&& is_zero, End&& end) {
+  for (auto step = steps.first; step < steps.last; ++step) {
+    if (is_zero(step)) {
+      sweeps_.skip(step, cells, ring);
+      continue;
     }
+    worker.ahead.fetch();
+    sweeps_.across(axis, at, step, cells, fraction, ring, worker.work);
+    end(step);
   }
 }
 
@@ -371,48 +430,68 @@ void TiledExecutor<D, Real>::mark_active(std::int64_t line, const IndexRange& co
   if (!everywhere_) active_.mark(line, columns);
 }
 
-/// A sweep along z, of these columns or, in 3-D, lines.
+/// Some steps of a sweep along z, of these columns or, in 3-D, lines.
 template <int D, class Real>
-void TiledExecutor<D, Real>::along_z(const Stage& stage, std::int64_t step, const IndexRange& columns,
+void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps, const IndexRange& columns,
                                      TileInProgress& tile, Worker& worker) {
   constexpr auto lag = Sweeps<D, Real>::lag;
-  const std::int64_t done = step - sweeps_.rows_behind(), beside = D == 2 ? lag : free_surface_reach;
-  if (!stage.needed.meets({done, step + 1}, columns)) return;
-  // All that row `done` depends on, also rows that have been advanced since.
-  const IndexRange rows{done - 1 - sweeps_.reach(), step + 1};
-  const auto correct = [&] {
+  const auto behind = sweeps_.rows_behind(), beside = D == 2 ? lag : free_surface_reach;
+  IndexRange needed{std::max<std::int64_t>(steps.first, 0), std::min(steps.last, rows_ + behind)};
+  const auto is_needed = [&](std::int64_t step) {
+    return stage.needed.meets({step - behind, step + 1}, columns);
+  };
+  while (!needed.empty() && !is_needed(needed.first)) ++needed.first;
+  while (!needed.empty() && !is_needed(needed.last - 1)) --needed.last;
+  const auto correct = [&](std::int64_t step) {
     sweeps_.correct_end_surfaces(step,
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
-  const auto sweep = [&](const Index<D>& at, const IndexRange& across, Ring<Real>& ring) {
-    worker.work.time() = {stage.time.step, stage.sweep};
-    sweeps_.across(D - 1, at, step, across, stage.fraction, ring, worker.work);
-    if (done < 0 || done >= rows_) return;
-    const auto line = line_of(done, at[D - 2]);
-    if (step_.acts_after_sweep(stage.sweep))
-      step_.apply_after_sweep(stage.sweep, stage.time, state_.row_fields(line), across);
-    mark_active(line, across);
-    worker.swept += across.count();
+  worker.work.time() = {stage.time.step, stage.sweep};
+  // All that a row depends on, also rows that have been advanced since.
+  const auto read = [&](std::int64_t step) {
+    return IndexRange{step - behind - 1 - sweeps_.reach(), step + 1};
   };
   if constexpr (D == 2) {
     auto& ring = tile.rings[std::size_t(stage.number)];
-    // Corrections are computed a block ahead, and read some cells of the columns beside these.
-    if (is_zero(stage.time, rows, {}, {columns.first - lag, columns.last + lag + free_surface_reach})) {
-      sweeps_.skip(step, columns, ring);
-      return;
+    for (auto step = needed.first; step < needed.last; ++step) {
+      // Corrections are computed a block ahead, and read some cells of the columns beside these.
+      if (is_zero(stage.time, read(step), {}, read_across(columns))) {
+        sweeps_.skip(step, columns, ring);
+        continue;
+      }
+      correct(step);
+      sweeps_.across(D - 1, {}, step, columns, stage.fraction, ring, worker.work);
+      end_across_z(stage, step, 0, columns, worker);
     }
-    correct();
-    sweep({}, columns, ring);
   } else {
-    correct();
+    // All of these rows are as they were before the sweep, whatever has been swept below them.
+    for (auto step = needed.first; step < needed.last; ++step) correct(step);
     for (auto y = columns.first; y < columns.last; ++y) {
       auto& ring = tile.rings[std::size_t(stage.number * cut_cells_ + y)];
-      if (is_zero(stage.time, rows, with_surface_rows(D - 1, {y, y + 1}), whole_lines()))
-        sweeps_.skip(step, whole_lines(), ring);
-      else
-        sweep({0, y, 0}, whole_lines(), ring);
+      each_chunk([&](const IndexRange& cells) {
+        march(
+            D - 1, {0, y, 0}, needed, cells, stage.fraction, ring, worker,
+            [&](std::int64_t step) {
+              return is_zero(stage.time, read(step), with_surface_rows(D - 1, {y, y + 1}),
+                             read_across(cells));
+            },
+            [&](std::int64_t step) { end_across_z(stage, step, y, cells, worker); });
+      });
     }
   }
+}
+
+/// After a step of a sweep along z of these cells, in 3-D of lines y.
+template <int D, class Real>
+void TiledExecutor<D, Real>::end_across_z(const Stage& stage, std::int64_t step, std::int64_t y,
+                                          const IndexRange& cells, Worker& worker) {
+  const std::int64_t done = step - sweeps_.rows_behind();
+  if (done < 0 || done >= rows_) return;
+  const auto line = line_of(done, y);
+  if (step_.acts_after_sweep(stage.sweep))
+    step_.apply_after_sweep(stage.sweep, stage.time, state_.row_fields(line), cells);
+  mark_active(line, cells);
+  worker.swept += cells.count();
 }
 
 template <int D, class Real>

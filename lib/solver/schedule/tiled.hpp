@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -64,6 +65,17 @@ class TiledExecutor : public Executor {
     std::vector<Stage> stages;
     std::vector<Ring<Real>> rings;  // of the sweeps along z, in 3-D by y
   };
+  /// Memory that the first stage will read next, in 3-D: fetched piece by piece while the others work.
+  struct Ahead {
+    std::vector<std::pair<const char*, const char*>> parts{};
+    std::size_t next = 0;
+    void clear() { parts.clear(), next = 0; }
+    void add(const Real* first, std::int64_t count) {
+      const auto* const bytes = reinterpret_cast<const char*>(first);
+      parts.emplace_back(bytes, bytes + count * std::int64_t(sizeof(Real)));
+    }
+    void fetch();
+  };
   struct Worker {
     Workspace<Real> work;
     std::vector<StripeBoundary<Real>> boundaries;  // [sweep along x][row of the band]
@@ -73,6 +85,7 @@ class TiledExecutor : public Executor {
     Buffer<Real> strip{};                          // copies of patches, rows strip_pitch apart
     std::int64_t strip_pitch = 0;
     std::int64_t swept = 0;  // cells, along z
+    Ahead ahead{};
   };
   /// How many stages of a tile are of a kind; ends of steps count as two sweeps along x.
   struct Counts {
@@ -81,6 +94,7 @@ class TiledExecutor : public Executor {
   static Counts counts(const std::vector<Stage>& stages);
   std::vector<Stage> stages(std::int64_t first, std::int64_t last) const;
   void run_band(std::int64_t tile, std::int64_t band, std::int64_t first, std::int64_t last, Worker& worker);
+  void look_ahead(const TileInProgress& tile, const IndexRange& planes, Worker& worker) const;
   void run_stripe(TileInProgress& tile, const IndexRange& rows, Worker& worker);
   void sweep_rows(const Stage& stage, std::int64_t row, std::int64_t in_band, const IndexRange* columns,
                   Worker& worker);
@@ -88,8 +102,13 @@ class TiledExecutor : public Executor {
                    Worker& worker);
   void along_x(const StepTime& time, std::int64_t line, const IndexRange& columns, Real fraction,
                StripeBoundary<Real>& boundary, Worker& worker, bool begins = false);
-  void along_z(const Stage& stage, std::int64_t step, const IndexRange& columns, TileInProgress& tile,
+  void along_z(const Stage& stage, const IndexRange& steps, const IndexRange& columns, TileInProgress& tile,
                Worker& worker);
+  void end_across_z(const Stage& stage, std::int64_t step, std::int64_t y, const IndexRange& cells,
+                    Worker& worker);
+  template <class IsZero, class End>
+  void march(int axis, const Index<D>& at, const IndexRange& steps, const IndexRange& cells, Real fraction,
+             Ring<Real>& ring, Worker& worker, IsZero&& is_zero, End&& end);
   void refresh(const IndexRange& rows);
   bool is_zero(const StepTime& time, const IndexRange& rows, const IndexRange& lines,
                const IndexRange& columns) const;
@@ -121,6 +140,17 @@ class TiledExecutor : public Executor {
   /// Lines of a row: one; in 3-D those of a plane, by y.
   std::int64_t line_of(std::int64_t row, std::int64_t y) const { return D == 2 ? row : row * cut_cells_ + y; }
   IndexRange whole_lines() const { return {0, layout_.shape()[0]}; }
+  /// Calls what(columns) for all cells of lines, those at a time that the first cache holds in a sweep
+  /// across.
+  template <class What>
+  void each_chunk(What&& what) const {
+    for (std::int64_t first = 0; first < layout_.shape()[0]; first += chunk_)
+      what(IndexRange{first, std::min(first + chunk_, layout_.shape()[0])});
+  }
+  /// Those whose fields a sweep across of these reads, corrections of free surfaces included.
+  static IndexRange read_across(const IndexRange& cells) {
+    return {cells.first - Layout<D>::block, cells.last + Layout<D>::block + free_surface_reach};
+  }
   /// How far sweeps along an axis must stay behind what its free surfaces read.
   std::int64_t surface_rows(int axis) const {
     return sweeps_.corrects_surface(axis) ? free_surface_reach : 0;
@@ -138,9 +168,10 @@ class TiledExecutor : public Executor {
   bool everywhere_;
   TimeStep<D, Real>& step_;
   int steps_per_tile_;
-  std::int64_t stripe_width_;
-  std::int64_t rows_, cut_cells_;  // along the last axis and the one before it
-  std::int64_t longest_;           // rows from the first to the last stage of a tile
+  std::int64_t stripe_width_, chunk_;  // columns; in 3-D rows of a plane, and columns swept together
+  std::int64_t together_;              // rows that a stage does before the next
+  std::int64_t rows_, cut_cells_;      // along the last axis and the one before it
+  std::int64_t longest_;               // rows from the first to the last stage of a tile
   std::int64_t band_rows_, bands_;
   std::vector<TileInProgress> in_progress_;
   std::vector<Worker> workers_;

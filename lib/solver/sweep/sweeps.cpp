@@ -61,6 +61,21 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     }
   });
   tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
+  find_plain_lines();
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::find_plain_lines() {
+  for (int axis = 1; axis < D; ++axis) {
+    auto& plain = plain_lines_[std::size_t(axis)];
+    plain.resize(std::size_t(state_.layout.lines()));
+    for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
+      const IndexRange all{0, state_.layout.padded_nx()};
+      plain[std::size_t(line)] = !metric_.bent(line) && !stencils_[axis][wave_p].any(line, all) &&
+                                 !(shear_ && stencils_[axis][wave_s].any(line, all)) &&
+                                 !tilted_cells_.any(line, all);
+    }
+  }
 }
 
 template <int D, class Real>
@@ -267,14 +282,15 @@ void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRan
                                 metric_.along(axis, line, columns.first).over_j, rows);
 }
 
-/// Advances these columns.
+/// Advances these columns by advance(), and lets effects filter what that adds.
 template <int D, class Real>
-void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                             std::int64_t pitch, Real scale, const Flux& flux, Workspace<Real>& work,
-                             bool remember) {
+template <class Advance>
+void Sweeps<D, Real>::filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                               Real scale, std::int64_t pitch, Workspace<Real>& work, bool remember,
+                               Advance&& advance) {
+  if (filters_.empty()) return advance();
   const auto& rows = changed_[axis];
   const int row_count = shear_ ? changed : changed_in_fluid;
-  const auto field = [&](int n) { return fields + rows[n] * pitch; };
   // Built in place: a copy would wait until all stores of the loops before this are done.
   std::array<std::array<IndexRange, 2>, most_filters> filtered;
   for (std::size_t f = 0; f < filters_.size(); ++f) filtered[f] = filters_[f]->filtered(axis, line, columns);
@@ -284,9 +300,32 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
         if (!part.empty()) what(*filters_[f], part, work.before() + part.first - columns.first);
   };
   each_filtered([&](const auto&, const IndexRange& part, Real* before) {
-    for (int n = 0; n < row_count; ++n)
-      std::copy(field(n) + part.first, field(n) + part.last, before + n * work.pitch());
+    for (int n = 0; n < row_count; ++n) {
+      const Real* const field = fields + rows[n] * pitch;
+      std::copy(field + part.first, field + part.last, before + n * work.pitch());
+    }
   });
+  advance();
+  each_filtered([&](auto& filter, const IndexRange& part, const Real* before) {
+    filter.filter({axis,
+                   scale,
+                   line,
+                   part,
+                   {rows.data(), std::size_t(row_count)},
+                   before,
+                   work.pitch(),
+                   fields + part.first,
+                   pitch,
+                   work.time()},
+                  remember);
+  });
+}
+
+/// Advances these columns.
+template <int D, class Real>
+void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                             std::int64_t pitch, Real scale, const Flux& flux, Workspace<Real>& work,
+                             bool remember) {
   const auto swept = [&](std::int64_t x) { return swept_rows(axis, fields + x, pitch); };
   const auto number = state_.layout.line_number(line);
   const Real own_scale = scale_of(axis, line, scale);
@@ -305,28 +344,17 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
                              run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
                              swept(part.first));
   };
-  if (metric_.bent(number)) {
-    update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
-    work.prefetch().prefetch(prefetched_by_bent);
-  } else {
-    split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
-                  between_faces);
-    tilted_cells_.add_stress(axis, number, columns, std::abs(own_scale), flux.lo, flux.hi,
-                             swept(columns.first));
-  }
-  work.prefetch().prefetch_one();
-  each_filtered([&](auto& filter, const IndexRange& part, const Real* before) {
-    filter.filter({axis,
-                   scale,
-                   line,
-                   part,
-                   {rows.data(), std::size_t(row_count)},
-                   before,
-                   work.pitch(),
-                   fields + part.first,
-                   pitch,
-                   work.time()},
-                  remember);
+  filtered(axis, line, columns, fields, scale, pitch, work, remember, [&] {
+    if (metric_.bent(number)) {
+      update_bent(axis, line, columns, fields, pitch, scale, flux, swept(columns.first));
+      work.prefetch().prefetch(prefetched_by_bent);
+    } else {
+      split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
+                    between_faces);
+      tilted_cells_.add_stress(axis, number, columns, std::abs(own_scale), flux.lo, flux.hi,
+                               swept(columns.first));
+    }
+    work.prefetch().prefetch_one();
   });
 }
 
@@ -592,7 +620,7 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
                              Real scale, Ring<Real>& ring, Workspace<Real>& work) {
   const auto& layout = state_.layout;
   const std::int64_t rows = layout.shape()[axis], row = step - reach_;
-  const IndexRange wide{columns.first, columns.last == layout.shape()[0] ? layout.padded_nx() : columns.last};
+  const IndexRange wide = with_padding(columns);
   const auto line = [&](std::int64_t k) {
     Index<D> index = at;
     index[axis] = k;
@@ -676,43 +704,82 @@ void Sweeps<D, Real>::skip(std::int64_t step, const IndexRange& columns, Ring<Re
   for (int c = 0; c < D && ring.pairs() > D; ++c) clear(faces.v(D) + c * faces.pitch);
 }
 
+/// Whether the loops over a row of a sweep across and over the one that it updates can be one.
+template <int D, class Real>
+bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const {
+  const auto& layout = state_.layout;
+  const std::int64_t done = row - std::max(reach_, 1);
+  if (monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
+  Index<D> here = at, below = at, advanced = at;
+  here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
+  const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
+  // Rows in between become those before and behind others.
+  if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
+  const auto& plain = plain_lines_[std::size_t(axis)];
+  // The material may have been filled in since these were found.
+  const auto is_plain = [&](auto line) {
+    return plain[std::size_t(line)] && state_.uniform_runs_of(line).empty();
+  };
+  if (std::all_of(lines.begin(), lines.end(), is_plain)) return true;
+  const auto number = *lines.begin();
+  for (const auto line : lines)
+    if (metric_.bent(line) || tilted_cells_.any(line, columns)) return false;
+  // Uniform runs are faster with their own loops.
+  if (state_.uniform_run(number, columns.first, columns.last)) return false;
+  // The outgoing waves downwards are not stored, which uniform runs would need.
+  for (const auto line : lines)
+    for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(line))
+      if (run.first < columns.last && run.last > columns.first) return false;
+  for (int wave = wave_p; wave <= (shear_ ? wave_s : wave_p); ++wave)
+    if (stencils_[axis][wave].any(number, columns)) return false;
+  return true;
+}
+
+/// What that loop needs.
+template <int D, class Real>
+FusedRow<Real> Sweeps<D, Real>::fused(int axis, const Index<D>& at, std::int64_t row,
+                                      const IndexRange& columns, Ring<Real>& ring) {
+  const auto& layout = state_.layout;
+  const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
+  Index<D> here = at, advanced = at;
+  here[axis] = row, advanced[axis] = done;
+  const std::int64_t pitch = state_.material_layout.row_pitch();
+  const Real* const material = state_.material_row(here, row_b) + x;
+  const Real* const of_done = state_.material_row(advanced, row_b) + x;
+  const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
+  const auto faces = ring.faces(row, x);
+  return {swept_rows(axis, state_.field_row(here, 0) + x, layout.row_pitch()),
+          layout.stride(axis),
+          pitch,
+          to.up(1) - to.up(0),
+          faces.pitch,
+          material - state_.material_layout.stride(axis),
+          material,
+          of_done,
+          from.up(0),
+          to.up(0),
+          faces.first,
+          ring.faces(done, x).first,
+          ring.faces(done + 1, x).first,
+          anisotropic_ ? of_done + row_coupling * pitch : nullptr};
+}
+
 /// A row across in one loop. Returns false, and does nothing, where other work is needed between its parts.
 template <int D, class Real>
 bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
                                 Real scale, Ring<Real>& ring, Workspace<Real>& work) {
-  const auto& layout = state_.layout;
-  const std::int64_t x = columns.first, done = row - std::max(reach_, 1);
-  if ((D != 2 && shear_) || monotone_ || done < 0 || row >= layout.shape()[axis]) return false;
-  Index<D> here = at, below = at, advanced = at;
-  here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
-  const auto number = layout.line_number(here);
-  for (const auto& line : {here, below, advanced})
-    if (metric_.bent(layout.line_number(line))) return false;
-  const Real own_scale = scale_of(axis, here, scale);
-  if (own_scale != scale_of(axis, advanced, scale)) return false;
-  // Uniform runs are faster with their own loops.
-  if (state_.uniform_run(number, x, columns.last)) return false;
-  // The outgoing waves downwards are not stored, which uniform runs would need.
-  for (const auto& line : {here, below, advanced})
-    for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line)))
-      if (run.first < columns.last && run.last > columns.first) return false;
-  for (int wave = wave_p; wave <= (shear_ ? wave_s : wave_p); ++wave)
-    if (stencils_[axis][wave].any(number, columns)) return false;
-  for (const auto& line : {here, below, advanced})
-    if (tilted_cells_.any(layout.line_number(line), columns)) return false;
-  if (filters(axis, advanced, columns)) return false;
-  const auto material = [&](const Index<D>& line) { return state_.material_row(line, row_b) + x; };
-  const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
-  const auto faces = ring.faces(row, x);
-  work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
-  const auto fused = shear_ ? kernels_[false]->fused_row[anisotropic_] : kernels_[false]->fused_fluid_row;
-  fused(columns.count(), own_scale,
-        {swept_rows(axis, state_.field_row(here, 0) + x, layout.row_pitch()), layout.stride(axis),
-         state_.material_layout.row_pitch(), to.up(1) - to.up(0), faces.pitch, material(below),
-         material(here), material(advanced), from.up(0), to.up(0), faces.first, ring.faces(done, x).first,
-         ring.faces(done + 1, x).first,
-         anisotropic_ ? material(advanced) + row_coupling * state_.material_layout.row_pitch() : nullptr});
-  work.prefetch().prefetch_one(), work.prefetch().prefetch_one();
+  if (!fuses(axis, at, row, columns)) return false;
+  Index<D> here = at, advanced = at;
+  here[axis] = row, advanced[axis] = row - std::max(reach_, 1);
+  work.prefetch().prefetch(2);
+  const auto& all = *kernels_[false];
+  const auto loop = anisotropic_ ? all.fused_anisotropic_row
+                    : shear_     ? all.fused_row[D - 2]
+                                 : all.fused_fluid_row;
+  filtered(axis, advanced, columns, state_.field_row(advanced, 0), scale, state_.layout.row_pitch(), work,
+           true,
+           [&] { loop(columns.count(), scale_of(axis, here, scale), fused(axis, at, row, columns, ring)); });
+  work.prefetch().prefetch(2);
   return true;
 }
 

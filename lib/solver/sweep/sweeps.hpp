@@ -170,6 +170,18 @@ class Sweeps {
                           OutgoingWaves<Real> outgoing) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
+  bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
+  FusedRow<Real> fused(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                       Ring<Real>& ring);
+  void find_plain_lines();
+  /// Columns of a row, and those of its padding where they are its last.
+  IndexRange with_padding(const IndexRange& columns) const {
+    return {columns.first,
+            columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last};
+  }
+  template <class Advance>
+  void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
+                std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                   OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
@@ -189,6 +201,8 @@ class Sweeps {
   std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
   TiltedCells<D, Real> tilted_cells_;
   Metric<D, Real> metric_;
+  /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
+  std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.
   PairCorrections<Real> corrections_of(int axis, int pair) const {
