@@ -160,7 +160,7 @@ struct DippingFloor {
     choice.surfaces = choice.floors = choice.layers = fit;
     const auto fitted =
         fit_layers<2>(Grid<2>{{std::llround(720 / h), std::llround(640 / h)}, h, {0, 0}}, layers, choice);
-    scene.model.medium = layered_medium<2>(fitted.grid, layers, true, fitted.rows);
+    scene.model.medium = layered_medium<2>(fitted.grid, layers, Average::isotropic, fitted.rows);
     scene.survey.sources = {{place(0, -60), Explosion{}, parse_wavelet("ricker:15"), 1e6}};
     scene.edges = edges_all(EdgeLaw::absorbing);
     scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
