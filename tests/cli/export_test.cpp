@@ -94,7 +94,8 @@ TEST_F(Export, RefusesWhatItCannotExport) {
   const Case cases[] = {
       {"sw-export m.nc", 2, "sw-export: --property is missing; expected --property NAME"},
       {"sw-export m.nc --property vx", 2,
-       "sw-export: --property: m.nc is a model: found 'vx', expected vp, vs, rho, qp, qs, epsilon, delta, tilt, "
+       "sw-export: --property: m.nc is a model: found 'vx', expected vp, vs, rho, qp, qs, epsilon, delta, "
+       "tilt, "
        "cut_epsilon, cut_delta, cut_dip or "
        "fracture"},
       {"sw-export m.nc --property vp --time 1", 2, "sw-export: --time: m.nc is a model, expected snapshots"},

@@ -40,6 +40,9 @@ Scene<2> with(const Model<2>& model) {
   return scene;
 }
 
+/// Of the first shot, twelve receivers followed.
+LocalStack stack_of(const Scene<2>& scene) { return local_stack(scene, 0, followed_receivers(scene, 0, 12)); }
+
 TEST(FinerModel, IsMadeFromTheTopsOfItsLayers) {
   const auto model = model_of(sea, 10, sea_command);
   const auto finer = finer_model(with(model), 2.5);
@@ -86,7 +89,7 @@ TEST(FinerModel, AttenuatesAsTheModelDoesWithTheSpeedsOfItsUnrelaxedRock) {
 }
 
 TEST(LocalStack, HasTheLayersDipsAndRepresentationsOfTheModel) {
-  const auto stack = local_stack(shot_over(model_of(sea, 5, "")), 0, 12);
+  const auto stack = stack_of(shot_over(model_of(sea, 5, "")));
   ASSERT_EQ(stack.interfaces.size(), 2u);
   const auto &floor = stack.interfaces[0], &inner = stack.interfaces[1];
   EXPECT_EQ(floor.kind, LocalInterface::Kind::fluid_solid);
@@ -106,7 +109,7 @@ TEST(LocalStack, HasTheLayersDipsAndRepresentationsOfTheModel) {
 TEST(LocalStack, SeesTheCellsThatAModelWasSplitFrom) {
   const auto model = model_of(sea, 10, "");
   for (const auto& [spacing_m, block] : {std::pair{10., 1}, std::pair{5., 2}, std::pair{2.5, 4}}) {
-    const auto stack = local_stack(shot_over(regridded(model, spacing_m)), 0, 12);
+    const auto stack = stack_of(shot_over(regridded(model, spacing_m)));
     ASSERT_EQ(stack.interfaces.size(), 2u) << spacing_m;
     for (const auto& interface : stack.interfaces) EXPECT_EQ(interface.block, block) << interface.name();
   }
@@ -114,11 +117,10 @@ TEST(LocalStack, SeesTheCellsThatAModelWasSplitFrom) {
 
 TEST(LocalStack, TakesDepthsOfLevelFloorsFromTheHistory) {
   const std::vector<Layer> level = {{0, 1500, 0, 1000}, {103, 3000, 1600, 2200}};
-  const auto unknown = local_stack(shot_over(model_of(level, 10, "")), 0, 12).interfaces[0];
+  const auto unknown = stack_of(shot_over(model_of(level, 10, ""))).interfaces[0];
   EXPECT_EQ(unknown.representation, Representation::on_faces);
   EXPECT_EQ(unknown.true_depth_m, 100);
-  const auto known =
-      local_stack(shot_over(model_of(level, 10, "sw-layers --layer 103:3000:1600:2200")), 0, 12);
+  const auto known = stack_of(shot_over(model_of(level, 10, "sw-layers --layer 103:3000:1600:2200")));
   EXPECT_EQ(known.interfaces[0].true_depth_m, 103);
 }
 

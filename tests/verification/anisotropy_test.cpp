@@ -5,6 +5,7 @@
 #include "anisotropic_stack.hpp"
 #include "layer_stack.hpp"
 #include "model/anisotropy.hpp"
+#include "model/layers.hpp"
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
 #include "solver/simulation.hpp"
@@ -136,6 +137,27 @@ TEST(Anisotropy, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
     for (auto& value : wanted) value *= -c.c13 / c.c33;
     EXPECT_LT(relative_error(gather.traces[2 + n].samples, wanted), 1e-4);
   }
+}
+
+TEST(Anisotropy, StandsBelowAFloorThatRowsFollow) {
+  // Bent rows above, level ones of another height below, among which a rock that is next to isotropic.
+  const std::vector<Layer> layers = {parse_layer("0:1500:0:1000"),
+                                     parse_layer("sine,100,10,200:2500:1200:2200"),
+                                     parse_layer("300:3000:1600:2300 epsilon=1e-6")};
+  const auto fit = fit_layers<2>(Grid<2>{{60, 90}, 5, {0, 0}}, layers, {});
+  ASSERT_TRUE(fit.grid.rows);
+  Scene<2> scene;
+  scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
+  scene.survey.sources = {{{150, 50}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:25"), 1e6}};
+  scene.survey.receivers_m = {{60, 40}, {220, 350}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {{Component::vx, Component::vz}, 0.2, 0.002};
+  check(scene);
+  expect_same(scene);
+  const auto found = all_samples(shoot(scene, 1));
+  for (const auto property : {Property::epsilon, Property::delta}) scene.model.medium[property] = {};
+  const auto isotropic = all_samples(shoot(scene, 1));
+  EXPECT_LT(relative_error(found, isotropic), 1e-4);
 }
 
 /// Blocks of any anisotropic rock, void and water, sources and slip among them.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "accuracy/full_space.hpp"
+#include "anisotropic_stack.hpp"
 #include "base/parse.hpp"
 #include "elastic_disc.hpp"
 #include "lab.hpp"
@@ -13,7 +14,6 @@
 #include "shared_out.hpp"
 #include "solver/simulation.hpp"
 #include "unit/model_cases.hpp"
-#include "anisotropic_stack.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -53,7 +53,8 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
     put(scene.model.medium, cell, {shale.vp, shale.vs, shale.rho});
     put_tilted_mean(scene.model.medium, cell, shale, dip);
   }
-  const std::vector<AnisotropicStack::Receiver> receivers = {{0, 100}, {60, 80}, {90, 40}, {-90, 50}, {70, -80}};
+  const std::vector<AnisotropicStack::Receiver> receivers = {
+      {0, 100}, {60, 80}, {90, 40}, {-90, 50}, {70, -80}};
   const auto force = turned(0.6, 0.8);
   scene.survey.sources = {{{middle, middle}, PointForce<2>{force}, parse_wavelet("ricker:20"), 1e6}};
   for (const auto& at : receivers) {

@@ -35,7 +35,7 @@ struct UnpreparedScene {
     const auto fitted = fit_layers<2>(grid_of_size<2>(size_m, h), tops, fit);
     Scene<2> scene;
     auto& medium = scene.model.medium;
-    medium = layered_medium<2>(fitted.grid, tops, true, fitted.rows);
+    medium = layered_medium<2>(fitted.grid, tops, Average::isotropic, fitted.rows);
     const auto& grid = medium.grid();
     for (std::int64_t n = 0; n < grid.size(); ++n) {
       const auto at = grid.index(n);

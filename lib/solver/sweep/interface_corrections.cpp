@@ -86,6 +86,16 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   return extends_far(domain, above, -1) && extends_far(domain, below, 1);
 }
 
+/// The vector that a symmetric matrix of the components along z and x turns into this one, in 2-D.
+template <class Real, class Vector>
+Vector solved(Real along, Real mixed, Real across, const Vector& product) {
+  const Real share = 1 / (along * across - mixed * mixed);
+  Vector found{};
+  found.z = share * (across * product.z - mixed * product.x);
+  found.x = share * (along * product.x - mixed * product.z);
+  return found;
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -214,14 +224,11 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
     if constexpr (D == 2)
       if (side.tilted != none) {
         const Tilted& of = tilted_[std::size_t(side.tilted)];
-        const Real dx = along[0].x, dz = along[0].z, z_mixed = of.z_mixed;
+        const Vector t{of.c13 * along[0].x + of.c35 * along[0].z, of.c15 * along[0].x + of.c55 * along[0].z};
         // (T3): Z over the tensor is the density times the inverse of Z.
-        const Vector t{of.c13 * dx + of.c35 * dz, of.c15 * dx + of.c55 * dz};
-        const Real share = -sign * side.j / (of.z_along * of.z_across - z_mixed * z_mixed);
-        velocity =
-            velocity + share * Vector{of.z_across * t.z - z_mixed * t.x, of.z_along * t.x - z_mixed * t.z};
+        velocity = velocity + (-sign * side.j) * solved(of.z_along, of.z_mixed, of.z_across, t);
         traction = traction + (-sign / 2 * b) * t;
-        sum_p += of.z_along, sum_s += of.z_across, sum_mixed += z_mixed;
+        sum_p += of.z_along, sum_s += of.z_across, sum_mixed += of.z_mixed;
         continue;
       }
     // Moduli times dt/h.
@@ -237,11 +244,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
   const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
   Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
-  if (sum_mixed != 0) {
-    const Real share = 1 / (sum_p * sum_s - sum_mixed * sum_mixed);
-    v.z = share * (sum_s * velocity.z - sum_mixed * velocity.x);
-    v.x = share * (sum_p * velocity.x - sum_mixed * velocity.z);
-  }
+  if (sum_mixed != 0) v = solved(sum_p, sum_mixed, sum_s, velocity);
   velocities_[0][n] = v.z, velocities_[1][n] = v.x;
   if (!beside_void) traction = Real(traction_share) * traction;
   tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;

@@ -61,7 +61,8 @@ class PrefetchQueue {
   void add(const Real* first, std::int64_t width, std::int64_t pitch, int count) {
     half_ = (width + 1) / 2;
     for (int row = 0; row < count; ++row)
-      for (const std::int64_t from : {std::int64_t(0), half_}) halves_[left_++] = first + row * pitch + from;
+      for (const std::int64_t from : {std::int64_t(0), half_})
+        if (left_ < most) halves_[left_++] = first + row * pitch + from;
   }
   void prefetch(int halves) {
     for (int n = 0; n < halves; ++n) prefetch_one();
@@ -73,7 +74,7 @@ class PrefetchQueue {
   }
 
  private:
-  static constexpr int most = 32;  // of eight rows, fields and material, and of seven of the metric
+  static constexpr int most = 64;  // of 14 rows, fields and material, and of those of the metric
   const Real* halves_[most] = {};
   int left_ = 0;
   std::int64_t half_ = 0;
