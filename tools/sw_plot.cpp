@@ -16,7 +16,7 @@ namespace {
 /// Options as they are written.
 struct Texts {
   TraceInput traces;
-  std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density", at, q_band;
+  std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density", at;
 };
 
 void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
@@ -44,12 +44,9 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("slice", texts.slice, "AXIS=AT",
               "model, snapshot in 3-D: the section on this plane, y=500, or three through X,Y,Z");
   options.add("at", texts.at, "X,Z",
-              "model: instead, phase speeds over angle of the rock there (X,Y,Z in 3-D), and where it "
-              "attenuates quality factors over frequency");
-  options.add("q-frequency", settings.quality.reference_hz, "F",
-              "with --at and qp, qs: frequency of the model's speeds, Hz");
-  options.add("q-band", texts.q_band, "F1,F2", "with --at: band of constant qp and qs, Hz [F/5 to 2.5 F]");
-  options.add("q-mechanisms", settings.quality.mechanisms, "N", "with --at: relaxation mechanisms, 2 to 5");
+              "model: instead, speeds over angle of the rock there, and Q over frequency");
+  options.add("q-frequency", settings.reference_hz, "F",
+              "with --at, qp, qs: frequency of the model's speeds, Hz");
   options.add("survey", settings.survey, "GATHER",
               "model, snapshot: mark sources and receivers of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
@@ -70,12 +67,9 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
 
 /// What goes with --at alone, and what does not go with it.
 void check_at(const plot::PlotOptions& settings) {
-  const auto& [mechanisms, reference_hz, band_hz] = settings.quality;
-  if (settings.at.empty()) {
-    if (reference_hz || band_hz || mechanisms != plot::PlotOptions().quality.mechanisms)
-      throw Error("--q-frequency, --q-band and --q-mechanisms go with --at X,Z", ErrorKind::usage);
-    return;
-  }
+  if (settings.at.empty() && settings.reference_hz)
+    throw Error("--q-frequency goes with --at X,Z", ErrorKind::usage);
+  if (settings.at.empty()) return;
   if (settings.look.x || settings.look.y)
     throw Error("--at: draws all angles and frequencies, expected neither --x nor --y", ErrorKind::usage);
 }
@@ -92,12 +86,6 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   limits("--x", texts.x, settings.look.x);
   limits("--y", texts.y, settings.look.y);
   if (!texts.at.empty()) settings.at = in_place("--at", [&] { return parse_numbers(texts.at, ','); });
-  if (!texts.q_band.empty()) {
-    const auto band = in_place("--q-band", [&] { return parse_numbers(texts.q_band, ','); });
-    if (band.size() != 2)
-      throw Error("--q-band: found '" + texts.q_band + "', expected F1,F2 in Hz", ErrorKind::usage);
-    settings.quality.band_hz = {band[0], band[1]};
-  }
   check_at(settings);
   if (texts.slice.find(',') != std::string::npos)
     settings.through = in_place("--slice", [&] { return parse_point<3>(texts.slice); });

@@ -78,6 +78,7 @@ class Columns {
 struct Segment {
   std::int64_t first, last;  // rows; behind the last
   Cell rock;                 // mean
+  bool jumps = true;         // whether it begins with a jump, not where a gradient has come far enough
   double height(const Columns& columns, std::int64_t i) const {
     return columns.face(i, last) - columns.face(i, first);
   }
@@ -95,7 +96,7 @@ Segment joined(const Segment& a, const Segment& b) {
   rock.vp = all / (n / a.rock.vp + m / b.rock.vp);
   if (a.rock.vs > 0 && b.rock.vs > 0) rock.vs = all / (n / a.rock.vs + m / b.rock.vs);
   rock.rho = (n * a.rock.rho + m * b.rock.rho) / all;
-  return {a.first, b.last, rock};
+  return {a.first, b.last, rock, a.jumps};
 }
 
 std::vector<Segment> segments_of(const Columns& columns, std::int64_t i) {
@@ -105,8 +106,9 @@ std::vector<Segment> segments_of(const Columns& columns, std::int64_t i) {
     const auto cell = columns.cell(i, k);
     if (cell.matter == Matter::empty && !segments.empty()) break;
     if (cell.matter == Matter::empty) continue;
-    const Segment one{k, k + 1, cell};
-    if (!segments.empty() && alike(cell, before, same_rock) && alike(cell, segments.back().rock, same_layer))
+    const bool jumps = segments.empty() || !alike(cell, before, same_rock);
+    const Segment one{k, k + 1, cell, jumps};
+    if (!jumps && alike(cell, segments.back().rock, same_layer))
       segments.back() = joined(segments.back(), one);
     else
       segments.push_back(one);
@@ -134,7 +136,8 @@ void join_cut_cells(std::vector<Segment>& segments) {
     bool cut = false;
     for (; end > n && !cut; --end) {
       const auto &upper = segments[n - 1].rock, &lower = segments[end].rock;
-      cut = upper.matter == lower.matter && segments[n].first > segments[n - 1].first + 1;
+      cut =
+          upper.matter == lower.matter && segments[n].jumps && segments[n].first > segments[n - 1].first + 1;
       for (std::size_t m = n; m < end && cut; ++m)
         cut = segments[m].rock.matter == upper.matter &&
               between(upper.stiffness(), segments[m].rock.stiffness(), lower.stiffness());

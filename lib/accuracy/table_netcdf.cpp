@@ -26,7 +26,7 @@ struct Column {
 constexpr Column<int> whole_numbers[] = {
     {"order", "order of the reconstruction in space", "1", &AccuracyRow::order},
     {"time_order", "order of the splitting in time", "1", &AccuracyRow::time_order},
-    {"slip_order", "order of the slip correction, 3 = exponential, 0 where nothing slips", "1",
+    {"slip_order", "order of the slip correction, 3 = exponential, 4 = centred, 0 where nothing slips", "1",
      &AccuracyRow::slip_order},
 };
 /// Only where a row is.

@@ -82,20 +82,18 @@ Page on_plane(Page page, const std::optional<Slice>& slice) {
   return page;
 }
 
-/// Where the rock attenuates, as sw-shoot would let it for a wavelet of the frequency given.
-std::optional<Attenuation> attenuation_of(const RockAt& rock, const AttenuationChoice& choice) {
+/// Where the rock attenuates, as sw-shoot lets it for a wavelet of the frequency given.
+std::optional<Attenuation> attenuation_of(const RockAt& rock, const std::optional<double>& reference_hz) {
+  constexpr int mechanisms = 3;
   if (!rock.attenuates()) return {};
-  if (!choice.reference_hz)
+  if (!reference_hz)
     throw Error("--at: the rock at " + rock.place +
                     " attenuates, expected --q-frequency F, at which it has the model's speeds, Hz",
                 ErrorKind::usage);
-  const double hz = *choice.reference_hz;
+  const double hz = *reference_hz;
   if (!(hz > 0) || !std::isfinite(hz))
     throw Error("--q-frequency: found " + shown(hz) + " Hz, expected it above 0", ErrorKind::usage);
-  const auto band = choice.band_hz.value_or(std::array{hz / 5, 2.5 * hz});
-  return Attenuation{in_place(choice.band_hz ? "--q-band, --q-mechanisms" : "--q-mechanisms",
-                              [&] { return Mechanisms(choice.mechanisms, band[0], band[1]); }),
-                     hz};
+  return Attenuation{Mechanisms(mechanisms, hz / 5, 2.5 * hz), hz};
 }
 
 template <int D>
@@ -109,7 +107,7 @@ Picture rock_picture(InputFile& input, const PlotOptions& options, const Page& p
   const auto model = read_model<D>(*input.file);
   const auto rock = in_place("--at", [&] { return rock_at(model, point); });
   return in_place(input.file->shown_name(),
-                  [&] { return draw_rock(rock, attenuation_of(rock, options.quality), page); });
+                  [&] { return draw_rock(rock, attenuation_of(rock, options.reference_hz), page); });
 }
 
 Picture model_picture(InputFile& input, const PlotOptions& options, const Page& page) {

@@ -11,7 +11,6 @@
 #include "plot/look.hpp"
 #include "plot/page.hpp"
 #include "plot/picture.hpp"
-#include "scene/scene.hpp"
 #include "segy/input_options.hpp"
 
 namespace slipwave::plot {
@@ -30,10 +29,10 @@ struct PlotOptions {
   // models and snapshots
   std::string property = "vp", survey, field, over, minus;
   std::optional<double> time_s;
-  std::optional<Slice> slice;       // of what is in 3-D
-  std::optional<Point<3>> through;  // or three of them
-  std::vector<double> at;           // of a model, the point whose rock is drawn; empty: none
-  AttenuationChoice quality;        // for that
+  std::optional<Slice> slice;          // of what is in 3-D
+  std::optional<Point<3>> through;     // or three of them
+  std::vector<double> at;              // of a model, the point whose rock is drawn; empty: none
+  std::optional<double> reference_hz;  // for that: where it attenuates, of the model's speeds
   bool movie = false;
   double frames_per_s = 10;
   // spectra and errors

@@ -112,11 +112,13 @@ want() {
           need("reconstruct<" (2 * reach + 1) ", true, " real ">", sums)
           need("reconstruct<" (2 * reach + 1) ", false, " real ">", sums + weights)
           # Two pairs, meet and update, of which the first product is one.
-          need("fused_row<" (2 * reach + 1) ", true, false, " real ">", 2 * (sums + weights) + 20 + 21)
+          need("fused_row<" (2 * reach + 1) ", 1, false, " real ">", 2 * (sums + weights) + 20 + 21)
+          # In 3-D a third pair, with the weights and the share of the second.
+          need("fused_row<" (2 * reach + 1) ", 2, false, " real ">", 3 * sums + 2 * weights + 20 + 21 + 13)
           # Of anisotropic media: the same, with what couples stresses in place of a difference.
-          need("fused_row<" (2 * reach + 1) ", true, true, " real ">", 2 * (sums + weights) + 20 + 20)
+          need("fused_row<" (2 * reach + 1) ", 1, true, " real ">", 2 * (sums + weights) + 20 + 20)
           # Of fluid alone one pair, and one stress.
-          need("fused_row<" (2 * reach + 1) ", false, false, " real ">", sums + weights + 9 + 9)
+          need("fused_row<" (2 * reach + 1) ", 0, false, " real ">", sums + weights + 9 + 9)
         }
         # By S pairs.
         need("solve_riemann<true, 0, " real ">", 6); need("solve_riemann<false, 0, " real ">", 9)

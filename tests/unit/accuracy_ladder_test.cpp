@@ -158,7 +158,7 @@ TEST(MeasuredSetting, SaysWhatWasComputed) {
   EXPECT_TRUE(std::isnan(row.late_error));
   EXPECT_EQ(row.order, 5);
   EXPECT_EQ(row.time_order, 2);
-  EXPECT_EQ(row.slip_order, 2);
+  EXPECT_EQ(row.slip_order, 4);
   EXPECT_NEAR(row.courant, 0.8, 1e-9);
   // PMLs of 20 cells at three edges.
   EXPECT_EQ(row.cells, (40 + 2 * 20) * (30 + 20));

@@ -73,7 +73,7 @@ TEST(Identity, TellsEverythingThatMattersByName) {
       {"time step 0.0015 s, expected 0.001 s", [](auto& s) { s.numerics.time_step_s = 0.001; }},
       {"precision float, expected double", [](auto& s) { s.numerics.double_precision = true; }},
       {"time order 2, expected 4", [](auto& s) { s.numerics.time_order = 4; }},
-      {"slip correction second order, expected first order",
+      {"slip correction centred, expected first order",
        [](auto& s) { s.numerics.correction = SlipCorrection::first; }},
       {"edge width 0, expected 30", [](auto& s) { s.numerics.zone_cells = 30; }},
       {"slip on, expected off", [](auto& s) { s.with_slip = false; }},

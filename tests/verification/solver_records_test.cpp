@@ -102,7 +102,8 @@ Scene<2> full_space(double cells_a_wavelength, double half_width_m) {
       {{1.7, -0.9}, parse_mechanism<2>("force:1,2"), parse_wavelet("ricker:20"), force_n}};
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.numerics.order = 7;
-  scene.numerics.cfl = 1.9;
+  // At 1.9 P waves alone, as div holds, lag by a percent.
+  scene.numerics.cfl = 1.6;
   scene.numerics.time_order = 4;
   scene.recording = {recorded, 0.36, interval_s, fibre};
   return scene;
