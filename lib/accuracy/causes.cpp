@@ -206,7 +206,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
   return 0;
 }
 
-/// What near fields of an explosion in fluid err by at most, from one cell away on: beside the source 10 to
+/// The largest error of near fields of an explosion in fluid, from one cell away on: beside the source 10 to
 /// 35 % of each component were found, whatever the cells. Nearer all may be wrong.
 double most_of_near_field(NearField kind, double away) {
   return kind == NearField::of_explosion_in_fluid && away >= 1 ? 0.35 : 1;
