@@ -101,4 +101,66 @@ inline std::vector<AnisotropicStack::Receiver> around(double z, double distance_
   return all;
 }
 
+/// Two rocks that meet on a face, a source in the upper one.
+inline Stack two_rocks(const Material& over, const Material& under) {
+  Stack stack;
+  stack.layers = {over, under}, stack.tops_m = {560}, stack.source_m = 400 + stack.spacing() / 2;
+  stack.receivers = {{250, 300}, {0, 480}, {300, 500}, {200, 640}, {-250, 800}};
+  return stack;
+}
+
+/// A rock below a free surface.
+inline Stack below_surface(const Material& rock) {
+  Stack stack;
+  stack.layers = {rock}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 600;
+  stack.receivers = {{250, 20}, {-150, 40}, {100, 300}, {300, 60}};
+  return stack;
+}
+
+/// A rock below water, in which an explosion is.
+inline Stack below_water(const Material& rock) {
+  Stack stack;
+  stack.layers = {{1500, 0, 1000}, rock}, stack.tops_m = {200}, stack.free_surface = true;
+  stack.source_m = 100, stack.depth_m = 700, stack.kind = "explosion";
+  stack.receivers = {{250, 150}, {-150, 260}, {100, 400}, {300, 240}};
+  return stack;
+}
+
+/// Order of convergence from 12 to 24 cells, order 7, below a free surface.
+inline double order_below_surface(const Material& rock) {
+  Stack coarse = below_surface(rock);
+  coarse.cells = 12, coarse.order = 7;
+  coarse.receivers = {{250, 20}, {-150, 40}, {100, 300}};
+  auto fine = coarse;
+  fine.cells = 24;
+  return std::log(coarse.error() / fine.error()) / std::log(coarse.spacing() / fine.spacing());
+}
+
+/// The largest vx of a shot's second half, as a share of that of the first, over so many steps.
+inline double late_share(Scene<2> scene, const std::string& wavelet, int steps) {
+  scene.survey.sources[0].wavelet = parse_wavelet(wavelet);
+  scene.recording.duration_s = steps * time_step_s(scene);
+  scene.recording.interval_s = 0.01;
+  const auto gather = shoot(scene, 1);
+  const auto& vx = gather.traces[0].samples;
+  double largest = 0, late = 0;
+  for (std::size_t n = 0; n < vx.size(); ++n)
+    (n < vx.size() / 2 ? largest : late) = std::max(n < vx.size() / 2 ? largest : late, std::abs(vx[n]));
+  return late / largest;
+}
+
+/// By what vz of a force along x here and vx of a force along z there, source and receiver exchanged, differ.
+inline double error_of_exchange(Scene<2> scene, const Point<2>& one, const Point<2>& other) {
+  scene.numerics.double_precision = true;
+  scene.recording.components = {Component::vx, Component::vz};
+  scene.recording.duration_s = 0.2;
+  const auto shot = [&](const Point<2>& from, const Point<2>& to, const std::string& kind) {
+    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<2>(kind);
+    scene.survey.receivers_m = {to};
+    return shoot(scene, 1);
+  };
+  const auto there = shot(one, other, "force:1,0"), back = shot(other, one, "force:0,1");
+  return relative_error(there.traces[1].samples, back.traces[0].samples);
+}
+
 }  // namespace slipwave::solver
