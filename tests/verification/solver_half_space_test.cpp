@@ -14,12 +14,13 @@ Rock rock_of(double vp_over_vs) { return {vs * vp_over_vs, vs, 2200}; }
 /// Surface motion at the offsets, by the solver, per unit of the source; cells a dominant S wavelength. The
 /// edges are PMLs far out.
 std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechanism, double depth_m,
-                                            double cells, double cfl) {
+                                            double cells, double cfl,
+                                            const std::vector<double>& offsets = offsets_m) {
   const double h = wavelength_m / cells;
-  const double duration_s = std::ceil(1000 * (offsets_m.back() / (0.86 * vs) + 3 / peak_hz)) / 1000;
+  const double duration_s = std::ceil(1000 * (offsets.back() / (0.86 * vs) + 3 / peak_hz)) / 1000;
   const double reach = rock.vp * duration_s;
   const auto left = std::int64_t(std::min(300 + reach / 4, 800.) / h);
-  const auto right = std::int64_t((offsets_m.back() + std::min(reach / 4, 600.)) / h);
+  const auto right = std::int64_t((offsets.back() + std::min(reach / 4, 600.)) / h);
   auto medium = uniform_medium(left + right, std::int64_t(std::min(reach / 2, 1200.) / h), h, rock);
   for (auto* field : {&medium.vp, &medium.vs, &medium.rho}) {
     Grid<2> grid = field->grid();
@@ -32,7 +33,7 @@ std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechan
   scene.model.medium = medium;
   scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
   scene.survey.sources = {{{0, depth_m}, parse_mechanism<2>(mechanism), parse_wavelet("ricker:20"), 1e6}};
-  for (const double x : offsets_m) scene.survey.receivers_m.push_back({x, 0});
+  for (const double x : offsets) scene.survey.receivers_m.push_back({x, 0});
   scene.edges = edges_all(EdgeLaw::absorbing);
   scene.edges[1][0] = EdgeLaw::free;
   scene.numerics.cfl = cfl;
@@ -40,8 +41,8 @@ std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechan
   check(scene);
   const Gather gather = shoot(scene, 1);
   std::vector<SurfaceMotion> found;
-  for (std::size_t n = 0; n < offsets_m.size(); ++n) {
-    found.push_back({gather.traces[n].samples, gather.traces[offsets_m.size() + n].samples});
+  for (std::size_t n = 0; n < offsets.size(); ++n) {
+    found.push_back({gather.traces[n].samples, gather.traces[offsets.size() + n].samples});
     for (auto& trace : found.back())
       for (double& sample : trace) sample /= 1e6;
   }
@@ -50,10 +51,11 @@ std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechan
 
 /// Relative L2 error of vx and vz at all offsets together.
 template <class ExactAt>
-double pooled_error(const std::vector<SurfaceMotion>& found, ExactAt&& exact_at) {
+double pooled_error(const std::vector<SurfaceMotion>& found, ExactAt&& exact_at,
+                    const std::vector<double>& offsets = offsets_m) {
   std::vector<double> all, all_exact;
-  for (std::size_t n = 0; n < offsets_m.size(); ++n) {
-    const SurfaceMotion exact = exact_at(offsets_m[n], std::int64_t(found[n][0].size()));
+  for (std::size_t n = 0; n < offsets.size(); ++n) {
+    const SurfaceMotion exact = exact_at(offsets[n], std::int64_t(found[n][0].size()));
     for (const int component : {0, 1}) {
       all.insert(all.end(), found[n][component].begin(), found[n][component].end());
       all_exact.insert(all_exact.end(), exact[component].begin(), exact[component].end());
@@ -131,13 +133,28 @@ TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
   // wavelengths.
   const Rock rock = rock_of(2);
   for (const auto& [depth_cells, bound] :
-       {std::pair(0.25, 8.2), {0.5, 8.2}, {1., 7.1}, {2., 5.9}, {3., 4.7}, {6., 3.0}}) {
+       {std::pair(0.25, 5.3), {0.5, 4.5}, {1., 3.5}, {2., 3.8}, {3., 3.0}, {6., 1.4}}) {
     const double cells = 24, depth_m = depth_cells * wavelength_m / cells;
     const double error = pooled_error(
         shoot_half_space(rock, "explosion", depth_m, cells, 0.9),
         [&](double x, std::int64_t count) { return garvin(rock, x, depth_m, {peak_hz}, interval_s, count); });
     EXPECT_LT(100 * error, bound) << depth_cells;
   }
+}
+
+TEST(Garvin, OfAShallowExplosionIsMetFarAway) {
+  // In units of this scene: 10 m deep in 4500/2250/2500 at 30 Hz, receivers 100 to 1100 m away.
+  std::vector<double> offsets;
+  for (int n = 1; n <= 11; ++n) offsets.push_back(n * wavelength_m * 100 / 75);
+  const double depth_m = wavelength_m * 10 / 75;
+  const Rock rock = rock_of(2);
+  EXPECT_LT(100 * pooled_error(
+                      shoot_half_space(rock, "explosion", depth_m, 24, 0.9, offsets),
+                      [&](double x, std::int64_t count) {
+                        return garvin(rock, x, depth_m, {peak_hz}, interval_s, count);
+                      },
+                      offsets),
+            0.1);
 }
 
 /// Force and receivers stand on the surface, nothing but its wave counts, and its velocity has the spectrum
@@ -149,12 +166,12 @@ TEST_P(LambAt, ConvergesToTheClosedForm) {
   const double coarse = lamb_error(ratio, 12, 0.9), fine = lamb_error(ratio, 24, 0.9);
   EXPECT_LT(100 * coarse, coarse_bound);
   EXPECT_LT(100 * fine, fine_bound);
-  EXPECT_GT(observed_order(coarse, fine), 1.3);
+  EXPECT_GT(observed_order(coarse, fine), 2.4);
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfSpace, LambAt,
-                         testing::Values(SurfaceCase{1.6, 49, 15.2}, SurfaceCase{2, 39, 7.7},
-                                         SurfaceCase{3, 37, 3.5}, SurfaceCase{5, 38, 4.4}),
+                         testing::Values(SurfaceCase{1.6, 41, 6.9}, SurfaceCase{2, 36, 4.3},
+                                         SurfaceCase{3, 36, 3.3}, SurfaceCase{5, 37, 3.2}),
                          [](const auto& info) {
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });

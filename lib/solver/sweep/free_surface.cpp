@@ -1,7 +1,6 @@
 #include "solver/sweep/free_surface.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "solver/sweep/motion_along.hpp"
 
@@ -15,28 +14,6 @@ double& component(RowVector<D, double>& vector, int axis) {
   if constexpr (D == 3)
     if (axis == 1) return vector.y;
   return vector.x;
-}
-
-/// N of the first or the last face of the rows at a cell beside it, and the height of this cell in cells.
-template <int D>
-std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
-  constexpr int z = D - 1, corners = 1 << z;
-  RowVector<D, double> normal{};
-  normal.z = 1;
-  double height = 0;
-  for (int n = 0; n < corners; ++n) {
-    Index<D> upper = at, lower = at;
-    for (int axis = 0; axis < z; ++axis) {
-      upper[axis] += (n >> axis) & 1;
-      lower[axis] = upper[axis];
-    }
-    ++lower[z];
-    const double depth = corner_depth(domain, upper), below = corner_depth(domain, lower);
-    height += (below - depth) / corners;
-    for (int axis = 0; axis < z; ++axis)
-      component(normal, axis) -= ((n >> axis) & 1 ? 2.0 : -2.0) / corners * (side ? below : depth);
-  }
-  return {normal, height};
 }
 
 /// Adds the difference along `along` of the velocity `row`, times `factor`; false where there is none.
@@ -89,6 +66,27 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
 }
 
 }  // namespace
+
+template <int D>
+std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
+  constexpr int z = D - 1, corners = 1 << z;
+  RowVector<D, double> normal{};
+  normal.z = 1;
+  double height = 0;
+  for (int n = 0; n < corners; ++n) {
+    Index<D> upper = at, lower = at;
+    for (int axis = 0; axis < z; ++axis) {
+      upper[axis] += (n >> axis) & 1;
+      lower[axis] = upper[axis];
+    }
+    ++lower[z];
+    const double depth = corner_depth(domain, upper), below = corner_depth(domain, lower);
+    height += (below - depth) / corners;
+    for (int axis = 0; axis < z; ++axis)
+      component(normal, axis) -= ((n >> axis) & 1 ? 2.0 : -2.0) / corners * (side ? below : depth);
+  }
+  return {normal, height};
+}
 
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
@@ -266,6 +264,8 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
 
 template std::vector<SurfaceTerm<2>> surface_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
 template std::vector<SurfaceTerm<3>> surface_slope<3>(const Domain<3>&, const Index<3>&, int, int, int);
+template std::pair<RowVector<2, double>, double> end_of_rows<2>(const Domain<2>&, const Index<2>&, int);
+template std::pair<RowVector<3, double>, double> end_of_rows<3>(const Domain<3>&, const Index<3>&, int);
 template class FreeSurface<2, float>;
 template class FreeSurface<2, double>;
 template class FreeSurface<3, float>;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "solver/kernels/bent_formulas.hpp"
@@ -26,6 +27,11 @@ struct SurfaceTerm {
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row);
+
+/// N of the first (side 0) or last face of the rows of a fitted grid at a cell beside it, and the height of
+/// this cell in cells.
+template <int D>
+std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side);
 
 /// The corrections of the antisymmetric extension of solids beyond a free surface of the grid (v even, s
 /// odd): the correction of velocity is surface_slope(); the correction of traction removes what sweeps along

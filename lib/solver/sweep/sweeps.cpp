@@ -37,6 +37,9 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     changed_[axis] = rows_changed(axis);
     for (const int side : {0, 1})
       if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
+    for (const int side : {0, 1})
+      if (reach_ > 0 && shear_)
+        surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
   }
   TiltedFace<D> tilted;
   if (!domain.tilted().empty())
@@ -382,8 +385,11 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
   }
   const std::int64_t stripes = (nx + stripe_width - 1) / stripe_width, rows = layout.shape()[axis];
   // Free surfaces read columns of neighbouring stripes: these must not have been advanced.
-  for (const int side : {0, 1})
+  for (const int side : {0, 1}) {
     free_surfaces_[axis][side].update_corrections(state_, 0, std::numeric_limits<std::int64_t>::max());
+    if (axis == z_axis)
+      surface_tractions_[std::size_t(side)].update(state_, 0, std::numeric_limits<std::int64_t>::max());
+  }
   if (axis == z_axis) corrections_.update_all(state_);
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
@@ -434,6 +440,19 @@ void Sweeps<D, Real>::enter_grid(int axis, int side, std::int64_t n, OutgoingWav
   for (int p = 0; p < pair_count(); ++p)
     enter(law, pairs_[axis][p].wave, n, side ? outgoing.up(p) : outgoing.down(p),
           side ? entering.down(p) : entering.up(p));
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::add_surface_tractions(int side, const Index<D>& at, const IndexRange& columns,
+                                            OutgoingWaves<Real> entering) const {
+  const auto& tractions = surface_tractions_[std::size_t(side)];
+  if (tractions.empty()) return;
+  const std::int64_t first = free_surfaces_[z_axis][side].number(at) + columns.first;
+  for (int p = 0; p < D; ++p) {
+    const Real* const traction = tractions.of(p) + first;
+    Real* const wave = side ? entering.down(p) : entering.up(p);
+    for (std::int64_t i = 0; i < columns.count(); ++i) wave[i] += side ? traction[i] : -traction[i];
+  }
 }
 
 template <int D, class Real>
@@ -637,6 +656,9 @@ void Sweeps<D, Real>::across(int axis, const Index<D>& at, std::int64_t step, co
     const auto above = ring.outgoing(row - 1, x), here = ring.outgoing(row, x);
     if (row == 0) enter_grid(axis, 0, n, here, above);
     if (row == rows) enter_grid(axis, 1, n, above, here);
+    // Splittings of fourth order have no whole steps: nothing is missing there.
+    if (axis == z_axis && scale == 1 && (row == 0 || row == rows))
+      add_surface_tractions(row == 0 ? 0 : 1, at, wide, row == 0 ? above : here);
     if (advance_bent(axis, at, row, wide, scale, ring, work)) return;
     const auto uniform_runs = [&](std::int64_t k) {
       return k >= 0 && k < rows ? state_.uniform_interior[std::size_t(axis)].of(layout.line_number(line(k)))
@@ -849,6 +871,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   const auto cells = D == 2 ? 1 : state_.layout.padded_nx();
   const auto correct = [&](int side) {
     free_surfaces_[z_axis][side].update_corrections(state_, columns.first * cells, columns.last * cells);
+    surface_tractions_[std::size_t(side)].update(state_, columns.first * cells, columns.last * cells);
   };
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);

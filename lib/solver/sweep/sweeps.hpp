@@ -12,6 +12,7 @@
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
+#include "solver/sweep/surface_tractions.hpp"
 #include "solver/sweep/tilted_cells.hpp"
 #include "solver/sweep/workspace.hpp"
 
@@ -184,6 +185,9 @@ class Sweeps {
                 std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
   void enter_grid(int axis, int side, std::int64_t n, OutgoingWaves<Real> outgoing,
                   OutgoingWaves<Real> entering) const;
+  /// Instead of no traction at the free surface of z, in a sweep over a whole step.
+  void add_surface_tractions(int side, const Index<D>& at, const IndexRange& columns,
+                             OutgoingWaves<Real> entering) const;
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
@@ -213,6 +217,7 @@ class Sweeps {
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed>, D> changed_;                   // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
+  std::array<SurfaceTractions<D, Real>, 2> surface_tractions_;        // of z, by side
 };
 
 }  // namespace slipwave::solver

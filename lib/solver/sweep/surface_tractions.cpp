@@ -1,0 +1,239 @@
+#include "solver/sweep/surface_tractions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/sweep/free_surface.hpp"
+#include "solver/sweep/motion_along.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// A difference along the surface: offsets in cells and weights.
+template <int D>
+struct Difference {
+  struct Part {
+    Index<D> offset;
+    double weight;
+  };
+  std::vector<Part> parts;
+};
+
+template <int D>
+Difference<D> first_difference(int along) {
+  Difference<D> difference;
+  for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+    Index<D> offset{};
+    offset[std::size_t(along)] = offsets_along[k];
+    difference.parts.push_back({offset, weights_along[k]});
+  }
+  return difference;
+}
+
+/// Along two axes; along one the mean of those over two and over four cells.
+template <int D>
+Difference<D> second_difference(int along, int other) {
+  Difference<D> difference;
+  Index<D> offset{};
+  if (along == other) {
+    for (const auto& [cells, weight] : {std::pair{-2, 0.125}, {-1, 0.5}, {0, -1.25}, {1, 0.5}, {2, 0.125}}) {
+      offset[std::size_t(along)] = cells;
+      difference.parts.push_back({offset, weight});
+    }
+    return difference;
+  }
+  for (const int one : {-1, 1})
+    for (const int two : {-1, 1}) {
+      offset[std::size_t(along)] = one, offset[std::size_t(other)] = two;
+      difference.parts.push_back({offset, 0.25 * one * two});
+    }
+  return difference;
+}
+
+/// The sign of a field in its mirror image at an edge of an axis.
+template <int D>
+double sign_beyond(EdgeLaw law, int axis, int row) {
+  using Rows = FieldRows<D>;
+  const bool is_velocity = row < D;
+  bool shear = is_velocity && row != Rows::velocity(axis);
+  for (int other = 0; other < D; ++other) shear |= other != axis && row == Rows::shear_stress(axis, other);
+  const auto extension = extension_of(law, shear ? wave_s : wave_p);
+  if (is_velocity) return extension == Extension::motionless ? -1 : 1;
+  return extension == Extension::traction_free ? -1 : 1;
+}
+
+/// Sums of fields round a cell of the surface.
+template <int D>
+class Sums {
+ public:
+  Sums(const Domain<D>& domain, const Index<D>& at) : domain_(domain), at_(at) {}
+
+  /// Adds a difference of a field; false where there is none.
+  bool add(const Difference<D>& difference, int row, double factor) {
+    for (const auto& part : difference.parts)
+      if (!add(part.offset, row, factor * part.weight)) return false;
+    return true;
+  }
+  const std::vector<SurfaceTerm<D>>& terms() const { return terms_; }
+
+ private:
+  bool add(const Index<D>& offset, int row, double weight) {
+    SurfaceTerm<D> term{at_, row, weight};
+    for (int axis = 0; axis < D - 1; ++axis) {
+      auto& place = term.cell[std::size_t(axis)];
+      const std::int64_t n = domain_.grid.shape[std::size_t(axis)];
+      place += offset[std::size_t(axis)];
+      const bool below = place < 0;
+      if (!below && place < n) continue;
+      const EdgeLaw law = domain_.edges[axis][below ? 0 : 1];
+      if (law == EdgeLaw::free) return false;
+      term.weight *= sign_beyond<D>(law, axis, row);
+      place = below ? -1 - place : 2 * n - 1 - place;
+      if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
+      place = std::clamp<std::int64_t>(place, 0, n - 1);
+    }
+    if (!alike(domain_, at_, term.cell)) return false;
+    terms_.push_back(term);
+    return true;
+  }
+
+  const Domain<D>& domain_;
+  Index<D> at_;
+  std::vector<SurfaceTerm<D>> terms_;
+};
+
+/// Shares of the two terms of (E11b), the normal one over x = (vs/vp)^2: fitted to the speed of the discrete
+/// wave at vp/vs of 1.4 to 8. In bent rows there is no tangential term. The rest of the normal share would
+/// cost more where body waves are reflected than surface waves gain.
+constexpr double tangential_share = 0.1;
+double normal_share(double x, bool with_tangential) {
+  x = std::max(x, 0.01);
+  const double alone = 0.229 - 0.156 * x - 0.0279 / x;
+  return 0.85 * (with_tangential ? alone - (0.0245 + 0.012 * x + 0.026 * x * x) : alone);
+}
+
+/// The sums of one pair: of stresses, and of velocities times b.
+template <int D>
+struct PairSums {
+  Sums<D> stresses, velocities;
+  bool found = true;
+
+  PairSums(const Domain<D>& domain, const Index<D>& at) : stresses(domain, at), velocities(domain, at) {}
+  void add(Sums<D>& sums, const Difference<D>& difference, int row, double factor) {
+    found = found && sums.add(difference, row, factor);
+  }
+};
+
+/// Second differences along the surface of the stresses in it; on a bent row of those along its tangent, for
+/// the traction times |N|.
+template <int D>
+PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, int side) {
+  using Rows = FieldRows<D>;
+  constexpr int z = D - 1;
+  PairSums<D> sums(domain, at);
+  if (domain.bent(at[z])) {
+    const auto normal = end_of_rows(domain, at, side).first;
+    const double square = dot(normal, normal), factor = 1 / (square * std::sqrt(square));
+    const auto bend = second_difference<D>(0, 0);
+    sums.add(sums.stresses, bend, Rows::normal_stress(0), factor);
+    sums.add(sums.stresses, bend, Rows::normal_stress(z), factor * normal.x * normal.x);
+    sums.add(sums.stresses, bend, Rows::shear_stress(0, z), -2 * factor * normal.x);
+    return sums;
+  }
+  for (int along = 0; along < z; ++along)
+    for (int other = 0; other < z; ++other)
+      if (!thin(domain, along) && !thin(domain, other))
+        sums.add(sums.stresses, second_difference<D>(along, other),
+                 along == other ? Rows::normal_stress(along) : Rows::shear_stress(along, other), 1);
+  return sums;
+}
+
+/// The difference along an axis of the acceleration across the surface, which its normal stress half a row
+/// below it gives, less what sweeps along it have put there since the step began.
+template <int D>
+PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int side, int along) {
+  using Rows = FieldRows<D>;
+  constexpr int z = D - 1;
+  PairSums<D> sums(domain, at);
+  if (thin(domain, along)) return sums;
+  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+  const double lambda = zp * zp - 2 * zs * zs, outward = (side ? 1 : -1) / domain.height(at[z]);
+  sums.add(sums.stresses, first_difference<D>(along), Rows::normal_stress(z), 2 * outward);
+  for (int other = 0; other < z; ++other)
+    if (!thin(domain, other))
+      sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other), outward * lambda);
+  return sums;
+}
+
+/// Whether the extension beyond the surface is corrected there.
+template <int D>
+bool corrected(const Domain<D>& domain, const Index<D>& at, int side) {
+  for (int axis = 0; axis < D; ++axis)
+    if ((axis == D - 1 || !thin(domain, axis)) &&
+        surface_slope(domain, at, D - 1, side, FieldRows<D>::velocity(axis)).empty())
+      return false;
+  return true;
+}
+
+}  // namespace
+
+template <int D, class Real>
+SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side) {
+  constexpr int z = D - 1;
+  if (domain.edges[z][side] != EdgeLaw::free || domain.anisotropic()) return;
+  const Layout<D> material(domain.grid.shape, material_rows_of(domain.material_kind()));
+  Grid<D> surface = domain.grid;
+  surface.shape[z] = 1;
+  std::int64_t number = 0;
+  for (std::int64_t n = 0; n < surface.size(); ++n) {
+    Index<D> at = surface.index(n);
+    at[z] = side ? domain.grid.shape[z] - 1 : 0;
+    number = (D == 3 ? at[1] * layout.padded_nx() : 0) + at[0];
+    const bool bent = domain.bent(at[z]);
+    if ((bent && D == 3) || domain.tilted_at(at) || !corrected(domain, at, side)) continue;
+    std::vector<PairSums<D>> pairs = {normal_sums(domain, at, side)};
+    for (int along = 0; along < z && !bent; ++along)
+      pairs.push_back(tangential_sums(domain, at, side, along));
+    if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) continue;
+    const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+    const auto add = [&](const Sums<D>& sums) {
+      for (const auto& term : sums.terms())
+        terms_.push_back({layout.cell(term.cell) + term.row * layout.row_pitch(), Real(term.weight)});
+      return terms_.size();
+    };
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
+      const double share = pair == 0 ? normal_share(zs * zs / (zp * zp), !bent) : tangential_share;
+      Cell cell{int(pair), number, material.cell(at) + row_b * material.row_pitch(), Real(share * zs * zs),
+                terms_.size()};
+      cell.velocities = add(pairs[pair].stresses);
+      cell.end = add(pairs[pair].velocities);
+      cells_.push_back(cell);
+    }
+  }
+  if (cells_.empty()) return;
+  for (auto& list : tractions_) list.assign(std::size_t(number + layout.padded_nx()), 0);
+}
+
+template <int D, class Real>
+void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
+  const Real* const fields = state.fields.data();
+  auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
+                               [](const Cell& one, std::int64_t number) { return one.number < number; });
+  for (; cell != cells_.end() && cell->number < last; ++cell) {
+    const auto sum = [&](std::size_t begin, std::size_t end) {
+      Real total = 0;
+      for (auto term = begin; term < end; ++term) total += terms_[term].weight * fields[terms_[term].place];
+      return total;
+    };
+    const Real b = state.material.data()[cell->b];
+    tractions_[std::size_t(cell->pair)][std::size_t(cell->number)] =
+        cell->factor * b * b * (sum(cell->stresses, cell->velocities) - b * sum(cell->velocities, cell->end));
+  }
+}
+
+template class SurfaceTractions<2, float>;
+template class SurfaceTractions<2, double>;
+template class SurfaceTractions<3, float>;
+template class SurfaceTractions<3, double>;
+
+}  // namespace slipwave::solver

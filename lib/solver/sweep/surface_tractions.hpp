@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/state.hpp"
+
+namespace slipwave::solver {
+
+/// What stands for zero traction at a free surface at the top (side 0) or the bottom (1) of the grid in a
+/// sweep across it over a whole step: as much, of second order in the step, as gives waves along the surface
+/// of an isotropic solid the speed that splitting the step takes from them (theory.md (E11b)). Empty in bent
+/// rows, and where the extension beyond the surface has no corrections (FreeSurface).
+template <int D, class Real>
+class SurfaceTractions {
+ public:
+  SurfaceTractions() = default;
+  SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side);
+
+  bool empty() const { return cells_.empty(); }
+  /// Computes them at cells first <= number < last of the surface, numbered as by FreeSurface, from the
+  /// fields before the sweep, up to free_surface_reach cells beyond.
+  void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);
+  /// Of a pair of the sweep (0 P, then S by axes), by number.
+  const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
+
+ private:
+  struct Term {
+    std::int64_t place;
+    Real weight;
+  };
+  /// One pair at one cell: the place of b, and where its terms of stresses and of velocities begin.
+  struct Cell {
+    int pair;
+    std::int64_t number, b;
+    Real factor;
+    std::size_t stresses, velocities = 0, end = 0;
+  };
+  std::vector<Cell> cells_;  // by number
+  std::vector<Term> terms_;
+  std::array<std::vector<Real>, D> tractions_;
+};
+
+}  // namespace slipwave::solver
