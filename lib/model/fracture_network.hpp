@@ -23,7 +23,7 @@ struct FractureNetwork {
 /// Throws a usage Error that names the option where a value is out of range.
 void check(const FractureNetwork& network);
 
-/// A length for a share from 0 to 1 of all fractures that are shorter (theory.md (S32)).
+/// A length for a share from 0 to 1 of all fractures that are shorter (theory.md (S31)).
 double drawn_length(const FractureNetwork& network, double share);
 /// How far the dip of a fracture is from the middle, degrees, for the same of dips.
 double drawn_turn(double concentration, double share);

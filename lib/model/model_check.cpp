@@ -189,8 +189,8 @@ void check_single(const FractureSet<D>& set, const std::string& name) {
   if (set.traces.empty()) return;
   const auto& system = set.systems.front();
   if (set.systems.size() != 1 || system.slides() || system.compliance.damped() ||
-      system.compliance.crack_density > 0 || !system.compliance.gives())
-    throw Error(name + ": single fractures have one normal and tangential compliance and no other law");
+      system.compliance.crack_density > 0)
+    throw Error(name + ": single fractures have a normal and a tangential compliance and no other law");
   for (const auto& trace : set.traces) {
     bool good = trace.size() > 1;
     for (std::size_t n = 0; good && n < trace.size(); ++n) {
