@@ -70,6 +70,36 @@ void add_point(const Grid<2>& grid, const Point<2>& at, const TracePoint& point,
     }
 }
 
+/// Where points count to cells of a grid.
+Box<2> bounds_of(const Grid<2>& grid) {
+  const double margin = 2 * grid.spacing_m;
+  Box<2> box;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    box.low_m[axis] = grid.origin_m[axis] + double(grid.first[axis]) * grid.spacing_m - margin;
+    box.high_m[axis] = grid.end(int(axis)) + margin;
+  }
+  if (!grid.rows) return box;
+  const auto corners = grid.rows->corners_m();
+  const auto [top, bottom] = std::minmax_element(corners.begin(), corners.end());
+  box.low_m[1] = *top, box.high_m[1] = *bottom;
+  return box;
+}
+
+/// From which to which share of its way a piece may be in a box.
+std::array<double, 2> shares_within(const Box<2>& box, const Point<2>& from, const Point<2>& along) {
+  double begin = 0, end = 1;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (along[axis] == 0) {
+      if (from[axis] < box.low_m[axis] || from[axis] > box.high_m[axis]) return {1, 0};
+      continue;
+    }
+    const double a = (box.low_m[axis] - from[axis]) / along[axis],
+                 b = (box.high_m[axis] - from[axis]) / along[axis];
+    begin = std::max(begin, std::min(a, b)), end = std::min(end, std::max(a, b));
+  }
+  return begin < end ? std::array{begin, end} : std::array<double, 2>{1, 0};
+}
+
 std::string shown_point(const Point<2>& point) { return shown(point[0]) + "," + shown(point[1]); }
 
 /// Marks with the code of a set what its fractures lie in, unless a later cluster took it.
@@ -146,6 +176,7 @@ std::vector<CrossedCell> cells_crossed(const Grid<2>& grid, const FractureSet<2>
   if (set.traces.empty()) return {};
   std::map<std::size_t, CrossedCell> cells;
   const auto& of = set.systems.at(0).compliance;
+  const auto bounds = bounds_of(grid);
   for (const auto& trace : set.traces)
     for (std::size_t n = 1; n < trace.size(); ++n) {
       const Point<2> along = {trace[n][0] - trace[n - 1][0], trace[n][1] - trace[n - 1][1]};
@@ -153,7 +184,8 @@ std::vector<CrossedCell> cells_crossed(const Grid<2>& grid, const FractureSet<2>
       const Point<2> normal = {-along[1] / length_m, along[0] / length_m};
       const auto strain = strain_of_plane(normal, of.normal_m_per_pa, of.tangential_m_per_pa);
       const auto points = std::ceil(points_a_cell * length_m / grid.spacing_m);
-      for (double k = 0.5; k < points; ++k)
+      const auto [begin, end] = shares_within(bounds, trace[n - 1], along);
+      for (double k = std::floor(begin * points) + 0.5; k < std::min(end * points + 1, points); ++k)
         add_point(grid, {trace[n - 1][0] + along[0] * k / points, trace[n - 1][1] + along[1] * k / points},
                   {length_m / points, strain}, cells);
     }

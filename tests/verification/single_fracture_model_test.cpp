@@ -53,6 +53,25 @@ TEST(CellsCrossed, HaveTheComplianceAndThePlaceOfTheFracture) {
   }
 }
 
+TEST(CellsCrossed, AreThoseOfTheWholeInPartsOfTheGridAndOfLinesThatComeFromAfar) {
+  const Grid<2> whole{{40, 30}, 5, {0, 0}};
+  Grid<2> part = whole;
+  part.first[1] = 12, part.shape[1] = 10;
+  for (const auto& set : {set_of({bent}), set_of({{{-1e8, 70}, {1e8, 71}}})}) {
+    std::size_t n = 0;
+    const auto in_part = cells_crossed(part, set);
+    for (const auto& cell : cells_crossed(whole, set)) {
+      const auto at = whole.index(std::int64_t(cell.cell));
+      if (at[1] < 12 || at[1] >= 22) continue;
+      ASSERT_LT(n, in_part.size());
+      EXPECT_EQ(in_part[n].cell, std::size_t(part.flat({at[0], at[1] - 12})));
+      EXPECT_EQ(in_part[n++].strain, cell.strain);
+    }
+    EXPECT_EQ(n, in_part.size());
+    EXPECT_GT(n, 10U);
+  }
+}
+
 TEST(SingleFractures, AreTheSameFromAFileAndInOtherCells) {
   const auto path = std::filesystem::temp_directory_path() / ("single-" + std::to_string(getpid()) + ".nc");
   auto set = set_of({bent, {{20, 140}, {60, 100}}});
