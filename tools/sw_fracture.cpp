@@ -362,8 +362,9 @@ FractureCount put_single(const Settings& settings, Model<2>& model, const cli::C
   const auto count = add_single_fractures(model, set);
   double length_m = 0;
   for (const auto& trace : set.traces) length_m += length_of(trace);
-  context.note(std::to_string(set.traces.size()) + " single fractures of set '" + set.name + "', " +
-               shown(length_m, 4) + " m in all, in " + std::to_string(count.marked) + " cells");
+  context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
+               " of set '" + set.name + "', " + shown(length_m, 4) + " m in all, in " +
+               std::to_string(count.marked) + " cells");
   if (count.taken > 0)
     context.warn(std::to_string(count.taken) +
                  " cells of earlier clusters have only the single fractures now");
@@ -437,7 +438,10 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
                                           : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
   if (!settings.effective) warn_of_large_cells(model, context);
-  if (count.left) {
+  if (count.left && single(settings)) {
+    context.warn("fractures end where rock does: " + std::to_string(count.left) +
+                 " fluid or void cells beside them stay intact");
+  } else if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) +
                  " cells are fractured; a region within rock (--box, --polygon) has none");
