@@ -319,9 +319,12 @@ void check_single(const Settings& s) {
 
 FractureNetwork network_of(const Settings& s) {
   FractureNetwork of;
-  if (!s.network.empty()) of.count = in_place("--network", [&] { return int(parse_integer(s.network)); });
-  if (!s.network.empty() && of.count < 1)
-    refuse("--network: found " + std::to_string(of.count) + ", expected at least 1");
+  if (!s.network.empty()) {
+    const auto count = in_place("--network", [&] { return parse_integer(s.network); });
+    if (count < 1 || count > 1'000'000)
+      refuse("--network: found " + std::to_string(count) + ", expected 1 to 1000000");
+    of.count = int(count);
+  }
   of.intensity_per_m = s.intensity.value_or(0);
   of.seed = std::uint64_t(s.seed);
   of.concentration = s.concentration;
@@ -397,11 +400,9 @@ FractureCount change_rock<2>(const Settings&, Model<2>& model, const std::vector
   return in_place("--effective", [&] { return make_effective(model, systems, region.contains); });
 }
 
-FractureCount put_traces(const Settings& settings, Model<2>& model, const cli::Context& context) {
-  return put_single(settings, model, context);
-}
-FractureCount put_traces(const Settings&, Model<3>&, const cli::Context&) {
-  throw Error("--segment and --trace need a model in 2-D", ErrorKind::usage);
+FractureCount put_single(const Settings&, Model<3>&, const cli::Context&) {
+  throw Error("single fractures (--segment, --trace, --network, --intensity) need a model in 2-D",
+              ErrorKind::usage);
 }
 
 /// Adds the set just described, with its stress and viscosity, and says how many cells it has.
@@ -433,7 +434,7 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
-  const auto count = single(settings)     ? put_traces(settings, model, context)
+  const auto count = single(settings)     ? put_single(settings, model, context)
                      : settings.effective ? change_rock<D>(settings, model, systems, region)
                                           : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
@@ -455,6 +456,8 @@ void run(const Settings& settings, const cli::Context& context) {
   if (settings.polygon == "-" && settings.model == "-") {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
+  if (settings.model == "-" && std::count(settings.traces.begin(), settings.traces.end(), "-") > 0)
+    refuse("--trace: standard input holds the model already, expected a file");
   check_single(settings);
   check_friction(settings);
   check_effective(settings);

@@ -187,6 +187,7 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
 template <int D>
 void check_single(const FractureSet<D>& set, const std::string& name) {
   if (set.traces.empty()) return;
+  if (D == 3) throw Error(name + " has single fractures, which are of models in 2-D");
   const auto& system = set.systems.front();
   if (set.systems.size() != 1 || system.slides() || system.compliance.damped() ||
       system.compliance.crack_density > 0)

@@ -15,7 +15,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr Rock rock{4500, 2250, 2500};
-constexpr double pi = std::numbers::pi, peak_hz = 30, slow_m = 75;  // of S waves at the peak
+constexpr double pi = std::numbers::pi, slow_m = 75;  // of S waves at the peak
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Curve {
