@@ -174,7 +174,7 @@ void define_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   const auto vertices = vertices_of(sets);
   if (vertices == 0) return;
   file.define_dimension("fracture_trace_vertex", vertices);
-  const auto define = [&](const std::string& name, Type type, std::vector<std::string> dimensions,
+  const auto define = [&](const std::string& name, Type type, const std::vector<std::string>& dimensions,
                           const std::string& long_name) {
     file.define_variable(name, type, dimensions, {false, {}});
     file.put_attribute(name, "long_name", long_name);
