@@ -9,9 +9,11 @@
 #include "model/compliance.hpp"
 #include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
+#include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/prestress.hpp"
 #include "model/region.hpp"
+#include "model/single_fracture.hpp"
 #include "model/slip_regime.hpp"
 
 using namespace slipwave;
@@ -21,6 +23,9 @@ namespace {
 struct Settings {
   std::string model = "-";
   std::string box, polygon, ellipse, slab;
+  std::vector<std::string> segments, traces;
+  std::optional<double> intensity, concentration;
+  std::string network, length;
   int count = 0, seed = 1;
   std::string body;
   std::vector<std::string> dips, normals;
@@ -75,11 +80,27 @@ void declare(cli::Options& options, Settings& settings) {
               "X,Y,Z:A,B,C[:DIP[:AZIMUTH]]");
   options.add("slab", settings.slab, "X,Z:L,T[:DIP]",
               "or in a slab of length L and thickness T; in 3-D X,Y,Z:L,WIDTH,T[:DIP[:AZIMUTH]]");
+  options.add(
+      "segment", settings.segments, "X,Z:X,Z",
+      "instead of a region and planes: a single straight fracture from tip to tip, m, of --compliance "
+      "or --stiffness, without --spacing; repeatable");
+  options.add("trace", settings.traces, "FILE",
+              "or single fractures along curves, one line \"X Z\" per vertex, an empty line between two; "
+              "repeatable");
+  options.add("network", settings.network, "N",
+              "or N straight single fractures with centres drawn from the region, of --length, about --dip");
+  options.add("intensity", settings.intensity, "P21",
+              "instead of N: metres of single fractures in a square metre of the region");
+  options.add("length", settings.length, "MIN:MAX[:EXPONENT]",
+              "lengths of a network, m: their density falls as a power of the length [2]");
+  options.add("concentration", settings.concentration, "KAPPA",
+              "dips of a network: von Mises distribution about --dip, of twice the angle; 0: all directions "
+              "[all have the dip]");
   options.add("count", settings.count, "N",
               "fracture only N small slabs in the region, parallel to the planes");
   options.add("body", settings.body, "L,T",
               "mean length and thickness of the slabs [1/10 of the region's longer side, 1/10 of that]");
-  options.add("seed", settings.seed, "S", "random seed of the slabs");
+  options.add("seed", settings.seed, "S", "random seed of the slabs or of the network");
   options.add(
       "dip", settings.dips, "DEG[:AZIMUTH]",
       "dip of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "
@@ -96,8 +117,8 @@ void declare(cli::Options& options, Settings& settings) {
       "positive");
   options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
-  options.common({"box", "polygon", "slab", "dip", "normal", "friction", "viscosity", "compliance", "spacing",
-                  "prestress", "name", "output"});
+  options.common({"box", "polygon", "slab", "segment", "trace", "dip", "normal", "friction", "viscosity",
+                  "compliance", "spacing", "prestress", "name", "output"});
 }
 
 /// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".
@@ -209,6 +230,9 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
 
 void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
+bool drawn(const Settings& s) { return !s.network.empty() || s.intensity; }
+bool single(const Settings& s) { return !s.segments.empty() || !s.traces.empty() || drawn(s); }
+
 /// Throws a usage Error where friction is half given or contradicts the rest.
 void check_friction(const Settings& s) {
   const bool proposed = s.for_hz || s.strain_rate;
@@ -252,8 +276,102 @@ SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
     system.law = FrictionLaw::none;
   else if (!settings.law.empty())
     in_place("--law", [&] { set_friction_law(system, settings.law); });
-  if (settings.compliance.given()) system.compliance = parse_compliance(settings.compliance);
+  if (settings.compliance.given())
+    system.compliance = parse_compliance(settings.compliance, single(settings));
   return system;
+}
+
+/// Throws a usage Error where single fractures are given what belongs to clusters.
+void check_single(const Settings& s) {
+  if (!drawn(s))
+    for (const auto& [name, given] :
+         {std::pair{"length", !s.length.empty()}, {"concentration", s.concentration.has_value()}})
+      if (given) refuse("--" + std::string(name) + " needs --network or --intensity");
+  if (!single(s)) return;
+  if (drawn(s) && (!s.segments.empty() || !s.traces.empty() || (!s.network.empty() && s.intensity)))
+    refuse(
+        "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "
+        "--trace may stand together)");
+  if (!s.compliance.given())
+    refuse("--compliance is missing; expected --compliance ZN,ZT or --stiffness KN,KT");
+  if (drawn(s) && s.length.empty()) refuse("--length is missing; expected --length MIN:MAX[:EXPONENT]");
+  if (drawn(s) && s.dips.size() != 1) refuse("--network and --intensity need one --dip");
+  const auto& of = s.compliance;
+  const bool region = !s.box.empty() || !s.polygon.empty() || !s.ellipse.empty() || !s.slab.empty();
+  const std::pair<const char*, bool> others[] = {{"a region", region && !drawn(s)},
+                                                 {"--dip", !s.dips.empty() && !drawn(s)},
+                                                 {"--normal", !s.normals.empty()},
+                                                 {"--count", s.count != 0},
+                                                 {"--body", !s.body.empty()},
+                                                 {"--block", s.block},
+                                                 {"--opening", s.opening},
+                                                 {"--friction", s.friction.has_value()},
+                                                 {"--spacing", of.spacing_m.has_value()},
+                                                 {"--dashpot", !of.dashpot.empty()},
+                                                 {"--crack-density", of.crack_density.has_value()},
+                                                 {"--effective", s.effective},
+                                                 {"--prestress", !s.prestress.empty()}};
+  for (const auto& [name, given] : others)
+    if (given)
+      refuse("found " + std::string(name) +
+             " with single fractures, which have --compliance or --stiffness and nothing else of clusters");
+}
+
+FractureNetwork network_of(const Settings& s) {
+  FractureNetwork of;
+  if (!s.network.empty()) {
+    const auto count = in_place("--network", [&] { return parse_integer(s.network); });
+    if (count < 1 || count > 1'000'000)
+      refuse("--network: found " + std::to_string(count) + ", expected 1 to 1000000");
+    of.count = int(count);
+  }
+  of.intensity_per_m = s.intensity.value_or(0);
+  of.seed = std::uint64_t(s.seed);
+  of.concentration = s.concentration;
+  of.dip_deg = in_place("--dip", [&] { return dip_of_normal(normal_of_dip(parse_number(s.dips[0]))); });
+  const auto lengths = in_place("--length", [&] {
+    auto numbers = parse_numbers(s.length, ':');
+    if (numbers.size() < 2 || numbers.size() > 3)
+      refuse("found '" + s.length + "', expected MIN:MAX[:EXPONENT]");
+    return numbers;
+  });
+  of.least_m = lengths[0], of.most_m = lengths[1];
+  if (lengths.size() == 3) of.exponent = lengths[2];
+  return of;
+}
+
+/// The traces that are given or drawn.
+std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>& grid) {
+  if (drawn(settings)) return drawn_fractures(grid, region_of<2>(settings), network_of(settings));
+  std::vector<FractureTrace<2>> all;
+  for (const auto& text : settings.segments) {
+    all.push_back(in_place("--segment", [&] { return parse_segment(text); }));
+    in_place("--segment", [&] { check_trace(grid, all.back()); });
+  }
+  for (const auto& path : settings.traces)
+    for (const auto& trace : read_fracture_traces(path)) {
+      in_place("--trace: " + path, [&] { check_trace(grid, trace); });
+      all.push_back(trace);
+    }
+  return all;
+}
+
+/// Puts single fractures into the model, and says how many cells they lie in.
+FractureCount put_single(const Settings& settings, Model<2>& model, const cli::Context& context) {
+  FractureSet<2> set{settings.name, {}, {}};
+  set.traces = traces_of(settings, model.grid());
+  if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
+  set.systems = {system_of<2>(settings, normal_between_tips(set.traces.front()))};
+  const auto count = add_single_fractures(model, set);
+  double length_m = 0;
+  for (const auto& trace : set.traces) length_m += length_of(trace);
+  context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
+               " of set '" + set.name + "', " + shown(length_m, 4) + " m in all, in " +
+               std::to_string(count.marked) + " cells");
+  if (count.taken > 0)
+    context.warn(std::to_string(count.taken) +
+                 " cells of earlier clusters have only the single fractures now");
+  return count;
 }
 
 /// Gives the set just made the viscosity at which slip competes with the wave asked for, and says it.
@@ -282,6 +400,11 @@ FractureCount change_rock<2>(const Settings&, Model<2>& model, const std::vector
   return in_place("--effective", [&] { return make_effective(model, systems, region.contains); });
 }
 
+FractureCount put_single(const Settings&, Model<3>&, const cli::Context&) {
+  throw Error("single fractures (--segment, --trace, --network, --intensity) need a model in 2-D",
+              ErrorKind::usage);
+}
+
 /// Adds the set just described, with its stress and viscosity, and says how many cells it has.
 template <int D>
 FractureCount put_set(const Settings& settings, Model<D>& model, const std::vector<SlipSystem<D>>& systems,
@@ -303,17 +426,23 @@ template <int D>
 void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
               const cli::Context& context) {
   std::vector<SlipSystem<D>> systems;
-  for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));
-  const auto region = bodies_of<D>(settings, region_of<D>(settings), systems[0].normal);
+  if (!single(settings))
+    for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));
+  const auto region =
+      single(settings) ? RegionIn<D>{} : bodies_of<D>(settings, region_of<D>(settings), systems[0].normal);
   auto model = read_model<D>(file);
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
-  const auto count = settings.effective ? change_rock<D>(settings, model, systems, region)
-                                        : put_set<D>(settings, model, systems, region, context);
+  const auto count = single(settings)     ? put_single(settings, model, context)
+                     : settings.effective ? change_rock<D>(settings, model, systems, region)
+                                          : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
   if (!settings.effective) warn_of_large_cells(model, context);
-  if (count.left) {
+  if (count.left && single(settings)) {
+    context.warn("fractures end where rock does: " + std::to_string(count.left) +
+                 " fluid or void cells beside them stay intact");
+  } else if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) +
                  " cells are fractured; a region within rock (--box, --polygon) has none");
@@ -327,6 +456,9 @@ void run(const Settings& settings, const cli::Context& context) {
   if (settings.polygon == "-" && settings.model == "-") {
     throw Error("--polygon: standard input holds the model already, expected a file", ErrorKind::usage);
   }
+  if (settings.model == "-" && std::count(settings.traces.begin(), settings.traces.end(), "-") > 0)
+    refuse("--trace: standard input holds the model already, expected a file");
+  check_single(settings);
   check_friction(settings);
   check_effective(settings);
   OutputFile out(settings.output, OutputFile::Content::binary);
@@ -341,7 +473,7 @@ int main(int argc, char** argv) {
   Settings settings;
   return cli::run_tool(
       argc, argv,
-      {"sw-fracture", "Puts a cluster of parallel fractures into a model.",
+      {"sw-fracture", "Puts a cluster of parallel fractures, or single ones, into a model.",
        "[M] (--box BOX | ...) (--dip DEG | --normal NX,NZ) (--friction Q --viscosity ETA | --compliance "
        "ZN,ZT "
        "--spacing M) [-o M]",

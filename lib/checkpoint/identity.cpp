@@ -66,9 +66,10 @@ class Digest {
   }
   template <int D>
   void add(const FractureSet<D>& set) {
-    const auto& [name, systems] = set;
+    const auto& [name, systems, traces] = set;
     add(name);
     add(systems);
+    if (!traces.empty()) add(traces);
   }
   /// Which optional properties there are counts, too.
   template <int D>

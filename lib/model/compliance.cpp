@@ -49,7 +49,7 @@ bool ComplianceText::given() const {
          aspect || fill_pa;
 }
 
-LinearCompliance parse_compliance(const ComplianceText& text) {
+LinearCompliance parse_compliance(const ComplianceText& text, bool single) {
   if (text.crack_density) return of_cracks(text);
   if (text.aspect || text.fill_pa) refuse("--aspect and --fill need --crack-density");
   if (text.compliance.empty() == text.stiffness.empty())
@@ -67,6 +67,7 @@ LinearCompliance parse_compliance(const ComplianceText& text) {
       refuse("--stiffness: found '" + text.stiffness + "', expected both above zero, Pa/m");
     of.normal_m_per_pa = 1 / normal, of.tangential_m_per_pa = 1 / tangential;
   }
+  if (single) return of;
   of.spacing_m = above_zero("--spacing", text.spacing_m, ", the distance between planes in m");
   if (!text.dashpot.empty()) {
     const auto [normal, tangential] = pair_of("--dashpot", text.dashpot);

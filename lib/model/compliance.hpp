@@ -17,7 +17,7 @@ struct ComplianceText {
 };
 
 /// Throws a usage Error that names the option where a value is out of range, something is missing, or two
-/// options contradict each other.
-LinearCompliance parse_compliance(const ComplianceText& text);
+/// options contradict each other. Single fractures have no spacing.
+LinearCompliance parse_compliance(const ComplianceText& text, bool single = false);
 
 }  // namespace slipwave

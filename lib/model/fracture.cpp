@@ -178,13 +178,18 @@ std::vector<std::size_t> find_solid_cells(const Model<D>& model,
 }
 
 template <int D>
-FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
-                            const std::function<bool(const Point<D>&)>& inside) {
+void check_room_for_set(const Model<D>& model) {
   constexpr std::size_t most_sets = 255;  // the code of a cell is one byte
   if (model.fracture_sets.size() >= most_sets) {
     throw Error("the model has " + std::to_string(most_sets) +
                 " fracture sets already, expected room for one more");
   }
+}
+
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
+                            const std::function<bool(const Point<D>&)>& inside) {
+  check_room_for_set(model);
   for (std::size_t i = 0; i < set.systems.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       double product = 0;
@@ -223,6 +228,8 @@ template std::vector<std::size_t> find_solid_cells<2>(const Model<2>&,
 template std::vector<std::size_t> find_solid_cells<3>(const Model<3>&,
                                                       const std::function<bool(const Point<3>&)>&,
                                                       FractureCount&);
+template void check_room_for_set(const Model<2>&);
+template void check_room_for_set(const Model<3>&);
 template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,

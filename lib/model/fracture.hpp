@@ -87,6 +87,10 @@ std::vector<std::size_t> find_solid_cells(const Model<D>& model,
                                           const std::function<bool(const Point<D>&)>& inside,
                                           FractureCount& count);
 
+/// Throws Error when the model has 255 sets, the most that codes of cells can tell apart.
+template <int D>
+void check_room_for_set(const Model<D>& model);
+
 /// Adds `set` to the model and marks with it the solid cells whose centres are inside(centre); an earlier set
 /// gives way. Fluid and void cells stay intact: nothing slips there. Throws Error when no solid cell is
 /// inside, when the model has 255 sets, when two systems of the set are parallel; constants: check().

@@ -28,11 +28,17 @@ struct SlipSystem {
   bool slides() const { return law != FrictionLaw::none; }
 };
 
-/// Cells that share slip systems: 1 to D systems.
+/// A single fracture: its vertices, m in true depth, from one tip to the other.
+template <int D>
+using FractureTrace = std::vector<Point<D>>;
+
+/// Cells that share slip systems: 1 to D systems. Or single fractures (2-D), all of the compliance of the one
+/// system, without spacing and whatever its normal: then the set's cells are those beside the traces.
 template <int D>
 struct FractureSet {
   std::string name;
   std::vector<SlipSystem<D>> systems;
+  std::vector<FractureTrace<D>> traces = {};
 };
 
 /// Whether any planes of a set give way as springs; whether any may slide.

@@ -148,7 +148,7 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
 
 /// The constants of planes that give way as springs.
 template <int D>
-void check_compliance(const SlipSystem<D>& system, const std::string& name) {
+void check_compliance(const SlipSystem<D>& system, bool single, const std::string& name) {
   const auto& of = system.compliance;
   const auto refuse_unless = [&](bool good, const std::string& what, double value, const std::string& rest) {
     if (!good) throw Error(name + ": " + what + " is " + shown(value) + ", expected " + rest);
@@ -160,7 +160,7 @@ void check_compliance(const SlipSystem<D>& system, const std::string& name) {
       {"aspect ratio of cracks", of.aspect},        {"bulk modulus of the fill", of.fill_pa}};
   for (const auto& [what, value] : constants)
     refuse_unless(value >= 0 && std::isfinite(value), what, value, "a finite number not below zero");
-  if (of.normal_m_per_pa > 0 || of.tangential_m_per_pa > 0)
+  if (!single && (of.normal_m_per_pa > 0 || of.tangential_m_per_pa > 0))
     refuse_unless(of.spacing_m > 0, "spacing of planes", of.spacing_m, "it above zero, in metres");
   if (of.fill_pa > 0)
     refuse_unless(of.aspect > 0 && of.aspect <= 1, "aspect ratio of cracks", of.aspect,
@@ -180,6 +180,27 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
       throw Error(name +
                   ": friction together with compliance needs one family of planes, in 2-D or two at "
                   "right angles; give the others a set of their own");
+  }
+}
+
+/// What single fractures can not have.
+template <int D>
+void check_single(const FractureSet<D>& set, const std::string& name) {
+  if (set.traces.empty()) return;
+  if (D == 3) throw Error(name + " has single fractures, which are of models in 2-D");
+  const auto& system = set.systems.front();
+  if (set.systems.size() != 1 || system.slides() || system.compliance.damped() ||
+      system.compliance.crack_density > 0)
+    throw Error(name + ": single fractures have a normal and a tangential compliance and no other law");
+  for (const auto& trace : set.traces) {
+    bool good = trace.size() > 1;
+    for (std::size_t n = 0; good && n < trace.size(); ++n) {
+      good = n == 0 || trace[n] != trace[n - 1];
+      // Farther away than any model reaches.
+      for (const double part : trace[n]) good = good && std::abs(part) <= 1e9;
+    }
+    if (!good)
+      throw Error(name + ": found a single fracture without length or end, expected two vertices or more");
   }
 }
 
@@ -204,7 +225,7 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
-    check_compliance(system, name);
+    check_compliance(system, !set.traces.empty(), name);
     if (system.law != FrictionLaw::slip_weakening) continue;
     check_constant("dynamic friction", system.dynamic_friction);
     if (system.dynamic_friction > system.friction)
@@ -215,6 +236,7 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
                   " m, expected it above zero");
   }
   check_together(set, name);
+  check_single(set, name);
 }
 
 }  // namespace

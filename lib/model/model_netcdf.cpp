@@ -161,6 +161,72 @@ void put_flags(NetcdfFile& file, const std::string& variable, const std::vector<
 }
 
 template <int D>
+std::size_t vertices_of(const std::vector<FractureSet<D>>& sets) {
+  std::size_t sum = 0;
+  for (const auto& set : sets)
+    for (const auto& trace : set.traces) sum += trace.size();
+  return sum;
+}
+
+/// Vertices of single fractures, one fracture after the other.
+template <int D>
+void define_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
+  const auto vertices = vertices_of(sets);
+  if (vertices == 0) return;
+  file.define_dimension("fracture_trace_vertex", vertices);
+  const auto define = [&](const std::string& name, Type type, const std::vector<std::string>& dimensions,
+                          const std::string& long_name) {
+    file.define_variable(name, type, dimensions, {false, {}});
+    file.put_attribute(name, "long_name", long_name);
+  };
+  define("fracture_trace_set", Type::i32, {"fracture_trace_vertex"},
+         "row of fracture_set the single fracture belongs to");
+  define("fracture_trace_number", Type::i32, {"fracture_trace_vertex"},
+         "number of the single fracture the vertex is of, from 0");
+  define("fracture_trace_position", Type::f64, {"fracture_trace_vertex", "axis"},
+         "vertex of a single fracture, in true depth");
+  file.put_attribute("fracture_trace_position", "units", "m");
+}
+
+template <int D>
+void put_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
+  std::vector<int> owner, number;
+  std::vector<double> position;
+  int fractures = 0;
+  for (std::size_t set = 0; set < sets.size(); ++set)
+    for (const auto& trace : sets[set].traces) {
+      for (const auto& vertex : trace) {
+        owner.push_back(int(set));
+        number.push_back(fractures);
+        position.insert(position.end(), vertex.begin(), vertex.end());
+      }
+      ++fractures;
+    }
+  if (owner.empty()) return;
+  file.put("fracture_trace_set", owner.data());
+  file.put("fracture_trace_number", number.data());
+  file.put("fracture_trace_position", position.data());
+}
+
+template <int D>
+void read_traces_of(const NetcdfFile& file, std::vector<FractureSet<D>>& sets) {
+  if (!file.has_variable("fracture_trace_set")) return;
+  const auto owner = file.get<int>("fracture_trace_set");
+  const auto number = read_column(file, "fracture_trace_number", owner.size());
+  const auto position = read_column(file, "fracture_trace_position", owner.size(), D);
+  for (std::size_t i = 0; i < owner.size(); ++i) {
+    if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size())
+      throw Error(file.shown_name() + ": fracture_trace_set: found " + std::to_string(owner[i]) +
+                  ", expected 0 to " + std::to_string(std::int64_t(sets.size()) - 1));
+    auto& traces = sets[std::size_t(owner[i])].traces;
+    if (i == 0 || number[i] != number[i - 1] || owner[i] != owner[i - 1]) traces.emplace_back();
+    Point<D> vertex{};
+    for (std::size_t axis = 0; axis < D; ++axis) vertex[axis] = position[i * D + axis];
+    traces.back().push_back(vertex);
+  }
+}
+
+template <int D>
 void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<FractureSet<D>>& sets) {
   std::size_t systems = 0;
   for (const auto& set : sets) systems += set.systems.size();
@@ -194,6 +260,7 @@ void define_sets(NetcdfFile& file, const Grid<D>& grid, const std::vector<Fractu
     define("slip_opening", Type::u8, "1: the planes part under tension", "");
     put_flags<std::uint8_t>(file, "slip_opening", {"stay_closed", "part_under_tension"});
   }
+  define_traces(file, sets);
   if (any_gives(sets))
     for (const auto& column : compliance_columns)
       define(column.name, Type::f64, column.long_name, column.units);
@@ -235,6 +302,7 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
   file.put("slip_strength", strength.data());
   if (any_opens(model.fracture_sets)) file.put("slip_opening", opening.data());
   put_compliances(file, model.fracture_sets);
+  put_traces(file, model.fracture_sets);
   if (!any_law(model.fracture_sets)) return;
   file.put("slip_law", law.data());
   file.put("slip_dynamic_friction", dynamic_friction.data());
@@ -280,7 +348,7 @@ int dimension_of(const NetcdfFile& file) {
 template <int D>
 std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
   std::vector<FractureSet<D>> sets;
-  for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}});
+  for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}, {}});
   const auto owner = file.get<int>("slip_set");
   const auto normal = read_column(file, "slip_normal", owner.size(), D);
   const auto friction = read_column(file, "slip_friction", owner.size());
@@ -306,6 +374,7 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
     system.opens = opening[i] == 1;
     sets[std::size_t(owner[i])].systems.push_back(system);
   }
+  read_traces_of(file, sets);
   return sets;
 }
 

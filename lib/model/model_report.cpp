@@ -10,6 +10,7 @@
 #include "model/anisotropy.hpp"
 #include "model/fracture.hpp"
 #include "model/prestress.hpp"
+#include "model/single_fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -85,7 +86,7 @@ void report_compliance(Report& report, const LinearCompliance& of) {
     if (of.normal_dashpot_pa_s_m > 0) report.number("normal dashpot", of.normal_dashpot_pa_s_m, "Pa s/m");
     if (of.tangential_dashpot_pa_s_m > 0)
       report.number("tangential dashpot", of.tangential_dashpot_pa_s_m, "Pa s/m");
-    report.number("spacing", of.spacing_m, "m");
+    if (of.spacing_m > 0) report.number("spacing", of.spacing_m, "m");
   }
 }
 
@@ -94,6 +95,14 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
   Report of_set;
   of_set.text("name", set.name);
   of_set.count("cells", cells);
+  if constexpr (D == 2) {
+    double length_m = 0;
+    for (const auto& trace : set.traces) length_m += length_of(trace);
+    if (!set.traces.empty()) {
+      of_set.count("single fractures", std::int64_t(set.traces.size()));
+      of_set.number("length of all", length_m, "m");
+    }
+  }
   std::vector<Report> systems;
   for (const auto& system : set.systems) {
     std::string normal;
@@ -101,7 +110,7 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
       normal += (normal.empty() ? "" : ",") + shown(std::round(part * 1e6) / 1e6 + 0.0);
     }
     systems.emplace_back();
-    systems.back().text("normal", normal);
+    if (set.traces.empty()) systems.back().text("normal", normal);
     report_compliance(systems.back(), system.compliance);
     if (!system.slides()) continue;
     systems.back().number("friction", system.friction, "");

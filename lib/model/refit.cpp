@@ -7,6 +7,7 @@
 #include "model/fit.hpp"
 #include "model/layers.hpp"
 #include "model/resample.hpp"
+#include "model/single_fracture.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -143,6 +144,7 @@ class Refit {
     const auto& grid = to_.grid();
     const std::int64_t columns = grid.size() / grid.shape[D - 1];
     for (std::int64_t n = 0; n < columns; ++n) fill_column(n);
+    place_single_fractures(to_);
     return std::move(to_);
   }
 

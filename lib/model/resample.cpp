@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "model/averaging.hpp"
 #include "model/layers.hpp"
+#include "model/single_fracture.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -123,6 +124,7 @@ struct Regridding {
       for (std::size_t c = 0; c < from.prestress_pa.size(); ++c)
         model.prestress_pa[c][cell] = from.prestress_pa[c][source];
     }
+    place_single_fractures(model);
     return std::move(model);
   }
 };
@@ -234,6 +236,9 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   }
   grid.origin_m[D - 1] = 0;
   Model<D> result = model;
+  for (auto& set : result.fracture_sets)
+    for (auto& trace : set.traces)
+      for (auto& vertex : trace) vertex[D - 1] -= double(first[D - 1]) * from.spacing_m;
   result.medium = Medium<D>(grid, model.medium);
   if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
   result.prestress_pa.assign(model.prestress_pa.size(), Field<D>(grid));

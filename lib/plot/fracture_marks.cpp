@@ -7,7 +7,7 @@
 namespace slipwave::plot {
 namespace {
 
-constexpr double hatch_every_pt = 4.5, line_pt = 0.8;
+constexpr double hatch_every_pt = 4.5, line_pt = 0.8, trace_pt = 1.2;
 
 /// How light a pixel is to the eye, 0 to 1.
 double lightness(std::uint32_t pixel) {
@@ -56,6 +56,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
   }
   std::vector<std::vector<Hatch>> hatches(section.sets.size() + 1);
   for (std::size_t set = 0; hatched && set < section.sets.size(); ++set) {
+    if (!section.sets[set].traces.empty()) continue;
     for (const auto& system : section.sets[set].systems) hatches[set + 1].push_back(hatch_of(system, panel));
   }
   const double scale = canvas.page().scale();
@@ -64,7 +65,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
   for (int row = 0; row < codes.height; ++row) {
     for (int column = 0; column < codes.width; ++column) {
       const int code = code_at(column, row);
-      if (code == 0) continue;
+      if (code == 0 || !section.sets[std::size_t(code) - 1].traces.empty()) continue;
       bool on = false;
       for (const auto& hatch : hatches[std::size_t(code)]) on = on || hatch.on(column, row, scale);
       for (const int off : {-thick, thick})
@@ -74,6 +75,13 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
     }
   }
   canvas.image(marks, panel.plot());
+  for (std::size_t set = 0; set < section.sets.size(); ++set)
+    for (const auto& trace : section.sets[set].traces) {
+      std::vector<Spot> spots;
+      for (const auto& vertex : trace) spots.push_back({panel.x(vertex[0]), panel.y(vertex[1])});
+      const bool dark = light[set + 1] < 0.5 * count[set + 1];
+      canvas.polyline(spots, {dark ? white : black, trace_pt});
+    }
 }
 
 }  // namespace slipwave::plot

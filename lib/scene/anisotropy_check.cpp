@@ -28,8 +28,12 @@ std::string fault_of(const FractureSet<D>& set) {
     double oblique = 0;
     for (std::size_t axis = 0; axis + 1 < D; ++axis)
       oblique = std::max(oblique, std::abs(system.normal[axis] * system.normal[D - 1]));
-    if (oblique > 1e-9) return "are neither level nor upright";
+    if (oblique > 1e-9 && set.traces.empty()) return "are neither level nor upright";
   }
+  for (const auto& trace : set.traces)
+    for (std::size_t n = 1; n < trace.size(); ++n)
+      if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1])
+        return "are neither level nor upright";
   return "";
 }
 

@@ -35,6 +35,26 @@ TEST_F(Compliance, IsReportedAndPlannedAndChangesTraces) {
   EXPECT_NE(run("sw-compare with.sgy intact.sgy --tolerance 0.001").code, 0);
 }
 
+TEST_F(Compliance, OfSingleFracturesGoesFromTheCommandLineToTraces) {
+  done(model + "-o m.nc");
+  write("lines.txt", "50 200\n100 180\n150 220\n\n200 100\n250 250\n");
+  done("sw-fracture m.nc --segment 100,150:200,120 --compliance 1e-10,2e-10 -o one.nc");
+  done("sw-fracture one.nc --trace lines.txt --stiffness 1e10,1e10 --name curves -o s.nc");
+  const auto info = done("sw-info s.nc");
+  EXPECT_TRUE(has(info, "single fractures 1")) << info;
+  EXPECT_TRUE(has(info, "name curves")) << info;
+  EXPECT_TRUE(has(info, "single fractures 2")) << info;
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --time 0.2 --dt 0.002 -q ";
+  done("sw-shoot s.nc" + shot + "-o with.sgy && sw-shoot s.nc" + shot +
+       "--without compliance -o without.sgy && sw-shoot s.nc" + shot + "--without slip -o intact.sgy");
+  done("sw-compare without.sgy intact.sgy --tolerance 0");
+  EXPECT_NE(run("sw-compare with.sgy intact.sgy --tolerance 0.001").code, 0);
+  const std::string drawn = "sw-fracture m.nc --box 50:250,50:250 --length 20:80 --dip 30 --concentration 5 ";
+  done(drawn + "--network 12 --seed 4 --compliance 1e-10,1e-10 -o n.nc && sw-plot n.nc -o n.png");
+  EXPECT_TRUE(has(done("sw-info n.nc"), "single fractures 12"));
+}
+
 TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
   done(model + "-o m.nc");
   expect_misuse("--compliance -1e-12,1e-12 --spacing 1",

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 #include <utility>
 
 #include "model/anisotropy.hpp"
+#include "model/single_fracture.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -112,13 +114,16 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
     const auto any = [&](const auto& has) {
       return std::any_of(set.systems.begin(), set.systems.end(), has);
     };
-    group.of = {D, set.systems.size() == 1, any([](const auto& s) { return s.compliance.damped(); }),
+    group.of = {D, set.systems.size() == 1 && set.traces.empty(),
+                any([](const auto& s) { return s.compliance.damped(); }),
                 any([](const auto& s) { return s.slides(); })};
     group.planes = planes_of<D, Real>(set.systems, unit);
     group.kernels = linear_slip_kernels<Real>(group.of);
     group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
     group.coefficients.assign(group.places.stored() * std::size_t(group.of.coefficient_rows()), 0);
-    group.of.one_family ? add_family(group, dt_s) : add_crossing(group);
+    !set.traces.empty()   ? add_single(group)
+    : group.of.one_family ? add_family(group, dt_s)
+                          : add_crossing(group);
     groups_.push_back(std::move(group));
   }
 }
@@ -146,32 +151,72 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
 }
 
 /// r of a stress s is G s, with G the stiffness of the rock times the compliance of all planes; of the stress
-/// of welded planes it is G (1 + G)^-1 (S22).
+/// of welded planes it is G (1 + G)^-1 (S22). Hands out each entry of both: its component, that of the
+/// stress, and the entries of the latter and of G.
+template <int D, class StrainOf, class Put>
+static void each_entry(const Stiffness& rock, const StrainOf& strain_of, const Put& put) {
+  constexpr std::size_t n = std::size_t(Tensor<D>::components);
+  std::array<double, n * n> taken{}, with_rock{};
+  for (std::size_t k = 0; k < n; ++k) {
+    Tensor<D> stress;
+    stress.values[k] = 1;
+    const auto off = stress_of<D>(strain_of(stress), rock);
+    for (std::size_t c = 0; c < n; ++c) taken[c * n + k] = off.values[c];
+  }
+  with_rock = taken;
+  for (std::size_t k = 0; k < n; ++k) with_rock[k * n + k] += 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::array<double, n> column{};
+    for (std::size_t c = 0; c < n; ++c) column[c] = taken[c * n + k];
+    solve<n>(with_rock, column);
+    for (std::size_t c = 0; c < n; ++c) put(c, k, column[c], taken[c * n + k]);
+  }
+}
+
 template <int D, class Real>
 void LinearSlip<D, Real>::add_crossing(Group& group) const {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
     const auto rock = stiffness_of(model_.medium, cell);
-    std::array<double, n * n> taken{}, with_rock{};
-    for (std::size_t k = 0; k < n; ++k) {
-      Tensor<D> stress;
-      stress.values[k] = 1;
-      const auto off = stress_of<D>(strain_of_planes<D>(*group.set, stress, rock), rock);
-      for (std::size_t c = 0; c < n; ++c) taken[c * n + k] = off.values[c];
-    }
-    with_rock = taken;
-    for (std::size_t k = 0; k < n; ++k) with_rock[k * n + k] += 1;
-    for (std::size_t k = 0; k < n; ++k) {
-      std::array<double, n> column{};
-      for (std::size_t c = 0; c < n; ++c) column[c] = taken[c * n + k];
-      solve<n>(with_rock, column);
-      for (std::size_t c = 0; c < n; ++c) {
-        group.coefficients[(c * n + k) * group.places.stored() + place] = Real(column[c]);
-        if (group.of.slides)
-          group.coefficients[(n * n + c * n + k) * group.places.stored() + place] = Real(taken[c * n + k]);
-      }
-    }
+    const auto strain_of = [&](const Tensor<D>& stress) {
+      return strain_of_planes<D>(*group.set, stress, rock);
+    };
+    each_entry<D>(rock, strain_of, [&](std::size_t c, std::size_t k, double of_welded, double taken) {
+      group.coefficients[(c * n + k) * group.places.stored() + place] = Real(of_welded);
+      if (group.of.slides)
+        group.coefficients[(n * n + c * n + k) * group.places.stored() + place] = Real(taken);
+    });
   });
+}
+
+/// Compliances of fractures of all sets add up where they cross (S30).
+template <int D, class Real>
+void LinearSlip<D, Real>::add_single(Group& group) const {
+  if constexpr (D == 2) {
+    constexpr std::size_t n = CrossedCell::components;
+    std::unordered_map<std::size_t, CrossedCell> cells;
+    for (const auto& set : model_.fracture_sets)
+      for (const auto& crossed : cells_crossed(model_.grid(), set)) {
+        auto& sum = cells[crossed.cell];
+        for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
+      }
+    group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+      const auto rock = stiffness_of(model_.medium, cell);
+      const auto& of = cells[cell];
+      const auto strain_of = [&](const Tensor<D>& stress) {
+        Tensor<D> strain;
+        for (std::size_t c = 0; c < n; ++c)
+          for (std::size_t k = 0; k < n; ++k) strain.values[c] += of.strain[c * n + k] * stress.values[k];
+        return strain;
+      };
+      const auto put = [&](std::size_t row, double value) {
+        group.coefficients[row * group.places.stored() + place] = Real(value);
+      };
+      each_entry<D>(rock, strain_of, [&](std::size_t c, std::size_t k, double of_welded, double) {
+        put(c * n + k, of_welded);
+      });
+    });
+  }
 }
 
 /// Columns end between two vectors or with the row.

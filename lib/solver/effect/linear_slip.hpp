@@ -47,6 +47,7 @@ class LinearSlip : public Effect<D, Real> {
   };
   void add_family(Group& group, double dt_s) const;
   void add_crossing(Group& group) const;
+  void add_single(Group& group) const;
   double stored_energy(const Group& group, std::size_t place, std::size_t cell) const;
   void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
                     typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel);

@@ -1,0 +1,239 @@
+#include "model/single_fracture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+#include "grid/tensor.hpp"
+#include "io/input_bytes.hpp"
+#include "model/points_file.hpp"
+
+namespace slipwave {
+namespace {
+
+/// Points in which a piece is taken, per cell.
+constexpr double points_a_cell = 32;
+
+/// Components of the strain that a plane of unit density puts on rock for a stress (S19).
+std::array<double, 9> strain_of_plane(const Point<2>& n, double normal, double tangential) {
+  std::array<double, 9> all{};
+  for (std::size_t of = 0; of < 3; ++of) {
+    SymmetricTensor<2, double> stress, strain;
+    stress.values[of] = 1;
+    Point<2> tau;
+    const double s_n = resolve<2, double>(n, stress, tau);
+    for (std::size_t i = 0; i < 2; ++i)
+      for (std::size_t j = i; j < 2; ++j)
+        strain(int(i), int(j)) =
+            normal * s_n * n[i] * n[j] + tangential * (tau[i] * n[j] + n[i] * tau[j]) / 2;
+    for (std::size_t c = 0; c < 3; ++c) all[c * 3 + of] = strain.values[c];
+  }
+  return all;
+}
+
+/// Shares of a point in three cells of an axis, the first of them `first`: a quadratic B-spline about it,
+/// which keeps the place of the point wherever it lies in its cell.
+struct Shares {
+  std::int64_t first;
+  std::array<double, 3> of;
+};
+Shares shares_at(double position) {
+  const double nearest = std::floor(position + 0.5), off = position - nearest;
+  return {std::int64_t(nearest) - 1,
+          {(0.5 - off) * (0.5 - off) / 2, 0.75 - off * off, (0.5 + off) * (0.5 + off) / 2}};
+}
+
+/// What a point of a fracture brings to the cells about it.
+struct TracePoint {
+  double metres;  // of the fracture that it stands for
+  const std::array<double, 9>& strain;
+};
+
+void add_point(const Grid<2>& grid, const Point<2>& at, const TracePoint& point,
+               std::map<std::size_t, CrossedCell>& cells) {
+  const auto place = grid.row_coordinates(at);
+  const Shares x = shares_at(grid.position(0, place[0])), z = shares_at(grid.position(1, place[1]));
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index<2> index = {x.first + std::int64_t(i), z.first + std::int64_t(k)};
+      const double share = x.of[i] * z.of[k];
+      if (!(share > 0) || index[0] < 0 || index[1] < 0 || index[0] >= grid.shape[0] ||
+          index[1] >= grid.shape[1])
+        continue;
+      const auto number = std::size_t(grid.flat(index));
+      auto& cell = cells[number];
+      cell.cell = number;
+      const double density = share * point.metres / (grid.spacing_m * grid.height(index));
+      for (std::size_t n = 0; n < cell.strain.size(); ++n) cell.strain[n] += density * point.strain[n];
+    }
+}
+
+/// Where points count to cells of a grid.
+Box<2> bounds_of(const Grid<2>& grid) {
+  const double margin = 2 * grid.spacing_m;
+  Box<2> box;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    box.low_m[axis] = grid.origin_m[axis] + double(grid.first[axis]) * grid.spacing_m - margin;
+    box.high_m[axis] = grid.end(int(axis)) + margin;
+  }
+  if (!grid.rows) return box;
+  const auto corners = grid.rows->corners_m();
+  const auto [top, bottom] = std::minmax_element(corners.begin(), corners.end());
+  box.low_m[1] = *top, box.high_m[1] = *bottom;
+  return box;
+}
+
+/// From which to which share of its way a piece may be in a box.
+std::array<double, 2> shares_within(const Box<2>& box, const Point<2>& from, const Point<2>& along) {
+  double begin = 0, end = 1;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    if (along[axis] == 0) {
+      if (from[axis] < box.low_m[axis] || from[axis] > box.high_m[axis]) return {1, 0};
+      continue;
+    }
+    const double a = (box.low_m[axis] - from[axis]) / along[axis],
+                 b = (box.high_m[axis] - from[axis]) / along[axis];
+    begin = std::max(begin, std::min(a, b)), end = std::min(end, std::max(a, b));
+  }
+  return begin < end ? std::array{begin, end} : std::array<double, 2>{1, 0};
+}
+
+std::string shown_point(const Point<2>& point) { return shown(point[0]) + "," + shown(point[1]); }
+
+/// Marks with the code of a set what its fractures lie in, unless a later cluster took it.
+FractureCount mark(Model<2>& model, std::size_t code) {
+  FractureCount count;
+  for (const auto& crossed : cells_crossed(model.grid(), model.fracture_sets[code - 1])) {
+    auto& of_cell = model.fracture[crossed.cell];
+    if (!model.medium.is_solid(crossed.cell)) {
+      ++count.left;
+      continue;
+    }
+    if (of_cell > code) continue;
+    count.taken += of_cell != 0 && of_cell != code && model.fracture_sets[of_cell - 1U].traces.empty();
+    of_cell = std::uint8_t(code);
+    ++count.marked;
+  }
+  return count;
+}
+
+}  // namespace
+
+FractureTrace<2> parse_segment(const std::string& text) {
+  const auto ends = split(text, ':');
+  if (ends.size() != 2) throw Error("found '" + text + "', expected X,Z:X,Z", ErrorKind::usage);
+  return {parse_point<2>(ends[0]), parse_point<2>(ends[1])};
+}
+
+std::vector<FractureTrace<2>> read_fracture_traces(const std::string& path) {
+  const auto text = read_text(path);
+  return in_place(path, [&] {
+    std::vector<FractureTrace<2>> traces;
+    std::string part;
+    int line = 0, first = 1;
+    const auto finish = [&] {
+      // Lines of the points are those of the file.
+      auto points = points_of_text<2>(std::string(std::size_t(first - 1), '\n') + part);
+      FractureTrace<2> trace;
+      for (const auto& point : points) trace.push_back(point.at);
+      if (trace.size() == 1)
+        throw Error("line " + std::to_string(points[0].line) +
+                    ": found a fracture of one point, expected at least 2");
+      if (!trace.empty()) traces.push_back(std::move(trace));
+      part.clear();
+      first = line + 1;
+    };
+    for (const auto& each : split(text, '\n')) {
+      ++line;
+      const auto begin = each.find_first_not_of(" \t\r");
+      if (begin == std::string::npos || each[begin] == '>')
+        finish();
+      else
+        part += std::string(each) + "\n";
+    }
+    finish();
+    if (traces.empty()) throw Error("holds no fracture, expected lines of X Z");
+    return traces;
+  });
+}
+
+Point<2> normal_between_tips(const FractureTrace<2>& trace) {
+  // Of a closed one the first piece.
+  const auto& last = trace.back() == trace.front() ? trace.at(1) : trace.back();
+  return unit_normal<2>({trace.front()[1] - last[1], last[0] - trace.front()[0]});
+}
+
+double length_of(const FractureTrace<2>& trace) {
+  double sum = 0;
+  for (std::size_t n = 1; n < trace.size(); ++n)
+    sum += std::hypot(trace[n][0] - trace[n - 1][0], trace[n][1] - trace[n - 1][1]);
+  return sum;
+}
+
+std::vector<CrossedCell> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
+  if (set.traces.empty()) return {};
+  std::map<std::size_t, CrossedCell> cells;
+  const auto& of = set.systems.at(0).compliance;
+  const auto bounds = bounds_of(grid);
+  for (const auto& trace : set.traces)
+    for (std::size_t n = 1; n < trace.size(); ++n) {
+      const Point<2> along = {trace[n][0] - trace[n - 1][0], trace[n][1] - trace[n - 1][1]};
+      const double length_m = std::hypot(along[0], along[1]);
+      const Point<2> normal = {-along[1] / length_m, along[0] / length_m};
+      const auto strain = strain_of_plane(normal, of.normal_m_per_pa, of.tangential_m_per_pa);
+      const auto points = std::ceil(points_a_cell * length_m / grid.spacing_m);
+      const auto [begin, end] = shares_within(bounds, trace[n - 1], along);
+      for (double k = std::floor(begin * points) + 0.5; k < std::min(end * points + 1, points); ++k)
+        add_point(grid, {trace[n - 1][0] + along[0] * k / points, trace[n - 1][1] + along[1] * k / points},
+                  {length_m / points, strain}, cells);
+    }
+  std::vector<CrossedCell> all;
+  for (const auto& [number, cell] : cells) all.push_back(cell);
+  return all;
+}
+
+template <>
+void place_single_fractures(Model<2>& model) {
+  const auto& sets = model.fracture_sets;
+  if (std::all_of(sets.begin(), sets.end(), [](const auto& set) { return set.traces.empty(); })) return;
+  for (auto& code : model.fracture)
+    if (code > 0 && !sets[code - 1U].traces.empty()) code = 0;
+  for (std::size_t code = 1; code <= sets.size(); ++code)
+    if (!sets[code - 1].traces.empty()) mark(model, code);
+}
+template <>
+void place_single_fractures(Model<3>&) {}
+
+void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace) {
+  if (trace.size() < 2)
+    throw Error("found a fracture of " + std::to_string(trace.size()) + " points, expected at least 2",
+                ErrorKind::usage);
+  for (std::size_t n = 0; n < trace.size(); ++n) {
+    const auto place = grid.row_coordinates(trace[n]);
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      if (!(place[axis] >= grid.origin_m[axis] && place[axis] <= grid.end(int(axis))))
+        throw Error(
+            "found the point " + shown_point(trace[n]) + " outside the model, which is " + shown(grid),
+            ErrorKind::usage);
+    if (n > 0 && trace[n] == trace[n - 1])
+      throw Error(
+          "found the point " + shown_point(trace[n]) + " twice in a row, expected a piece of some length",
+          ErrorKind::usage);
+  }
+}
+
+FractureCount add_single_fractures(Model<2>& model, const FractureSet<2>& set) {
+  for (const auto& trace : set.traces) check_trace(model.grid(), trace);
+  check_room_for_set(model);
+  if (model.fracture.empty()) model.fracture = Field<2, std::uint8_t>(model.grid());
+  model.fracture_sets.push_back(set);
+  const auto count = mark(model, model.fracture_sets.size());
+  if (count.marked == 0)
+    throw Error("none of the " + std::to_string(count.left) +
+                " cells that the fractures lie in is solid, at least one must be");
+  return count;
+}
+
+}  // namespace slipwave
