@@ -52,8 +52,7 @@ double cells_of(const Scene<2>& scene, int parts, int zone) {
   for (int axis = 0; axis < 2; ++axis) {
     double count = double(grid.shape[std::size_t(axis)]) * parts;
     for (const int side : {0, 1})
-      if (scene.edges[axis][side] == EdgeLaw::absorbing)
-        count += zone;
+      if (scene.edges[axis][side] == EdgeLaw::absorbing) count += zone;
     cells *= count;
   }
   return cells;
@@ -63,8 +62,7 @@ double cells_of(const Scene<2>& scene, int parts, int zone) {
 
 Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted) {
   const FractureResponse response(scene);
-  if (!response.any())
-    throw Error("the error of the response is not known: " + response.why_not(), ErrorKind::usage);
+  if (!response.any()) throw Error(response.why_not(), ErrorKind::usage);
   const double own_m = scene.model.grid().spacing_m, stable_per_m = stable_time_step_s(scene) / own_m;
   struct Candidate {
     AccuracySetting setting;
@@ -88,9 +86,10 @@ Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted) {
   best.finer_geometry = has_finer_geometry(scene);
   for (const auto& [setting, cost] : candidates) {
     const double h = setting.spacing_m;
-    const int zone = setting.zone_cells > 0 ? setting.zone_cells : usual_zone(scene, int(std::lround(own_m / h)));
-    const auto promise = response.promised(
-        {{setting.order, setting.cfl * stable_per_m * h, h, 2}, setting.correction, zone});
+    const int zone =
+        setting.zone_cells > 0 ? setting.zone_cells : usual_zone(scene, int(std::lround(own_m / h)));
+    const auto promise =
+        response.promised({{setting.order, setting.cfl * stable_per_m * h, h, 2}, setting.correction, zone});
     if (best.expected_error > 0 && promise.error >= best.expected_error) continue;
     best.setting = setting;
     best.expected_error = promise.error;
@@ -113,7 +112,8 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
       for (int parts = 1; parts <= most_parts; ++parts)
         candidates.push_back(
             {{scheme.order, cfl, own_m / parts, scene.numerics.correction, scheme.time_order},
-             scheme.cost * cells_of(scene, parts, zone_cells(scene, scene.survey.sources.front())) * parts / cfl,
+             scheme.cost * cells_of(scene, parts, zone_cells(scene, scene.survey.sources.front())) * parts /
+                 cfl,
              0});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
@@ -168,8 +168,9 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
-  return name_of(choice.setting, scene) + ": expected error " + (choice.of_response ? "of the response " : "") +
-         "up to " + shown(100 * choice.expected_error, 2) + " %" +
+  return name_of(choice.setting, scene) + ": expected error " +
+         (choice.of_response ? "of the response " : "") + "up to " + shown(100 * choice.expected_error, 2) +
+         " %" +
          (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % in what fractures add"
                                 : "");
 }

@@ -205,7 +205,8 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
     if (trains.empty()) return std::nullopt;
     return std::sqrt(squared_error(cells, trains));
   };
-  ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered(), {}, {}, {}};
+  ExpectedError error{
+      of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered(), {}, {}, {}};
   if (anisotropic_)
     error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
   if (monotone_) error.not_covered.emplace_back(flattened_extrema);

@@ -23,7 +23,8 @@ struct ExpectedError {
   std::optional<PromisedError> promise;
   /// What that leaves out.
   std::vector<std::string> not_covered;
-  /// Of what slip adds to the traces, where the scene slips, and what that leaves out; or why it is not known.
+  /// Of what slip adds to the traces, where the scene slips, and what that leaves out; or why it is not
+  /// known.
   std::optional<ResponseError> response;
   std::vector<std::string> response_leaves_out;
   std::string response_unknown;

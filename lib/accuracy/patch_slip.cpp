@@ -26,12 +26,11 @@ std::vector<double> slip_rates(const SlipSystem<2>& system, double mu, double no
   double slip = 0;
   for (const double value : history.values) {
     const double load = tau_before_pa + value * tau_pa - mu * slip;
-    const double strength = system.friction * std::max(-(normal_before_pa + value * normal_pa), 0.) +
-                            system.strength_pa;
+    const double strength =
+        system.friction * std::max(-(normal_before_pa + value * normal_pa), 0.) + system.strength_pa;
     const double excess = std::max(std::abs(load) - strength, 0.);
-    const double left = system.viscosity_s > 0 && strength > 0
-                            ? std::exp(-mu * dt / (system.viscosity_s * strength))
-                            : 0;
+    const double left =
+        system.viscosity_s > 0 && strength > 0 ? std::exp(-mu * dt / (system.viscosity_s * strength)) : 0;
     const double more = std::copysign(excess * (1 - left), load) / mu;
     slip += more;
     rates.push_back(more / dt);
@@ -69,7 +68,8 @@ WaveHistory history_of(const Wavelet& wavelet, bool of_line_source, std::vector<
   for (const double f : history.hz) {
     auto& of = history.phases.emplace_back();
     for (std::size_t n = 0; n < count; ++n)
-      of.push_back(std::polar(history.interval_s, -2 * std::numbers::pi * f * double(n) * history.interval_s));
+      of.push_back(
+          std::polar(history.interval_s, -2 * std::numbers::pi * f * double(n) * history.interval_s));
   }
   return history;
 }
@@ -92,9 +92,9 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
                  soft_t = springs.tangential / (1 + mu * springs.tangential) * along;
     std::vector<Complex> slip(history.hz.size());
     if (system.slides())
-      slip = spectrum_of(slip_rates(system, mu, normal, along, before,
-                                    tau_before[0] * t[0] + tau_before[1] * t[1], history),
-                         history);
+      slip = spectrum_of(
+          slip_rates(system, mu, normal, along, before, tau_before[0] * t[0] + tau_before[1] * t[1], history),
+          history);
     for (std::size_t f = 0; f < moment.size(); ++f)
       for (const int i : {0, 1})
         for (int j = i; j < 2; ++j) {

@@ -170,9 +170,9 @@ Tensor stress_of(const UniformMedium& rock, WaveKind kind, const Point<2>& n, do
   for (const int i : {0, 1})
     for (int j = i; j < 2; ++j) {
       const auto a = std::size_t(i), b = std::size_t(j);
-      stress(i, j) = -velocity * (kind == WaveKind::p
-                                      ? ((i == j ? lambda : 0) + 2 * mu * n[a] * n[b]) / rock.vp
-                                      : mu * (n[a] * t[b] + t[a] * n[b]) / rock.vs);
+      stress(i, j) =
+          -velocity * (kind == WaveKind::p ? ((i == j ? lambda : 0) + 2 * mu * n[a] * n[b]) / rock.vp
+                                           : mu * (n[a] * t[b] + t[a] * n[b]) / rock.vs);
     }
   return stress;
 }
@@ -187,7 +187,8 @@ Planes planes_of(const FractureSet<2>& set, const UniformMedium& rock, const Ten
     on_planes = std::max(on_planes, length<2, double>(tau));
     planes.friction = std::max(planes.friction, system.friction);
     const auto springs = compliance_in(system.compliance, rock.lambda(), rock.mu());
-    for (const double give : {rock.mu() * springs.tangential, (rock.lambda() + 2 * rock.mu()) * springs.normal})
+    for (const double give :
+         {rock.mu() * springs.tangential, (rock.lambda() + 2 * rock.mu()) * springs.normal})
       planes.soft = std::max(planes.soft, give / (1 + give));
   }
   planes.sheared = most / std::max(on_planes, most / most_sheared);
@@ -206,7 +207,7 @@ struct FractureResponse::Shot {
   std::vector<double> hz;
   WaveHistory history;
   double patch_m = 0, nominal_hz = 0;
-  double slowest = 0;  // S waves in fractured rock, m/s
+  double slowest = 0;   // S waves in fractured rock, m/s
   double across_m = 0;  // of the cluster
   double own_spacing_m = 0;
   struct Edge {
@@ -222,7 +223,7 @@ struct FractureResponse::Shot {
     double energy = 0;
     double incoming = 0, p = 0, s = 0, dispersion = 0;  // that of all together last
     double late = 0, cells = 0, rows = 0, edges = 0;
-    double sliding = 0;  // the part of the energy that planes send out which slide
+    double sliding = 0;        // the part of the energy that planes send out which slide
     double contributions = 0;  // the same, whatever their phases
     Sums& operator+=(const Sums& other);
   };
@@ -257,8 +258,8 @@ std::vector<Incoming> FractureResponse::Shot::incoming(const Scene<2>& scene, co
     const auto kind = plane->shear ? WaveKind::s : WaveKind::p;
     const auto& n = plane->direction;
     if (const auto in = leg(way_in_of_plane_wave(scene, source, *plane, patch.middle_m), kind, n))
-      waves.push_back({*in, dot(way_m, n) / plane->speed(here.vp, here.vs),
-                       stress_of(here, kind, n, source.amplitude)});
+      waves.push_back(
+          {*in, dot(way_m, n) / plane->speed(here.vp, here.vs), stress_of(here, kind, n, source.amplitude)});
     return waves;
   }
   const double r = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
@@ -300,8 +301,7 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
       const double length_m = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
       const Point<2> n = {way_m[0] / length_m, way_m[1] / length_m};
       for (const auto kind : {WaveKind::p, WaveKind::s}) {
-        const auto out =
-            leg(straight_way(scene.model.medium, patch.middle_m, receivers_m[r], kind), kind, n);
+        const auto out = leg(straight_way(scene.model.medium, patch.middle_m, receivers_m[r], kind), kind, n);
         if (!out || waves[in].arrives_s + out->time_s > scene.recording.duration_s) continue;
         const double c = kind == WaveKind::p ? rock.vp : rock.vs;
         const auto& d = waves[in].leg.direction;
@@ -319,9 +319,8 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
         const double size = patch.cells * std::pow(c, -2.5) / std::sqrt(length_m) / rock.rho;
         for (std::size_t f = 0; f < frequencies; ++f) {
           const auto pull = times(moment[f], n);
-          one.wave[f] =
-              size * std::sqrt(hz[f]) * (one.moves[0] * pull[0] + one.moves[1] * pull[1]) *
-              std::polar(1., -2 * std::numbers::pi * hz[f] * (waves[in].arrives_s + out->time_s));
+          one.wave[f] = size * std::sqrt(hz[f]) * (one.moves[0] * pull[0] + one.moves[1] * pull[1]) *
+                        std::polar(1., -2 * std::numbers::pi * hz[f] * (waves[in].arrives_s + out->time_s));
         }
         contributions.push_back(one);
       }
@@ -380,8 +379,8 @@ class Dispersion {
           for (std::size_t f = 0; f < hz.size(); ++f) {
             const double per_wave = speed / hz[f] / h;
             // Waves shorter than two cells are not on the grid at all.
-            of[f] = per_wave <= 2.05 ? Complex(lost)
-                                     : std::conj(step_error(scheme, kind, per_wave, angle)) / dt;
+            of[f] =
+                per_wave <= 2.05 ? Complex(lost) : std::conj(step_error(scheme, kind, per_wave, angle)) / dt;
           }
         }
   }
@@ -471,14 +470,13 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
       const auto wave = of.wave[f] * sinc(omega * of.slowness[0] * patch_m / 2) *
                         sinc(omega * of.slowness[1] * patch_m / 2);
       const auto way_out = std::exp(out[f]) - 1.;
-      const std::array<Complex, parts> by = {
-          1.,
-          std::exp(in[f]) - 1.,
-          p ? way_out : 0.,
-          p ? 0. : way_out,
-          std::exp(in[f] + out[f]) - 1.,
-          late_error(planes[of.planes], setting, omega),
-          cell_error(planes[of.planes], setting, wave_number)};
+      const std::array<Complex, parts> by = {1.,
+                                             std::exp(in[f]) - 1.,
+                                             p ? way_out : 0.,
+                                             p ? 0. : way_out,
+                                             std::exp(in[f] + out[f]) - 1.,
+                                             late_error(planes[of.planes], setting, omega),
+                                             cell_error(planes[of.planes], setting, wave_number)};
       for (std::size_t part = 0; part < parts; ++part)
         for (const std::size_t c : {0, 1}) spectra[part][f][c] += wave * of.moves[c] * by[part];
       size += std::norm(wave);
@@ -513,7 +511,7 @@ std::string why_not_at_all(const Scene<2>& scene) {
   const auto& sets = scene.model.fracture_sets;
   const auto& marked = scene.model.fracture;
   if (std::none_of(marked.begin(), marked.end(), [](auto code) { return code != 0; }))
-    return "the model has no fractures";
+    return "the model has no fractures whose response could have an error";
   if (!scene.survey.any_receiver()) return "the survey has no receivers";
   if (scene.numerics.time_order != 2) return "slip in steps of fourth order in time has no known error";
   for (const auto& set : sets)
@@ -583,7 +581,8 @@ ResponseError FractureResponse::promised(const ResponseSetting& setting) const {
   add("dispersion of the S waves that fractures send out, " + shown(cells_of_s, 2) +
           " cells per dominant wavelength",
       "", sums.s);
-  add("the time step of slip", centred ? "a smaller --cfl" : "--correction centred, a smaller --cfl", sums.late);
+  add("the time step of slip", centred ? "a smaller --cfl" : "--correction centred, a smaller --cfl",
+      sums.late);
   add("slip in cells of " + shown(h, 4) + " m", "", sums.cells + sums.rows);
   add("absorbing edges along which the response grazes", "a larger --edge-width", sums.edges);
   all = sums.dispersion + sums.late + sums.cells + sums.rows + sums.edges;

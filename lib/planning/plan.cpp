@@ -142,6 +142,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.threads = parallel_threads();
   plan.error = expected_error(scene);
   plan.slip = expected_slip(scene);
+  plan.cell_dependence = cell_dependence(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -208,13 +209,13 @@ std::string sentence_of(const std::vector<ErrorCause>& causes) {
 
 /// "up to 3.4 % of fractured less elastic traces below 60 Hz; mostly from ...": nothing where nothing slips.
 std::string response_text(const ExpectedError& error) {
-  if (!error.response) return error.response_unknown.empty() ? "" : "not estimated: " + error.response_unknown;
+  if (!error.response)
+    return error.response_unknown.empty() ? "" : "not estimated: " + error.response_unknown;
   const auto& of = *error.response;
   std::string text = "up to " + shown(100 * of.error, 2) + " % of fractured less elastic traces below " +
                      shown(of.below_hz, 3) + " Hz; mostly from " +
                      sentence_of(large_ones(of.causes, of.error));
-  if (!error.response_leaves_out.empty())
-    text += "; not counted: " + joined(error.response_leaves_out, "; ");
+  if (!error.response_leaves_out.empty()) text += "; not counted: " + joined(error.response_leaves_out, "; ");
   return text;
 }
 
@@ -235,6 +236,16 @@ template <int D>
 std::string cells_text(const Plan<D>& plan) {
   return "P " + shown(plan.cells_of_shortest_p, 3) +
          (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : "");
+}
+
+/// Of sentences on fracture sets the first, and that there are others.
+void report_first(const std::string& key, const std::vector<std::string>& sentences, Report& report) {
+  if (sentences.empty()) return;
+  const auto others = sentences.size() - 1;
+  report.text(key, sentences.front() + (others == 0   ? ""
+                                        : others == 1 ? "; with -v also of another fracture set"
+                                                      : "; with -v also of " + std::to_string(others) +
+                                                            " other fracture sets"));
 }
 
 /// Two digits, which is more than they are good for.
@@ -303,13 +314,8 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
               mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
                   " a shot" +
                   (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
-  if (!plan.slip.empty()) {
-    const auto others = plan.slip.size() - 1;
-    report.text("slip", plan.slip.front() + (others == 0   ? ""
-                                             : others == 1 ? "; with -v also of another fracture set"
-                                                           : "; with -v also of " + std::to_string(others) +
-                                                                 " other fracture sets"));
-  }
+  report_first("slip", plan.slip, report);
+  report_first("depends on cells", plan.cell_dependence, report);
   return report;
 }
 
@@ -343,6 +349,7 @@ Report report_of(const Plan<D>& plan) {
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
   if (plan.slip.size() > 1) report.texts("slip of a set", plan.slip);
+  if (plan.cell_dependence.size() > 1) report.texts("set that depends on cells", plan.cell_dependence);
   std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
     entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");

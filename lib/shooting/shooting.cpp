@@ -130,11 +130,12 @@ Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options
 Report setting_for_1_percent(const Scene<2>& scene, const ShootingOptions& options) {
   Report report;
   const auto choice = choice_for(scene, options, 0.01);
-  report.text("for 1 percent", std::string(scene.numerics.monotone ? "without --monotone: " : "") +
-                                   (choice.good_enough ? "--error 0.01" + std::string(choice.of_response ? " --of response: " : ": ")
-                                      : "none is known; at best ") +
-                                   sentence_of(choice, scene) +
-                                   (choice.reason.empty() ? "" : "; " + choice.reason));
+  report.text(
+      "for 1 percent",
+      std::string(scene.numerics.monotone ? "without --monotone: " : "") +
+          (choice.good_enough ? "--error 0.01" + std::string(choice.of_response ? " --of response: " : ": ")
+                              : "none is known; at best ") +
+          sentence_of(choice, scene) + (choice.reason.empty() ? "" : "; " + choice.reason));
   return report;
 }
 

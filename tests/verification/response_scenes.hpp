@@ -56,7 +56,7 @@ inline double error_below(const std::vector<std::vector<double>>& found,
 class ResponseScene {
  public:
   /// `small`: of a quarter of the extent, for tests that are short.
-  explicit ResponseScene(std::uint64_t seed, bool small = false) : engine_(seed) {
+  explicit ResponseScene(std::uint64_t seed, bool small = false) : engine_(seed), small_(small) {
     for (int n = 0; n < 5; ++n) engine_();
     vp_ = std::round(uniform(2600, 4800));
     vs_ = std::round(vp_ / uniform(1.65, 2.1));
@@ -90,7 +90,7 @@ class ResponseScene {
   Scene<2> reference() const {
     const double h = scene_.model.grid().spacing_m / parts_;
     auto fine = with_setting(scene_, {7, 0.45, h, SlipCorrection::centred});
-    fine.numerics.zone_cells = int(std::ceil(1.75 * vp_ / hz_ / h));
+    fine.numerics.zone_cells = int(std::ceil((small_ ? 0.9 : 1.75) * vp_ / hz_ / h));
     return fine;
   }
 
@@ -106,8 +106,8 @@ class ResponseScene {
     auto& model = scene_.model;
     const auto& shape = model.grid().shape;
     model.fracture = Field<2, std::uint8_t>(model.grid());
-    const auto wide = count(wave * uniform(0.8, 3.5) * whole), high = std::max<std::int64_t>(
-        2, count(wave * uniform(0.2, 1.2) * whole));
+    const auto wide = count(wave * uniform(0.8, 3.5) * whole),
+               high = std::max<std::int64_t>(2, count(wave * uniform(0.2, 1.2) * whole));
     const auto i0 = std::max<std::int64_t>(0, count((double(shape[0]) - double(wide)) * uniform(0.25, 0.75)));
     const auto k0 = std::min(count(double(shape[1]) * uniform(0.55, 0.7)), shape[1] - high - 2);
     for (std::int64_t i = i0; i < std::min(i0 + wide, shape[0]); ++i)
@@ -124,12 +124,14 @@ class ResponseScene {
       system.friction = uniform(0.05, 0.5);
       // The strength is that friction of 1 cm/s, so this is from dry to hardly slipping.
       const double strength = system.friction * 2300 * vp_ * 0.01;
-      system.viscosity_s = chance(0.2) ? 0 : mu / (2 * std::numbers::pi * hz_ * strength) *
-                                                 std::exp(uniform(std::log(0.02), std::log(3)));
+      system.viscosity_s = chance(0.2) ? 0
+                                       : mu / (2 * std::numbers::pi * hz_ * strength) *
+                                             std::exp(uniform(std::log(0.02), std::log(3)));
     }
     model.fracture_sets = {{"cluster", {system}}};
-    name_ += linear_ ? "springs " + shown(system.compliance.tangential_m_per_pa * mu, 2) + " " + shown(system.compliance.normal_m_per_pa * mu, 2) : "friction " + shown(system.friction, 2) + ", " +
-                                       shown(system.viscosity_s, 2) + " s";
+    name_ += linear_ ? "springs " + shown(system.compliance.tangential_m_per_pa * mu, 2) + " " +
+                           shown(system.compliance.normal_m_per_pa * mu, 2)
+                     : "friction " + shown(system.friction, 2) + ", " + shown(system.viscosity_s, 2) + " s";
     name_ += ", dip " + shown(dip * 180 / std::numbers::pi, 2) + ", " + std::to_string(wide) + " x " +
              std::to_string(high) + ", ";
   }
@@ -164,14 +166,14 @@ class ResponseScene {
     scene_.edges = edges_all(EdgeLaw::absorbing);
     const double depth = double(grid.shape[1]) * h * 0.8;
     const double slow = chance(0.5) ? vs_ : vp_;
-    scene_.recording = {{Component::vx, Component::vz},
-                        0, 0.001};
+    scene_.recording = {{Component::vx, Component::vz}, 0, 0.001};
     const double duration = depth / vp_ + std::hypot(depth, wide / 3) / slow + 3 / hz_;
     scene_.recording.duration_s = std::round(1000 * duration) / 1000;
     name_ += ", " + shown(2 * depth / (wave * h), 2) + " wavelengths, ";
   }
 
   std::mt19937_64 engine_;
+  bool small_;
   double vp_ = 0, vs_ = 0, hz_ = 0;
   bool linear_ = false;
   int parts_ = 2;
