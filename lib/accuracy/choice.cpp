@@ -143,7 +143,13 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   }
   Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, false, ""};
   const auto expected = waves.expected(in(best->setting));
-  if (expected.promise) choice.slip_error = expected.promise->slip;
+  if (scene.slips())
+    if (const FractureResponse response(scene); response.any())
+      choice.slip_error =
+          response
+              .promised({in(best->setting), best->setting.correction,
+                         usual_zone(scene, int(std::lround(own_m / best->setting.spacing_m)))})
+              .error;
   if (choice.good_enough) return choice;
   if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {
     const auto& causes = promise->causes;
@@ -171,7 +177,7 @@ std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
   return name_of(choice.setting, scene) + ": expected error " +
          (choice.of_response ? "of the response " : "") + "up to " + shown(100 * choice.expected_error, 2) +
          " %" +
-         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % in what fractures add"
+         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % of what fractures add"
                                 : "");
 }
 

@@ -10,7 +10,7 @@ struct Choice {
   double expected_error = 0;    // ExpectedError::of_reflections_too()
   bool good_enough = false;     // below what was wanted, by the margin
   bool finer_geometry = false;  // other cells are filled from the model's horizons (finer_model())
-  double slip_error = 0;        // what the response of fractures adds, a first estimate
+  double slip_error = 0;        // of the response of fractures by itself, where that is known
   bool of_response = false;     // what is expected is the error of the response of fractures
   /// What stands in the way where none is good enough: the largest cause that no setting cures, or the
   /// largest.

@@ -513,7 +513,6 @@ std::string why_not_at_all(const Scene<2>& scene) {
   if (std::none_of(marked.begin(), marked.end(), [](auto code) { return code != 0; }))
     return "the model has no fractures whose response could have an error";
   if (!scene.survey.any_receiver()) return "the survey has no receivers";
-  if (scene.numerics.time_order != 2) return "slip in steps of fourth order in time has no known error";
   for (const auto& set : sets)
     for (const auto& system : set.systems) {
       if (system.opens) return "fractures '" + set.name + "' open, whose error is not known";
@@ -548,7 +547,7 @@ FractureResponse::FractureResponse(const Scene<2>& scene) : why_not_(why_not_at_
   }
   std::size_t media = 0;
   for (const auto& shot : shots_) media = std::max(media, shot->media.speeds().size());
-  if (shots_.empty()) why_not_ = "no wave of the fractures comes to a receiver before the traces end";
+  if (shots_.empty()) why_not_ = "no wave of the fractures is expected at a receiver before the traces end";
   not_covered_ = left_out_of(scene, media);
 }
 
