@@ -30,8 +30,8 @@ ResponseSetting response_setting(const Scene<2>& scene);
 
 /// Estimates errors of the response of fractures before anything is run. Patches of the fractured cells are
 /// taken as secondary sources: waves come to them on straight ways, planes slip or give way along the
-/// traction that they bring, and P and S waves go on straight ways to the receivers, with the radiation of
-/// that moment and the phases of their ways, so that the sum over the patches has the spectrum that their
+/// traction that they bring, and P and S waves travel on straight ways to the receivers, with the radiation
+/// of that moment and the phases of their ways, so that the sum over the patches has the spectrum that their
 /// interference gives it. Dispersion (E15) changes each way, the time step and the cells what a patch sends
 /// out (theory.md (S31)), absorbing edges what grazes along them.
 class FractureResponse {

@@ -133,7 +133,8 @@ TEST_F(Compliance, HasAResponseWhoseErrorIsPlannedAndChosen) {
   EXPECT_TRUE(has(done("sw-shoot f.nc" + shot + "--plan --of response"), "--error 0.01 --of response: "));
   EXPECT_FALSE(has(done("sw-shoot f.nc" + shot + "--plan --without slip"), "response"));
   // Both shots are computed alike.
-  const std::string chosen = " --error 0.1 --of response -o a.sgy 2>&1 >/dev/null | sed 's/.*chose //; s/, centred.*//; s/: .*//'";
+  const std::string chosen =
+      " --error 0.1 --of response -o a.sgy 2>&1 >/dev/null | sed 's/.*chose //; s/, centred.*//; s/: .*//'";
   const std::string loud = shot.substr(0, shot.size() - 3);
   const auto with = done("sw-shoot f.nc" + loud + chosen);
   EXPECT_TRUE(has(with, "order ")) << with;
