@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/grazing.hpp"
 #include "accuracy/local_stack.hpp"
 #include "accuracy/upright_plane.hpp"
 #include "base/error.hpp"
@@ -104,10 +105,6 @@ double slowest_beside(const LayeredPlaces& places, std::size_t face) {
   return below > 0 ? std::min(speed, slowest_of(places.layers[below - 1])) : speed;
 }
 
-/// Errors beyond some tens of percent do not grow as small ones do: waves that are shifted by more than half
-/// a period are as wrong as can be.
-double saturated(double squared) { return std::sqrt(squared / (1 + squared / 2)); }
-
 std::string percent(double share) { return shown(100 * share, 2) + " %"; }
 
 /// Where an interface is, for messages.
@@ -147,13 +144,6 @@ ErrorCause cause_of(const LocalInterface& interface, Maker maker, bool finer_geo
                                     " m beside the face that stands for it"
                               : ", on a face";
   return cause;
-}
-
-/// The part of the waves between two points that comes back from an absorbing edge in which they graze along,
-/// as measured for P waves (docs/accuracy.md): `mean_m` from the edge on average.
-double grazing_share(double along_m, double mean_m, double wavelength_m, double zone_m) {
-  const double way = along_m / (5 * wavelength_m), width = zone_m / (0.5 * wavelength_m);
-  return std::min(0.5, 0.13 * way * way * std::exp(-mean_m / (0.4 * wavelength_m)) / (width * width));
 }
 
 /// Error of what arrives straight above a shallow force in rock under a free surface, hardly less in smaller
@@ -220,9 +210,9 @@ std::string name_of_edge(int axis, int side) {
 }
 
 /// The error of the waves that slipping fractures send out, and their share of all: first estimates, from the
-/// figures of docs/accuracy.md.
+/// figures of docs/accuracy.md. Of the response itself FractureResponse says more.
 double slip_error(double cells_per_wavelength, double courant) {
-  return 0.44 * std::pow(7.5 / cells_per_wavelength, 1.3) * (0.4 + 0.67 * courant);
+  return 0.11 * std::pow(7.5 / cells_per_wavelength, 1.7) * (0.3 + 0.86 * courant * courant);
 }
 constexpr double slip_share = 0.1;
 

@@ -4,18 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "accuracy/error_cause.hpp"
 #include "accuracy/wave_train.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
-
-/// Something that makes traces differ from exact ones.
-struct ErrorCause {
-  std::string name;     // "S waves, 6.1 cells per shortest wavelength"
-  std::string remedy;   // "fit it (sw-layers --fit floor)"
-  double error = 0;     // relative L2 over all traces, of this cause alone
-  bool curable = true;  // smaller cells reduce it
-};
 
 /// What is promised of a scene: the error of all traces together, and where it comes from.
 struct PromisedError {
@@ -27,9 +20,6 @@ struct PromisedError {
   double floor = 0;                // of it, what smaller cells and shorter steps do not cure
   std::vector<ErrorCause> causes;  // largest first
 };
-/// "12 %: free surface, a staircase of 15 degrees, however fine the cells: fit it (sw-layers --fit surface)".
-std::string sentence_of(const ErrorCause& cause);
-
 /// Estimates errors of traces before anything is run, from the response of the layers round each source
 /// (StackResponse): dispersion changes speeds, an interface that is badly represented seems to be moved, and
 /// both are carried through all waves that reach the receivers. What cannot be put so (near fields, PML at

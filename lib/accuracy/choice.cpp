@@ -5,6 +5,7 @@
 
 #include "accuracy/expected_error.hpp"
 #include "accuracy/finer_model.hpp"
+#include "accuracy/response_error.hpp"
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -34,20 +35,70 @@ constexpr double margin = 1.5;
 /// A cell is split into this many a side at most.
 constexpr int most_parts = 8;
 
-double cells_of(const Scene<2>& scene, int parts) {
+/// Widths of absorbing layers, over the usual ones.
+constexpr double edge_widths[] = {1, 1.5, 2, 3};
+
+/// Width of absorbing layers in cells that are parts of those of the scene, unless another is chosen.
+int usual_zone(const Scene<2>& scene, int parts) {
+  const auto& source = scene.survey.sources.front();
+  const int own = zone_cells(scene, source);
+  // That of plane waves is a length.
+  return scene.numerics.zone_cells > 0 || point_injection(source) ? own : own * parts;
+}
+
+double cells_of(const Scene<2>& scene, int parts, int zone) {
   const auto& grid = scene.model.grid();
   double cells = 1;
   for (int axis = 0; axis < 2; ++axis) {
     double count = double(grid.shape[std::size_t(axis)]) * parts;
     for (const int side : {0, 1})
-      if (scene.edges[axis][side] == EdgeLaw::absorbing)
-        count += zone_cells(scene, scene.survey.sources.front());
+      if (scene.edges[axis][side] == EdgeLaw::absorbing) count += zone;
     cells *= count;
   }
   return cells;
 }
 
 }  // namespace
+
+Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted) {
+  const FractureResponse response(scene);
+  if (!response.any()) throw Error(response.why_not(), ErrorKind::usage);
+  const double own_m = scene.model.grid().spacing_m, stable_per_m = stable_time_step_s(scene) / own_m;
+  struct Candidate {
+    AccuracySetting setting;
+    double cost;
+  };
+  std::vector<Candidate> candidates;
+  for (const auto& scheme : schemes())
+    for (const double cfl : scheme.courant_numbers)
+      for (int parts = 1; parts <= most_parts && scheme.time_order == 2; ++parts)
+        for (const double wider : edge_widths) {
+          if (wider > 1 && scene.numerics.zone_cells > 0) continue;
+          const int zone = int(std::lround(wider * usual_zone(scene, parts)));
+          AccuracySetting setting{scheme.order, cfl, own_m / parts, scene.numerics.correction};
+          setting.zone_cells = wider > 1 ? zone : 0;
+          candidates.push_back({setting, scheme.cost * cells_of(scene, parts, zone) * parts / cfl});
+        }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  Choice best;
+  best.of_response = true;
+  best.finer_geometry = has_finer_geometry(scene);
+  for (const auto& [setting, cost] : candidates) {
+    const double h = setting.spacing_m;
+    const int zone =
+        setting.zone_cells > 0 ? setting.zone_cells : usual_zone(scene, int(std::lround(own_m / h)));
+    const auto promise =
+        response.promised({{setting.order, setting.cfl * stable_per_m * h, h, 2}, setting.correction, zone});
+    if (best.expected_error > 0 && promise.error >= best.expected_error) continue;
+    best.setting = setting;
+    best.expected_error = promise.error;
+    best.good_enough = margin * promise.error <= wanted;
+    best.reason = best.good_enough || promise.causes.empty() ? "" : sentence_of(promise.causes.front());
+    if (best.good_enough) break;
+  }
+  return best;
+}
 
 Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const double own_m = scene.model.grid().spacing_m;
@@ -61,7 +112,8 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
       for (int parts = 1; parts <= most_parts; ++parts)
         candidates.push_back(
             {{scheme.order, cfl, own_m / parts, scene.numerics.correction, scheme.time_order},
-             scheme.cost * cells_of(scene, parts) * parts / cfl,
+             scheme.cost * cells_of(scene, parts, zone_cells(scene, scene.survey.sources.front())) * parts /
+                 cfl,
              0});
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
@@ -89,9 +141,15 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
     best = &candidate;
     break;
   }
-  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, ""};
+  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, false, ""};
   const auto expected = waves.expected(in(best->setting));
-  if (expected.promise) choice.slip_error = expected.promise->slip;
+  if (scene.slips())
+    if (const FractureResponse response(scene); response.any())
+      choice.slip_error =
+          response
+              .promised({in(best->setting), best->setting.correction,
+                         usual_zone(scene, int(std::lround(own_m / best->setting.spacing_m)))})
+              .error;
   if (choice.good_enough) return choice;
   if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {
     const auto& causes = promise->causes;
@@ -116,9 +174,10 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {
-  return name_of(choice.setting, scene) + ": expected error up to " + shown(100 * choice.expected_error, 2) +
+  return name_of(choice.setting, scene) + ": expected error " +
+         (choice.of_response ? "of the response " : "") + "up to " + shown(100 * choice.expected_error, 2) +
          " %" +
-         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % in what fractures add"
+         (choice.slip_error > 0 ? ", and " + shown(100 * choice.slip_error, 2) + " % of what fractures add"
                                 : "");
 }
 

@@ -10,7 +10,8 @@ struct Choice {
   double expected_error = 0;    // ExpectedError::of_reflections_too()
   bool good_enough = false;     // below what was wanted, by the margin
   bool finer_geometry = false;  // other cells are filled from the model's horizons (finer_model())
-  double slip_error = 0;        // what the response of fractures adds, a first estimate
+  double slip_error = 0;        // of the response of fractures by itself, where that is known
+  bool of_response = false;     // what is expected is the error of the response of fractures
   /// What stands in the way where none is good enough: the largest cause that no setting cures, or the
   /// largest.
   std::string reason;
@@ -22,6 +23,12 @@ struct Choice {
 /// proportions, so the same scene gets the same choice on every machine. The best there is when none is good
 /// enough.
 Choice cheapest_setting(const Scene<2>& scene, double wanted);
+
+/// The same for the response of fractures (FractureResponse), of second order in time; unless the scene says
+/// how wide its absorbing layers are, their width is chosen too. Slip counts also where the scene leaves it
+/// out, so that shots with and without it are computed alike. Throws an Error where the error of the response
+/// is not known.
+Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted);
 
 /// The scene as chosen.
 Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice);

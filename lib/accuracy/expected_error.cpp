@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "accuracy/finer_model.hpp"
-#include "grid/locate.hpp"
+#include "accuracy/straight_way.hpp"
 #include "model/anisotropy.hpp"
 
 namespace slipwave {
@@ -16,9 +16,6 @@ template <int D>
 Discretisation discretisation_of(const Scene<D>& scene) {
   return {scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order};
 }
-
-/// What --monotone leaves unknown.
-constexpr const char* flattened_extrema = "what --monotone takes from crests and troughs";
 
 /// At most so many receivers of a shot and shots of a survey are followed: neighbours have the same way.
 constexpr std::size_t receivers_followed = 48, shots_followed = 4;
@@ -33,31 +30,6 @@ template <class Act>
 void every_few(std::size_t count, std::size_t most, Act&& act) {
   const std::size_t stride = std::max<std::size_t>(1, (count + most - 1) / most);
   for (std::size_t n = stride / 2; n < count; n += stride) act(n);
-}
-
-/// Speeds of the cell at a point, clamped to the model.
-struct Speeds {
-  double vp, vs;
-};
-Speeds speeds_at(const Medium<2>& medium, const Point<2>& point) {
-  const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), point)));
-  return {medium.vp[cell], medium.vs[cell]};
-}
-
-/// The straight way between two points, for waves of one kind. Empty where it does not carry them.
-WayOfWave straight_way(const Medium<2>& medium, const Point<2>& from, const Point<2>& to, WaveKind kind) {
-  const double length = std::hypot(to[0] - from[0], to[1] - from[1]);
-  const auto parts = std::int64_t(std::ceil(length / medium.grid().spacing_m)) + 1;
-  WayOfWave way;
-  for (std::int64_t n = 0; n < parts; ++n) {
-    const double at = (double(n) + 0.5) / double(parts);
-    const auto [vp, vs] =
-        speeds_at(medium, {from[0] + at * (to[0] - from[0]), from[1] + at * (to[1] - from[1])});
-    const double speed = kind == WaveKind::p ? vp : vs;
-    if (!(speed > 0)) return {};
-    way.add(vp, vs, length / double(parts) / speed);
-  }
-  return way;
 }
 
 /// What a source sends out as P and as S in the direction of the unit vector n, in energy per width of front
@@ -161,30 +133,12 @@ void add_point_source(const Scene<2>& scene, const Source<2>& source, const Poin
   trains.push_back({share * energy, WaveKind::s, std::numbers::pi / 2, way, band_of(source.wavelet, 2)});
 }
 
-/// A plane wave enters where its path backwards leaves the model, through the absorbing zone.
 void add_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneWave<2>& wave,
                     const Point<2>& receiver, Trains& trains) {
-  const auto& grid = scene.model.grid();
-  double length = std::numeric_limits<double>::infinity();
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    double low = grid.origin_m[axis], high = low + double(grid.shape[axis]) * grid.spacing_m;
-    if (axis == 1 && grid.rows) {
-      const auto depths = grid.depths_at(receiver);
-      low = depths[0];
-      high = depths[1];
-    }
-    if (std::abs(wave.direction[axis]) < 1e-9) continue;
-    const double edge = wave.direction[axis] > 0 ? receiver[axis] - low : high - receiver[axis];
-    length = std::min(length, edge / std::abs(wave.direction[axis]));
-  }
-  const Point<2> entry = {receiver[0] - length * wave.direction[0], receiver[1] - length * wave.direction[1]};
   const auto kind = wave.shear ? WaveKind::s : WaveKind::p;
-  auto way = straight_way(scene.model.medium, entry, receiver, kind);
-  const auto [vp, vs] = speeds_at(scene.model.medium, entry);
-  if (const double c = wave.speed(vp, vs); c > 0)
-    way.add(vp, vs, zone_cells(scene, source) * grid.spacing_m / c);
+  auto way = way_in_of_plane_wave(scene, source, wave, receiver);
   const double angle = std::atan2(wave.direction[0], wave.direction[1]);
-  if (!way.empty()) trains.push_back({1, kind, angle, way, band_of(source.wavelet, 0)});
+  if (!way.empty()) trains.push_back({1, kind, angle, std::move(way), band_of(source.wavelet, 0)});
 }
 
 Trains direct_waves(const Scene<2>& scene) {
@@ -251,7 +205,8 @@ ExpectedError WavesOfScene::expected(const Discretisation& cells) const {
     if (trains.empty()) return std::nullopt;
     return std::sqrt(squared_error(cells, trains));
   };
-  ExpectedError error{of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered()};
+  ExpectedError error{
+      of(direct_), of(longest_p_).value_or(0), of(longest_s_), {}, sources_.not_covered(), {}, {}, {}};
   if (anisotropic_)
     error.not_covered.emplace_back("anisotropy, but for the speeds of its slowest directions");
   if (monotone_) error.not_covered.emplace_back(flattened_extrema);
@@ -265,7 +220,13 @@ std::optional<PromisedError> WavesOfScene::promised(const Discretisation& cells)
 }
 
 ExpectedError expected_error(const Scene<2>& scene) {
-  return WavesOfScene(scene, has_finer_geometry(scene)).expected();
+  auto error = WavesOfScene(scene, has_finer_geometry(scene)).expected();
+  if (!scene.slips()) return error;
+  const FractureResponse response(scene);
+  error.response_unknown = response.why_not();
+  error.response_leaves_out = response.not_covered();
+  if (response.any()) error.response = response.promised(response_setting(scene));
+  return error;
 }
 
 ExpectedError expected_error(const Scene<3>& scene) {
@@ -274,6 +235,7 @@ ExpectedError expected_error(const Scene<3>& scene) {
   error.not_covered = sources.not_covered();
   if (scene.numerics.monotone) error.not_covered.emplace_back(flattened_extrema);
   if (sources.any()) error.promise = sources.promised(discretisation_of(scene));
+  if (scene.slips()) error.response_unknown = "waves of fractures in 3-D are not followed";
   return error;
 }
 

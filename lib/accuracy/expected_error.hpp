@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "accuracy/causes.hpp"
+#include "accuracy/response_error.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
@@ -22,6 +23,11 @@ struct ExpectedError {
   std::optional<PromisedError> promise;
   /// What that leaves out.
   std::vector<std::string> not_covered;
+  /// Of what slip adds to the traces, where the scene slips, and what that leaves out; or why it is not
+  /// known.
+  std::optional<ResponseError> response;
+  std::vector<std::string> response_leaves_out;
+  std::string response_unknown;
   /// That of the direct waves, or of the P waves where there are none.
   double overall() const { return direct.value_or(p); }
   /// The largest of that, of P waves to the end (reflections matter, however small beside the direct waves)

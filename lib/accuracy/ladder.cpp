@@ -33,14 +33,17 @@ Scene<2> with_setting(const Scene<2>& scene, const AccuracySetting& setting) {
   changed.numerics.correction = setting.correction;
   changed.numerics.time_order = setting.time_order;
   changed.numerics.monotone = setting.monotone;
+  if (setting.zone_cells > 0) changed.numerics.zone_cells = setting.zone_cells;
   return changed;
 }
 
 std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
-  std::string name = "order " + std::to_string(setting.order) +
-                     (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
-                     (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl) + ", " +
-                     shown(setting.spacing_m, 4) + " m";
+  std::string name =
+      "order " + std::to_string(setting.order) +
+      (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
+      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl) + ", " +
+      shown(setting.spacing_m, 4) + " m" +
+      (setting.zone_cells == 0 ? "" : ", edges of " + std::to_string(setting.zone_cells) + " cells");
   if (scene.slips())
     name += setting.correction == SlipCorrection::first     ? ", first-order slip"
             : setting.correction == SlipCorrection::second  ? ", second-order slip"

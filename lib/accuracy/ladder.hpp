@@ -14,6 +14,7 @@ struct AccuracySetting {
   SlipCorrection correction = SlipCorrection::centred;
   int time_order = 2;
   bool monotone = false;
+  int zone_cells = 0;  // width of the absorbing layers; 0: as the scene has it
 };
 
 /// The same scene computed so: the same geology in other cells (regridded()), survey and recording untouched.

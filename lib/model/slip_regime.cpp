@@ -1,6 +1,7 @@
 #include "model/slip_regime.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -49,6 +50,25 @@ PlanesUnderWave competing_slip(const Model<D>& model, std::size_t code, const Wa
     return a.competing_viscosity_s < b.competing_viscosity_s;
   });
   return *middle;
+}
+
+BandGrowth band_growth(double friction, double vp, double vs) {
+  // The acoustic tensor of the direction (c, s) in the frame of normal and slip (S28).
+  constexpr int directions = 2000;
+  const double p = vp * vp, m = vs * vs, lambda = p - 2 * m;
+  BandGrowth most;
+  for (int n = 0; n <= directions; ++n) {
+    const double angle = std::numbers::pi / 2 * n / directions, c = std::cos(angle), s = std::sin(angle);
+    const double d_n = m * s + friction * (lambda + 2 * m) * c, d_t = m * c + friction * lambda * s;
+    const double nn = (p - m) * c * c + m - s * d_n, nt = (p - m) * c * s - s * d_t;
+    const double tn = (p - m) * c * s - c * d_n, tt = (p - m) * s * s + m - c * d_t;
+    const double trace = nn + tt, determinant = nn * tt - nt * tn;
+    if (!(determinant < 0)) continue;
+    const double slowest = trace / 2 - std::sqrt(trace * trace / 4 - determinant);
+    most.dry_m_s = std::max(most.dry_m_s, std::sqrt(-slowest));
+    most.relaxing = std::max(most.relaxing, -determinant / (p * m));
+  }
+  return most;
 }
 
 template PlanesUnderWave planes_under<2>(const Model<2>&, std::size_t, const SlipSystem<2>&,

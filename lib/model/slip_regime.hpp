@@ -27,4 +27,12 @@ PlanesUnderWave planes_under(const Model<D>& model, std::size_t cell, const Slip
 template <int D>
 PlanesUnderWave competing_slip(const Model<D>& model, std::size_t code, const WaveOnPlanes& wave);
 
+/// How fast the shortest waves along dry or viscous planes grow that slide under pressure (theory.md (S29)),
+/// in the direction in which they grow fastest.
+struct BandGrowth {
+  double dry_m_s = 0;   // of dry planes: growth rate over wave number
+  double relaxing = 0;  // of viscous ones: growth rate times relaxation time, of the shortest waves
+};
+BandGrowth band_growth(double friction, double vp, double vs);
+
 }  // namespace slipwave

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 
 #include "base/error.hpp"
+#include "grid/tensor.hpp"
 #include "model/slip_regime.hpp"
 
 namespace slipwave {
@@ -43,6 +45,67 @@ double strain_rate_at(const Scene<D>& scene, const Source<D>& source, std::size_
                                   : 1 / (4 * std::numbers::pi * distance);
   const double force = largest_of(injection->force), moment_rate = largest_of(injection->moment_rate.values);
   return k * (force * omega + moment_rate * k) * spreading / (rho * vp * vp);
+}
+
+/// Where a wave of a source travels in a cell.
+template <int D>
+Point<D> direction_at(const Scene<D>& scene, const Source<D>& source, std::size_t cell) {
+  if (const auto* plane = std::get_if<PlaneWave<D>>(&source.mechanism)) return plane->direction;
+  const auto at = scene.model.grid().index(std::int64_t(cell));
+  Point<D> way;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    way[axis] =
+        (axis + 1 == D ? scene.model.grid().depth(at) : scene.model.grid().centre(int(axis), at[axis])) -
+        source.position_m[axis];
+  const double size = std::max(length<D, double>(way), 1e-9);
+  for (auto& part : way) part /= size;
+  return way;
+}
+
+/// Stress of a wave of that strain, pressing where it presses most. Of S waves, polarized in the vertical
+/// plane of travel, the sign is free.
+template <int D>
+SymmetricTensor<D, double> stress_of_wave(const Point<D>& n, bool shear, double strain, double lambda,
+                                          double mu) {
+  Point<D> polar = n;
+  if (shear) {
+    const double level = std::sqrt(std::max(0., 1 - n[D - 1] * n[D - 1]));
+    for (std::size_t axis = 0; axis + 1 < D; ++axis)
+      polar[axis] = level > 1e-9 ? n[axis] / level * n[D - 1] : axis == 0 ? n[D - 1] : 0;
+    polar[D - 1] = -level;
+  }
+  SymmetricTensor<D, double> stress;
+  for (int i = 0; i < D; ++i)
+    for (int j = i; j < D; ++j) {
+      const auto a = std::size_t(i), b = std::size_t(j);
+      stress(i, j) = -strain * ((i == j && !shear ? lambda : 0) + mu * (n[a] * polar[b] + polar[a] * n[b]));
+    }
+  return stress;
+}
+
+/// Planes that slide while they are pressed, and what becomes of the shortest waves along them.
+struct Growth {
+  double exponent = 0;              // within half a period, in waves of growing_cells cells
+  double bounding_viscosity_s = 0;  // with which it is 1 at most in waves of any length
+};
+/// Waves of so many cells are the shortest that the scheme does not damp.
+constexpr double growing_cells = 8;
+
+/// Of one system in a cell under a wave; nothing where it does not slide, or viscosity bounds the growth.
+template <int D>
+Growth growth_of(const Model<D>& model, std::size_t cell, const SlipSystem<D>& system,
+                 SymmetricTensor<D, double> stress, double hz, const BandGrowth& shortest) {
+  for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
+    stress.values[c] += double(model.prestress_pa[c][cell]);
+  Point<D> tau{};
+  const double normal = resolve<D, double>(system.normal, stress, tau);
+  const double strength = system.friction * std::max(-normal, 0.) + system.strength_pa;
+  if (!(normal < 0) || length<D, double>(tau) <= strength) return {};
+  const double mu = double(model.medium.rho[cell]) * std::pow(double(model.medium.vs[cell]), 2),
+               half_s = 0.5 / hz, relaxation_s = system.viscosity_s * strength / mu;
+  const double dry = 2 * std::numbers::pi / (growing_cells * model.grid().spacing_m) * shortest.dry_m_s;
+  if (relaxation_s * dry > shortest.relaxing) return {};
+  return {dry * half_s, shortest.relaxing * half_s * mu / strength};
 }
 
 /// What can be said of one family of planes in one cell.
@@ -101,6 +164,47 @@ std::vector<std::string> expected_slip(const Scene<D>& scene) {
   return sentences;
 }
 
+template <int D>
+std::vector<std::string> cell_dependence(const Scene<D>& scene) {
+  std::vector<std::string> sentences;
+  if (!scene.slips() || scene.survey.sources.empty()) return sentences;
+  const auto& model = scene.model;
+  const auto& source = scene.survey.sources.front();
+  const auto* plane = std::get_if<PlaneWave<D>>(&source.mechanism);
+  const double hz = source.wavelet.nominal_hz();
+  for (std::size_t code = 1; code <= model.fracture_sets.size(); ++code) {
+    Growth most;
+    const SlipSystem<D>* fastest = nullptr;
+    std::map<std::array<double, 3>, BandGrowth> known;
+    for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+      if (model.fracture[cell] != code) continue;
+      const double vp = double(model.medium.vp[cell]), vs = double(model.medium.vs[cell]),
+                   mu = double(model.medium.rho[cell]) * vs * vs,
+                   lambda = double(model.medium.rho[cell]) * vp * vp - 2 * mu;
+      const double strain = strain_rate_at(scene, source, cell, hz) / (2 * std::numbers::pi * hz);
+      const auto stress =
+          stress_of_wave<D>(direction_at(scene, source, cell), plane && plane->shear, strain, lambda, mu);
+      for (const auto& system : model.fracture_sets[code - 1].systems) {
+        if (!system.slides() || !(system.friction > 0)) continue;
+        const auto [shortest, is_new] = known.try_emplace({system.friction, vp, vs});
+        if (is_new) shortest->second = band_growth(system.friction, vp, vs);
+        const auto growth = growth_of(model, cell, system, stress, hz, shortest->second);
+        if (growth.exponent > most.exponent) most = growth, fastest = &system;
+      }
+    }
+    if (most.exponent < 1) continue;
+    sentences.push_back("fractures '" + model.fracture_sets[code - 1].name +
+                        "' slide under the pressure of the waves, and their viscosity of " +
+                        shown(fastest->viscosity_s, 3) + " s does not bound how short waves then grow: in " +
+                        shown(growing_cells) + " cells by a factor of exp(" + shown(most.exponent, 2) +
+                        ") within half a period, in smaller cells more; a viscosity of " +
+                        shown(most.bounding_viscosity_s, 2) + " s would");
+  }
+  return sentences;
+}
+
+template std::vector<std::string> cell_dependence(const Scene<2>&);
+template std::vector<std::string> cell_dependence(const Scene<3>&);
 template std::vector<std::string> expected_slip(const Scene<2>&);
 template std::vector<std::string> expected_slip(const Scene<3>&);
 

@@ -13,4 +13,10 @@ namespace slipwave {
 template <int D>
 std::vector<std::string> expected_slip(const Scene<D>& scene);
 
+/// A sentence for each fracture set in which the answer may depend on the size of the cells: planes slide
+/// under the pressure of the waves, waves of eight cells along them grow by a factor e or more within half a
+/// period (theory.md (S29)), and viscosity does not bound that before.
+template <int D>
+std::vector<std::string> cell_dependence(const Scene<D>& scene);
+
 }  // namespace slipwave

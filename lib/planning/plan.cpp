@@ -142,6 +142,7 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.threads = parallel_threads();
   plan.error = expected_error(scene);
   plan.slip = expected_slip(scene);
+  plan.cell_dependence = cell_dependence(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
@@ -188,12 +189,34 @@ std::string mebibytes(std::int64_t bytes) { return shown(double(bytes) / (1 << 2
 /// Causes that make less of the whole are left out.
 constexpr double least_cause = 0.1;
 
-std::vector<ErrorCause> causes_of(const ExpectedError& error) {
+std::vector<ErrorCause> large_ones(const std::vector<ErrorCause>& all, double whole) {
   std::vector<ErrorCause> causes;
-  if (error.promise)
-    for (const auto& cause : error.promise->causes)
-      if (cause.error > least_cause * error.promise->error) causes.push_back(cause);
+  for (const auto& cause : all)
+    if (cause.error > least_cause * whole) causes.push_back(cause);
   return causes;
+}
+std::vector<ErrorCause> causes_of(const ExpectedError& error) {
+  return error.promise ? large_ones(error.promise->causes, error.promise->error) : std::vector<ErrorCause>{};
+}
+
+/// The first two, as a sentence.
+std::string sentence_of(const std::vector<ErrorCause>& causes) {
+  std::string text;
+  for (std::size_t n = 0; n < std::min<std::size_t>(causes.size(), 2); ++n)
+    text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
+  return text;
+}
+
+/// "up to 3.4 % of fractured less elastic traces below 60 Hz; mostly from ...": nothing where nothing slips.
+std::string response_text(const ExpectedError& error) {
+  if (!error.response)
+    return error.response_unknown.empty() ? "" : "not estimated: " + error.response_unknown;
+  const auto& of = *error.response;
+  std::string text = "up to " + shown(100 * of.error, 2) + " % of fractured less elastic traces below " +
+                     shown(of.below_hz, 3) + " Hz; mostly from " +
+                     sentence_of(large_ones(of.causes, of.error));
+  if (!error.response_leaves_out.empty()) text += "; not counted: " + joined(error.response_leaves_out, "; ");
+  return text;
 }
 
 /// "up to 5.6 % of all traces together; not counted: ...".
@@ -215,23 +238,42 @@ std::string cells_text(const Plan<D>& plan) {
          (plan.cells_of_shortest_s ? ", S " + shown(*plan.cells_of_shortest_s, 3) : "");
 }
 
+/// Of sentences on fracture sets the first, and that there are others.
+void report_first(const std::string& key, const std::vector<std::string>& sentences, Report& report) {
+  if (sentences.empty()) return;
+  const auto others = sentences.size() - 1;
+  report.text(key, sentences.front() + (others == 0   ? ""
+                                        : others == 1 ? "; with -v also of another fracture set"
+                                                      : "; with -v also of " + std::to_string(others) +
+                                                            " other fracture sets"));
+}
+
 /// Two digits, which is more than they are good for.
 void report_percent(Report& report, const std::string& key, double share) {
   report.number(key, std::stod(shown(100 * share, 2)), "%");
 }
 
-/// What is promised of all traces together, and why it is not less.
-void report_promise(const ExpectedError& error, Report& report) {
-  if (error.promise) report_percent(report, "promised error", error.promise->error);
-  std::vector<Report> causes;
-  for (const auto& cause : causes_of(error)) {
-    auto& one = causes.emplace_back();
+void report_causes(const std::string& key, const std::vector<ErrorCause>& causes, Report& report) {
+  std::vector<Report> all;
+  for (const auto& cause : causes) {
+    auto& one = all.emplace_back();
     report_percent(one, "error", cause.error);
     one.text("name", cause.name);
     if (!cause.remedy.empty()) one.text("remedy", cause.remedy);
   }
-  if (!causes.empty()) report.list("cause", causes);
+  if (!all.empty()) report.list(key, all);
+}
+
+/// What is promised of all traces together, and why it is not less.
+void report_promise(const ExpectedError& error, Report& report) {
+  if (error.promise) report_percent(report, "promised error", error.promise->error);
+  report_causes("cause", causes_of(error), report);
   if (!error.not_covered.empty()) report.texts("not counted", error.not_covered);
+  if (!error.response) return;
+  report_percent(report, "promised error of the response", error.response->error);
+  report.number("response below", error.response->below_hz, "Hz");
+  report_causes("cause of the response's error", large_ones(error.response->causes, error.response->error),
+                report);
 }
 
 }  // namespace
@@ -260,12 +302,10 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
                                    " % of its amplitude per wavelength");
   } else {
     report.text("error", error_text(plan.error, plan.duration_s));
-    const auto causes = causes_of(plan.error);
-    std::string text;
-    for (std::size_t n = 0; n < std::min<std::size_t>(causes.size(), 2); ++n)
-      text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
+    const auto text = sentence_of(causes_of(plan.error));
     if (!text.empty()) report.text("mostly from", text);
   }
+  if (const auto text = response_text(plan.error); !text.empty()) report.text("response", text);
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
@@ -274,13 +314,8 @@ Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
               mebibytes(memory_of_run_bytes(plan, held)) + ", of which " + mebibytes(plan.memory_bytes) +
                   " a shot" +
                   (held.side_by_side > 1 ? ", " + std::to_string(held.side_by_side) + " side by side" : ""));
-  if (!plan.slip.empty()) {
-    const auto others = plan.slip.size() - 1;
-    report.text("slip", plan.slip.front() + (others == 0   ? ""
-                                             : others == 1 ? "; with -v also of another fracture set"
-                                                           : "; with -v also of " + std::to_string(others) +
-                                                                 " other fracture sets"));
-  }
+  report_first("slip", plan.slip, report);
+  report_first("depends on cells", plan.cell_dependence, report);
   return report;
 }
 
@@ -314,6 +349,7 @@ Report report_of(const Plan<D>& plan) {
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
   if (plan.slip.size() > 1) report.texts("slip of a set", plan.slip);
+  if (plan.cell_dependence.size() > 1) report.texts("set that depends on cells", plan.cell_dependence);
   std::vector<std::string> entries;
   for (const auto& entry : plan.entries)
     entries.push_back(entry.name + ": " + shown(100 * entry.share, 3) + " % of the cells");

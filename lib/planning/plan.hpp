@@ -27,7 +27,8 @@ struct Plan {
   double duration_s = 0;           // of the traces
   double computed_share = 1;       // of all cells in all steps (expected_share)
   ExpectedError error;
-  std::vector<std::string> slip;  // expected_slip()
+  std::vector<std::string> slip;             // expected_slip()
+  std::vector<std::string> cell_dependence;  // cell_dependence()
   int threads = 1;
   double seconds = 0;  // of the processor, all shots: from the time that a few steps take now
   std::string instruction_set;

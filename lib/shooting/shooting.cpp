@@ -43,9 +43,20 @@ void warn_of_projection(const Survey<D>& survey, const Messages& messages) {
                   " m; --origin and --azimuth choose the section, a model in 3-D keeps all places");
 }
 
+/// Whether --error is of the response of fractures. Throws a usage Error.
+bool is_of_response(const ShootingOptions& options) {
+  const auto& of = options.error_of;
+  if (of != "traces" && of != "response")
+    throw Error("--of: found '" + of + "', expected traces or response", ErrorKind::usage);
+  if (of == "response" && !options.wanted_error && !options.plan)
+    throw Error("--of response needs --error or --plan", ErrorKind::usage);
+  return of == "response";
+}
+
 /// The scene without its model, all options checked.
 template <int D>
 Scene<D> make_scene(const ShootingOptions& options) {
+  is_of_response(options);
   if (options.json && !options.plan) throw Error("--json needs --plan", ErrorKind::usage);
   if (!options.scene.survey.any_source())
     throw Error("--source is missing; expected --source X,Z", ErrorKind::usage);
@@ -79,6 +90,15 @@ void check_on_ranks(const ShootingOptions& options, int count) {
   refuse(options.scene.model == "-", "a model from standard input", "give the name of a file");
 }
 
+Choice choice_for(const Scene<2>& scene, const ShootingOptions& options, double wanted) {
+  if (!is_of_response(options)) return cheapest_setting(scene, wanted);
+  try {
+    return cheapest_setting_for_response(scene, wanted);
+  } catch (const Error& error) {
+    throw Error("--of response: " + std::string(error.what()), error.kind());
+  }
+}
+
 /// The cheapest way to compute the scene with the error that is wanted.
 template <int D>
 Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options, const Messages& messages) {
@@ -91,7 +111,7 @@ Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options
         "--limits none,monotone",
         ErrorKind::usage);
   if constexpr (D == 2) {
-    const auto choice = cheapest_setting(scene, wanted);
+    const auto choice = choice_for(scene, options, wanted);
     if (!choice.good_enough)
       throw Error("--error: found no setting for " + shown(wanted) + "; the best is " +
                   sentence_of(choice, scene) + " (margin: 1.5)" +
@@ -107,13 +127,15 @@ Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options
 }
 
 /// What sw-shoot --error 0.01 would choose, and what it costs against the scene as it is.
-Report setting_for_1_percent(const Scene<2>& scene) {
+Report setting_for_1_percent(const Scene<2>& scene, const ShootingOptions& options) {
   Report report;
-  const auto choice = cheapest_setting(scene, 0.01);
-  report.text("for 1 percent", std::string(scene.numerics.monotone ? "without --monotone: " : "") +
-                                   (choice.good_enough ? "--error 0.01: " : "none is known; at best ") +
-                                   sentence_of(choice, scene) +
-                                   (choice.reason.empty() ? "" : "; " + choice.reason));
+  const auto choice = choice_for(scene, options, 0.01);
+  report.text(
+      "for 1 percent",
+      std::string(scene.numerics.monotone ? "without --monotone: " : "") +
+          (choice.good_enough ? "--error 0.01" + std::string(choice.of_response ? " --of response: " : ": ")
+                              : "none is known; at best ") +
+          sentence_of(choice, scene) + (choice.reason.empty() ? "" : "; " + choice.reason));
   return report;
 }
 
@@ -124,7 +146,7 @@ void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
   // Traces of all shots stand in memory until they are written to one file.
   auto report = summary_of(planned, {side_by_side, scene.survey.sources.size() - side_by_side});
   if constexpr (D == 2)
-    if (!options.wanted_error) report.append(setting_for_1_percent(scene));
+    if (!options.wanted_error) report.append(setting_for_1_percent(scene, options));
   if (options.details || options.json) report.append(report_of(planned));
   const std::string text = options.json ? report.json() + "\n" : report.lines();
   OutputFile out(options.output.traces, OutputFile::Content::text);

@@ -16,6 +16,7 @@ struct ShootingOptions {
   OutputOptions output;
   std::optional<double> snapshot_every_s;
   std::optional<double> wanted_error;  // choose the numerics for it
+  std::string error_of = "traces";     // what it is of, or "response"
   bool plan = false;                   // print what would be computed, to output.traces
   bool json = false;                   // of the plan, all of it
   bool details = false;                // all of the plan

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <complex>
+#include <vector>
+
+#include "accuracy/full_space.hpp"
+#include "acquisition/wavelet.hpp"
+#include "grid/tensor.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+
+/// What a source sends out as a function of time, and the frequencies at which spectra are wanted.
+struct WaveHistory {
+  double interval_s = 0;
+  std::vector<double> values;
+  std::vector<double> hz;
+  /// exp(-2 pi i f t) interval_s, by frequency and time.
+  std::vector<std::vector<std::complex<double>>> phases;
+};
+/// Of a wavelet, a plane wave's; of line sources its half derivative, of which waves in 2-D have the shape
+/// (in 1/s^(1/2)).
+WaveHistory history_of(const Wavelet& wavelet, bool of_line_source, std::vector<double> hz);
+
+/// The rate of the moment of the planes of a cell, by frequency, per unit volume.
+using MomentSpectrum = std::vector<SymmetricTensor<2, std::complex<double>>>;
+
+/// Of a wave that brings `stress` times the history, over the prestress: springs give as far as their
+/// compliance says, planes that slide do so by (S3) under what their slip leaves of that stress.
+MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& rock,
+                              const SymmetricTensor<2, double>& stress,
+                              const SymmetricTensor<2, double>& prestress, const WaveHistory& history);
+
+}  // namespace slipwave

@@ -1,0 +1,607 @@
+#include "accuracy/response_error.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <map>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "accuracy/grazing.hpp"
+#include "accuracy/patch_slip.hpp"
+#include "accuracy/straight_way.hpp"
+#include "base/error.hpp"
+#include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
+
+namespace slipwave {
+namespace {
+
+using Complex = std::complex<double>;
+using Tensor = SymmetricTensor<2, double>;
+
+constexpr std::size_t shots_followed = 2, receivers_followed = 10;
+/// Patches of a shot at most, and their size in dominant wavelengths of the slowest wave.
+constexpr double most_patches = 250, patch_wavelengths = 0.25;
+/// Directions of travel, over a quarter circle, that dispersion is computed for, and frequencies.
+constexpr std::size_t directions = 7, frequencies = 24;
+/// Logarithm of the factor on waves that are not on the grid at all.
+constexpr double lost = -1e3;
+
+// Fitted to the errors of drawn scenes against converged ones (docs/accuracy.md).
+/// (S31): errors of what a patch sends out by the time step, in second order of the centred correction and of
+/// springs, and in first order of the others; and by the cells.
+constexpr double late_centred = 0.8, late_others = 0.6, late_springs = 1.6;
+constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
+/// Friction that this is of, and the power of another; and the least that counts.
+constexpr double usual_friction = 0.3, friction_power = 0.65, least_friction = 0.05;
+/// Where planes carry little of the shear stress of a wave errors of all of it count, up to so many times.
+constexpr double most_sheared = 2.5;
+/// What (S9) leaves of a row of cells, over the rows that lie across the cluster.
+constexpr double of_row = 0.19, of_row_first = 0.64;
+
+double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
+Point<2> across(const Point<2>& n) { return {n[1], -n[0]}; }
+template <class Number>
+std::array<Number, 2> times(const SymmetricTensor<2, Number>& tensor, const Point<2>& n) {
+  return {tensor(0, 0) * n[0] + tensor(0, 1) * n[1], tensor(1, 0) * n[0] + tensor(1, 1) * n[1]};
+}
+
+/// Part of the cluster, taken as one source in its middle.
+struct Patch {
+  Point<2> middle_m{};
+  double cells = 0;
+  double rows = 0;      // of fractured cells across the cluster, summed over the cells
+  std::size_t set = 0;  // of the model
+};
+
+/// Media of ways: those whose speeds differ by less than a tenth count as one.
+class Media {
+ public:
+  std::size_t index_of(double vp, double vs) {
+    const auto [at, is_new] = known_.try_emplace({class_of(vp), class_of(vs)}, speeds_.size());
+    if (is_new) speeds_.push_back({vp, vs});
+    return at->second;
+  }
+  const std::vector<Speeds>& speeds() const { return speeds_; }
+
+ private:
+  static int class_of(double speed) { return speed > 0 ? int(std::lround(std::log(speed) / 0.1)) : -1; }
+  std::map<std::pair<int, int>, std::size_t> known_;
+  std::vector<Speeds> speeds_;
+};
+
+/// A straight way of one kind of wave.
+struct Leg {
+  std::vector<std::pair<std::size_t, double>> media;  // seconds in each
+  WaveKind kind = WaveKind::p;
+  double time_s = 0;
+  Point<2> direction{};
+};
+
+/// A wave that comes to a patch.
+struct Incoming {
+  Leg leg;
+  double arrives_s = 0;  // after t = 0
+  Tensor stress;         // per unit of the history, Pa
+};
+
+/// The planes of a patch under a wave.
+struct Planes {
+  bool slide = false;
+  double sheared = 1;   // the wave's largest shear stress over that on the planes
+  double friction = 0;  // the largest
+  double soft = 0;      // of springs, the share of a strain that they take
+};
+
+/// From the source by a patch to a receiver.
+struct Contribution {
+  std::size_t in, out;  // legs
+  std::size_t patch, receiver;
+  double speed;                             // of the wave that goes out
+  Point<2> moves;                           // unit vector
+  std::array<Complex, frequencies> wave{};  // along it
+  Point<2> slowness;                        // by which its time changes with the place of the patch, s/m
+  std::size_t planes;
+};
+
+/// Cells in a row and in a column of one set through each fractured cell; the fewer of both: how many rows
+/// of cells lie across the cluster there.
+std::vector<std::int64_t> rows_across(const Model<2>& model) {
+  const auto& grid = model.grid();
+  std::vector<std::int64_t> fewest(model.fracture.size(), 0);
+  for (const int axis : {0, 1}) {
+    const auto along = std::size_t(axis), other = 1 - along;
+    for (std::int64_t line = 0; line < grid.shape[other]; ++line)
+      for (std::int64_t n = 0, end = 0; n < grid.shape[along]; n = end) {
+        const auto cell = [&](std::int64_t at) {
+          Index<2> index{};
+          index[along] = at, index[other] = line;
+          return std::size_t(grid.flat(index));
+        };
+        const auto code = model.fracture[cell(n)];
+        for (end = n; end < grid.shape[along] && model.fracture[cell(end)] == code;) ++end;
+        if (code == 0) continue;
+        for (auto at = n; at < end; ++at) {
+          auto& count = fewest[cell(at)];
+          count = axis == 0 ? end - n : std::min(count, end - n);
+        }
+      }
+  }
+  return fewest;
+}
+
+std::vector<Patch> patches_of(const Model<2>& model, double side_m) {
+  const auto& grid = model.grid();
+  const auto rows = rows_across(model);
+  std::map<std::array<std::int64_t, 3>, Patch> found;
+  for (std::size_t n = 0; n < model.fracture.size(); ++n) {
+    if (model.fracture[n] == 0) continue;
+    const auto at = grid.index(std::int64_t(n));
+    const Point<2> middle = {grid.centre(0, at[0]), grid.depth(at)};
+    const std::size_t set = model.fracture[n] - std::size_t{1};
+    auto& patch = found[{std::int64_t(set), std::int64_t(std::floor(middle[0] / side_m)),
+                         std::int64_t(std::floor(middle[1] / side_m))}];
+    for (const std::size_t axis : {0, 1}) patch.middle_m[axis] += middle[axis];
+    patch.cells += 1;
+    patch.rows += double(rows[n]);
+    patch.set = set;
+  }
+  std::vector<Patch> patches;
+  for (auto& [key, patch] : found) {
+    for (auto& place : patch.middle_m) place /= patch.cells;
+    patches.push_back(patch);
+  }
+  return patches;
+}
+
+UniformMedium rock_at(const Medium<2>& medium, const Point<2>& point) {
+  const auto cell = std::size_t(medium.grid().flat(cell_of(medium.grid(), point)));
+  return {double(medium.vp[cell]), double(medium.vs[cell]), double(medium.rho[cell])};
+}
+
+/// The stress of a wave of unit velocity that travels along n.
+Tensor stress_of(const UniformMedium& rock, WaveKind kind, const Point<2>& n, double velocity) {
+  const double mu = rock.mu(), lambda = rock.lambda();
+  Tensor stress;
+  const auto t = across(n);
+  for (const int i : {0, 1})
+    for (int j = i; j < 2; ++j) {
+      const auto a = std::size_t(i), b = std::size_t(j);
+      stress(i, j) =
+          -velocity * (kind == WaveKind::p ? ((i == j ? lambda : 0) + 2 * mu * n[a] * n[b]) / rock.vp
+                                           : mu * (n[a] * t[b] + t[a] * n[b]) / rock.vs);
+    }
+  return stress;
+}
+
+Planes planes_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress) {
+  Planes planes{slides(set)};
+  const double most = std::hypot((stress(0, 0) - stress(1, 1)) / 2, stress(0, 1));
+  double on_planes = 0;
+  for (const auto& system : set.systems) {
+    Point<2> tau{};
+    resolve<2, double>(system.normal, stress, tau);
+    on_planes = std::max(on_planes, length<2, double>(tau));
+    planes.friction = std::max(planes.friction, system.friction);
+    const auto springs = compliance_in(system.compliance, rock.lambda(), rock.mu());
+    for (const double give :
+         {rock.mu() * springs.tangential, (rock.lambda() + 2 * rock.mu()) * springs.normal})
+      planes.soft = std::max(planes.soft, give / (1 + give));
+  }
+  planes.sheared = most / std::max(on_planes, most / most_sheared);
+  return planes;
+}
+
+}  // namespace
+
+struct FractureResponse::Shot {
+  std::vector<Patch> patches;
+  std::vector<Point<2>> receivers_m;
+  std::vector<Leg> legs;
+  std::vector<Contribution> contributions;
+  std::vector<Planes> planes;
+  Media media;
+  std::vector<double> hz;
+  WaveHistory history;
+  double patch_m = 0, nominal_hz = 0;
+  double slowest = 0;   // S waves in fractured rock, m/s
+  double across_m = 0;  // of the cluster
+  double own_spacing_m = 0;
+  struct Edge {
+    std::size_t axis;
+    double place_m;
+  };
+  std::vector<Edge> absorbing;
+
+  Shot(const Scene<2>& scene, std::size_t shot);
+
+  /// Squared errors, times the energy, and that.
+  struct Sums {
+    double energy = 0;
+    double incoming = 0, p = 0, s = 0, dispersion = 0;  // that of all together last
+    double late = 0, cells = 0, rows = 0, edges = 0;
+    double sliding = 0;        // the part of the energy that planes send out which slide
+    double contributions = 0;  // the same, whatever their phases
+    Sums& operator+=(const Sums& other);
+  };
+  Sums sums(const ResponseSetting& setting) const;
+  /// Whether anything of it comes to a receiver in time.
+  bool is_heard() const;
+
+ private:
+  void add_contributions(const Scene<2>& scene, std::size_t patch, const std::vector<Incoming>& waves);
+  std::vector<Incoming> incoming(const Scene<2>& scene, const Source<2>& source, const Patch& patch);
+  std::optional<Leg> leg(const WayOfWave& way, WaveKind kind, const Point<2>& along);
+  double at_edges(const Contribution& of, const ResponseSetting& setting) const;
+};
+
+std::optional<Leg> FractureResponse::Shot::leg(const WayOfWave& way, WaveKind kind, const Point<2>& along) {
+  if (way.empty()) return std::nullopt;
+  Leg leg{{}, kind, way.time_s(), along};
+  for (const auto& medium : way.media())
+    leg.media.emplace_back(media.index_of(medium.vp, medium.vs), medium.time_s);
+  return leg;
+}
+
+/// Waves of a point source come with its radiation and spreading.
+std::vector<Incoming> FractureResponse::Shot::incoming(const Scene<2>& scene, const Source<2>& source,
+                                                       const Patch& patch) {
+  const auto& medium = scene.model.medium;
+  const auto here = rock_at(medium, patch.middle_m);
+  const auto& at = source.position_m;
+  const Point<2> way_m = {patch.middle_m[0] - at[0], patch.middle_m[1] - at[1]};
+  std::vector<Incoming> waves;
+  if (const auto* plane = std::get_if<PlaneWave<2>>(&source.mechanism)) {
+    const auto kind = plane->shear ? WaveKind::s : WaveKind::p;
+    const auto& n = plane->direction;
+    if (const auto in = leg(way_in_of_plane_wave(scene, source, *plane, patch.middle_m), kind, n))
+      waves.push_back(
+          {*in, dot(way_m, n) / plane->speed(here.vp, here.vs), stress_of(here, kind, n, source.amplitude)});
+    return waves;
+  }
+  const double r = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
+  const Point<2> n = {way_m[0] / r, way_m[1] / r};
+  const auto injection = *point_injection(source);
+  const auto there = rock_at(medium, at);
+  const auto pull = times(injection.moment_rate, n);
+  for (const auto kind : {WaveKind::p, WaveKind::s}) {
+    const double c = kind == WaveKind::p ? there.vp : there.vs;
+    const auto in = leg(straight_way(medium, at, patch.middle_m, kind), kind, n);
+    if (!in || !(c > 0)) continue;
+    const auto moves = kind == WaveKind::p ? n : across(n);
+    // Far field of (A4) and (A5): |H0(2)(k r)|/4, and a factor k of a moment.
+    const double size =
+        (dot(injection.force, moves) * std::pow(c, -1.5) + dot(pull, moves) * std::pow(c, -2.5)) * 0.25 *
+        std::sqrt(2 / (std::numbers::pi * r)) / there.rho;
+    if (size != 0) waves.push_back({*in, in->time_s, stress_of(here, kind, n, size)});
+  }
+  return waves;
+}
+
+void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_t number,
+                                               const std::vector<Incoming>& waves) {
+  const auto& patch = patches[number];
+  const auto rock = rock_at(scene.model.medium, patch.middle_m);
+  const auto& set = scene.model.fracture_sets[patch.set];
+  const auto cell = std::size_t(scene.model.grid().flat(cell_of(scene.model.grid(), patch.middle_m)));
+  Tensor prestress;
+  for (std::size_t c = 0; c < scene.model.prestress_pa.size(); ++c)
+    prestress.values[c] = double(scene.model.prestress_pa[c][cell]);
+  for (std::size_t in = 0; in < waves.size(); ++in) {
+    const auto moment = moment_rate_of(set, rock, waves[in].stress, prestress, history);
+    const auto leg_in = legs.size();
+    legs.push_back(waves[in].leg);
+    planes.push_back(planes_of(set, rock, waves[in].stress));
+    const double c_in = waves[in].leg.kind == WaveKind::p ? rock.vp : rock.vs;
+    for (std::size_t r = 0; r < receivers_m.size(); ++r) {
+      const Point<2> way_m = {receivers_m[r][0] - patch.middle_m[0], receivers_m[r][1] - patch.middle_m[1]};
+      const double length_m = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
+      const Point<2> n = {way_m[0] / length_m, way_m[1] / length_m};
+      for (const auto kind : {WaveKind::p, WaveKind::s}) {
+        const auto out = leg(straight_way(scene.model.medium, patch.middle_m, receivers_m[r], kind), kind, n);
+        if (!out || waves[in].arrives_s + out->time_s > scene.recording.duration_s) continue;
+        const double c = kind == WaveKind::p ? rock.vp : rock.vs;
+        const auto& d = waves[in].leg.direction;
+        Contribution one{leg_in,
+                         legs.size(),
+                         number,
+                         r,
+                         c,
+                         kind == WaveKind::p ? n : across(n),
+                         {},
+                         {d[0] / c_in - n[0] / c, d[1] / c_in - n[1] / c},
+                         planes.size() - 1};
+        legs.push_back(*out);
+        // Far field of a moment; factors that all share are left out.
+        const double size = patch.cells * std::pow(c, -2.5) / std::sqrt(length_m) / rock.rho;
+        for (std::size_t f = 0; f < frequencies; ++f) {
+          const auto pull = times(moment[f], n);
+          one.wave[f] = size * std::sqrt(hz[f]) * (one.moves[0] * pull[0] + one.moves[1] * pull[1]) *
+                        std::polar(1., -2 * std::numbers::pi * hz[f] * (waves[in].arrives_s + out->time_s));
+        }
+        contributions.push_back(one);
+      }
+    }
+  }
+}
+
+FractureResponse::Shot::Shot(const Scene<2>& scene, std::size_t shot)
+    : nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
+      own_spacing_m(scene.model.grid().spacing_m) {
+  const auto& source = scene.survey.sources[shot];
+  const auto& model = scene.model;
+  const auto& grid = model.grid();
+  double cells = 0;
+  for (std::size_t n = 0; n < model.fracture.size(); ++n) {
+    if (model.fracture[n] == 0) continue;
+    cells += 1;
+    const double vs = double(model.medium.vs[n]);
+    slowest = slowest > 0 ? std::min(slowest, vs) : vs;
+  }
+  patch_m = std::max({own_spacing_m, patch_wavelengths * slowest / nominal_hz,
+                      own_spacing_m * std::sqrt(cells / most_patches)});
+  patches = patches_of(model, patch_m);
+  for (const auto& patch : patches) across_m += patch.rows / cells * own_spacing_m;
+  const auto all = scene.survey.receivers_of(shot + 1);
+  const auto stride = std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
+  for (std::size_t n = stride / 2; n < all.size(); n += stride) receivers_m.push_back(all[n].point_m);
+  for (std::size_t n = 0; n < frequencies; ++n)
+    hz.push_back(2 * nominal_hz * (double(n) + 0.5) / frequencies);
+  history = history_of(source.wavelet, bool(point_injection(source)), hz);
+  for (const std::size_t axis : {0, 1})
+    for (const std::size_t side : {0, 1})
+      if (scene.edges[int(axis)][side] == EdgeLaw::absorbing)
+        absorbing.push_back({axis, side == 0 ? grid.origin_m[axis] : grid.end(int(axis))});
+  for (std::size_t n = 0; n < patches.size(); ++n)
+    add_contributions(scene, n, incoming(scene, source, patches[n]));
+}
+
+namespace {
+
+double sinc(double x) { return std::abs(x) < 1e-6 ? 1 : std::sin(x) / x; }
+
+/// The logarithm of the factor on waves of a second's way, by medium, kind and direction, at each frequency.
+class Dispersion {
+ public:
+  Dispersion(const std::vector<Speeds>& media, const std::vector<double>& hz, const Discretisation& cells) {
+    const double h = cells.spacing_m, dt = cells.time_step_s;
+    for (const auto& rock : media)
+      for (const auto kind : {WaveKind::p, WaveKind::s})
+        for (std::size_t n = 0; n <= directions; ++n) {
+          auto& of = all_.emplace_back();
+          const double speed = kind == WaveKind::p ? rock.vp : rock.vs;
+          if (!(speed > 0)) continue;
+          const double angle = double(n) / directions * std::numbers::pi / 2;
+          const UniformScheme scheme{cells.order, rock.vp * dt / h, rock.vs * dt / h, cells.time_order};
+          for (std::size_t f = 0; f < hz.size(); ++f) {
+            const double per_wave = speed / hz[f] / h;
+            // Waves shorter than two cells are not on the grid at all.
+            of[f] =
+                per_wave <= 2.05 ? Complex(lost) : std::conj(step_error(scheme, kind, per_wave, angle)) / dt;
+          }
+        }
+  }
+  /// Of a leg.
+  std::array<Complex, frequencies> of(const Leg& leg) const {
+    std::array<Complex, frequencies> sum{};
+    const double at = std::atan2(std::abs(leg.direction[0]), std::abs(leg.direction[1])) /
+                      (std::numbers::pi / 2) * double(directions);
+    const auto low = std::min(directions - 1, std::size_t(at));
+    const double high = at - double(low);
+    for (const auto& [medium, time_s] : leg.media) {
+      const auto row = (2 * medium + (leg.kind == WaveKind::p ? 0 : 1)) * (directions + 1) + low;
+      for (std::size_t f = 0; f < frequencies; ++f)
+        sum[f] += time_s * ((1 - high) * all_[row][f] + high * all_[row + 1][f]);
+    }
+    return sum;
+  }
+
+ private:
+  std::vector<std::array<Complex, frequencies>> all_;
+};
+
+/// The error of what planes send out by the time step, at an angular frequency (S31).
+double late_error(const Planes& planes, const ResponseSetting& setting, double omega) {
+  const double angle = omega * setting.cells.time_step_s;
+  const bool first = setting.correction == SlipCorrection::first;
+  if (!planes.slide) return late_springs * std::sqrt(planes.soft) * (first ? angle : angle * angle);
+  const double of = setting.correction == SlipCorrection::centred ? late_centred * angle : late_others;
+  return of * angle * planes.sheared;
+}
+/// The same by cells; `wave_number` is that of the slowest wave.
+double cell_error(const Planes& planes, const ResponseSetting& setting, double wave_number) {
+  const double cells = wave_number * setting.cells.spacing_m;
+  if (!planes.slide) return of_cells_springs * cells * cells;
+  return of_cells * std::pow(std::max(planes.friction, least_friction) / usual_friction, friction_power) *
+         planes.sheared * planes.sheared * std::pow(cells, cells_power);
+}
+
+/// Spectra of the motion of a receiver: as it is, and what changes it.
+enum Part : std::size_t { exact, on_way_in, p_waves, s_waves, dispersion, late, in_cells, parts };
+using Spectra = std::array<std::array<std::array<Complex, 2>, frequencies>, parts>;
+
+}  // namespace
+
+/// The square of the share of a contribution that absorbing edges send back.
+double FractureResponse::Shot::at_edges(const Contribution& of, const ResponseSetting& setting) const {
+  const auto& from = patches[of.patch].middle_m;
+  const auto& to = receivers_m[of.receiver];
+  double square = 0;
+  for (const auto& edge : absorbing) {
+    const double along_m = std::abs(to[1 - edge.axis] - from[1 - edge.axis]),
+                 away_m = std::abs(from[edge.axis] - edge.place_m) + std::abs(to[edge.axis] - edge.place_m);
+    square += std::pow(grazing_share(along_m, away_m / 2, of.speed / nominal_hz,
+                                     setting.zone_cells * setting.cells.spacing_m),
+                       2);
+  }
+  return square;
+}
+
+bool FractureResponse::Shot::is_heard() const {
+  return std::any_of(contributions.begin(), contributions.end(), [](const Contribution& of) {
+    return std::any_of(of.wave.begin(), of.wave.end(), [](const Complex& wave) { return wave != 0.; });
+  });
+}
+
+FractureResponse::Shot::Sums& FractureResponse::Shot::Sums::operator+=(const Sums& other) {
+  energy += other.energy, incoming += other.incoming, p += other.p, s += other.s;
+  dispersion += other.dispersion, late += other.late, cells += other.cells, rows += other.rows;
+  edges += other.edges;
+  return *this;
+}
+
+FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting& setting) const {
+  const Dispersion of_ways(media.speeds(), hz, setting.cells);
+  std::vector<std::array<Complex, frequencies>> exponents;
+  for (const auto& leg : legs) exponents.push_back(of_ways.of(leg));
+  std::vector<Spectra> all(receivers_m.size());
+  Sums sums;
+  for (const auto& of : contributions) {
+    const auto& in = exponents[of.in];
+    const auto& out = exponents[of.out];
+    const bool p = legs[of.out].kind == WaveKind::p;
+    auto& spectra = all[of.receiver];
+    double size = 0;
+    for (std::size_t f = 0; f < frequencies; ++f) {
+      const double omega = 2 * std::numbers::pi * hz[f], wave_number = omega / slowest;
+      const auto wave = of.wave[f] * sinc(omega * of.slowness[0] * patch_m / 2) *
+                        sinc(omega * of.slowness[1] * patch_m / 2);
+      const auto way_out = std::exp(out[f]) - 1.;
+      const std::array<Complex, parts> by = {1.,
+                                             std::exp(in[f]) - 1.,
+                                             p ? way_out : 0.,
+                                             p ? 0. : way_out,
+                                             std::exp(in[f] + out[f]) - 1.,
+                                             late_error(planes[of.planes], setting, omega),
+                                             cell_error(planes[of.planes], setting, wave_number)};
+      for (std::size_t part = 0; part < parts; ++part)
+        for (const std::size_t c : {0, 1}) spectra[part][f][c] += wave * of.moves[c] * by[part];
+      size += std::norm(wave);
+    }
+    sums.contributions += size;
+    sums.edges += size * at_edges(of, setting);
+    if (planes[of.planes].slide) sums.sliding += size;
+  }
+  const auto energy = [&](Part part) {
+    double sum = 0;
+    for (const auto& spectra : all)
+      for (const auto& motion : spectra[part]) sum += std::norm(motion[0]) + std::norm(motion[1]);
+    return sum;
+  };
+  sums.energy = energy(exact);
+  sums.incoming = energy(on_way_in), sums.p = energy(p_waves), sums.s = energy(s_waves);
+  sums.dispersion = energy(dispersion);
+  // Of all, what does not cancel.
+  const double left = sums.contributions > 0 ? sums.energy / sums.contributions : 0;
+  sums.sliding *= left;
+  sums.edges *= left;
+  sums.late = energy(late), sums.cells = energy(in_cells);
+  const double of_rows = setting.correction == SlipCorrection::first ? of_row_first : of_row;
+  sums.rows = sums.sliding * std::pow(of_rows * setting.cells.spacing_m / across_m, 2);
+  return sums;
+}
+
+namespace {
+
+/// What no secondary source tells of, or nothing at all.
+std::string why_not_at_all(const Scene<2>& scene) {
+  const auto& sets = scene.model.fracture_sets;
+  const auto& marked = scene.model.fracture;
+  if (std::none_of(marked.begin(), marked.end(), [](auto code) { return code != 0; }))
+    return "the model has no fractures whose response could have an error";
+  if (!scene.survey.any_receiver()) return "the survey has no receivers";
+  for (const auto& set : sets)
+    for (const auto& system : set.systems) {
+      if (system.opens) return "fractures '" + set.name + "' open, whose error is not known";
+      if (system.law == FrictionLaw::slip_weakening)
+        return "fractures '" + set.name + "' weaken with slip, whose error is not known";
+    }
+  return "";
+}
+
+std::vector<std::string> left_out_of(const Scene<2>& scene, std::size_t media) {
+  std::vector<std::string> sentences;
+  if (media > 1 || scene.edges[1][0] == EdgeLaw::free)
+    sentences.emplace_back("waves that come to fractures or leave them by reflection or conversion");
+  if (anisotropic_cells(scene.model.medium) > 0)
+    sentences.emplace_back("anisotropy, but for the speeds of its slowest directions");
+  if (scene.attenuates()) sentences.emplace_back("attenuation");
+  if (!scene.survey.blended.empty()) sentences.emplace_back("sources of a blended shot after its first");
+  if (scene.numerics.monotone) sentences.emplace_back(flattened_extrema);
+  return sentences;
+}
+
+}  // namespace
+
+FractureResponse::FractureResponse(const Scene<2>& scene) : why_not_(why_not_at_all(scene)) {
+  if (!why_not_.empty()) return;
+  if (anisotropic_cells(scene.model.medium) > 0) {
+    auto isotropic = scene;
+    isotropic.model.medium = in_slowest_directions(scene.model.medium);
+    add_shots(isotropic);
+  } else {
+    add_shots(scene);
+  }
+  std::size_t media = 0;
+  for (const auto& shot : shots_) media = std::max(media, shot->media.speeds().size());
+  if (shots_.empty()) why_not_ = "no wave of the fractures is expected at a receiver before the traces end";
+  not_covered_ = left_out_of(scene, media);
+}
+
+void FractureResponse::add_shots(const Scene<2>& scene) {
+  const auto count = scene.survey.sources.size();
+  const auto stride = std::max<std::size_t>(1, (count + shots_followed - 1) / shots_followed);
+  for (std::size_t n = stride / 2; n < count; n += stride) {
+    auto shot = std::make_unique<Shot>(scene, n);
+    if (shot->is_heard()) shots_.push_back(std::move(shot));
+  }
+}
+
+ResponseError FractureResponse::promised(const ResponseSetting& setting) const {
+  const double h = setting.cells.spacing_m;
+  const bool centred = setting.correction == SlipCorrection::centred;
+  ResponseError error;
+  Shot::Sums sums;
+  double all = 0, cells_of_s = 0;
+  for (const auto& shot : shots_) {
+    sums += shot->sums(setting);
+    cells_of_s = shot->slowest / shot->nominal_hz / h;
+    error.below_hz = std::max(error.below_hz, 2 * shot->nominal_hz);
+  }
+  if (!(sums.energy > 0)) return error;
+  const auto add = [&](std::string name, std::string remedy, double square) {
+    error.causes.push_back({std::move(name), std::move(remedy), saturated(square / sums.energy), true});
+  };
+  add("dispersion of the waves that come to fractures", "", sums.incoming);
+  add("dispersion of the P waves that fractures send out", "", sums.p);
+  add("dispersion of the S waves that fractures send out, " + shown(cells_of_s, 2) +
+          " cells per dominant wavelength",
+      "", sums.s);
+  add("the time step of slip", centred ? "a smaller --cfl" : "--correction centred, a smaller --cfl",
+      sums.late);
+  add("slip in cells of " + shown(h, 4) + " m", "", sums.cells + sums.rows);
+  add("absorbing edges along which the response grazes", "a larger --edge-width", sums.edges);
+  all = sums.dispersion + sums.late + sums.cells + sums.rows + sums.edges;
+  error.error = saturated(all / sums.energy);
+  std::stable_sort(error.causes.begin(), error.causes.end(),
+                   [](const ErrorCause& a, const ErrorCause& b) { return a.error > b.error; });
+  return error;
+}
+
+bool FractureResponse::any() const { return !shots_.empty(); }
+const std::string& FractureResponse::why_not() const { return why_not_; }
+const std::vector<std::string>& FractureResponse::not_covered() const { return not_covered_; }
+FractureResponse::~FractureResponse() = default;
+FractureResponse::FractureResponse(FractureResponse&&) noexcept = default;
+FractureResponse& FractureResponse::operator=(FractureResponse&&) noexcept = default;
+
+ResponseSetting response_setting(const Scene<2>& scene) {
+  return {{scene.numerics.order, time_step_s(scene), scene.model.grid().spacing_m, scene.numerics.time_order},
+          scene.numerics.correction,
+          zone_cells(scene, scene.survey.sources.front())};
+}
+
+}  // namespace slipwave
