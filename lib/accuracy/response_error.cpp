@@ -31,7 +31,7 @@ constexpr std::size_t directions = 7, frequencies = 24;
 constexpr double lost = -1e3;
 
 // Fitted to the errors of drawn scenes against converged ones (docs/accuracy.md).
-/// (S31): errors of what a patch sends out by the time step, in second order of the centred correction and of
+/// (S32): errors of what a patch sends out by the time step, in second order of the centred correction and of
 /// springs, and in first order of the others; and by the cells.
 constexpr double late_centred = 0.8, late_others = 0.6, late_springs = 1.6;
 constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
@@ -403,7 +403,7 @@ class Dispersion {
   std::vector<std::array<Complex, frequencies>> all_;
 };
 
-/// The error of what planes send out by the time step, at an angular frequency (S31).
+/// The error of what planes send out by the time step, at an angular frequency (S32).
 double late_error(const Planes& planes, const ResponseSetting& setting, double omega) {
   const double angle = omega * setting.cells.time_step_s;
   const bool first = setting.correction == SlipCorrection::first;

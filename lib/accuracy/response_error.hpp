@@ -33,7 +33,7 @@ ResponseSetting response_setting(const Scene<2>& scene);
 /// traction that they bring, and P and S waves travel on straight ways to the receivers, with the radiation
 /// of that moment and the phases of their ways, so that the sum over the patches has the spectrum that their
 /// interference gives it. Dispersion (E15) changes each way, the time step and the cells what a patch sends
-/// out (theory.md (S31)), absorbing edges what grazes along them.
+/// out (theory.md (S32)), absorbing edges what grazes along them.
 class FractureResponse {
  public:
   /// Slip counts also where the scene leaves it out (with_slip).
