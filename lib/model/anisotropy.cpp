@@ -277,8 +277,8 @@ double largest_turning(const OrthorhombicStiffness& c, int axis) {
     std::array<double, 6> change{};
     for (int i = 0; i < 3; ++i)
       change[std::size_t(i)] = (i == axis ? c.normal(i, i) : c.shear(i, axis)) * n[along] * n[along];
-    for (int other = 0; other < 3; ++other)
-      if (other != axis) change[std::size_t(axis + other + 2)] = matrix[std::size_t(axis + other + 2)] / 2;
+    for (std::size_t other = 0; other < 3; ++other)
+      if (other != along) change[along + other + 2] = matrix[along + other + 2] / 2;
     for (const double inertia : eigenvalues(matrix)) {
       const auto motion = squared_motion(matrix, inertia);
       const double size = motion[0] + motion[1] + motion[2];

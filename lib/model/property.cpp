@@ -20,15 +20,10 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
 
 /// Of rock in 3-D; as 0 in files of models that lack it, complete_anisotropy() says what it is then.
 PropertyRow in_space(const std::string& name, const std::string& long_name) {
-  return {.name = name,
-          .long_name = long_name,
-          .help = long_name + ", in 3-D, a file or a number",
-          .units = "1",
-          .shown_unit = "",
-          .si = {"1", ""},
-          .least = least_thomsen,
-          .mean = Mean::elastic,
-          .if_absent = 0};
+  auto row = thomsen(name, "");
+  row.long_name = long_name;
+  row.help = long_name + ", in 3-D, a file or a number";
+  return row;
 }
 
 PropertyRow dip(const std::string& name, const std::string& of, const std::string& help) {
