@@ -16,6 +16,7 @@
 #include "model/raw_shape.hpp"
 #include "model/relations.hpp"
 #include "model/resample.hpp"
+#include "model/stiffness_input.hpp"
 #include "segy/reader.hpp"
 #include "segy/sniff.hpp"
 
@@ -25,6 +26,7 @@ namespace {
 
 struct Settings {
   std::vector<std::string> files = std::vector<std::string>(property_names().size());  // by property
+  std::array<std::string, modulus_count> stiffness_files;                              // by Modulus
   std::string shape, order = "z-fast";
   std::optional<double> step_m, resample_m;
   std::optional<double> extrude_m;
@@ -38,17 +40,24 @@ struct Settings {
   std::string output = "-";
 
   const std::string& file(Property property) const { return files[std::size_t(property)]; }
+  bool of_stiffness() const {
+    return std::any_of(stiffness_files.begin(), stiffness_files.end(),
+                       [](const std::string& file) { return !file.empty(); });
+  }
 };
 
 void declare(cli::Options& options, Settings& settings) {
   for (const Property property : all_properties())
     if (!row_of(property).computed)
       options.add(row_of(property).name, settings.files[std::size_t(property)], "F", row_of(property).help);
+  for (std::size_t n = 0; n < modulus_count; ++n)
+    options.add(modulus_names()[n], settings.stiffness_files[n], "F", row_of(Modulus(n)).help);
   options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
   options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
   options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");
-  options.add("units", settings.units, "LIST",
-              "units of numbers that name none (raw, SEG-Y, constants) instead of m/s and kg/m3: km/s,g/cm3");
+  options.add(
+      "units", settings.units, "LIST",
+      "units of numbers that name none (raw, SEG-Y, constants) instead of m/s, kg/m3 and Pa: km/s,g/cm3,GPa");
   options.add("allow-rough", settings.allow_rough,
               "take --shape though columns then do not continue each other");
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 in solids");
@@ -76,9 +85,26 @@ void declare(cli::Options& options, Settings& settings) {
               "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
-  options.require(row_of(Property::vp).name);
   options.common({"vp", "vs", "rho", "shape", "order", "step", "units", "vs-from-vp", "rho-from-vp",
                   "resample", "crop", "output"});
+}
+
+/// Stiffnesses stand for speeds and what tells anisotropic rock from other rock.
+void check_stiffness(const Settings& settings) {
+  GivenStiffness given;
+  for (std::size_t n = 0; n < modulus_count; ++n)
+    if (!settings.stiffness_files[n].empty()) given.moduli[n] = 0;
+  given.check_kind();
+  for (const Property property : all_properties())
+    if (row_of(property).mean == Mean::elastic && property != Property::rho &&
+        !settings.file(property).empty())
+      throw Error("found both stiffnesses and --" + row_of(property).name + ", expected one of them",
+                  ErrorKind::usage);
+  if (!settings.vs_from.empty() || !settings.rho_from.empty())
+    throw Error("found stiffnesses and --vs-from-vp or --rho-from-vp, expected --rho F alone",
+                ErrorKind::usage);
+  if (settings.file(Property::rho).empty())
+    throw Error("--rho is missing; stiffnesses need densities: --rho F", ErrorKind::usage);
 }
 
 void check_choices(const Settings& settings) {
@@ -88,8 +114,14 @@ void check_choices(const Settings& settings) {
                     (file.empty() ? " nor --" : " and --") + name + "-from-vp, expected one of them",
                 ErrorKind::usage);
   };
-  one_of(settings.file(Property::vs), settings.vs_from, "vs");
-  one_of(settings.file(Property::rho), settings.rho_from, "rho");
+  if (settings.of_stiffness()) {
+    check_stiffness(settings);
+  } else {
+    if (settings.file(Property::vp).empty())
+      throw Error("--vp is missing; expected --vp F, or stiffnesses: --c11 F and more", ErrorKind::usage);
+    one_of(settings.file(Property::vs), settings.vs_from, "vs");
+    one_of(settings.file(Property::rho), settings.rho_from, "rho");
+  }
   for (const auto property : {Property::qp, Property::qs})
     if (!settings.q_from.empty() && !settings.file(property).empty())
       throw Error("found both --q-from-vs and --" + row_of(property).name + ", expected one of them",
@@ -99,7 +131,9 @@ void check_choices(const Settings& settings) {
   if (settings.step_m && !(*settings.step_m > 0)) {
     throw Error("--step: found " + shown(*settings.step_m) + ", expected it above zero", ErrorKind::usage);
   }
-  if (std::count(settings.files.begin(), settings.files.end(), "-") > 1) {
+  if (std::count(settings.files.begin(), settings.files.end(), "-") +
+          std::count(settings.stiffness_files.begin(), settings.stiffness_files.end(), "-") >
+      1) {
     throw Error("found - more than once; only one input can be standard input", ErrorKind::usage);
   }
 }
@@ -135,10 +169,10 @@ InputUnits units_of(const Settings& settings) {
   return in_place("--units", [&] { return InputUnits::parse(settings.units); });
 }
 
-/// A property from a file of any kind; `history` is what a netCDF file says of its own. Only netCDF is in SI
-/// for sure.
-Field<2> read_file(const Settings& settings, Property property, double unit, std::string& history) {
-  const auto& given = settings.file(property);
+/// A property or stiffness from a file of any kind; `history` is what a netCDF file says of its own. Only
+/// netCDF is in SI for sure.
+Field<2> read_file(const Settings& settings, const std::string& given, const PropertyRow& row, double unit,
+                   std::string& history) {
   const auto in_si = [unit](Field<2> field) {
     for (auto& value : field)
       if (unit != 1) value = float(double(value) * unit);
@@ -158,7 +192,7 @@ Field<2> read_file(const Settings& settings, Property property, double unit, std
     const auto file = start.is_regular() ? NetcdfFile::open(path)
                                          : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
     history = file.text_attribute("", "history").value_or("");
-    return field_from_netcdf(file, row_of(property), variable, settings.step_m, unit);
+    return field_from_netcdf(file, row, variable, settings.step_m, unit);
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (segy::looks_like_segy(bytes)) return in_si(read_segy(settings, path, start.taken()));
@@ -185,10 +219,11 @@ std::vector<std::optional<Field<2>>> read_given(const Settings& settings, std::s
   for (const Property property : all_properties()) {
     if (settings.file(property).empty() || constant_of(settings, property)) continue;
     std::string other;
-    fields[std::size_t(property)] =
-        read_file(settings, property, units.factor(property), grid ? other : history);
+    fields[std::size_t(property)] = read_file(settings, settings.file(property), row_of(property),
+                                              units.factor(property), grid ? other : history);
     if (!grid) grid = fields[std::size_t(property)]->grid();
   }
+  if (!grid && settings.of_stiffness()) return fields;
   if (!grid) throw Error("found constants only, expected a file of at least one property", ErrorKind::usage);
   for (const Property property : all_properties()) {
     if (row_of(property).if_absent || settings.file(property).empty()) continue;
@@ -207,12 +242,43 @@ void clear_void(Medium<2>& medium, const Settings& settings) {
   }
 }
 
+/// Of stiffnesses and densities, files or numbers.
+Medium<2> read_stiffness(const Settings& settings, const std::optional<Field<2>>& given_rho,
+                         std::string& history) {
+  std::array<std::optional<Field<2>>, modulus_count> fields;
+  std::array<std::optional<double>, modulus_count> numbers;
+  std::optional<Grid<2>> grid;
+  if (given_rho) grid = given_rho->grid();
+  for (std::size_t n = 0; n < modulus_count; ++n) {
+    const auto& given = settings.stiffness_files[n];
+    if (given.empty()) continue;
+    const double unit = units_of(settings).of_stiffness();
+    try {
+      numbers[n] = parse_number(given) * unit;
+      continue;
+    } catch (const Error&) {
+      std::string other;
+      fields[n] = read_file(settings, given, row_of(Modulus(n)), unit, grid ? other : history);
+    }
+    if (!grid) grid = fields[n]->grid();
+    if (fields[n]->grid() == *grid) continue;
+    throw Error(modulus_names()[n] + ": found " + shown(fields[n]->grid()) + ", expected " + shown(*grid) +
+                " as of the first file");
+  }
+  if (!grid) throw Error("found constants only, expected a file of at least one of them", ErrorKind::usage);
+  for (std::size_t n = 0; n < modulus_count; ++n)
+    if (numbers[n]) fields[n] = Field<2>(*grid, float(*numbers[n]));
+  return medium_of_stiffness(
+      fields, given_rho ? *given_rho : Field<2>(*grid, float(*constant_of(settings, Property::rho))));
+}
+
 Medium<2> read_medium(const Settings& settings, std::string& history) {
   auto fields = read_given(settings, history);
   const auto taken = [&](Property property) { return std::move(fields[std::size_t(property)]); };
-  auto medium =
-      medium_of<2>(*taken(Property::vp), taken(Property::vs), taken(Property::rho), settings.fluid_vp);
-  clear_void(medium, settings);
+  auto medium = settings.of_stiffness() ? read_stiffness(settings, taken(Property::rho), history)
+                                        : medium_of<2>(*taken(Property::vp), taken(Property::vs),
+                                                       taken(Property::rho), settings.fluid_vp);
+  if (!settings.of_stiffness()) clear_void(medium, settings);
   for (const Property property : all_properties()) {
     if (!row_of(property).if_absent || settings.file(property).empty()) continue;
     if (const auto value = constant_of(settings, property))

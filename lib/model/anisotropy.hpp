@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -44,11 +45,41 @@ PlaneStiffness plane_stiffness_of(const Medium<D>& medium, std::size_t cell) {
 /// The rock of these stiffnesses, in terms of speeds, epsilon and delta.
 Material material_of_stiffness(const Stiffness& stiffness, double rho);
 
-/// Whether epsilon or delta of a cell is not zero.
+/// Stiffnesses of a rock in space whose axes of symmetry lie along x, y and z, Pa.
+struct OrthorhombicStiffness {
+  double c11 = 0, c22 = 0, c33 = 0, c44 = 0, c55 = 0, c66 = 0, c12 = 0, c13 = 0, c23 = 0;
+  bool operator==(const OrthorhombicStiffness&) const = default;
+  /// By axes, 0 to 2: of strain and stress along them, and of shear in their plane.
+  double normal(int one, int other) const {
+    const double moduli[] = {c11, c22, c33}, mixed[] = {c12, c13, c23};
+    return one == other ? moduli[one] : mixed[one + other - 1];
+  }
+  double shear(int one, int other) const {
+    const double moduli[] = {c66, c55, c44};
+    return moduli[one + other - 1];
+  }
+};
+/// Of an upright rock, from its speeds and the parameters of Thomsen and Tsvankin (theory.md (O2)). NaN where
+/// these leave none.
+OrthorhombicStiffness stiffness_in_space(const Material& material);
+/// The rock of these stiffnesses; c12 + c66, c13 + c55 and c23 + c44 must not be negative.
+Material material_of_stiffness_in_space(const OrthorhombicStiffness& stiffness, double rho);
+
+/// Whether a cell is not alike in all horizontal directions.
+template <int D>
+bool is_orthorhombic(const Medium<D>& medium, std::size_t cell) {
+  return medium.has(Property::epsilon1) && material_of(medium, cell).orthorhombic.has_value();
+}
+/// Whether a cell is anisotropic: in 2-D where epsilon or delta is not zero, in 3-D gamma and what tells
+/// orthorhombic rock from other rock count, too.
 template <int D>
 bool is_anisotropic(const Medium<D>& medium, std::size_t cell) {
-  return medium.value(Property::epsilon, cell) != 0 || medium.value(Property::delta, cell) != 0;
+  if (medium.value(Property::epsilon, cell) != 0 || medium.value(Property::delta, cell) != 0) return true;
+  return D == 3 && (medium.value(Property::gamma, cell) != 0 || is_orthorhombic(medium, cell));
 }
+/// Whether any cell is orthorhombic; in 2-D nothing tells.
+template <int D>
+bool any_orthorhombic(const Medium<D>& medium);
 /// Whether its axis of symmetry lies along no axis of the grid.
 template <int D>
 bool has_tilted_axis(const Medium<D>& medium, std::size_t cell) {
@@ -58,7 +89,9 @@ bool has_tilted_axis(const Medium<D>& medium, std::size_t cell) {
 template <int D>
 std::int64_t anisotropic_cells(const Medium<D>& medium);
 
-/// Gives a medium with one of epsilon and delta the other, zero everywhere: means of cells have both.
+/// Gives a medium with one of epsilon and delta the other, zero everywhere: means of cells have both. In 3-D
+/// gamma, too; and one with one of the parameters of orthorhombic rock all of them, as they are of rock that
+/// is alike in all horizontal directions.
 template <int D>
 void complete_anisotropy(Medium<D>& medium);
 
@@ -75,6 +108,13 @@ double fastest_p_speed(const Material& material);
 /// What that is at most, m/s, told without a search: vp sqrt(1 + 2 max(epsilon, delta)), where one of both is
 /// positive. Rocks with that epsilon and delta are elliptical, and stiffer.
 double fastest_p_speed_at_most(const Material& material);
+/// Speeds of the three waves whose fronts move along a unit vector, m/s, from the fastest to the slowest: the
+/// roots of the Christoffel equation (theory.md (O3)).
+std::array<double, 3> phase_speeds(const OrthorhombicStiffness& stiffness, double rho,
+                                   const std::array<double, 3>& direction);
+/// The smallest and largest of any direction in space; of VTI rock found in a plane.
+PlaneSpeeds slowest_speeds_in_space(const Material& material);
+double fastest_p_speed_in_space(const Material& material);
 /// The medium with the speeds of the slowest directions as those of an isotropic one: wavelengths are nowhere
 /// shorter.
 template <int D>
@@ -84,6 +124,8 @@ Medium<D> in_slowest_directions(const Medium<D>& medium);
 /// vertical, or x) while the front of the wave moves on along it, -k_a g_a/omega (theory.md (V6)); 0 where
 /// none does, as in any isotropic rock.
 double largest_turning(const PlaneStiffness& stiffness, bool vertical);
+/// The same in space along an axis, 0 to 2.
+double largest_turning(const OrthorhombicStiffness& stiffness, int axis);
 
 /// A property that no rock has, and what follows its place in an error: "is 0.1, expected ...".
 struct AnisotropyFault {
@@ -91,7 +133,8 @@ struct AnisotropyFault {
   std::string text;
 };
 /// What keeps the stiffness from being positive, a fluid with epsilon or delta, a tilt of what has no axis;
-/// nothing where all is well.
-std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material);
+/// nothing where all is well. In space stiffness must be positive for all strains, else for those in the
+/// plane of x and z.
+std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_space = false);
 
 }  // namespace slipwave

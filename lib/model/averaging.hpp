@@ -1,8 +1,17 @@
 #pragma once
 
+#include <optional>
+
 #include "model/model.hpp"
 
 namespace slipwave {
+
+/// What tells an orthorhombic rock from one that is alike in all horizontal directions (VTI): Tsvankin's
+/// (1997) parameters of the plane of y and z, delta(3) of that of x and y, and gamma(2) (theory.md (O2)).
+struct Orthorhombic {
+  double epsilon1 = 0, delta1 = 0, delta3 = 0, gamma2 = 0;
+  bool operator==(const Orthorhombic&) const = default;
+};
 
 /// What an elastic point of a medium is made of. vs = 0 is fluid, rho = 0 is void, as in Medium.
 struct Material {
@@ -11,19 +20,30 @@ struct Material {
   double epsilon = 0, delta = 0;  // of Thomsen; then vp and vs are those along the axis of symmetry
   double tilt = 0;                // of that axis from the vertical, degrees: the dip of beds, deepening to +x
 
+  double gamma = 0;                               // of S waves in level directions, felt in 3-D alone
+  std::optional<Orthorhombic> orthorhombic = {};  // none: alike in all horizontal directions
+
+  /// In the plane of x and z, and in space.
   bool is_anisotropic() const { return epsilon != 0 || delta != 0; }
+  bool is_anisotropic_in_space() const { return is_anisotropic() || gamma != 0 || orthorhombic; }
   bool operator==(const Material&) const = default;
 };
 
 /// The material of a cell.
 template <int D>
 Material material_of(const Medium<D>& medium, std::size_t cell) {
-  return {double(medium.vp[cell]),
-          double(medium.vs[cell]),
-          double(medium.rho[cell]),
-          medium.value(Property::epsilon, cell),
-          medium.value(Property::delta, cell),
-          medium.value(Property::tilt, cell)};
+  Material of = {double(medium.vp[cell]),
+                 double(medium.vs[cell]),
+                 double(medium.rho[cell]),
+                 medium.value(Property::epsilon, cell),
+                 medium.value(Property::delta, cell),
+                 medium.value(Property::tilt, cell),
+                 medium.value(Property::gamma, cell)};
+  if (!medium.has(Property::epsilon1)) return of;
+  const Orthorhombic found = {medium.value(Property::epsilon1, cell), medium.value(Property::delta1, cell),
+                              medium.value(Property::delta3, cell), medium.value(Property::gamma2, cell)};
+  if (!(found == Orthorhombic{of.epsilon, of.delta, 0, of.gamma})) of.orthorhombic = found;
+  return of;
 }
 
 /// Writes the material of a cell, rounded to float.
@@ -35,6 +55,12 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
   if (medium.has(Property::epsilon)) medium[Property::epsilon][cell] = float(material.epsilon);
   if (medium.has(Property::delta)) medium[Property::delta][cell] = float(material.delta);
   if (medium.has(Property::tilt)) medium[Property::tilt][cell] = float(material.tilt);
+  if (medium.has(Property::gamma)) medium[Property::gamma][cell] = float(material.gamma);
+  if (!medium.has(Property::epsilon1)) return;
+  const auto of =
+      material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
+  medium[Property::epsilon1][cell] = float(of.epsilon1), medium[Property::delta1][cell] = float(of.delta1);
+  medium[Property::delta3][cell] = float(of.delta3), medium[Property::gamma2][cell] = float(of.gamma2);
 }
 
 /// Both solid, both fluid or both void.
@@ -67,6 +93,8 @@ class MaterialMean {
   double volume_ = 0;                                      // of what counts
   double mass_ = 0, compliance_p_ = 0, compliance_s_ = 0;  // sums of volume times rho, 1/(lambda+2mu), 1/mu
   double ratio_ = 0, plate_ = 0;  // of anisotropic parts and others: volume times c13/c33, c11 - c13^2/c33
+  // The same along y, of c12 in the plane of both, and volume times c66 and 1/c44.
+  double ratio_y_ = 0, plate_y_ = 0, plate_xy_ = 0, level_ = 0, compliance_yz_ = 0;
   bool anisotropic_ = false;
   double tilt_ = 0, tilted_volume_ = 0;  // of the largest anisotropic part
 };

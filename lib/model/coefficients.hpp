@@ -24,9 +24,21 @@ double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave
     const auto c = plane_stiffness_of(medium, cell);
     return std::sqrt((wave == wave_s ? c.c55 : axis < D - 1 ? c.c11 : c.c33) / double(medium.rho[cell]));
   }
+  if (D == 3 && wave == wave_p && axis == 1 && is_orthorhombic(medium, cell))
+    return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon1, cell));
   if (wave == wave_p && axis < D - 1 && medium.has(Property::epsilon))
     return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon, cell));
   return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
+}
+
+/// Of S waves with motion along `motion` in sweeps along `axis`, m/s: those of the shear stiffness of the
+/// plane of both (theory.md (O1)).
+template <int D>
+double shear_speed(const Medium<D>& medium, std::size_t cell, int axis, int motion) {
+  if (D == 2 || !is_anisotropic(medium, cell)) return wave_speed(medium, cell, axis, wave_s);
+  if (medium.is_void(cell)) return 0;
+  return std::sqrt(stiffness_in_space(material_of(medium, cell)).shear(axis, motion) /
+                   double(medium.rho[cell]));
 }
 
 /// The density times c13, by which the strain along x loads szz and that along z sxx: lambda of an isotropic
@@ -36,6 +48,12 @@ double wave_coupling(const Medium<D>& medium, std::size_t cell) {
   if (medium.is_void(cell)) return 0;
   return double(medium.rho[cell]) * (has_tilted_axis(medium, cell) ? plane_stiffness_of(medium, cell).c13
                                                                    : stiffness_of(medium, cell).c13);
+}
+
+/// In 3-D, by the axes: the density times c12, c13 or c23.
+inline double wave_coupling(const Medium<3>& medium, std::size_t cell, int one, int other) {
+  if (medium.is_void(cell)) return 0;
+  return double(medium.rho[cell]) * stiffness_in_space(material_of(medium, cell)).normal(one, other);
 }
 
 /// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.
@@ -52,8 +70,12 @@ double fastest_speed(const Medium<D>& medium) {
     if (has_tilted_axis(medium, cell))
       fastest = std::max(fastest, fastest_p_speed_at_most(material_of(medium, cell)));
     else
-      for (int axis = 0; axis < D; ++axis)
+      for (int axis = 0; axis < D; ++axis) {
         fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
+        // Whose stiffness may be anything that is positive.
+        if (D == 3 && medium.has(Property::gamma))
+          fastest = std::max(fastest, shear_speed(medium, cell, axis, (axis + 1) % D));
+      }
   for (const auto cell : cells_of_tilted_means(medium))
     fastest = std::max(fastest, fastest_in_tilted_mean(medium, cell));
   return fastest;

@@ -141,7 +141,9 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
   };
   if (effect == ModelEffect::attenuation) drop(Property::qp), drop(Property::qs);
   if (effect == ModelEffect::anisotropy) {
-    drop(Property::epsilon), drop(Property::delta), drop(Property::tilt);
+    for (const auto property : {Property::epsilon, Property::delta, Property::tilt, Property::gamma,
+                                Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2})
+      drop(property);
     drop_tilted_means(model.medium);
   }
   for (auto& set : model.fracture_sets)

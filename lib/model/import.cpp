@@ -109,6 +109,7 @@ Medium<3> extruded(const Medium<2>& medium, double length_m) {
       std::copy(row.begin(), row.end(), deep[property].line(line).begin());
     }
   }
+  complete_anisotropy(deep);
   return deep;
 }
 

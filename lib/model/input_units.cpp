@@ -9,6 +9,7 @@ namespace slipwave {
 namespace {
 
 constexpr double foot_m = 0.3048;
+const std::string gigapascal = "GPa", pascal = "Pa";
 
 bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
@@ -28,10 +29,13 @@ InputUnits InputUnits::parse(const std::string& list) {
   InputUnits units;
   for (const auto& name : split(list, ',')) {
     const auto properties = all_properties();
-    if (std::none_of(properties.begin(), properties.end(),
+    if (name != gigapascal && name != pascal &&
+        std::none_of(properties.begin(), properties.end(),
                      [&](Property property) { return factor_of(row_of(property), name) != 0; }))
-      throw Error("found '" + name + "', expected units of speed and density: m/s, km/s, ft/s, kg/m3, g/cm3",
-                  ErrorKind::usage);
+      throw Error(
+          "found '" + name +
+              "', expected units of speed, density and stiffness: m/s, km/s, ft/s, kg/m3, g/cm3, Pa, GPa",
+          ErrorKind::usage);
     units.names_.push_back(name);
   }
   return units;
@@ -45,5 +49,7 @@ double InputUnits::factor(Property property) const {
   }
   return factor;
 }
+
+double InputUnits::of_stiffness() const { return holds(names_, gigapascal) ? 1e9 : 1; }
 
 }  // namespace slipwave

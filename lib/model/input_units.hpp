@@ -16,6 +16,8 @@ class InputUnits {
   static InputUnits parse(const std::string& list);
   /// What one of it is in SI.
   double factor(Property property) const;
+  /// The same of stiffnesses, in Pa or GPa.
+  double of_stiffness() const;
 
  private:
   std::vector<std::string> names_;

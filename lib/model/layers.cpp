@@ -12,6 +12,7 @@
 #include "base/parse.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cut_cell.hpp"
+#include "model/stiffness_input.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -155,6 +156,60 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
   return named;
 }
 
+/// What a layer does not say of orthorhombic rock is as where all horizontal directions are alike.
+void set_orthorhombic(Layer& layer) {
+  auto& material = layer.material;
+  Orthorhombic of = {material.epsilon, material.delta, 0, material.gamma};
+  const Orthorhombic none = of;
+  for (const auto& [property, value] : layer.others) {
+    if (property == Property::epsilon1) of.epsilon1 = value;
+    if (property == Property::delta1) of.delta1 = value;
+    if (property == Property::delta3) of.delta3 = value;
+    if (property == Property::gamma2) of.gamma2 = value;
+  }
+  if (!(of == none)) material.orthorhombic = of;
+}
+
+/// Takes stiffnesses, NAME=VALUE, from `named`; any of them make the material of a layer without speeds.
+void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& named, const InputUnits& units) {
+  GivenStiffness given;
+  std::erase_if(named, [&](const std::string& text) {
+    const auto equals = text.find('=');
+    const auto& names = modulus_names();
+    const auto found = std::find(names.begin(), names.end(), text.substr(0, equals));
+    if (equals == std::string::npos || found == names.end()) return false;
+    auto& modulus = given.moduli[std::size_t(found - names.begin())];
+    if (modulus) throw Error("found " + *found + " twice", ErrorKind::usage);
+    modulus = parse_number(text.substr(equals + 1)) * units.of_stiffness();
+    return true;
+  });
+  if (given.any() == has_speeds)
+    throw Error(given.any() ? "found both speeds and stiffnesses, expected - for VP and VS"
+                            : "found - for VP and VS, expected speeds, or stiffnesses (c11=VALUE and more)",
+                ErrorKind::usage);
+  if (!given.any()) return;
+  given.check_kind();
+  for (const auto& text : named)
+    if (const auto other = find_property(text.substr(0, text.find('='))))
+      if (row_of(*other).mean == Mean::elastic)
+        throw Error("found both stiffnesses and " + row_of(*other).name + ", expected one of them",
+                    ErrorKind::usage);
+  if (!(layer.material.rho > 0))
+    throw Error("found a density of " + shown(layer.material.rho) + ", expected it above 0 with stiffnesses",
+                ErrorKind::usage);
+  if (const auto fault = fault_of_stiffness(given))
+    throw Error(modulus_names()[std::size_t(fault->of)] + " " + fault->text, ErrorKind::usage);
+  layer.material = material_of_given(given, layer.material.rho);
+  const auto& of = layer.material;
+  const auto add = [&](Property property, double value) { layer.others.emplace_back(property, value); };
+  if (of.is_anisotropic()) add(Property::epsilon, of.epsilon), add(Property::delta, of.delta);
+  if (of.tilt != 0) add(Property::tilt, of.tilt);
+  if (of.gamma != 0) add(Property::gamma, of.gamma);
+  if (!of.orthorhombic) return;
+  add(Property::epsilon1, of.orthorhombic->epsilon1), add(Property::delta1, of.orthorhombic->delta1);
+  add(Property::delta3, of.orthorhombic->delta3), add(Property::gamma2, of.orthorhombic->gamma2);
+}
+
 void set_others(Layer& layer, const std::vector<std::string>& named) {
   std::string names;
   for (const Property property : all_properties())
@@ -165,7 +220,9 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     const auto property = find_property(text.substr(0, equals));
     if (equals == std::string::npos || !property || !row_of(*property).if_absent ||
         row_of(*property).computed)
-      throw Error("found '" + text + "', expected NAME=VALUE, NAME one of " + names, ErrorKind::usage);
+      throw Error("found '" + text + "', expected NAME=VALUE, NAME one of " + names +
+                      ", or of stiffnesses, c11 to c66",
+                  ErrorKind::usage);
     for (const auto& [given, value] : layer.others)
       if (given == *property) throw Error("found " + row_of(given).name + " twice", ErrorKind::usage);
     const auto number = text.substr(equals + 1);
@@ -176,7 +233,9 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     if (property == Property::epsilon) layer.material.epsilon = value;
     if (property == Property::delta) layer.material.delta = value;
     if (property == Property::tilt) layer.material.tilt = value;
+    if (property == Property::gamma) layer.material.gamma = value;
   }
+  set_orthorhombic(layer);
 }
 
 /// The optional properties that any layer has.
@@ -321,12 +380,9 @@ Average parse_average(std::string_view text) {
 
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
-  return {material.vp + gradient.vp * depth,
-          material.vs + gradient.vs * depth,
-          material.rho + gradient.rho * depth,
-          material.epsilon,
-          material.delta,
-          material.tilt};
+  Material at = material;
+  at.vp += gradient.vp * depth, at.vs += gradient.vs * depth, at.rho += gradient.rho * depth;
+  return at;
 }
 
 double Layer::value(Property property) const {
@@ -337,20 +393,25 @@ double Layer::value(Property property) const {
 
 Layer parse_layer(std::string_view text, const InputUnits& units) {
   auto parts = split(text, ':');
-  const auto named = take_named(parts);
+  auto named = take_named(parts);
   if (parts.size() != 4 && parts.size() != 5) {
     throw Error("found '" + std::string(text) + "', expected DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]",
                 ErrorKind::usage);
   }
+  const bool has_speeds = parts[1] != "-" || parts[2] != "-";
   auto layer = in_place('\'' + std::string(text) + "'", [&] {
-    const auto vp = parse_trend(parts[1]), vs = parse_trend(parts[2]), rho = parse_trend(parts[3]);
+    const auto vp = has_speeds ? parse_trend(parts[1]) : Trend{},
+               vs = has_speeds ? parse_trend(parts[2]) : Trend{}, rho = parse_trend(parts[3]);
     const double dip_deg = parts.size() == 5 ? parse_number(parts[4]) : 0;
     return Layer(Horizon::parse(parts[0], dip_deg),
                  {vp.value * units.factor(Property::vp), vs.value * units.factor(Property::vs),
                   rho.value * units.factor(Property::rho)},
                  {vp.gradient, vs.gradient, rho.gradient});
   });
-  in_place('\'' + std::string(text) + "'", [&] { set_others(layer, named); });
+  in_place('\'' + std::string(text) + "'", [&] {
+    set_stiffness(layer, has_speeds, named, units);
+    set_others(layer, named);
+  });
   return layer;
 }
 

@@ -41,8 +41,9 @@ struct Layer {
 
 /// "DEPTH:VP:VS:RHO" or "DEPTH:VP:VS:RHO:DIP". DEPTH and DIP as Horizon::parse(); VP, VS and RHO are numbers,
 /// or "A+K" and "A-K" for A at the top and K more or less with every metre below it. Behind them, after ':'
-/// or blanks, other properties as NAME=VALUE ("qp=80 qs=40"), each once; VALUE may be inf. Throws a usage
-/// Error, or one that names a horizon's file. A is in `units`, K in SI whatever they are.
+/// or blanks, other properties as NAME=VALUE ("qp=80 qs=40"), each once; VALUE may be inf. With "-" for VP
+/// and VS stiffnesses are among them ("c11=26e9 c13=9e9 c33=20e9 c55=6e9"), Pa. Throws a usage Error, or one
+/// that names a horizon's file. A is in `units`, K in SI whatever they are.
 Layer parse_layer(std::string_view text, const InputUnits& units = {});
 
 /// The grid of `size_m` in cells of `spacing_m`, its low corner at the origin. Throws a usage Error when a

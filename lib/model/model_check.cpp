@@ -125,8 +125,9 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
     refuse(medium.grid(), cell, "qs",
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");
-  if (medium.has(Property::epsilon) || medium.has(Property::delta) || medium.has(Property::tilt))
-    if (const auto fault = fault_of_anisotropy(material_of(medium, cell)))
+  if (medium.has(Property::epsilon) || medium.has(Property::delta) || medium.has(Property::tilt) ||
+      medium.has(Property::gamma))
+    if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
     if (const auto fault = fault_of_tilted_mean(medium, cell))

@@ -31,7 +31,8 @@ std::vector<double> mass_above(const Medium<D>& medium) {
   return mass;
 }
 
-double k0_of_uniaxial_strain(const Material& of) {
+double k0_of_uniaxial_strain(const Material& of, int axis) {
+  if (axis == 1 && of.orthorhombic) return stiffness_in_space(of).c23 / stiffness_in_space(of).c33;
   if (of.is_anisotropic()) return stiffness_of(of).c13 / stiffness_of(of).c33;
   return 1 - 2 * (of.vs / of.vp) * (of.vs / of.vp);
 }
@@ -100,8 +101,9 @@ void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestr
     if (tensor) stress = *tensor;
     if (weight) {
       const double vertical = -gravity_m_s2 * mass[cell];
-      const double k0 = weight->k0 ? *weight->k0 : k0_of_uniaxial_strain(material_of(model.medium, cell));
-      for (int i = 0; i < D; ++i) stress(i, i) = i == D - 1 ? vertical : k0 * vertical;
+      const auto of = material_of(model.medium, cell);
+      for (int i = 0; i < D; ++i)
+        stress(i, i) = i == D - 1 ? vertical : weight->k0.value_or(k0_of_uniaxial_strain(of, i)) * vertical;
     }
     for (std::size_t c = 0; c < stress.values.size(); ++c)
       model.prestress_pa[c][cell] = float(stress.values[c]);

@@ -18,6 +18,14 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
           .if_absent = 0};
 }
 
+/// Of rock in 3-D; as 0 in files of models that lack it, complete_anisotropy() says what it is then.
+PropertyRow in_space(const std::string& name, const std::string& long_name) {
+  auto row = thomsen(name, "");
+  row.long_name = long_name;
+  row.help = long_name + ", in 3-D, a file or a number";
+  return row;
+}
+
 PropertyRow dip(const std::string& name, const std::string& of, const std::string& help) {
   return {.name = name,
           .long_name = "dip of the " + of + ", deepening towards +x",
@@ -87,6 +95,11 @@ std::vector<PropertyRow> property_rows() {
            .if_absent = PropertyRow::infinite},
           thomsen("epsilon", "axis of symmetry, 0 = isotropic"),
           thomsen("delta", "axis of symmetry, 0 = isotropic"),
+          in_space("gamma", "Thomsen's gamma of layered rock"),
+          in_space("epsilon1", "Tsvankin's epsilon(1) of orthorhombic rock"),
+          in_space("delta1", "Tsvankin's delta(1) of orthorhombic rock"),
+          in_space("delta3", "Tsvankin's delta(3) of orthorhombic rock"),
+          in_space("gamma2", "Tsvankin's gamma(2) of orthorhombic rock"),
           dip("tilt", "beds of anisotropic rock, the tilt of its axis of symmetry",
               "dip of such layers, degrees: the tilt of their axis from the vertical, a file or a number"),
           of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),

@@ -79,8 +79,7 @@ template <int D>
 void add_constant(Medium<D>& medium, Property property, double value) {
   const auto& row = row_of(property);
   medium[property] = Field<D>(medium.grid(), float(value));
-  const bool of_solids = property == Property::qs || property == Property::epsilon ||
-                         property == Property::delta || property == Property::tilt;
+  const bool of_solids = property == Property::qs || (row.if_absent && row.mean == Mean::elastic);
   for (std::size_t cell = 0; of_solids && cell < medium.vp.size(); ++cell)
     if (!medium.is_solid(cell)) medium[property][cell] = float(row.if_absent.value());
   complete_anisotropy(medium);

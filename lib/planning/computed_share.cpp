@@ -48,6 +48,9 @@ class Arrivals {
     // The mean of its cells, over their width.
     heights_.assign(slowness_.size(), 0);
     std::vector<int> rows(slowness_.size(), 0);
+    // A search over all directions; most cells are like the one before them.
+    Material last;
+    double fastest_of_last = 0;
     Index<D> zone{};
     for (std::size_t axis = 0; axis < D; ++axis)
       zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
@@ -61,7 +64,11 @@ class Arrivals {
       if (medium.is_void(cell)) continue;
       const auto number = std::size_t(blocks_.flat(at));
       auto& slowest = slowness_[number];
-      slowest = std::min(slowest, 1 / fastest_p_speed(material_of(medium, cell)));
+      const auto material = material_of(medium, cell);
+      if (D == 3 && material.orthorhombic && !(material == last))
+        fastest_of_last = fastest_p_speed_in_space(last = material);
+      slowest = std::min(slowest,
+                         1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed(material)));
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];
     }

@@ -37,6 +37,13 @@ std::string fault_of(const FractureSet<D>& set) {
   return "";
 }
 
+/// Whether slip on the planes of a set, in 3-D, meets one shear modulus, c55.
+template <int D>
+bool slips_as_isotropic_rock(const Medium<D>& medium, std::size_t cell, const FractureSet<D>& set) {
+  return set.systems.size() == 1 && std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9 &&
+         !is_orthorhombic(medium, cell);
+}
+
 template <int D>
 void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   const auto& model = scene.model;
@@ -44,11 +51,16 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
     throw Error("the cell at " + place_of(model.grid(), std::int64_t(cell)) + " is anisotropic (epsilon " +
                 shown(model.medium.value(Property::epsilon, cell), 6) + ", delta " +
                 shown(model.medium.value(Property::delta, cell), 6) +
+                (D == 3 ? ", gamma " + shown(model.medium.value(Property::gamma, cell), 6) : "") +
                 (has_tilted_axis(model.medium, cell)
                      ? ", tilt " + shown(model.medium.value(Property::tilt, cell), 6)
                      : "") +
                 ") and " + what);
   };
+  if (D == 3 && has_tilted_axis(model.medium, cell))
+    refuse(
+        "lies in a model in 3-D, where axes of symmetry lie along the grid; leave the tilt out, or use "
+        "--without anisotropy");
   if (scene.attenuation && attenuates(model.medium, cell))
     refuse("attenuates, expected one of both; use --without attenuation" + std::string(isotropic_instead));
   if (near_bent)
@@ -61,6 +73,11 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   if (has_tilted_axis(model.medium, cell))
     refuse("its fracture set '" + set.name +
            "' slips, expected rock whose axis is upright; use --without slip" +
+           std::string(isotropic_instead));
+  if (D == 3 && !slips_as_isotropic_rock(model.medium, cell, set))
+    refuse("its fracture set '" + set.name +
+           "' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma; use --without "
+           "slip" +
            std::string(isotropic_instead));
   if (const auto fault = fault_of(set); !fault.empty())
     refuse("the planes of its fracture set '" + set.name + "' " + fault +
@@ -76,9 +93,6 @@ void check_anisotropy(const Scene<D>& scene) {
   const auto& grid = medium.grid();
   // Ranks with other rows refuse what concerns the whole model, too.
   if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
-  if (D == 3)
-    throw Error("found epsilon or delta in a model in 3-D, expected them in 2-D; use --without anisotropy",
-                ErrorKind::usage);
   for (const auto& source : scene.survey.sources)
     if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
       throw Error(

@@ -6,7 +6,7 @@ namespace slipwave {
 
 /// Throws an Error on the first cell whose anisotropy can not be computed together with what else happens
 /// there (theory.md 1.10): one that attenuates, that rows of a fitted grid bend round, or whose planes slip
-/// obliquely to the axes or open; and on any in 3-D or under a plane wave.
+/// obliquely to the axes or open, or in 3-D on others than level planes; and on any under a plane wave.
 template <int D>
 void check_anisotropy(const Scene<D>& scene);
 

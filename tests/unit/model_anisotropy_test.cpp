@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 
@@ -247,10 +250,173 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropy) {
   EXPECT_EQ(told(cracked), "");
 }
 
-TEST(SceneCheck, RefusesAnisotropyInThreeDimensions) {
+TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
   Scene<3> deep;
+  const auto told = [&] { return refusal([&] { check_anisotropy(deep); }); };
   deep.model.medium = extruded(one_cell(shale).medium, 5);
-  EXPECT_NE(refusal([&] { check_anisotropy(deep); }).find("found epsilon or delta in a model in 3-D"),
+  deep.survey.sources = {{{2.5, 2.5, 2.5}, parse_mechanism<3>("explosion"), parse_wavelet("ricker:20"), 1}};
+  EXPECT_EQ(told(), "");
+  deep.model.fracture = Field<3, std::uint8_t>(deep.model.grid(), 1);
+  deep.model.fracture_sets = {{"level", {{{0, 0, 1}, 0.5, 0, 0}}}};
+  EXPECT_EQ(told(), "");
+  deep.model.fracture_sets = {{"upright", {{{1, 0, 0}, 0.5, 0, 0}}}};
+  EXPECT_EQ(
+      told(),
+      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0) and its fracture set "
+      "'upright' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma; use "
+      "--without slip or --without anisotropy");
+  deep.with_slip = false;
+  EXPECT_EQ(told(), "");
+  deep.model.medium[Property::tilt] = Field<3>(deep.model.grid(), 30);
+  EXPECT_EQ(
+      told(),
+      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0, tilt 30) and lies in a "
+      "model in 3-D, where axes of symmetry lie along the grid; leave the tilt out, or use --without "
+      "anisotropy");
+}
+
+/// Vosges-like orthorhombic rock: stiffnesses over density that Schoenberg and Helbig (1997) give for cracked
+/// shale.
+constexpr OrthorhombicStiffness cracked{9, 9.84, 5.9375, 2, 1.6, 2.182, 3.6, 2.25, 2.4};
+
+TEST(StiffnessInSpace, IsThatOfThomsenAndTsvankin) {
+  // As Tsvankin (1997, table 1) has them of that rock.
+  const auto of = material_of_stiffness_in_space(cracked, 1);
+  EXPECT_NEAR(of.vp, 2.437, 5e-4);
+  EXPECT_NEAR(of.vs, 1.265, 5e-4);
+  EXPECT_NEAR(of.epsilon, 0.258, 5e-4);
+  EXPECT_NEAR(of.delta, -0.078, 6e-4);
+  EXPECT_NEAR(of.gamma, 0.182, 5e-4);
+  ASSERT_TRUE(of.orthorhombic);
+  EXPECT_NEAR(of.orthorhombic->epsilon1, 0.329, 5e-4);
+  EXPECT_NEAR(of.orthorhombic->delta1, 0.083, 6e-4);
+  EXPECT_NEAR(of.orthorhombic->delta3, -0.106, 5e-4);
+  EXPECT_NEAR(of.orthorhombic->gamma2, 0.0455, 5e-4);
+  const auto back = stiffness_in_space(of);
+  for (int one = 0; one < 3; ++one)
+    for (int other = 0; other < 3; ++other) {
+      EXPECT_NEAR(back.normal(one, other), cracked.normal(one, other), 1e-12);
+      if (one == other) continue;
+      EXPECT_NEAR(back.shear(one, other), cracked.shear(one, other), 1e-12);
+    }
+  // Rock that is alike in all horizontal directions, and isotropic rock.
+  auto layered = shale;
+  layered.gamma = 0.15;
+  const auto c = stiffness_in_space(layered);
+  EXPECT_NEAR(c.c66, 1.3 * c.c55, 1);
+  EXPECT_NEAR(c.c12, c.c11 - 2 * c.c66, 1);
+  EXPECT_FALSE(material_of_stiffness_in_space(c, layered.rho).orthorhombic);
+  EXPECT_EQ(stiffness_in_space(rock).c12, stiffness_of(rock).c13);
+}
+
+TEST(PhaseSpeedsInSpace, AreRootsOfTheChristoffelEquation) {
+  // In its planes of symmetry those of (V3), and the shear across them.
+  const double angle = 0.6, s = std::sin(angle), c = std::cos(angle);
+  const auto along_x = phase_speeds(cracked, 1, {s, 0, c});
+  const auto plane = phase_speeds(Stiffness{cracked.c11, cracked.c13, cracked.c33, cracked.c55}, 1, angle);
+  std::array<double, 3> wanted = {plane.p, plane.s, std::sqrt(cracked.c66 * s * s + cracked.c44 * c * c)};
+  std::sort(wanted.begin(), wanted.end(), std::greater());
+  for (const std::size_t n : {0, 1, 2}) EXPECT_NEAR(along_x[n], wanted[n], 1e-9);
+  // Anywhere: the determinant of the matrix less rho c^2 vanishes.
+  const std::array<double, 3> n = {0.48, 0.6, 0.64};
+  const auto speeds = phase_speeds(cracked, 1, n);
+  for (const double speed : speeds) {
+    std::array<std::array<double, 3>, 3> m{};
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        auto& of = m[std::size_t(i)][std::size_t(k)];
+        const double both = n[std::size_t(i)] * n[std::size_t(k)];
+        of = (cracked.normal(i, k) + (i == k ? 0 : cracked.shear(i, k))) * both;
+        for (int j = 0; i == k && j < 3; ++j)
+          if (j != i) of += cracked.shear(i, j) * n[std::size_t(j)] * n[std::size_t(j)];
+        if (i == k) of -= speed * speed;
+      }
+    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[1][2]) -
+                               m[0][1] * (m[0][1] * m[2][2] - m[1][2] * m[0][2]) +
+                               m[0][2] * (m[0][1] * m[1][2] - m[1][1] * m[0][2]);
+    EXPECT_NEAR(determinant, 0, 1e-9);
+  }
+  const auto material = material_of_stiffness_in_space(cracked, 1);
+  EXPECT_LE(slowest_speeds_in_space(material).s, std::min(speeds[2], std::sqrt(cracked.c55)));
+  EXPECT_GE(fastest_p_speed_in_space(material), std::sqrt(cracked.c22) - 1e-9);
+}
+
+TEST(Turning, InSpaceIsThatOfThePlanesOfSymmetry) {
+  const auto turns = stiffness_of(crossed);
+  for (const bool vertical : {false, true})
+    EXPECT_NEAR(largest_turning(stiffness_in_space(crossed), vertical ? 2 : 0),
+                largest_turning(PlaneStiffness{turns.c11, turns.c13, 0, turns.c33, 0, turns.c55}, vertical),
+                3e-3);
+  EXPECT_EQ(largest_turning(stiffness_in_space(rock), 1), 0);
+}
+
+TEST(MaterialMean, OfAnisotropicPartsInSpaceIsThatOfFlatLayers) {
+  auto other = material_of_stiffness_in_space(cracked, 1);
+  other = {other.vp * 1000, other.vs * 1000,   2300, other.epsilon, other.delta, 0,
+           other.gamma,     other.orthorhombic};
+  auto layered = shale;
+  layered.gamma = 0.15;
+  MaterialMean mean(other);
+  mean.add(other, 3), mean.add(layered, 1), mean.add(rock, 2);
+  // Backus: in layers stresses on the level and strains along it are the same.
+  const std::pair<OrthorhombicStiffness, double> parts[] = {{stiffness_in_space(other), 0.5},
+                                                            {stiffness_in_space(layered), 1. / 6},
+                                                            {stiffness_in_space(rock), 1. / 3}};
+  double s33 = 0, s44 = 0, s55 = 0, c66 = 0, x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  for (const auto& [c, w] : parts) {
+    s33 += w / c.c33, s44 += w / c.c44, s55 += w / c.c55, c66 += w * c.c66;
+    x += w * c.c13 / c.c33, y += w * c.c23 / c.c33;
+    xx += w * (c.c11 - c.c13 * c.c13 / c.c33), yy += w * (c.c22 - c.c23 * c.c23 / c.c33);
+    xy += w * (c.c12 - c.c13 * c.c23 / c.c33);
+  }
+  const auto found = stiffness_in_space(mean.mean());
+  const double wanted[] = {xx + x * x / s33, yy + y * y / s33, 1 / s33, 1 / s44, 1 / s55, c66,
+                           xy + x * y / s33, x / s33,          y / s33};
+  const double of[] = {found.c11, found.c22, found.c33, found.c44, found.c55,
+                       found.c66, found.c12, found.c13, found.c23};
+  for (int n = 0; n < 9; ++n) EXPECT_NEAR(of[n], wanted[n], 1e-9 * wanted[n]) << n;
+}
+
+TEST(Layers, OfOrthorhombicRockLeaveOthersAlikeInAllHorizontalDirections) {
+  const Grid<3> grid{{1, 1, 4}, 5, {0, 0, 0}};
+  const auto medium = layered_medium(grid, {parse_layer("0:3000:1600:2300 epsilon=0.2 delta=0.1 gamma=0.15"),
+                                            parse_layer("10:3000:1600:2300 epsilon=0.2 epsilon1=0.1")});
+  ASSERT_TRUE(medium.has(Property::gamma2));
+  EXPECT_FALSE(is_orthorhombic(medium, 0));
+  EXPECT_FLOAT_EQ(medium[Property::gamma2][0], 0.15F);
+  EXPECT_TRUE(is_orthorhombic(medium, 3));
+  EXPECT_FLOAT_EQ(medium[Property::epsilon1][3], 0.1F);
+  EXPECT_TRUE(layered_medium(grid, {parse_layer("0:3000:1600:2300 epsilon=0.2")}).has(Property::gamma));
+}
+
+TEST(ModelCheck, RefusesAnisotropyInSpaceThatNoRockHas) {
+  const auto told = [](const Material& of) {
+    Model<3> model;
+    model.medium = Medium<3>(Grid<3>{{1, 1, 1}, 2, {0, 0, 0}});
+    model.medium[Property::epsilon1] = Field<3>(model.medium.grid());
+    complete_anisotropy(model.medium);
+    put(model.medium, 0, of);
+    return refusal([&] { check(model); });
+  };
+  auto of = shale;
+  of.gamma = 0.15;
+  EXPECT_EQ(told(of), "");
+  of.gamma = 2;
+  EXPECT_EQ(told(of),
+            "gamma at x=1 y=1 z=1 is 2, expected below 1.477 with an epsilon of 0.2 and a delta of 0.1: (c11 "
+            "- c66) "
+            "c33 must be more than c13^2, or the rock would give energy; lower gamma or raise epsilon");
+  of.gamma = -0.5;
+  EXPECT_EQ(told(of), "gamma at x=1 y=1 z=1 is -0.5, expected above -0.5: c66 must be more than 0");
+  of.gamma = 0.15, of.orthorhombic = {0.2, 0.1, 0.1, 0.15};
+  EXPECT_EQ(told(of), "");
+  of.orthorhombic->delta1 = -0.45;
+  EXPECT_NE(told(of).find("delta1 at x=1 y=1 z=1 is -0.45, expected above -0.35"), std::string::npos);
+  of.orthorhombic = {-0.45, 0.1, 0, 0.15};
+  EXPECT_NE(told(of).find("epsilon1 at x=1 y=1 z=1 is -0.45, expected above"), std::string::npos);
+  of.orthorhombic = {0.2, 0.1, 0.9, 0.15};
+  EXPECT_NE(told(of).find("lower delta3"), std::string::npos);
+  EXPECT_NE(told({1500, 0, 1000, 0, 0, 0, 0.1}).find("gamma at x=1 y=1 z=1 is 0.1, expected 0 in fluid"),
             std::string::npos);
 }
 

@@ -39,6 +39,39 @@ std::vector<double> fractions_along(int axis, int dimension, int time_order) {
   return all;
 }
 
+/// (V6) at a cell along an axis, from the last one of like rock.
+class Turning {
+ public:
+  explicit Turning(int axis) : axis_(axis) {}
+  double operator()(const Domain<2>& domain, const Index<2>& at) {
+    const double across = domain.impedance(wave_p, 0)(at), down = domain.impedance(wave_p)(at),
+                 s = domain.impedance(wave_s)(at);
+    // Times the density; only ratios count.
+    const auto* const tilted = domain.tilted_at(at);
+    const PlaneStiffness stiffness =
+        tilted ? tilted->stiffness
+               : PlaneStiffness{across * across, domain.coupling(at), 0, down * down, 0, s * s};
+    return of(stiffness, last_plane_, axis_ == 1);
+  }
+  double operator()(const Domain<3>& domain, const Index<3>& at) {
+    const auto c = stiffness_at(domain, at);
+    if (domain.material_kind() == MaterialKind::orthorhombic) return of(c, last_, axis_);
+    // Alike in all horizontal directions: in a plane, since the SH wave never turns.
+    return of(PlaneStiffness{c.c11, c.c13, 0, c.c33, 0, c.c55}, last_plane_, axis_ == 2);
+  }
+
+ private:
+  template <class Stiffness, class Along>
+  double of(const Stiffness& stiffness, Stiffness& last, Along along) {
+    if (!(stiffness == last)) turning_ = largest_turning(last = stiffness, along);
+    return turning_;
+  }
+  int axis_;
+  PlaneStiffness last_plane_;
+  OrthorhombicStiffness last_;
+  double turning_ = 0;
+};
+
 }  // namespace
 
 template <int D, class Real>
@@ -128,20 +161,12 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
       most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
-  PlaneStiffness last;
-  double turning = 0;
+  Turning turning_of(axis);
   for (std::int64_t n = 0; n < edge.size(); ++n) {
     auto at = edge.index(n);
     at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;
-    const double across = domain.impedance(wave_p, 0)(at), down = domain.impedance(wave_p)(at),
-                 s = domain.impedance(wave_s)(at);
-    if (s == 0) continue;
-    // Times the density; only ratios count.
-    const auto* const tilted = domain.tilted_at(at);
-    const PlaneStiffness stiffness =
-        tilted ? tilted->stiffness
-               : PlaneStiffness{across * across, domain.coupling(at), 0, down * down, 0, s * s};
-    if (!(stiffness == last)) turning = largest_turning((last = stiffness), axis == D - 1);
+    if (domain.impedance(wave_s)(at) == 0) continue;
+    const double turning = turning_of(domain, at);
     auto& plate = plates[std::size_t(along_edge(axis, at))];
     plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
   }

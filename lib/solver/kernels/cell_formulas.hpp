@@ -95,6 +95,14 @@ template <class Real>
   v += moved * ds;
   s += p_modulus * dv;
 }
+/// What the second S pair and passive stress of such a medium have of their own in space: the shear modulus
+/// and the increment (theory.md (O1)). `strained` is b times the size of the fraction.
+template <class Real>
+[[gnu::always_inline]] inline void second_pair(Real strained, Real z, Real coupling, Real dv, Real& s_modulus,
+                                               Real& along) {
+  s_modulus = strained * z * z;
+  along = strained * coupling * dv;
+}
 /// The same of an S pair.
 template <class Real>
 [[gnu::always_inline]] inline void update_s(Real dv, Real ds, Real moved, Real s_modulus, Real& v, Real& s) {

@@ -50,6 +50,8 @@ template <class Real>
 struct MaterialRows {
   const Real *b, *zp, *zs;
   const Real* coupling = nullptr;  // of anisotropic media: the density times c13
+  // Of anisotropic media in 3-D, of the second S pair and the second passive stress.
+  const Real *zs2 = zs, *coupling2 = coupling;
 };
 
 /// Fields of a range of cells that a sweep changes; those of the third axis in 2-D are not used, and where
@@ -100,6 +102,10 @@ struct FusedRow {
   Real *up_to, *faces;
   const Real *lo, *hi;
   const Real* coupling = nullptr;  // of the row `done` of an anisotropic medium
+  // In 3-D also of the second passive stress, and of all three material rows from b to the impedances of P
+  // and of both S pairs.
+  const Real* coupling2 = nullptr;
+  std::int64_t zp = 0, zs = 0, zs2 = 0;
 };
 
 /// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): J of its
@@ -198,12 +204,12 @@ struct Kernels {
   InterfaceKernels<Real> face[2];
   /// Where all is fluid, in 2-D and 3-D: of the P pair alone, whose stress is that of all axes.
   InterfaceKernels<Real> fluid_face;
-  /// Of anisotropic media, in 2-D.
-  InterfaceKernels<Real> anisotropic_face;
+  /// Of anisotropic media, by dimension.
+  InterfaceKernels<Real> anisotropic_face[2];
   /// Reconstruction, Riemann solution and update of a row across (null for uniform runs), by dimension.
   void (*fused_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
-  /// Of an anisotropic medium, in 2-D.
-  void (*fused_anisotropic_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
+  /// Of an anisotropic medium, by dimension.
+  void (*fused_anisotropic_row[2])(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// The same where all is fluid, in 2-D and 3-D.
   void (*fused_fluid_row)(std::int64_t n, Real scale, const FusedRow<Real>& rows);
   /// By dimension.

@@ -52,12 +52,14 @@ void limit(std::int64_t n, std::int64_t stride, const Real* __restrict v, const 
     limit_cell(v + i, s + i, stride, impedance + i, z_stride, scale * (impedance[i] * b[i]), up[i], down[i]);
 }
 
-/// For the P pair and so many S pairs.
-template <bool Uniform, int Shears, class Real>
+/// For the P pair and so many S pairs; Split: the second has an impedance of its own.
+template <bool Uniform, int Shears, bool Split, class Real>
 void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                    const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, InterfaceStates<Real> faces) {
   const Real *zp_lo = lo.zp, *zp_hi = hi.zp, *zs_lo = lo.zs, *zs_hi = hi.zs;
   const Real zp_lo0 = zp_lo[0], zp_hi0 = zp_hi[0], zs_lo0 = zs_lo[0], zs_hi0 = zs_hi[0];
+  const Real *zs2_lo = Split ? lo.zs2 : zs_lo, *zs2_hi = Split ? hi.zs2 : zs_hi;
+  const Real zs2_lo0 = zs2_lo[0], zs2_hi0 = zs2_hi[0];
   const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0);
   const Real* __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
   const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
@@ -72,11 +74,15 @@ void solve_riemann(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real
     riemann_shares<(Shears > 0)>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
     riemann(up_p[i], down_p[i], p_lo, p_hi, share_p, v_p[i], s_p[i]);
     if constexpr (Shears > 0) riemann(up_s[i], down_s[i], s_lo, s_hi, share_s, v_s[i], s_s[i]);
-    if constexpr (Shears > 1) riemann(up_s2[i], down_s2[i], s_lo, s_hi, share_s, v_s2[i], s_s2[i]);
+    if constexpr (Shears > 1 && !Split) riemann(up_s2[i], down_s2[i], s_lo, s_hi, share_s, v_s2[i], s_s2[i]);
+    if constexpr (Shears > 1 && Split) {
+      const Real s2_lo = Uniform ? zs2_lo0 : zs2_lo[i], s2_hi = Uniform ? zs2_hi0 : zs2_hi[i];
+      riemann(up_s2[i], down_s2[i], s2_lo, s2_hi, 1 / (s2_lo + s2_hi + Real(none)), v_s2[i], s_s2[i]);
+    }
   }
 }
 
-/// Coupled: the passive stress takes what MaterialRows says instead of lambda. Without shear there is none:
+/// Coupled: passive stresses take what MaterialRows says instead of lambda. Without shear there is none:
 /// all normal stresses are one.
 template <bool Uniform, int D, bool Shear, bool Coupled, class Real>
 void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
@@ -89,6 +95,9 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
   const Real b0 = b[0], zp0 = zp[0], zs0 = zs[0];
   const Real* __restrict coupling = material.coupling;
   const Real coupling0 = Coupled ? coupling[0] : Real(0);
+  constexpr bool InSpace = Coupled && D == 3;
+  const Real* __restrict zs2 = material.zs2, * __restrict coupling2 = material.coupling2;
+  const Real zs20 = InSpace ? zs2[0] : Real(0), coupling20 = InSpace ? coupling2[0] : Real(0);
   Real* __restrict v = rows.v, * __restrict s = rows.s, * __restrict passive = rows.passive, * __restrict passive2 = rows.passive2;
   Real* __restrict vt = rows.vt, * __restrict st = rows.st, * __restrict vt2 = rows.vt2, * __restrict st2 = rows.st2;
 #pragma omp simd
@@ -102,10 +111,14 @@ void update(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceState
     else
       update_p<Shear>(v_hi[i] - v_lo[i], s_hi[i] - s_lo[i], moved, p_modulus, s_modulus, v[i], s[i], along);
     if constexpr (Shear) passive[i] += along;
-    if constexpr (Shear && D == 3) passive2[i] += along;
     if constexpr (Shear) update_s(w_hi[i] - w_lo[i], t_hi[i] - t_lo[i], moved, s_modulus, vt[i], st[i]);
-    if constexpr (Shear && D == 3)
+    if constexpr (InSpace)
+      second_pair(size * b_i, Uniform ? zs20 : zs2[i], Uniform ? coupling20 : coupling2[i], v_hi[i] - v_lo[i],
+                  s_modulus, along);
+    if constexpr (Shear && D == 3) {
+      passive2[i] += along;
       update_s(w2_hi[i] - w2_lo[i], t2_hi[i] - t2_lo[i], moved, s_modulus, vt2[i], st2[i]);
+    }
   }
 }
 
@@ -122,6 +135,10 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
   const Real over_zp = Real(0.5) / zp, over_zs = zs > 0 ? Real(0.5) / zs : Real(0);
   // A fluid carries no shear.
   const Real moved_s = zs > 0 ? moved : Real(0);
+  constexpr bool InSpace = Coupled && D == 3;
+  const Real zs2 = InSpace ? material.zs2[0] : zs, s_modulus2 = InSpace ? strained * zs2 * zs2 : s_modulus,
+             over_zs2 = InSpace && zs2 > 0 ? Real(0.5) / zs2 : over_zs,
+             along2 = InSpace ? strained * material.coupling2[0] : along;
   const Real* __restrict up_lo = below.up(0), * __restrict up = here.up(0), * __restrict down = here.down(0), * __restrict down_hi = above.down(0);
   const Real* __restrict sup_lo = below.up(1), * __restrict sup = here.up(1), * __restrict sdown = here.down(1), * __restrict sdown_hi = above.down(1);
   const Real* __restrict tup_lo = below.up(2), * __restrict tup = here.up(2), * __restrict tdown = here.down(2), * __restrict tdown_hi = above.down(2);
@@ -133,7 +150,7 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
     v[i] += moved * (downs - ups);
     s[i] += p_modulus * dv;
     if constexpr (Shear) passive[i] += along * dv;
-    if constexpr (Shear && D == 3) passive2[i] += along * dv;
+    if constexpr (Shear && D == 3) passive2[i] += along2 * dv;
     if constexpr (Shear) {
       const Real s_ups = sup[i] - sup_lo[i], s_downs = sdown_hi[i] - sdown[i];
       vt[i] += moved_s * (s_downs - s_ups);
@@ -142,7 +159,7 @@ void update_uniform(std::int64_t n, Real scale, OutgoingWaves<Real> below, Outgo
     if constexpr (Shear && D == 3) {
       const Real t_ups = tup[i] - tup_lo[i], t_downs = tdown_hi[i] - tdown[i];
       vt2[i] += moved_s * (t_downs - t_ups);
-      st2[i] += s_modulus * ((t_downs + t_ups) * over_zs);
+      st2[i] += s_modulus2 * ((t_downs + t_ups) * over_zs2);
     }
   }
 }
@@ -200,7 +217,7 @@ void interpolate(std::int64_t n, const float* samples, std::int64_t count, doubl
 }
 
 template <bool Uniform, int D, bool Shear, bool Coupled, class Real>
-constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 0, Real>,
+constexpr InterfaceKernels<Real> face = {solve_riemann<Uniform, Shear ? D - 1 : 0, Coupled && D == 3, Real>,
                                          update<Uniform, D, Shear, Coupled, Real>,
                                          update_uniform<D, Shear, Coupled, Real>};
 
@@ -209,10 +226,11 @@ constexpr Kernels<Real> table = {reconstruct<Order, Uniform, Real>,
                                  limit<Real>,
                                  {face<Uniform, 2, true, false, Real>, face<Uniform, 3, true, false, Real>},
                                  face<Uniform, 2, false, false, Real>,
-                                 face<Uniform, 2, true, true, Real>,
+                                 {face<Uniform, 2, true, true, Real>, face<Uniform, 3, true, true, Real>},
                                  {Uniform ? nullptr : fused_row<Order, 1, false, Real>,
                                   Uniform ? nullptr : fused_row<Order, 2, false, Real>},
-                                 Uniform ? nullptr : fused_row<Order, 1, true, Real>,
+                                 {Uniform ? nullptr : fused_row<Order, 1, true, Real>,
+                                  Uniform ? nullptr : fused_row<Order, 2, true, Real>},
                                  Uniform ? nullptr : fused_row<Order, 0, false, Real>,
                                  {bent_kernels<Order, 2, Real>, bent_kernels<Order, 3, Real>}};
 

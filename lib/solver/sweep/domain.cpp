@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "grid/tensor.hpp"
 #include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
 
@@ -195,15 +196,37 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
   return found;
 }
 
+/// The run of cells first <= x < last of a row that are like the first.
+template <int D, class Real>
+UniformRun<Real> run_of(const State<D, Real>& state, const Index<D>& line, std::int64_t first,
+                        std::int64_t last) {
+  const auto value = [&](int row) { return state.material_row(line, row)[first]; };
+  const auto kind = state.kind;
+  UniformRun<Real> run{first, last, value(row_b), value(row_zp), state.fluid ? Real(0) : value(row_zs)};
+  if (!state.anisotropic) return run;
+  run.zp_across = value(row_zp_across), run.coupling = value(row_coupling);
+  if constexpr (D == 3) {
+    run.zs_level = value(s_row<D>(kind, 0, 1)), run.coupling_level = value(coupling_row<D>(kind, 0, 1));
+    run.zp_y = value(p_row<D>(kind, 1)), run.zs_y = value(s_row<D>(kind, 1, 2));
+    run.coupling_y = value(coupling_row<D>(kind, 1, 2));
+  }
+  return run;
+}
+
 template <int D, class Real>
 void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
+  const auto same_anisotropy = [&](const Index<D>& line, std::int64_t i, std::int64_t j) {
+    for (int row = row_zp_across; row < state.material_layout.rows(); ++row)
+      if (state.material_row(line, row)[i] != state.material_row(line, row)[j]) return false;
+    return true;
+  };
   const auto& all_tilted = domain.tilted();
   std::vector<char> tilted(std::size_t(nx), 0);
   auto next = all_tilted.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
-    const auto material = state.material_from(at, 0), across = state.material_from(at, 0, 0);
+    const auto material = state.material_from(at, 0);
     while (next != all_tilted.end() && next->cell < line * nx) ++next;
     std::fill(tilted.begin(), tilted.end(), 0);
     for (auto of = next; of != all_tilted.end() && of->cell < (line + 1) * nx; ++of)
@@ -211,21 +234,36 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     const auto same = [&](std::int64_t i, std::int64_t j) {
       return !tilted[std::size_t(i)] && !tilted[std::size_t(j)] && material.b[i] == material.b[j] &&
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
-             (!state.anisotropic ||
-              (across.zp[i] == across.zp[j] && material.coupling[i] == material.coupling[j]));
+             (!state.anisotropic || same_anisotropy(at, i, j));
     };
     // In bent rows no two cells are alike.
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
       if (x - first >= std::min(shortest_run, nx) && !tilted[std::size_t(first)])
-        state.uniform_runs.push_back({first, x, material.b[first], material.zp[first],
-                                      state.fluid ? Real(0) : material.zs[first], across.zp[first],
-                                      state.anisotropic ? material.coupling[first] : Real(0)});
+        state.uniform_runs.push_back(run_of(state, at, first, x));
       first = x;
     }
     state.first_uniform_run[std::size_t(line) + 1] = state.uniform_runs.size();
   }
+}
+
+/// What a row of the material of anisotropic media holds of a cell, but b.
+template <int D>
+double value_of_row(const Medium<D>& medium, std::size_t cell, int row) {
+  const double rho = medium.rho[cell];
+  if (row == row_zp || row == row_zs)
+    return wave_impedance(medium, cell, D - 1, row == row_zp ? wave_p : wave_s);
+  if (row == row_zp_across) return wave_impedance(medium, cell, 0, wave_p);
+  if (row == row_coupling) return wave_coupling(medium, cell);
+  if constexpr (D == 3) {
+    if (row == row_zs_level) return rho * shear_speed(medium, cell, 0, 1);
+    if (row == row_coupling_level) return wave_coupling(medium, cell, 0, 1);
+    if (row == row_zp_y) return wave_impedance(medium, cell, 1, wave_p);
+    if (row == row_zs_y) return rho * shear_speed(medium, cell, 1, 2);
+    if (row == row_coupling_y) return wave_coupling(medium, cell, 1, 2);
+  }
+  return 0;
 }
 
 /// What sweeps know of the medium, in zones that of the edge of the model.
@@ -235,8 +273,10 @@ void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
   const bool anisotropic = domain.subdomain.anisotropic || anisotropic_cells(medium) > 0;
-  Field<D> zp_across, coupling;
-  if (anisotropic) zp_across = coupling = Field<D>(domain.grid);
+  const auto kind = any_orthorhombic(medium) ? MaterialKind::orthorhombic : MaterialKind::anisotropic;
+  typename Domain<D>::Rows more;
+  for (int row = row_zp_across; anisotropic && row < material_rows_of<D>(kind); ++row)
+    more[std::size_t(row)] = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
   parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
@@ -250,13 +290,13 @@ void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
         for (const Wave wave : {wave_p, wave_s})
           impedance[wave][to] = float(wave_impedance(medium, cell, z, wave));
         if (!anisotropic) continue;
-        zp_across[to] = float(wave_impedance(medium, cell, 0, wave_p));
-        coupling[to] = float(wave_coupling(medium, cell));
+        for (int row = row_zp_across; row < material_rows_of<D>(kind); ++row)
+          more[std::size_t(row)][to] = float(value_of_row(medium, cell, row));
       }
     }
   });
   domain.set_impedances(std::move(impedance));
-  if (anisotropic) domain.set_anisotropy(std::move(zp_across), std::move(coupling));
+  if (anisotropic) domain.set_anisotropy(kind, std::move(more));
 }
 
 }  // namespace
@@ -286,7 +326,15 @@ Index<D> Domain<D>::model_cell(Index<D> at) const {
 template <int D>
 const Field<D>& Domain<D>::impedance(Wave wave, int axis) const {
   if (impedances_[wave].empty()) throw std::logic_error("the impedances of the domain were released");
-  return anisotropic_ && wave == wave_p && axis < D - 1 ? zp_across_ : impedances_[wave];
+  const int row = p_row<D>(material_kind_, axis);
+  return anisotropic_ && wave == wave_p && row != row_zp ? more_[std::size_t(row)] : impedances_[wave];
+}
+
+template <int D>
+const Field<D>& Domain<D>::impedance_of_pair(int axis, int pair) const {
+  if (pair == 0) return impedance(wave_p, axis);
+  const int row = s_row<D>(material_kind_, axis, axis_of_pair<D>(axis, pair));
+  return splits_shear() && row != row_zs ? more_[std::size_t(row)] : impedance(wave_s);
 }
 
 template <int D>
@@ -300,7 +348,7 @@ const TiltedMedium* Domain<D>::tilted_at(const Index<D>& at) const {
 }
 
 template <int D>
-EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis) const {
+EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
   if (const auto* const tilted = tilted_at(cell)) {
     const auto& [c11, c13, c15, c33, c35, c55] = tilted->stiffness;
     const bool upright = axis < D - 1;
@@ -309,7 +357,7 @@ EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis) const {
     return {(c13 * c55 - mixed * beside) / determinant, (across * beside - mixed * c13) / determinant};
   }
   const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
-  return {anisotropic_ ? coupling_(cell) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp), 0};
+  return {anisotropic_ ? coupling(cell, axis, along) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp), 0};
 }
 
 template <int D>
@@ -370,12 +418,14 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool carries = !ghost && !medium.is_void(cell);
-    const double values[material_rows_of(MaterialKind::anisotropic)] = {
-        carries ? courant / double(medium.rho[cell]) : 0,
-        p_factor * wave_impedance(medium, cell, D - 1, wave_p),
-        s_factor * wave_impedance(medium, cell, D - 1, wave_s),
-        state.anisotropic ? p_factor * wave_impedance(medium, cell, 0, wave_p) : 0,
-        state.anisotropic ? wave_coupling(medium, cell) : 0};
+    double values[most_material_rows] = {carries ? courant / double(medium.rho[cell]) : 0,
+                                         p_factor * wave_impedance(medium, cell, D - 1, wave_p),
+                                         s_factor * wave_impedance(medium, cell, D - 1, wave_s)};
+    for (int row = row_zp_across; row < state.material_layout.rows(); ++row) {
+      const bool of_p = row == row_zp_across || row == row_zp_y,
+                 of_s = row == row_zs_level || row == row_zs_y;
+      values[row] = (of_p ? p_factor : of_s ? s_factor : 1) * value_of_row(medium, cell, row);
+    }
     Index<D> line = at;
     line[0] = 0;
     for (int row = 0; row < state.material_layout.rows(); ++row)
@@ -426,6 +476,17 @@ double complementary(const PlaneStiffness& c, double sxx, double szz, double sxz
          determinant;
 }
 
+/// The same in space where its axes do.
+double complementary(const OrthorhombicStiffness& c, const SymmetricTensor<3, double>& s) {
+  const double a = c.c22 * c.c33 - c.c23 * c.c23, b = c.c13 * c.c23 - c.c12 * c.c33,
+               d = c.c12 * c.c23 - c.c13 * c.c22, e = c.c11 * c.c33 - c.c13 * c.c13,
+               f = c.c12 * c.c13 - c.c11 * c.c23, g = c.c11 * c.c22 - c.c12 * c.c12;
+  const double x = s(0, 0), y = s(1, 1), z = s(2, 2), xy = s(0, 1), xz = s(0, 2), yz = s(1, 2);
+  return (a * x * x + e * y * y + g * z * z + 2 * (b * x * y + d * x * z + f * y * z)) /
+             (c.c11 * a + c.c12 * b + c.c13 * d) +
+         xy * xy / c.c66 + xz * xz / c.c55 + yz * yz / c.c44;
+}
+
 /// s:C^-1:s of normal stresses along x and z in plane strain.
 double complementary(const Stiffness& c, double sxx, double szz) {
   return (c.c33 * sxx * sxx - 2 * c.c13 * sxx * szz + c.c11 * szz * szz) / (c.c11 * c.c33 - c.c13 * c.c13);
@@ -458,6 +519,18 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
       shear += t * t;
     }
   }
+  const double height = domain.model_grid.height(domain.model_cell(whole));
+  const auto energy_with = [&](double elastic) {
+    return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * height;
+  };
+  if constexpr (D == 3)
+    if (anisotropic) {
+      SymmetricTensor<3, double> s;
+      for (int axis = 0; axis < D; ++axis)
+        for (int other = axis; other < D; ++other)
+          s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
+      return energy_with(complementary(stiffness_in_space(material_of(medium, cell)), s));
+    }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
   const double elastic =
       tilted        ? complementary(tilted->stiffness, value(Rows::normal_stress(0)),
@@ -467,8 +540,7 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
                           shear / mu
       : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
                : trace * trace / (D * D * lambda);
-  const double height = domain.model_grid.height(domain.model_cell(whole));
-  return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * height;
+  return energy_with(elastic);
 }
 
 template <int D, class Real>

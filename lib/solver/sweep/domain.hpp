@@ -65,12 +65,18 @@ class Domain {
   /// Impedance of a wave along an axis in each cell, kg/(m2 s), 0 where it is not carried. Only while sweeps,
   /// effects and records are built: throws std::logic_error after release_impedances().
   const Field<D>& impedance(Wave wave, int axis = D - 1) const;
+  /// That of a pair of sweeps along an axis (axis_of_pair()), which differ in anisotropic rock in space.
+  const Field<D>& impedance_of_pair(int axis, int pair) const;
+  /// Whether the S pairs of an axis may have different ones.
+  bool splits_shear() const { return D == 3 && anisotropic(); }
   /// Whether any cell, of any process, is anisotropic.
   bool anisotropic() const { return anisotropic_; }
-  /// The density times c13 of a cell of an anisotropic medium (wave_coupling()).
-  double coupling(const Index<D>& cell) const { return coupling_(cell); }
-  /// Of the edge across an axis.
-  EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis) const;
+  /// The density times c13 of a cell of an anisotropic medium (wave_coupling()), in 3-D that of these axes.
+  double coupling(const Index<D>& cell, int one = 0, int other = D - 1) const {
+    return more_[std::size_t(coupling_row<D>(material_kind_, one, other))](cell);
+  }
+  /// Of the edge across an axis, to motion along another.
+  EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis, int along) const;
   /// Tilted means and cells of rock whose axis is tilted, by cell. Tilted means of zones are isotropic, and
   /// those in bent rows and beside them.
   const std::vector<TiltedMedium>& tilted() const { return tilted_; }
@@ -85,12 +91,14 @@ class Domain {
     });
   }
   /// Frees their memory.
-  void release_impedances() { impedances_ = {}, zp_across_ = coupling_ = {}; }
+  void release_impedances() { impedances_ = {}, more_ = {}; }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
-  /// Of an anisotropic medium, besides: the impedance of P along other axes than z, and wave_coupling().
-  void set_anisotropy(Field<D> zp_across, Field<D> coupling) {
+  /// Of an anisotropic medium, besides: the other rows of its material, by MaterialRow.
+  using Rows = std::array<Field<D>, std::size_t(most_material_rows)>;
+  void set_anisotropy(MaterialKind kind, Rows more) {
     anisotropic_ = true;
-    zp_across_ = std::move(zp_across), coupling_ = std::move(coupling);
+    material_kind_ = kind;
+    more_ = std::move(more);
   }
 
   /// Whether any cell carries S waves.
@@ -99,9 +107,7 @@ class Domain {
   MaterialKind material_kind() const { return material_kind_; }
   void find_material_kind() {
     const bool shears = subdomain.shear || !bent_rows.empty() || shear();
-    material_kind_ = anisotropic_ ? MaterialKind::anisotropic
-                     : shears     ? MaterialKind::isotropic
-                                  : MaterialKind::fluid;
+    if (!anisotropic_) material_kind_ = shears ? MaterialKind::isotropic : MaterialKind::fluid;
   }
   bool owns(std::int64_t row) const { return row >= own.first && row < own.last; }
   /// Rows of neighbouring subdomains that it holds on either side, at most.
@@ -128,9 +134,30 @@ class Domain {
   std::array<Field<D>, 2> impedances_;
   bool anisotropic_ = false;
   MaterialKind material_kind_ = MaterialKind::isotropic;
-  Field<D> zp_across_, coupling_;
+  Rows more_;
   std::vector<TiltedMedium> tilted_;
 };
+
+/// The stiffness of a cell of an anisotropic domain times the density, tilted ones as upright.
+template <int D>
+auto stiffness_at(const Domain<D>& domain, const Index<D>& cell) {
+  const auto square = [&](int axis, int pair) {
+    const double z = domain.impedance_of_pair(axis, pair)(cell);
+    return z * z;
+  };
+  if constexpr (D == 2)
+    return Stiffness{square(0, 0), domain.coupling(cell), square(1, 0), square(1, 1)};
+  else
+    return OrthorhombicStiffness{square(0, 0),
+                                 square(1, 0),
+                                 square(2, 0),
+                                 square(2, 2),
+                                 square(2, 1),
+                                 square(0, 1),
+                                 domain.coupling(cell, 0, 1),
+                                 domain.coupling(cell, 0, 2),
+                                 domain.coupling(cell, 1, 2)};
+}
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
 /// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep

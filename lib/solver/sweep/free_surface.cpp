@@ -115,7 +115,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       if (ends_free(domain, along)) return {};
       continue;
     }
-    const auto coupling = domain.coupling_at_edge(at, axis);
+    const auto coupling = domain.coupling_at_edge(at, axis, along);
     const auto add = [&](int of, double factor) {
       return factor == 0 || add_difference(domain, at, along, Rows::velocity(of), outward * factor, terms);
     };
@@ -136,8 +136,8 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       outward_(side ? -1 : 1),
       padded_nx_(layout.padded_nx()),
       shape_(layout.shape()) {
-  const Layout<D> material(shape_, material_rows_of(domain.material_kind()));
-  const int zp_row = domain.anisotropic() && axis < D - 1 ? row_zp_across : row_zp;
+  const auto kind = domain.material_kind();
+  const Layout<D> material(shape_, material_rows_of<D>(kind));
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
   for (std::int64_t n = 0; n < edge.size() && domain.edges[axis][side] == EdgeLaw::free; ++n) {
@@ -172,9 +172,9 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
         tilted_ends_.push_back({number(at), place(row_b), Real(mixed * tilted->rho * outward_ / height)});
       }
     };
-    add(FieldRows<D>::velocity(axis), zp_row);
+    add(FieldRows<D>::velocity(axis), p_row<D>(kind, axis));
     for (int along = 0; along < D; ++along)
-      if (along != axis) add(FieldRows<D>::velocity(along), row_zs);
+      if (along != axis) add(FieldRows<D>::velocity(along), s_row<D>(kind, axis, along));
   }
   if (cells_.empty()) return;
   Index<D> last = shape_;

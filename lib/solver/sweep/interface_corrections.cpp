@@ -96,12 +96,27 @@ Vector solved(Real along, Real mixed, Real across, const Vector& product) {
   return found;
 }
 
+/// Differences of the velocity along x and, in 3-D, y.
+template <int D, class Real, std::size_t N>
+std::array<RowVector<D, Real>, std::size_t(D - 1)> differences_along(const std::array<std::int64_t, N>& cells,
+                                                                     const Real* fields, std::int64_t pitch) {
+  std::array<RowVector<D, Real>, std::size_t(D - 1)> along{};
+  for (std::size_t axis = 0; axis < D - 1; ++axis)
+    for (std::size_t k = 0; k < offsets_along.size(); ++k)
+      along[axis] = along[axis] + Real(weights_along[k]) *
+                                      row_velocity<D>(fields + cells[axis * offsets_along.size() + k], pitch);
+  return along;
+}
+
 }  // namespace
 
 template <int D, class Real>
 InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain,
                                                     const Metric<D, Real>& metric)
-    : padded_nx_(state.layout.padded_nx()), material_pitch_(state.material_layout.row_pitch()) {
+    : padded_nx_(state.layout.padded_nx()),
+      material_pitch_(state.material_layout.row_pitch()),
+      zs_y_row_(s_row<D>(state.kind, 1, D - 1)),
+      coupling_y_row_(coupling_row<D>(state.kind, 1, D - 1)) {
   constexpr int z = D - 1;
   const auto& shape = domain.grid.shape;
   Grid<D> plane = domain.grid;
@@ -201,7 +216,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();
   Vector velocity{}, traction{};
-  Real sum_p = 0, sum_s = 0, sum_mixed = 0;
+  Real sum_p = 0, sum_s = 0, sum_s_y = 0, sum_mixed = 0;
   bool beside_void = false;
   for (const int which : {0, 1}) {
     const Side& side = slot.sides[std::size_t(which)];
@@ -212,14 +227,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
       beside_void = true;
       continue;
     }
-    // Differences along x and y of the velocities.
-    std::array<Vector, std::size_t(D - 1)> along{};
-    for (std::size_t axis = 0; axis < D - 1; ++axis)
-      for (std::size_t k = 0; k < offsets_along.size(); ++k)
-        along[axis] =
-            along[axis] +
-            Real(weights_along[k]) *
-                row_velocity<D>(state.fields.data() + side.cells[axis * offsets_along.size() + k], pitch);
+    const auto along = differences_along<D>(side.cells, state.fields.data(), pitch);
     const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
     if constexpr (D == 2)
       if (side.tilted != none) {
@@ -233,14 +241,19 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
       }
     // Moduli times dt/h.
     const Real p = zp * zp * b, mu = zs * zs * b;
+    const Real zs_y = side.coupled ? material[zs_y_row_ * material_pitch_] : zs;
     const Vector t = side.coupled
-                         ? traction_on_level_face<D>(material[row_coupling * material_pitch_] * b, mu, along)
+                         ? traction_on_level_face<D>(material[row_coupling * material_pitch_] * b, mu,
+                                                     material[coupling_y_row_ * material_pitch_] * b,
+                                                     zs_y * zs_y * b, along)
                          : traction_of_motion_along<D>(normal, p, mu, along);
     const Vector t_p = (dot(normal, t) / square) * normal, t_s = t - t_p;
     velocity = velocity + (-sign * side.j / square * (zp / p)) * t_p;
     if (zs > 0) velocity = velocity + (-sign * side.j / square * (zs / mu)) * t_s;
+    if constexpr (D == 3)
+      if (zs > 0 && zs_y != zs) velocity.y += -sign * side.j * (1 / (zs_y * b) - zs / mu) * t_s.y;
     traction = traction + (-sign / 2) * (zs > 0 ? t : t_p);
-    sum_p += zp, sum_s += zs;
+    sum_p += zp, sum_s += zs, sum_s_y += zs_y;
   }
   const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
   Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
@@ -248,7 +261,10 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   velocities_[0][n] = v.z, velocities_[1][n] = v.x;
   if (!beside_void) traction = Real(traction_share) * traction;
   tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;
-  if constexpr (D == 3) velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
+  if constexpr (D == 3) {
+    if (sum_s_y != sum_s) v.y = (1 / sum_s_y) * velocity.y;
+    velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
+  }
 }
 
 template class InterfaceCorrections<2, float>;

@@ -59,7 +59,8 @@ class InterfaceCorrections {
   void update_slot(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
-  std::vector<Slot> slots_;  // by row, then column
+  int zs_y_row_ = row_zs, coupling_y_row_ = row_coupling;  // of the plane of y and z
+  std::vector<Slot> slots_;                                // by row, then column
   std::vector<Tilted> tilted_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;

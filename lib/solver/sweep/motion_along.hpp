@@ -29,11 +29,16 @@ bool ends_free(const Domain<D>& domain, int along) {
 /// Whether two cells carry the same waves without a strong interface between them.
 template <int D>
 bool alike(const Domain<D>& domain, const Index<D>& one, const Index<D>& other) {
+  const auto differ = [&](const Field<D>& impedance) {
+    const double a = impedance(one), b = impedance(other);
+    return a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a);
+  };
   for (const Wave wave : {wave_p, wave_s})
-    for (const int axis : {D - 1, 0}) {
-      const double a = domain.impedance(wave, axis)(one), b = domain.impedance(wave, axis)(other);
-      if (a != b && (a >= strong_interface_ratio * b || b >= strong_interface_ratio * a)) return false;
-    }
+    for (const int axis : {D - 1, 0})
+      if (differ(domain.impedance(wave, axis))) return false;
+  for (int axis = 0; domain.splits_shear() && axis < D; ++axis)
+    for (int pair = 0; pair < D; ++pair)
+      if (differ(domain.impedance_of_pair(axis, pair))) return false;
   return true;
 }
 
@@ -55,14 +60,15 @@ RowVector<D, Real> traction_of_motion_along(const RowVector<D, Real>& normal, Re
   }
 }
 
-/// The same on a level face of an anisotropic medium: c13 in place of lambda (theory.md (V4)).
+/// The same on a level face of an anisotropic medium: c13 and c55 in place of lambda and mu, along y c23 and
+/// c44 (theory.md (V4), (O4)).
 template <int D, class Real>
-RowVector<D, Real> traction_on_level_face(Real c13, Real mu,
+RowVector<D, Real> traction_on_level_face(Real c13, Real c55, Real c23, Real c44,
                                           const std::array<RowVector<D, Real>, std::size_t(D - 1)>& along) {
   if constexpr (D == 2)
-    return {c13 * along[0].x, mu * along[0].z};
+    return {c13 * along[0].x, c55 * along[0].z};
   else
-    return {c13 * (along[0].x + along[1].y), mu * along[0].z, mu * along[1].z};
+    return {c13 * along[0].x + c23 * along[1].y, c55 * along[0].z, c44 * along[1].z};
 }
 
 /// The part of a vector along N times one factor and the rest times another.

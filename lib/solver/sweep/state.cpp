@@ -62,10 +62,11 @@ void clear(Buffer<Real>& buffer, std::int64_t piece) {
 template <int D, class Real>
 State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   State<D, Real> state;
-  state.anisotropic = material == MaterialKind::anisotropic;
+  state.kind = material;
+  state.anisotropic = material >= MaterialKind::anisotropic;
   state.fluid = material == MaterialKind::fluid;
   state.layout = Layout<D>(shape, FieldRows<D>::of(material));
-  state.material_layout = Layout<D>(shape, material_rows_of(material));
+  state.material_layout = Layout<D>(shape, material_rows_of<D>(material));
   state.fields = Buffer<Real>(state.layout.total());
   state.material = Buffer<Real>(state.material_layout.total());
   clear(state.fields, state.layout.stride(1));

@@ -90,8 +90,9 @@ class Layout {
   int rows_ = 0;
 };
 
-/// What the cells of a domain are: all fluid, or isotropic, or some are anisotropic.
-enum class MaterialKind { fluid, isotropic, anisotropic };
+/// What the cells of a domain are: all fluid, or isotropic, or some are anisotropic; in 3-D alike in all
+/// horizontal directions, or orthorhombic.
+enum class MaterialKind { fluid, isotropic, anisotropic, orthorhombic };
 
 /// Rows of a line of the wave field: velocities, normal stresses, shear stresses (xz | xy, xz, yz). Where all
 /// is fluid a line ends with the first normal stress: there all of them are the same, the pressure with its
@@ -116,12 +117,63 @@ struct FieldRows {
 
 /// Rows of a line of the material: b = dt/(rho h) and the impedances rho c of P and S, 0 in cells that do not
 /// carry the wave. Z b is the Courant number c dt/h and Z Z b the modulus times dt/h. Anisotropic media have
-/// two more: zp is that of sweeps along z, the next that of other sweeps, and the last is wave_coupling().
-enum MaterialRow : int { row_b, row_zp, row_zs, material_rows, row_zp_across = material_rows, row_coupling };
+/// two more: zp is that of sweeps along z, the next that of other sweeps, and the last is wave_coupling(). In
+/// 3-D zs and the coupling are those of the plane of x and z, and there are two more of that of x and y;
+/// where rock is orthorhombic, three of y and of the plane of y and z, which otherwise are as of x.
+enum MaterialRow : int {
+  row_b,
+  row_zp,
+  row_zs,
+  material_rows,
+  row_zp_across = material_rows,
+  row_coupling,
+  row_zs_level,
+  row_coupling_level,
+  row_zp_y,
+  row_zs_y,
+  row_coupling_y,
+  most_material_rows
+};
 /// How many there are; where all is fluid no zs.
+template <int D>
 constexpr int material_rows_of(MaterialKind material) {
-  return material == MaterialKind::fluid ? row_zs
-                                         : material_rows + (material == MaterialKind::anisotropic ? 2 : 0);
+  switch (material) {
+    case MaterialKind::fluid:
+      return row_zs;
+    case MaterialKind::isotropic:
+      return material_rows;
+    case MaterialKind::anisotropic:
+      return D == 2 ? row_zs_level : row_zp_y;
+    case MaterialKind::orthorhombic:
+      break;
+  }
+  return most_material_rows;
+}
+/// The row of the impedance of P in sweeps along an axis.
+template <int D>
+constexpr int p_row(MaterialKind material, int axis) {
+  if (material == MaterialKind::orthorhombic && axis == 1) return row_zp_y;
+  return material >= MaterialKind::anisotropic && axis < D - 1 ? row_zp_across : row_zp;
+}
+/// Those of the plane of two axes: of the impedance of S, and of the coupling.
+template <int D>
+constexpr int plane_row(MaterialKind material, int one, int other, int upright, int level, int of_y) {
+  if (D == 2 || material < MaterialKind::anisotropic || one + other == 2) return upright;
+  if (one + other == 1) return level;
+  return material == MaterialKind::orthorhombic ? of_y : upright;
+}
+template <int D>
+constexpr int s_row(MaterialKind material, int one, int other) {
+  return plane_row<D>(material, one, other, row_zs, row_zs_level, row_zs_y);
+}
+template <int D>
+constexpr int coupling_row(MaterialKind material, int one, int other) {
+  return plane_row<D>(material, one, other, row_coupling, row_coupling_level, row_coupling_y);
+}
+/// The axis of motion of an S pair of sweeps along an axis: in 3-D there are two.
+template <int D>
+constexpr int axis_of_pair(int axis, int pair) {
+  return pair - 1 < axis ? pair - 1 : pair;
 }
 
 /// A uniform run: cells first <= x < last of a row that have one material.
@@ -130,13 +182,21 @@ struct UniformRun {
   std::int64_t first, last;
   Real b, zp, zs;
   Real zp_across = zp, coupling = 0;  // of anisotropic media
-  /// For sweeps along z, or along another axis.
-  MaterialRows<Real> rows(bool across = false) const {
-    return {&b, across ? &zp_across : &zp, &zs, &coupling};
+  // In 3-D.
+  Real zs_level = zs, coupling_level = coupling, zp_y = zp_across, zs_y = zs, coupling_y = coupling;
+  /// For sweeps along an axis.
+  template <int D>
+  MaterialRows<Real> rows(int axis) const {
+    if constexpr (D == 2) return {&b, axis == 0 ? &zp_across : &zp, &zs, &coupling};
+    if (axis == 2) return {&b, &zp, &zs, &coupling, &zs_y, &coupling_y};
+    if (axis == 1) return {&b, &zp_y, &zs_level, &coupling_level, &zs_y, &coupling_y};
+    return {&b, &zp_across, &zs_level, &coupling_level, &zs, &coupling};
   }
   bool same(const UniformRun& other) const {
     return b == other.b && zp == other.zp && zs == other.zs && zp_across == other.zp_across &&
-           coupling == other.coupling;
+           coupling == other.coupling && zs_level == other.zs_level &&
+           coupling_level == other.coupling_level && zp_y == other.zp_y && zs_y == other.zs_y &&
+           coupling_y == other.coupling_y;
   }
 };
 
@@ -155,6 +215,7 @@ struct RowFields {
 template <int D, class Real>
 struct State {
   Layout<D> layout, material_layout;
+  MaterialKind kind = MaterialKind::isotropic;
   bool anisotropic = false;  // its material has the rows of anisotropic media
   bool fluid = false;        // it has the rows of fluid alone
   Buffer<Real> fields, material;
@@ -186,12 +247,22 @@ struct State {
   MaterialRows<Real> material_from(const Index<D>& line, std::int64_t x, int axis = D - 1) const {
     const Real* b = material_row(line, row_b) + x;
     const auto pitch = material_layout.row_pitch();
+    if constexpr (D == 3)
+      if (anisotropic) {
+        const int one = axis_of_pair<D>(axis, 1), two = axis_of_pair<D>(axis, 2);
+        return {b,
+                b + zp_row(axis) * pitch,
+                b + s_row<D>(kind, axis, one) * pitch,
+                b + coupling_row<D>(kind, axis, one) * pitch,
+                b + s_row<D>(kind, axis, two) * pitch,
+                b + coupling_row<D>(kind, axis, two) * pitch};
+      }
     // The loops of fluid do not use zs.
     return {b, b + zp_row(axis) * pitch, b + (fluid ? row_zp : row_zs) * pitch,
             anisotropic ? b + row_coupling * pitch : nullptr};
   }
   /// The row of the impedance of P in sweeps along an axis.
-  int zp_row(int axis) const { return anisotropic && axis < D - 1 ? row_zp_across : row_zp; }
+  int zp_row(int axis) const { return p_row<D>(kind, axis); }
   /// Those of a row, in the order of its cells.
   std::span<const UniformRun<Real>> uniform_runs_of(std::int64_t line) const {
     const auto first = first_uniform_run[std::size_t(line)];

@@ -48,10 +48,11 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       return (domain.is_tilted(at) || domain.is_tilted(beside)) && s_waves(at) > 0 && s_waves(beside) > 0;
     };
   // Each reads all cells.
-  parallel_for(2 * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
+  if (domain.splits_shear()) distinct_pairs_ = D;
+  parallel_for(std::int64_t(distinct_pairs_) * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto n = begin; n < end; ++n) {
-      const int axis = int(n / 2);
-      const auto wave = Wave(n % 2);
+      const int axis = int(n / distinct_pairs_), pair = int(n % distinct_pairs_);
+      const auto wave = pair == 0 ? wave_p : wave_s;
       if (wave == wave_s && !shear_) continue;
       SlotBefore<D> slot_before;
       if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
@@ -59,8 +60,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      stencils_[axis][wave] = InterfaceStencils(domain.impedance(wave, axis), edges_, axis, wave, reach_,
-                                                corrected, slot_before, tilted);
+      stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
+          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected, slot_before, tilted);
     }
   });
   tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
@@ -74,9 +75,8 @@ void Sweeps<D, Real>::find_plain_lines() {
     plain.resize(std::size_t(state_.layout.lines()));
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       const IndexRange all{0, state_.layout.padded_nx()};
-      plain[std::size_t(line)] = !metric_.bent(line) && !stencils_[axis][wave_p].any(line, all) &&
-                                 !(shear_ && stencils_[axis][wave_s].any(line, all)) &&
-                                 !tilted_cells_.any(line, all);
+      plain[std::size_t(line)] =
+          !metric_.bent(line) && !any_stencils(axis, line, all) && !tilted_cells_.any(line, all);
     }
   }
 }
@@ -157,14 +157,18 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
   // The padding of the last block of a row has no material: with it a piece would never be uniform.
   const IndexRange whole{columns.first,
                          columns.last > nx ? std::max(columns.first, nx / lag * lag) : columns.last};
-  const auto reconstruct = [&](const Pair& pair, const IndexRange& part, Real* up, Real* down) {
+  const auto impedance_of = [](int p, const MaterialRows<Real>& material) {
+    return p == 0 ? material.zp : p == 1 ? material.zs : material.zs2;
+  };
+  const auto reconstruct = [&](int p, const IndexRange& part, Real* up, Real* down) {
     if (part.empty()) return;
     const auto* run = state_.uniform_run(number, part.first, part.last);
-    const auto material = run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis);
+    const auto material = run ? run->template rows<D>(axis) : state_.material_from(line, part.first, axis);
     const auto from = part.first - columns.first;
-    kernels_[run != nullptr]->reconstruct(
-        part.count(), stride, fields + pair.v * pitch + part.first, fields + pair.s * pitch + part.first,
-        pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up + from, down + from);
+    const Pair& pair = pairs_[axis][p];
+    kernels_[run != nullptr]->reconstruct(part.count(), stride, fields + pair.v * pitch + part.first,
+                                          fields + pair.s * pitch + part.first, impedance_of(p, material),
+                                          material.b, scale, up + from, down + from);
   };
   const auto material = state_.material_from(line, columns.first, axis);
   for (int p = 0; p < pair_count(); ++p) {
@@ -173,14 +177,16 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
     Real* const down = outgoing.down(p);
     const Real* const v = fields + pair.v * pitch + columns.first;
     const Real* const s = fields + pair.s * pitch + columns.first;
-    reconstruct(pair, whole, up, down);
-    reconstruct(pair, {whole.last, columns.last}, up, down);
-    stencils_[axis][pair.wave].correct(order_, number, columns, stride, v, s, material, scale, up, down,
-                                       corrections_of(axis, p));
+    reconstruct(p, whole, up, down);
+    reconstruct(p, {whole.last, columns.last}, up, down);
+    auto of_pair = material;
+    if (p > 0) of_pair.zs = impedance_of(p, material);
+    stencils_of(axis, p).correct(order_, number, columns, stride, v, s, of_pair, scale, up, down,
+                                 corrections_of(axis, p));
     // After the stencils beside interfaces: their waves keep to the criterion, too.
     if (monotone_)
       kernels_[false]->limit(columns.count(), stride, v, s, state_.material_layout.stride(axis),
-                             pair.wave == wave_p ? material.zp : material.zs, material.b, scale, up, down);
+                             impedance_of(p, material), material.b, scale, up, down);
     prefetch.prefetch_one();
   }
   reconstruct_tilted(axis, number, columns, fields, pitch, stride, material.b, scale, outgoing);
@@ -224,9 +230,8 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   }
   bent_kernels().reconstruct_along(columns.count(), stride, pairs, material, scale, metric, outgoing);
   for (int p = 0; p < D; ++p)
-    stencils_[axis][pairs_[axis][p].wave].correct(order_, number, columns, stride, pairs.v[p], pairs.s[p],
-                                                  material, scale, outgoing.up(p), outgoing.down(p),
-                                                  corrections_of(axis, p), &metric);
+    stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
+                                 outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
 }
 
 template <int D, class Real>
@@ -337,14 +342,14 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     const auto from = part.first - columns.first;
     // Its material is known without reading it from memory.
     face_kernels(true).update_uniform(part.count(), own_scale, flux.below.at(from), flux.here.at(from),
-                                      flux.above.at(from), run_of(part)->rows(axis < z_axis),
+                                      flux.above.at(from), run_of(part)->template rows<D>(axis),
                                       swept(part.first));
   };
   const auto between_faces = [&](const IndexRange& part) {
     const auto from = part.first - columns.first;
     const auto* run = run_of(part);
     face_kernels(run).update(part.count(), own_scale, flux.lo.at(from), flux.hi.at(from),
-                             run ? run->rows(axis < z_axis) : state_.material_from(line, part.first, axis),
+                             run ? run->template rows<D>(axis) : state_.material_from(line, part.first, axis),
                              swept(part.first));
   };
   filtered(axis, line, columns, fields, scale, pitch, work, remember, [&] {
@@ -553,7 +558,7 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
                                         state_.material_from(at, part.first),
                                         metric_.along(0, at, part.first).j_lo, faces.at(from));
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
-    const auto lo = run ? run->rows(true) : material;
+    const auto lo = run ? run->template rows<D>(0) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
                                     run ? lo : state_.material_from(at, part.first, 0), faces.at(from));
     tilted_cells_.solve(0, line, part, here.at(-1), here, material, state_.material_from(at, part.first, 0),
@@ -629,8 +634,8 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   const auto *lo = run(line_lo, has_lo), *hi = run(line_hi, has_hi);
   const bool uniform = lo && hi;
   face_kernels(uniform).solve_riemann(columns.count(), up, down,
-                                      uniform ? lo->rows(axis < z_axis) : material_lo,
-                                      uniform ? hi->rows(axis < z_axis) : material_hi, faces);
+                                      uniform ? lo->template rows<D>(axis) : material_lo,
+                                      uniform ? hi->template rows<D>(axis) : material_hi, faces);
   if (axis == z_axis) tilted_cells_.solve(axis, row, columns, up, down, material_lo, material_hi, faces);
 }
 
@@ -752,9 +757,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   for (const auto line : lines)
     for (const auto& run : state_.uniform_interior[std::size_t(axis)].of(line))
       if (run.first < columns.last && run.last > columns.first) return false;
-  for (int wave = wave_p; wave <= (shear_ ? wave_s : wave_p); ++wave)
-    if (stencils_[axis][wave].any(number, columns)) return false;
-  return true;
+  return !any_stencils(axis, number, columns);
 }
 
 /// What that loop needs.
@@ -770,20 +773,26 @@ FusedRow<Real> Sweeps<D, Real>::fused(int axis, const Index<D>& at, std::int64_t
   const Real* const of_done = state_.material_row(advanced, row_b) + x;
   const auto from = ring.outgoing(row - 1, x), to = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
-  return {swept_rows(axis, state_.field_row(here, 0) + x, layout.row_pitch()),
-          layout.stride(axis),
-          pitch,
-          to.up(1) - to.up(0),
-          faces.pitch,
-          material - state_.material_layout.stride(axis),
-          material,
-          of_done,
-          from.up(0),
-          to.up(0),
-          faces.first,
-          ring.faces(done, x).first,
-          ring.faces(done + 1, x).first,
-          anisotropic_ ? of_done + row_coupling * pitch : nullptr};
+  return {
+      swept_rows(axis, state_.field_row(here, 0) + x, layout.row_pitch()),
+      layout.stride(axis),
+      pitch,
+      to.up(1) - to.up(0),
+      faces.pitch,
+      material - state_.material_layout.stride(axis),
+      material,
+      of_done,
+      from.up(0),
+      to.up(0),
+      faces.first,
+      ring.faces(done, x).first,
+      ring.faces(done + 1, x).first,
+      anisotropic_ ? of_done + coupling_row<D>(state_.kind, axis, axis_of_pair<D>(axis, 1)) * pitch : nullptr,
+      anisotropic_ ? of_done + coupling_row<D>(state_.kind, axis, axis_of_pair<D>(axis, D - 1)) * pitch
+                   : nullptr,
+      p_row<D>(state_.kind, axis) * pitch,
+      s_row<D>(state_.kind, axis, axis_of_pair<D>(axis, 1)) * pitch,
+      s_row<D>(state_.kind, axis, axis_of_pair<D>(axis, D - 1)) * pitch};
 }
 
 /// A row across in one loop. Returns false, and does nothing, where other work is needed between its parts.
@@ -795,7 +804,7 @@ bool Sweeps<D, Real>::fused_row(int axis, const Index<D>& at, std::int64_t row, 
   here[axis] = row, advanced[axis] = row - std::max(reach_, 1);
   work.prefetch().prefetch(2);
   const auto& all = *kernels_[false];
-  const auto loop = anisotropic_ ? all.fused_anisotropic_row
+  const auto loop = anisotropic_ ? all.fused_anisotropic_row[D - 2]
                     : shear_     ? all.fused_row[D - 2]
                                  : all.fused_fluid_row;
   filtered(axis, advanced, columns, state_.field_row(advanced, 0), scale, state_.layout.row_pitch(), work,

@@ -143,7 +143,7 @@ class Sweeps {
   const BentKernels<Real>& bent_kernels() const { return kernels_[false]->bent[D - 2]; }
   const InterfaceKernels<Real>& face_kernels(bool uniform) const {
     const auto& all = *kernels_[uniform];
-    return anisotropic_ ? all.anisotropic_face : shear_ ? all.face[D - 2] : all.fluid_face;
+    return anisotropic_ ? all.anisotropic_face[D - 2] : shear_ ? all.face[D - 2] : all.fluid_face;
   }
   /// What the update of cells reads, beginning with the first of them: the interface states before and behind
   /// them, the outgoing waves of them and their neighbours.
@@ -202,7 +202,19 @@ class Sweeps {
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_, anisotropic_, monotone_ = false;
-  std::array<std::array<InterfaceStencils, 2>, D> stencils_;  // [axis][wave]
+  std::array<std::array<InterfaceStencils, D>, D>
+      stencils_;  // [axis], of P and of S pairs as distinct_pairs_
+  /// The S pairs of an axis share their stencils, but where they have different impedances.
+  int distinct_pairs_ = 2;
+  const InterfaceStencils& stencils_of(int axis, int pair) const {
+    return stencils_[std::size_t(axis)][std::size_t(std::min(pair, distinct_pairs_ - 1))];
+  }
+  /// Whether any pair of an axis has stencils of its own in these columns.
+  bool any_stencils(int axis, std::int64_t line, const IndexRange& columns) const {
+    for (int pair = 0; pair < (shear_ ? distinct_pairs_ : 1); ++pair)
+      if (stencils_of(axis, pair).any(line, columns)) return true;
+    return false;
+  }
   TiltedCells<D, Real> tilted_cells_;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.

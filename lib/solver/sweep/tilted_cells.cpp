@@ -56,7 +56,7 @@ void add_share(std::int64_t n, Real size, const Real* __restrict of_p, const Rea
 template <int D, class Real>
 TiltedCells<D, Real>::TiltedCells(
     const State<D, Real>& state, const Domain<D>& domain, int reach,
-    const std::array<std::array<InterfaceStencils, 2>, std::size_t(D)>& stencils) {
+    const std::array<std::array<InterfaceStencils, std::size_t(D)>, std::size_t(D)>& stencils) {
   if (domain.tilted().empty()) return;
   const auto& shape = domain.grid.shape;
   for (int axis = 0; axis < D; ++axis) {
@@ -75,7 +75,7 @@ TiltedCells<D, Real>::TiltedCells(
 template <int D, class Real>
 void TiltedCells<D, Real>::add_cell(const State<D, Real>& state, const Domain<D>& domain, int axis,
                                     const TiltedMedium& tilted, int reach,
-                                    const std::array<InterfaceStencils, 2>& stencils) {
+                                    const std::array<InterfaceStencils, std::size_t(D)>& stencils) {
   auto& of = of_axis_[std::size_t(axis)];
   const auto at = domain.grid.index(tilted.cell);
   const auto& c = tilted.stiffness;

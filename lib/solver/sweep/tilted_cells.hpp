@@ -27,7 +27,7 @@ class TiltedCells {
   TiltedCells() = default;
   /// `stencils` by axis and wave, at the order that reaches `reach` cells.
   TiltedCells(const State<D, Real>& state, const Domain<D>& domain, int reach,
-              const std::array<std::array<InterfaceStencils, 2>, std::size_t(D)>& stencils);
+              const std::array<std::array<InterfaceStencils, std::size_t(D)>, std::size_t(D)>& stencils);
 
   bool empty() const { return of_axis_[0].x.empty(); }
   /// Whether a row holds any in these columns.
@@ -101,7 +101,7 @@ class TiltedCells {
   };
   static IndexRange cells_of(const Axis& of, std::int64_t row, const IndexRange& columns);
   void add_cell(const State<D, Real>& state, const Domain<D>& domain, int axis, const TiltedMedium& tilted,
-                int reach, const std::array<InterfaceStencils, 2>& stencils);
+                int reach, const std::array<InterfaceStencils, std::size_t(D)>& stencils);
   void add_faces(int axis, const Index<D>& shape);
   void reconstruct_run(const Axis& of, const IndexRange& run, const Kernels<Real>& kernels,
                        std::int64_t stride, std::int64_t at, const Pairs& pairs, const Real* b, Real scale,

@@ -58,6 +58,34 @@ Point<2> forced_change(const Point<2>& n, const Point<2>& g, std::size_t k, cons
           -(one[0] * load[1] - one[1] * load[0]) / determinant};
 }
 
+/// The same in an orthorhombic rock, in 3-D; stiffnesses over density.
+Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, const OrthorhombicStiffness& c) {
+  const auto of = [&](const Point<3>& a, int i, int column) {
+    const auto row = std::size_t(i), to = std::size_t(column);
+    if (i != column) return c.normal(i, column) * n[row] * a[to] + c.shear(i, column) * n[to] * a[row];
+    double sum = c.normal(i, i) * n[row] * a[row];
+    for (int j = 0; j < 3; ++j)
+      if (j != i) sum += c.shear(i, j) * n[std::size_t(j)] * a[std::size_t(j)];
+    return sum;
+  };
+  double m[3][3];
+  Point<3> load;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) m[i][j] = of(n, i, j);
+    load[std::size_t(i)] = of(g, i, int(k));
+  }
+  const auto determinant = [&](int replaced) {
+    double a[3][3];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) a[i][j] = j == replaced ? load[std::size_t(i)] : m[i][j];
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
+           a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
+           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+  };
+  const double whole = determinant(-1);
+  return {-determinant(0) / whole, -determinant(1) / whole, -determinant(2) / whole};
+}
+
 template <int D, class Add>
 void for_products(const std::array<std::vector<CellWeight>, std::size_t(D)>& along, const Add& add) {
   std::array<std::size_t, std::size_t(D)> n{};
@@ -176,15 +204,10 @@ void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Fac
     for (int moved = 0; along != face.axis && moved < D; ++moved) {
       const auto& normal = gradients[std::size_t(face.axis)];
       const auto& tangent = gradients[std::size_t(along)];
-      double change = 0;
-      if constexpr (D == 2)
-        if (domain_.anisotropic()) {
-          const double across = domain_.impedance(wave_p, 0)(cell);
-          change = forced_change(normal, tangent, std::size_t(moved),
-                                 {across * across, domain_.coupling(cell), zp * zp, mu})[std::size_t(row)];
-        }
-      if (!domain_.anisotropic())
-        change = forced_change<D>(normal, tangent, std::size_t(moved), lambda, mu)[std::size_t(row)];
+      double change = domain_.anisotropic() ? forced_change(normal, tangent, std::size_t(moved),
+                                                            stiffness_at(domain_, cell))[std::size_t(row)]
+                                            : forced_change<D>(normal, tangent, std::size_t(moved), lambda,
+                                                               mu)[std::size_t(row)];
       if (change == 0) continue;
       change *= face.side ? -factor : factor;
       if (values == Values::one_sided)

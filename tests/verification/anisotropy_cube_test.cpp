@@ -1,0 +1,364 @@
+// Anisotropic rock in 3-D against sums over plane waves, the solver in 2-D, symmetry and itself.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "anisotropic_space.hpp"
+#include "cube_extruded.hpp"
+#include "parallel/threads.hpp"
+#include "plain_and_tiled.hpp"
+#include "shared_out.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Alike in all horizontal directions: a shale, and one whose waves turn; orthorhombic: a shale with upright
+/// cracks (Schoenberg and Helbig 1997, over density 2300), one like it that shows more.
+const Material shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15}, crossed{3200, 1700, 2400, -0.05, 0.2, 0, -0.1};
+const Material cracked =
+    material_of_stiffness_in_space({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
+                                    2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
+                                   2300);
+
+/// All of one rock, from the origin on.
+Medium<3> uniform_rock(const Index<3>& shape, double spacing_m, const Material& rock,
+                       const Point<3>& origin_m = {}) {
+  Medium<3> medium(Grid<3>{shape, spacing_m, origin_m});
+  medium[rock.orthorhombic ? Property::epsilon1 : Property::gamma] = Field<3>(medium.grid());
+  complete_anisotropy(medium);
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) put(medium, cell, rock);
+  return medium;
+}
+
+/// The rock with two axes exchanged.
+Material exchanged(const Material& rock, int one, int other) {
+  const auto c = stiffness_in_space(rock);
+  std::array<int, 3> axis = {0, 1, 2};
+  std::swap(axis[std::size_t(one)], axis[std::size_t(other)]);
+  const auto normal = [&](std::size_t i, std::size_t j) { return c.normal(axis[i], axis[j]); };
+  const auto shear = [&](std::size_t i, std::size_t j) { return c.shear(axis[i], axis[j]); };
+  return material_of_stiffness_in_space({normal(0, 0), normal(1, 1), normal(2, 2), shear(1, 2), shear(0, 2),
+                                         shear(0, 1), normal(0, 1), normal(0, 2), normal(1, 2)},
+                                        rock.rho);
+}
+
+TEST(AnisotropicSpace, OfIsotropicRockIsStokesSolution) {
+  constexpr RickerForm wavelet{30};
+  const Material rock{4500, 2600, 2500};
+  const Point<3> r = {71, -42, 55};
+  const double distance = std::hypot(r[0], r[1], r[2]), tp = distance / rock.vp, ts = distance / rock.vs;
+  const AnisotropicSpace space(rock);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto found = space.velocity(r, axis, wavelet, 0.001, 120);
+    for (int component = 0; component < 3; ++component) {
+      const double along = r[std::size_t(axis)] * r[std::size_t(component)] / (distance * distance);
+      const double same = axis == component;
+      std::vector<double> wanted;
+      for (int n = 0; n < 120; ++n) {
+        const double t = n * 0.001;
+        const double near =
+            tp * wavelet(t - tp) - ts * wavelet(t - ts) + wavelet.integral(t - tp) - wavelet.integral(t - ts);
+        wanted.push_back(((3 * along - same) * near / std::pow(distance, 3) +
+                          along * wavelet.slope(t - tp) / (rock.vp * rock.vp * distance) -
+                          (along - same) * wavelet.slope(t - ts) / (rock.vs * rock.vs * distance)) /
+                         (4 * std::numbers::pi * rock.rho));
+      }
+      EXPECT_LT(relative_error(found[std::size_t(component)], wanted), 1e-4) << axis << component;
+    }
+  }
+}
+
+/// Error of all traces of a force along y, with planes of symmetry across it: slowest waves of 24 cells at
+/// the peak of the wavelet, receivers about 1.4 of them away in all directions.
+double error_of_a_force(const Material& rock) {
+  const std::int64_t n = 34;
+  constexpr double h = 5;
+  const double peak_hz = slowest_speeds_in_space(rock).s / (24 * h);
+  auto edges = edges_all_3d(EdgeLaw::mirror);
+  for (const int axis : {0, 2}) edges[axis][1] = EdgeLaw::absorbing;
+  edges[1] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+  const std::vector<Point<3>> receivers = {{150, 0, 20},  {10, 160, 10},   {15, 20, 155}, {105, 110, 5},
+                                           {5, 100, 115}, {110, -20, 105}, {90, -95, 85}};
+  const Index<3> shape = {n, 2 * n, n};
+  auto scene = scene_of(uniform_rock(shape, h, rock, {0, -double(n) * h, 0}), edges, {0, 0, 0}, "force:0,1,0",
+                        ("ricker:" + std::to_string(peak_hz)).c_str(), receivers,
+                        {Component::vx, Component::vy, Component::vz}, 3.2 / peak_hz, 0.001);
+  scene.numerics.order = 7;
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const AnisotropicSpace space(rock);
+  std::vector<double> found, wanted;
+  for (std::size_t at = 0; at < receivers.size(); ++at) {
+    const auto exact = space.velocity(receivers[at], 1, {peak_hz}, 0.001, std::size_t(gather.axis.count));
+    for (std::size_t component = 0; component < 3; ++component) {
+      const auto& samples = gather.traces[component * receivers.size() + at].samples;
+      // The planes of symmetry hold four sources.
+      for (const double sample : samples) found.push_back(sample / 4);
+      for (const double value : exact[component]) wanted.push_back(1e9 * value);
+    }
+  }
+  return relative_error(found, wanted);
+}
+
+TEST(AnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
+  const ThreadLimit one_thread(1);
+  EXPECT_LT(error_of_a_force(cracked), 0.01);
+  if (std::getenv("SLIPWAVE_LONG") == nullptr) return;
+  for (const auto& rock : {shale, crossed}) EXPECT_LT(error_of_a_force(rock), 0.01);
+}
+
+/// A slice in the plane of two axes, one cell thick between mirrors, and what it is in 2-D: `flat` below
+/// water and a free surface, with `under` of the same kind beneath.
+Extruded slice(const std::array<int, 2>& axes, const Material& upper, const Material& lower,
+               const Material& flat_upper, const Material& flat_lower) {
+  EdgeLaws<2> edges = edges_all(EdgeLaw::absorbing);
+  edges[1][0] = EdgeLaw::free;
+  const bool level = axes[1] == 1;
+  const char* names[] = {"vx", "vy", "vz"};
+  std::vector<Component> deep = {component_named(names[axes[0]], 3), component_named(names[axes[1]], 3)};
+  std::string force = "force:0,0,0";
+  force[std::size_t(6 + 2 * axes[0])] = '1', force[std::size_t(6 + 2 * axes[1])] = '1';
+  auto both = extruded(axes, edges, "force:1,1", force.c_str(), {Component::vx, Component::vz}, deep);
+  auto& flat_medium = both.flat.model.medium;
+  auto& medium = both.deep.model.medium;
+  flat_medium[Property::epsilon] = Field<2>(flat_medium.grid());
+  medium[Property::epsilon1] = Field<3>(medium.grid());
+  complete_anisotropy(flat_medium), complete_anisotropy(medium);
+  const Material sea{1500, 0, 1000};
+  for (std::int64_t n = 0; n < flat_medium.grid().size(); ++n) {
+    const auto [i, k] = flat_medium.grid().index(n);
+    const bool wet = !level && k<12, deeper = k> 38;
+    put(flat_medium, std::size_t(n), wet ? sea : deeper ? flat_lower : flat_upper);
+    put(medium, std::size_t(medium.grid().flat(both.deep_cell(i, k))), wet ? sea : deeper ? lower : upper);
+  }
+  return both;
+}
+
+TEST(AnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
+  const ThreadLimit one_thread(1);
+  const auto flat = [](Material rock) {
+    rock.gamma = 0, rock.orthorhombic = {};
+    return rock;
+  };
+  // In 2-D the sweeps of a step are others where the plane is not that of x and z, of second order in it.
+  const auto error_of = [](Extruded both) {
+    if (both.axes != std::array<int, 2>{0, 2}) both.flat.numerics.cfl = both.deep.numerics.cfl = 0.4;
+    both.flat.recording.duration_s = both.deep.recording.duration_s = 0.12;
+    return largest_error(both);
+  };
+  // Each upright plane has its own stiffnesses.
+  EXPECT_LT(error_of(slice({0, 2}, cracked, shale, flat(cracked), flat(shale))), 1e-3);
+  EXPECT_LT(error_of(slice({1, 2}, cracked, shale, flat(exchanged(cracked, 0, 1)), flat(shale))), 7e-3);
+  // Level ones are isotropic, with the speeds along them.
+  const auto level = [](const Material& rock) {
+    const auto c = stiffness_in_space(rock);
+    return Material{std::sqrt(c.c11 / rock.rho), std::sqrt(c.c66 / rock.rho), rock.rho};
+  };
+  EXPECT_LT(error_of(slice({0, 1}, shale, crossed, level(shale), level(crossed))), 7e-3);
+}
+
+/// Blocks of rocks and water under a free surface.
+Scene<3> blocks(const std::array<Material, 3>& rocks, const Index<3>& shape = {40, 34, 36}) {
+  Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
+  medium[Property::epsilon1] = Field<3>(medium.grid());
+  complete_anisotropy(medium);
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto at = medium.grid().index(n);
+    put(medium, std::size_t(n),
+        at[2] < 8 ? Material{1500, 0, 1000}
+                  : rocks[std::size_t((at[0] / 12 + at[1] / 15 + (at[2] - 8) / 13) % 3)]);
+  }
+  auto edges = edges_all_3d(EdgeLaw::mirror);
+  edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
+  edges[2][0] = EdgeLaw::free;
+  return scene_of(medium, edges, {92, 71, 92}, "force:1,1,1", "ricker:25", {{140, 131, 120}, {42, 55, 143}},
+                  {Component::vx, Component::vy, Component::vz, Component::p}, 0.06, 0.001);
+}
+
+TEST(AnisotropyInSpace, IsTurnedWithItsAxes) {
+  const ThreadLimit one_thread(1);
+  // The experiment with its axes exchanged; sweeps come in another order, of second order in the step.
+  const Index<3> shape = {30, 30, 30};
+  const auto shot = [&](const Material& rock, const Point<3>& source, const Point<3>& receiver,
+                        const char* force) {
+    auto scene =
+        scene_of(uniform_rock(shape, 5, rock), edges_all_3d(EdgeLaw::rigid), source, force, "ricker:18",
+                 {receiver}, {Component::vx, Component::vy, Component::vz}, 0.12, 0.001);
+    scene.numerics.cfl = 0.5;
+    check(scene);
+    return shoot(scene, 1);
+  };
+  const auto one = shot(cracked, {41, 62, 73}, {111, 102, 128}, "force:1,0,0");
+  const auto turned = shot(exchanged(cracked, 0, 2), {73, 62, 41}, {128, 102, 111}, "force:0,0,1");
+  const auto about_z = shot(exchanged(cracked, 0, 1), {62, 41, 73}, {102, 111, 128}, "force:0,1,0");
+  for (const std::size_t n : {0, 1, 2}) {
+    EXPECT_LT(relative_error(turned.traces[2 - n].samples, one.traces[n].samples), 0.004) << n;
+    EXPECT_LT(relative_error(about_z.traces[n < 2 ? 1 - n : 2].samples, one.traces[n].samples), 0.004) << n;
+  }
+}
+
+TEST(AnisotropyInSpace, OfNoneIsIsotropicRock) {
+  const ThreadLimit one_thread(1);
+  const Material hard{3000, 1600, 2300}, soft{2500, 1200, 2100};
+  auto scene = blocks({hard, soft, hard});
+  const auto found = samples_of(shoot(scene, 1));
+  for (const auto property : {Property::epsilon, Property::delta, Property::gamma, Property::epsilon1,
+                              Property::delta1, Property::delta3, Property::gamma2})
+    scene.model.medium[property] = {};
+  const auto isotropic = samples_of(shoot(scene, 1));
+  EXPECT_EQ(found, isotropic);  // no cell is anisotropic
+  for (const bool orthorhombic : {false, true}) {
+    // One cell far away makes the loops those of anisotropic media.
+    scene.model.medium[Property::gamma] = Field<3>(scene.model.medium.grid());
+    scene.model.medium[orthorhombic ? Property::gamma2 : Property::gamma] =
+        Field<3>(scene.model.medium.grid());
+    scene.model.medium[orthorhombic ? Property::gamma2 : Property::gamma][scene.model.medium.vp.size() - 1] =
+        1e-6F;
+    complete_anisotropy(scene.model.medium);
+    EXPECT_LT(relative_error(samples_of(shoot(scene, 1)), isotropic), 2e-5);
+  }
+}
+
+TEST(AnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
+  for (const bool orthorhombic : {false, true}) {
+    SCOPED_TRACE(orthorhombic ? "orthorhombic" : "alike in all horizontal directions");
+    auto scene = blocks({shale, crossed, orthorhombic ? cracked : shale}, {86, 22, 26});
+    scene.recording.duration_s = 0.02;
+    scene.numerics.double_precision = orthorhombic;
+    scene.survey.sources[0].position_m = {202, 61, 72};
+    scene.survey.receivers_m = {{230, 81, 90}, {182, 55, 103}};
+    expect_same(scene);
+  }
+}
+
+TEST(AnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
+  // The first of them hold water and isotropic rock only.
+  auto scene = blocks({shale, crossed, cracked}, {30, 24, 60});
+  scene.survey.receivers_m = {{111, 81, 120}, {42, 55, 243}};
+  auto& medium = scene.model.medium;
+  for (const auto property : medium.properties())
+    for (std::size_t cell = 0; cell < std::size_t(30 * 24 * 40) && property >= Property::epsilon; ++cell)
+      medium[property][cell] = 0;
+  const auto alone = samples_of(shoot(scene, 1));
+  for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
+}
+
+TEST(AnisotropyInSpace, DoesNotDependOnWhichWayItIsShot) {
+  const ThreadLimit one_thread(1);
+  auto scene = blocks({shale, crossed, cracked}, {44, 40, 42});
+  scene.recording.duration_s = 0.12;
+  const Point<3> a = {63, 71, 92}, b = {151, 128, 163};
+  const auto shot = [&](const Point<3>& from, const Point<3>& to, const char* force) {
+    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
+    scene.survey.receivers_m = {to};
+    return shoot(scene, 1);
+  };
+  const auto there = shot(a, b, "force:0,1,0"), back = shot(b, a, "force:0,0,1");
+  EXPECT_LT(relative_error(there.traces[2].samples, back.traces[1].samples), 0.03);
+}
+
+TEST(AnisotropyInSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
+  const ThreadLimit one_thread(1);
+  auto scene = scene_of(uniform_rock({30, 30, 20}, 5, cracked), edges_all_3d(EdgeLaw::mirror), {72, 75, 60},
+                        "force:0,0,1", "ricker:20", {{95, 105, 0}},
+                        {Component::exx, Component::eyy, Component::ezz}, 0.1, 0.001);
+  scene.edges[2][0] = EdgeLaw::free;
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const auto c = stiffness_in_space(cracked);
+  auto wanted = gather.traces[0].samples;
+  for (std::size_t n = 0; n < wanted.size(); ++n)
+    wanted[n] = -(c.c13 * wanted[n] + c.c23 * gather.traces[1].samples[n]) / c.c33;
+  EXPECT_LT(relative_error(gather.traces[2].samples, wanted), 1e-4);
+}
+
+TEST(AnisotropyInSpace, LeavesThroughAPmlWhereWavesTurn) {
+  const ThreadLimit one_thread(1);
+  // Medium III of Becache, Fauqueux and Joly (2003) in the plane of x and y; those of z are isotropic or
+  // nearly.
+  const auto rock = material_of_stiffness_in_space({4e9, 20e9, 20e9, 2e9, 2e9, 2e9, 7.5e9, 6e9, 16e9}, 2500);
+  for (const int axis : {0, 1}) EXPECT_GT(largest_turning(stiffness_in_space(rock), axis), 0.1) << axis;
+  auto edges = edges_all_3d(EdgeLaw::absorbing);
+  edges[2] = {EdgeLaw::mirror, EdgeLaw::mirror};
+  auto scene = scene_of(uniform_rock({30, 30, 1}, 25, rock), edges, {375, 375, 12.5}, "force:0.6,0.8,0",
+                        "ricker:1", {{405, 405, 12.5}}, {Component::vy}, 1, 0.01);
+  scene.recording.duration_s = 6000 * time_step_s(scene);
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const auto& vy = gather.traces[0].samples;
+  double largest = 0, late = 0;
+  for (std::size_t n = 0; n < vy.size(); ++n) {
+    largest = std::max(largest, std::abs(vy[n]));
+    if (n > vy.size() / 2) late = std::max(late, std::abs(vy[n]));
+  }
+  EXPECT_LT(late, 1e-3 * largest);
+}
+
+TEST(EnergyOfAnisotropicSpace, NeverRises) {
+  const ThreadLimit one_thread(1);
+  // Any stiffness from cell to cell, as different as they can be, and water.
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random_rock = [&]() -> Material {
+    for (;;) {
+      const auto between = [&](double low, double high) { return low + (high - low) * uniform(engine); };
+      const double vp = between(2000, 5000);
+      Material rock{vp, vp * between(0.2, 0.7), between(1800, 2800), between(-0.3, 0.6), between(-0.3, 0.6),
+                    0,  between(-0.3, 0.6)};
+      rock.orthorhombic = {between(-0.3, 0.6), between(-0.3, 0.6), between(-0.3, 0.3), between(-0.3, 0.6)};
+      if (!fault_of_anisotropy(rock, true)) return rock;
+    }
+  };
+  for (const int block : {1, 4})
+    for (const int order : {block == 1 ? 7 : 3}) {
+      const Index<3> shape = {18, 16, 20};
+      Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
+      medium[Property::epsilon1] = Field<3>(medium.grid());
+      complete_anisotropy(medium);
+      std::vector<Material> rocks;
+      for (int n = 0; n < 8000; ++n)
+        rocks.push_back(uniform(engine) < 0.15 ? Material{1500, 0, 1000} : random_rock());
+      for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+        const auto at = medium.grid().index(n);
+        put(medium, std::size_t(n),
+            rocks[std::size_t((at[2] / block * 20 + at[1] / block) * 20 + at[0] / block)]);
+      }
+      for (const auto law : {EdgeLaw::rigid, EdgeLaw::mirror}) {
+        Cube<double> cube(medium, edges_all_3d(law), order, 0.99 * 5 / fastest_speed(medium));
+        cube.shake(8);
+        double least = cube.energy();
+        for (int n = 0; n < 60; ++n) {
+          cube.steps(n < 40 ? 1 : 5);
+          const double now = cube.energy();
+          ASSERT_LT(now, least * (1 + 1e-11)) << "order " << order << ", block " << block << ", step " << n;
+          least = now;
+        }
+        EXPECT_GT(least, 0);
+      }
+    }
+}
+
+TEST(EnergyOfAnisotropicSpace, BetweenFreeEdgesFallsInTheLongRun) {
+  const ThreadLimit one_thread(1);
+  const Index<3> shape = {24, 22, 26};
+  for (const auto& rock : {cracked, crossed})
+    for (const bool sea : {false, true}) {
+      auto medium = uniform_rock(shape, 5, rock);
+      for (std::int64_t n = 0; sea && n < medium.grid().size(); ++n)
+        if (medium.grid().index(n)[2] < 13) put(medium, std::size_t(n), Material{1500, 0, 1000});
+      Cube<double> cube(medium, edges_all_3d(EdgeLaw::free), 5, 0.99 * 5 / fastest_speed(medium));
+      cube.shake(8);
+      double least = cube.energy();
+      const double first = least;
+      for (int n = 0; n < 20; ++n) {
+        cube.steps(20);
+        const double now = cube.energy();
+        EXPECT_LT(now, least * 1.002) << n;
+        least = std::min(least, now);
+      }
+      EXPECT_LT(least, 0.5 * first);
+    }
+}
+
+}  // namespace
+}  // namespace slipwave::solver
