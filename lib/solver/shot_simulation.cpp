@@ -67,17 +67,13 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   return all;
 }
 
-/// The computed grid of a shot. Attenuation and slip take cells for isotropic ones: what attenuates or slips
-/// is no tilted mean.
+/// The computed grid of a shot. Slip takes cells for isotropic ones: what slips is no tilted mean.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
   const auto& model = scene.model;
-  domain.drop_tilted([&](std::size_t cell) {
-    return (scene.slips() && model.fracture[cell] != 0) ||
-           (scene.attenuation && attenuates(model.medium, cell));
-  });
+  domain.drop_tilted([&](std::size_t cell) { return scene.slips() && model.fracture[cell] != 0; });
   return domain;
 }
 
