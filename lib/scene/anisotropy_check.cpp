@@ -76,12 +76,6 @@ void check_anisotropy(const Scene<D>& scene) {
   if (D == 3)
     throw Error("found epsilon or delta in a model in 3-D, expected them in 2-D; use --without anisotropy",
                 ErrorKind::usage);
-  for (const auto& source : scene.survey.sources)
-    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      throw Error(
-          "found a plane wave in a model that is anisotropic, expected a point source or --without "
-          "anisotropy",
-          ErrorKind::usage);
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
     const bool near_bent =

@@ -72,8 +72,6 @@ struct AnisotropicStack {
     return traces;
   }
 
- private:
-  static constexpr Complex i{0, 1};
   /// ux, uz, szz, sxz.
   using Fields = std::array<Complex, 4>;
   /// A wave that decays as exp(-m |z - z0|), with its fields at z0.
@@ -81,34 +79,7 @@ struct AnisotropicStack {
     Complex m;
     Fields fields;
   };
-  struct Unknown {
-    std::size_t layer;
-    bool down;
-    Wave wave;
-  };
-
-  bool fluid(std::size_t n) const { return layers[n].c.c55 == 0; }
-  bool has_top(std::size_t n) const { return free_surface || n > 0; }
-  double top(std::size_t n) const { return n > 0 ? tops_m[n - 1] : 0; }
-  bool has_bottom(std::size_t n) const { return n + 1 < layers.size(); }
-  std::size_t layer_of(double z) const {
-    std::size_t n = 0;
-    for (const double top_m : tops_m) n += z >= top_m;
-    return n;
-  }
-
-  /// what(stiffness), real or complex.
-  template <class What>
-  auto with_stiffness(std::size_t layer, Complex omega, const What& what) const {
-    const auto& of = layers[layer];
-    return of.relaxed ? what(of.relaxed(omega)) : what(of.c);
-  }
-
   /// Both waves of a solid, the one of a fluid, down or up.
-  std::vector<Wave> waves(std::size_t layer, bool down, Complex omega, double k) const {
-    return with_stiffness(layer, omega,
-                          [&](const auto& c) { return waves(c, layers[layer].rho, down, omega, k); });
-  }
   template <class Plane>
   static std::vector<Wave> waves(const Plane& c, double rho, bool down, Complex omega, double k) {
     const auto& [c11, c13, c15, c33, c35, c55] = c;
@@ -138,6 +109,35 @@ struct AnisotropicStack {
     return both;
   }
 
+ private:
+  static constexpr Complex i{0, 1};
+  struct Unknown {
+    std::size_t layer;
+    bool down;
+    Wave wave;
+  };
+
+  bool fluid(std::size_t n) const { return layers[n].c.c55 == 0; }
+  bool has_top(std::size_t n) const { return free_surface || n > 0; }
+  double top(std::size_t n) const { return n > 0 ? tops_m[n - 1] : 0; }
+  bool has_bottom(std::size_t n) const { return n + 1 < layers.size(); }
+  std::size_t layer_of(double z) const {
+    std::size_t n = 0;
+    for (const double top_m : tops_m) n += z >= top_m;
+    return n;
+  }
+
+  /// what(stiffness), real or complex.
+  template <class What>
+  auto with_stiffness(std::size_t layer, Complex omega, const What& what) const {
+    const auto& of = layers[layer];
+    return of.relaxed ? what(of.relaxed(omega)) : what(of.c);
+  }
+
+  std::vector<Wave> waves(std::size_t layer, bool down, Complex omega, double k) const {
+    return with_stiffness(layer, omega,
+                          [&](const auto& c) { return waves(c, layers[layer].rho, down, omega, k); });
+  }
   /// Where the axis is tilted: the roots are those of a polynomial of fourth degree, two decay down, two up.
   template <class Plane>
   static std::vector<Wave> tilted_waves(const Plane& c, bool down, Complex inertia, double k) {
@@ -194,7 +194,7 @@ struct AnisotropicStack {
     // A moment is what strains across the source would hold.
     const auto size = c.c33 * c.c55 - c.c35 * c.c35;
     const auto ux = (c.c33 * couple - c.c35 * explosion) / size,
-                 uz = (c.c55 * explosion - c.c35 * couple) / size;
+               uz = (c.c55 * explosion - c.c35 * couple) / size;
     return {ux, uz, -force[1], -force[0] - i * k * (explosion - c.c13 * uz - c.c15 * ux)};
   }
   /// The waves that leave the source up and down, with their amplitudes.
