@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "model/anisotropy.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -20,16 +21,19 @@ bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
   return false;
 }
 
-/// What keeps the planes of a set from slipping in anisotropic cells, or "".
+/// What keeps the planes of a set from slipping in an anisotropic cell, or "".
 template <int D>
-std::string fault_of(const FractureSet<D>& set) {
-  for (const auto& system : set.systems) {
-    if (system.opens) return "open";
-    double oblique = 0;
-    for (std::size_t axis = 0; axis + 1 < D; ++axis)
-      oblique = std::max(oblique, std::abs(system.normal[axis] * system.normal[D - 1]));
-    if (oblique > 1e-9) return "are neither level nor upright";
-  }
+std::string fault_of(const FractureSet<D>& set, bool askew) {
+  const auto any = [&](const auto& is) { return std::any_of(set.systems.begin(), set.systems.end(), is); };
+  if (any([](const auto& system) { return system.opens; })) return "open, expected closed ones";
+  if (!askew) return "";
+  const std::string alone = " of rock, expected along both or in isotropic rock";
+  if (any([](const auto& system) { return system.compliance.damped(); }))
+    return "have dashpots and lie askew to the axes" + alone;
+  if (gives(set) && slides(set)) return "slide above springs and lie askew to the axes" + alone;
+  if (set.systems.size() > 1 &&
+      any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
+    return "cross, weaken with slip and lie askew to the axes" + alone;
   return "";
 }
 
@@ -55,14 +59,9 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
         "--fit none, or use --without anisotropy");
   if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
-  if (has_tilted_axis(model.medium, cell))
-    refuse("its fracture set '" + set.name +
-           "' slips, expected rock whose axis is upright; use --without slip" +
-           std::string(isotropic_instead));
-  if (const auto fault = fault_of(set); !fault.empty())
-    refuse("the planes of its fracture set '" + set.name + "' " + fault +
-           ", expected closed ones with a dip of 0 or 90; use --without " +
-           (fault == "open" ? "opening" : "slip") + isotropic_instead);
+  if (const auto fault = fault_of(set, lie_askew(set, model.medium, cell)); !fault.empty())
+    refuse("the planes of its fracture set '" + set.name + "' " + fault + "; use --without " +
+           (fault.starts_with("open") ? "opening" : "slip") + isotropic_instead);
 }
 
 }  // namespace

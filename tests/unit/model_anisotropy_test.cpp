@@ -223,15 +223,24 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropy) {
   cracked.model.fracture_sets = {{"upright", {{{1, 0}, 0.5, 0, 0}}}};
   EXPECT_EQ(told(cracked), "");
   cracked.model.fracture_sets = {{"oblique", {{{0.6, 0.8}, 0.5, 0, 0}}}};
+  EXPECT_EQ(told(cracked), "");
+  auto& system = cracked.model.fracture_sets[0].systems[0];
+  system.compliance = {1e-12, 1e-12, 0, 0, 1};
   EXPECT_EQ(
       told(cracked),
       "the cell at x=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1) and the planes of its fracture set "
-      "'oblique' are neither level nor upright, expected closed ones with a dip of 0 or 90; use --without "
-      "slip "
-      "or --without anisotropy");
-  cracked.model.fracture_sets[0].systems[0].normal = {0, 1};
-  cracked.model.fracture_sets[0].systems[0].opens = true;
-  EXPECT_NE(told(cracked).find("open, expected closed ones"), std::string::npos);
+      "'oblique' slide above springs and lie askew to the axes of rock, expected along both or in isotropic "
+      "rock; use --without slip or --without anisotropy");
+  system.law = FrictionLaw::none;
+  EXPECT_EQ(told(cracked), "");
+  system.compliance.normal_dashpot_pa_s_m = 1;
+  EXPECT_NE(told(cracked).find("have dashpots and lie askew"), std::string::npos);
+  system.normal = {0, 1};
+  EXPECT_EQ(told(cracked), "");
+  cracked.model.medium[Property::tilt] = Field<2>(cracked.model.grid(), 20);
+  EXPECT_NE(told(cracked).find("have dashpots and lie askew"), std::string::npos);
+  system.opens = true;
+  EXPECT_NE(told(cracked).find("open, expected closed ones; use --without opening"), std::string::npos);
   cracked.with_slip = false;
   EXPECT_EQ(told(cracked), "");
 }
