@@ -5,8 +5,8 @@
 namespace slipwave {
 
 /// Throws an Error on the first cell whose anisotropy can not be computed together with what else happens
-/// there (theory.md 1.10): one that rows of a fitted grid bend round, or whose planes open, or are more than
-/// springs or friction alone and lie askew to the axes; and on any in 3-D.
+/// there (theory.md 1.10): one that rows of a fitted grid bend round, or whose planes open, or are
+/// springs and lie askew to the axes; and on any in 3-D.
 template <int D>
 void check_anisotropy(const Scene<D>& scene);
 

@@ -5,8 +5,6 @@
 #include <utility>
 
 #include "model/anisotropy.hpp"
-#include "model/fracture.hpp"
-#include "model/plane_strain.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -50,15 +48,6 @@ Tensor<D> strain_of(const Tensor<D>& stress, const Stiffness& rock) {
       strain(i, i) = (stress(i, i) - rock.c13 * trace / (3 * rock.c13 + 2 * rock.c55)) / (2 * rock.c55);
   }
   return strain;
-}
-
-/// Stress and strain of rock whose axes do not lie along the grid.
-Tensor<2> stress_of(const Tensor<2>& strain, const PlaneStiffness& c) {
-  return {stress_of_strain(c, {strain(0, 0), strain(1, 1), 2 * strain(0, 1)})};
-}
-Tensor<2> strain_of(const Tensor<2>& stress, const PlaneStiffness& c) {
-  const auto [xx, zz, xz] = strain_of_stress(c, stress.values);
-  return {{xx, zz, xz / 2}};
 }
 
 /// Of a strain along the normal of planes, which are level or upright where rock is anisotropic.
@@ -123,9 +112,7 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
     const auto any = [&](const auto& has) {
       return std::any_of(set.systems.begin(), set.systems.end(), has);
     };
-    const bool askew = lie_askew_anywhere(group);
-    group.of = {D, set.systems.size() == 1 && !askew,
-                any([](const auto& s) { return s.compliance.damped(); }),
+    group.of = {D, set.systems.size() == 1, any([](const auto& s) { return s.compliance.damped(); }),
                 any([](const auto& s) { return s.slides(); })};
     group.planes = planes_of<D, Real>(set.systems, unit);
     group.kernels = linear_slip_kernels<Real>(group.of);
@@ -134,25 +121,6 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
     group.of.one_family ? add_family(group, dt_s) : add_crossing(group);
     groups_.push_back(std::move(group));
   }
-}
-
-template <int D, class Real>
-bool LinearSlip<D, Real>::lie_askew_anywhere(const Group& group) const {
-  bool any = false;
-  group.places.each(state_.layout, domain_, model_, [&](std::size_t, std::size_t cell) {
-    any = any || lie_askew(*group.set, model_.medium, cell);
-  });
-  return any;
-}
-
-template <int D, class Real>
-auto LinearSlip<D, Real>::stress_of_strain(const FractureSet<D>& set, std::size_t cell,
-                                           const SymmetricTensor<D, double>& strain) const
-    -> SymmetricTensor<D, double> {
-  if constexpr (D == 2)
-    if (lie_askew(set, model_.medium, cell))
-      return stress_of(strain, plane_stiffness_of(model_.medium, cell));
-  return stress_of<D>(strain, stiffness_of(model_.medium, cell));
 }
 
 template <int D, class Real>
@@ -188,7 +156,7 @@ void LinearSlip<D, Real>::add_crossing(Group& group) const {
     for (std::size_t k = 0; k < n; ++k) {
       Tensor<D> stress;
       stress.values[k] = 1;
-      const auto off = stress_of_strain(*group.set, cell, strain_of_planes<D>(*group.set, stress, rock));
+      const auto off = stress_of<D>(strain_of_planes<D>(*group.set, stress, rock), rock);
       for (std::size_t c = 0; c < n; ++c) taken[c * n + k] = off.values[c];
     }
     with_rock = taken;
@@ -304,10 +272,7 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
   }
   Tensor<D> off;
   for (std::size_t c = 0; c < off.values.size(); ++c) off.values[c] = taken(c);
-  auto strain = strain_of<D>(off, rock);
-  if constexpr (D == 2)
-    if (lie_askew(*group.set, model_.medium, cell))
-      strain = strain_of(off, plane_stiffness_of(model_.medium, cell));
+  const auto strain = strain_of<D>(off, rock);
   auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
   const auto x = at[0];
   at[0] = 0;

@@ -47,11 +47,6 @@ class LinearSlip : public Effect<D, Real> {
   };
   void add_family(Group& group, double dt_s) const;
   void add_crossing(Group& group) const;
-  /// Whether planes lie askew to the axes of anisotropic rock, or these to the grid, in any cell of a group:
-  /// then its stress is taken for that of crossing planes.
-  bool lie_askew_anywhere(const Group& group) const;
-  SymmetricTensor<D, double> stress_of_strain(const FractureSet<D>& set, std::size_t cell,
-                                              const SymmetricTensor<D, double>& strain) const;
   double stored_energy(const Group& group, std::size_t place, std::size_t cell) const;
   void each_segment(const RowFields<Real>& fields, const IndexRange& cells,
                     typename LinearSlipKernels<Real>::Kernel LinearSlipKernels<Real>::*kernel);
