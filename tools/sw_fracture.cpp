@@ -66,7 +66,7 @@ void declare_laws(cli::Options& options, Settings& settings) {
   options.add("fill", settings.compliance.fill_pa, "PA",
               "bulk modulus of the fluid in the cracks: water 2.2e9 [0: dry]");
   options.add("effective", settings.effective,
-              "change the rock instead: speeds, epsilon and delta that it has with level or upright planes, "
+              "change the rock instead: speeds, epsilon, delta and tilt that it has with the planes, "
               "for waves much longer than the spacing");
 }
 

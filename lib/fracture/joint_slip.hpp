@@ -46,6 +46,9 @@ class JointSlip {
     // Of laws with a state: slip so far, and h/mu.
     Real* slip_m = nullptr;
     Real slip_per_pa = 0;
+    // In 2-D, of planes askew to the axes of anisotropic rock: what slip that takes 1 off the traction of a
+    // system along (-n_z, n_x) takes off the stress (S34). Null: n tau + tau n.
+    const Stress<D, Real>* response = nullptr;
   };
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
@@ -105,7 +108,7 @@ class JointSlip {
   }
   void take_off(std::size_t n, const Resolved& on, Real loss, const Cell& cell, Stress<D, Real>& s) const {
     if (!(loss > 0)) return;
-    add_shear<D, Real>(s, -loss / on.size, on.tau, systems_[n].normal);
+    change_by(n, cell, -loss / on.size, on.tau, s);
     note_slip(n, loss, cell);
   }
   /// The second half of a step of slip of one system alone, by the exponential rule.
@@ -138,6 +141,7 @@ class JointSlip {
         losses = relax_at(s, cell, strengths = ends);
       }
     }
+    if (cell.response) losses = follow_normal_stress(before, cell, strengths, losses, s);
     for (std::size_t n = 0; n < count; ++n) note_slip(n, length<D, Real>(losses[n]), cell);
     take_off_rest(s, cell, strengths, losses);
   }
@@ -151,7 +155,7 @@ class JointSlip {
       Real moved = 0;
       for (std::size_t visit = 0; visit < count; ++visit) {
         const std::size_t n = round % 2 ? count - 1 - visit : visit;
-        add_shear<D, Real>(s, 1, off[n], systems_[n].normal);
+        change_by(n, cell, 1, off[n], s);
         Traction<D, Real> tau;
         resolve<D, Real>(systems_[n].normal, s, tau);
         const Real size = length<D, Real>(tau);
@@ -162,7 +166,7 @@ class JointSlip {
           moved = std::max(moved, std::abs(share * tau[i] - off[n][i]));
           off[n][i] = share * tau[i];
         }
-        add_shear<D, Real>(s, -1, off[n], systems_[n].normal);
+        change_by(n, cell, -1, off[n], s);
       }
       if (!(moved > std::numeric_limits<Real>::epsilon() * scale)) break;
     }
@@ -179,9 +183,40 @@ class JointSlip {
           strengths[n] *
           (1 + length<D, Real>(losses[n]) / std::max(weighted(n, cell, strengths[n]), slip::least<Real>));
       if (!(cell.relaxation[n] > 0 && size > carried)) continue;
-      add_shear<D, Real>(s, -(size - carried) / size, tau, systems_[n].normal);
+      change_by(n, cell, -(size - carried) / size, tau, s);
       note_slip(n, size - carried, cell);
     }
+  }
+  /// s += factor times what a change of the traction of a system by slip is to the stress.
+  void change_by(std::size_t n, const Cell& cell, Real factor, const Traction<D, Real>& change,
+                 Stress<D, Real>& s) const {
+    const auto& normal = systems_[n].normal;
+    if constexpr (D == 2)
+      if (cell.response) {
+        const Real along = factor * (change[1] * normal[0] - change[0] * normal[1]);
+        for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += along * cell.response[n].values[c];
+        return;
+      }
+    add_shear<D, Real>(s, factor, change, normal);
+  }
+  /// Slip of planes that lie askew in their rock changes the normal stress on them: rounds are made again at
+  /// the strengths that it leaves.
+  Losses follow_normal_stress(const Stress<D, Real>& before, const Cell& cell, Strengths& strengths,
+                              Losses losses, Stress<D, Real>& s) const {
+    constexpr int most_visits = 12;
+    for (int visit = 0; visit < most_visits; ++visit) {
+      Strengths ends{};
+      for (std::size_t n = 0; n < systems_.size(); ++n) {
+        auto on = resolved(n, cell, before);
+        on.s_n = resolved(n, cell, s).s_n;
+        on.strength = cell.open[n] ? Real(0) : Law::strength(systems_[n].law, on.s_n, slip_of(n, cell));
+        ends[n] = strength_at_end(n, cell, on, length<D, Real>(losses[n]), weighted(n, cell, on.strength));
+      }
+      if (ends == strengths) break;
+      s = before;
+      losses = relax_at(s, cell, strengths = ends);
+    }
+    return losses;
   }
   static void add(Stress<D, Real>& s, const Stress<D, Real>& before, const Stress<D, Real>& after) {
     for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += after.values[c] - before.values[c];

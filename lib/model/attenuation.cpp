@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/error.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -32,11 +34,33 @@ std::complex<double> relaxed(double hz, double rate) {
 template <int D>
 constexpr double of_shear = D == 2 ? 1. : 4. / 3;
 
-/// Largest qp of a cell: shear loss alone (Q6).
+/// The rock of a cell whose stress relaxes about axes of its own; nothing where it is isotropic.
 template <int D>
-double most_qp(double vp, double vs, double qs) {
-  if (vs == 0 || std::isinf(qs)) return infinite;
-  return qs * vp * vp / (of_shear<D> * vs * vs);
+std::optional<Material> rock_with_axis(const Medium<D>& medium, std::size_t cell) {
+  if constexpr (D == 2)
+    if (is_anisotropic(medium, cell) || is_tilted_mean(medium, cell)) return rock_of(medium, cell);
+  return {};
+}
+
+/// What of the P modulus relaxes by shear, over the density (Q5), (Q9); (m/s)^2.
+template <int D>
+double shear_part(double vs, const std::optional<Material>& rock) {
+  if (!rock) return of_shear<D> * vs * vs;
+  const auto c = stiffness_of(*rock);
+  return (c.c33 - c.c13 * std::sqrt(c.c33 / c.c11)) / (2 * rock->rho);
+}
+
+/// Sets the delta of a rock to what is left of both parts of its P modulus over the density (Q10).
+void set_delta(Medium<2>& medium, std::size_t cell, const Material& rock, double bulk, double shear) {
+  const double p = bulk + shear, vs = medium.vs[cell], along = 1 + 2 * rock.epsilon;
+  const auto left = material_of_stiffness({p * along, (bulk - shear) * std::sqrt(along), p, vs * vs}, 1);
+  medium[is_tilted_mean(medium, cell) ? Property::cut_delta : Property::delta][cell] = float(left.delta);
+}
+
+/// Largest qp of a cell: shear loss alone (Q6).
+double most_qp(double vp, double shear, double qs) {
+  if (shear == 0 || std::isinf(qs)) return infinite;
+  return qs * vp * vp / shear;
 }
 
 struct Qualities {
@@ -192,6 +216,7 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
   const double reference_hz = attenuation.reference_hz;
   for (const auto property : {Property::qp, Property::qs})
     if (!medium.has(property)) medium[property] = Field<D>(medium.grid(), float(infinite));
+  complete_anisotropy(medium);
   std::int64_t lowered = 0;
   std::string first;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
@@ -199,7 +224,9 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
     const auto given = qualities(medium, cell);
     check_fit(medium, cell, mechanisms, Property::qp, given.p);
     check_fit(medium, cell, mechanisms, Property::qs, given.s);
-    const double vp = medium.vp[cell], vs = medium.vs[cell], most = most_qp<D>(vp, vs, given.s);
+    const double vp = medium.vp[cell], vs = medium.vs[cell];
+    const auto rock = rock_with_axis(medium, cell);
+    const double shear = shear_part<D>(vs, rock), most = most_qp(vp, shear, given.s);
     if (std::isfinite(given.p) && given.p > (1 + wanted_error) * most && lowered++ == 0)
       first = "qp at " + place_of(medium.grid(), std::int64_t(cell)) + " is " + shown(given.p, 4) +
               ", more than its qs of " + shown(given.s, 4) + " allows: " + shown(most, 4);
@@ -209,6 +236,11 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
     };
     medium.vp[cell] = float(vp * factor(std::min(given.p, most)));
     medium.vs[cell] = float(vs * factor(given.s));
+    if constexpr (D == 2) {
+      if (!rock) continue;
+      const double of_p = double(medium.vp[cell]), of_s = shear * std::pow(factor(given.s), 2);
+      set_delta(medium, cell, *rock, of_p * of_p - of_s, of_s);
+    }
   }
   if (lowered == 0) return {};
   return first + " is used" +
@@ -229,10 +261,11 @@ StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechani
 
 /// Those of a medium that relaxes all the time.
 template <int D>
-CellShares StepwiseRelaxation<D>::continuous(std::size_t cell) const {
+CellShares StepwiseRelaxation<D>::continuous(std::size_t cell, bool isotropic) const {
   const auto [qp, qs] = qualities(*medium_, cell);
   CellShares shares{mechanisms_.shares(qp), mechanisms_.shares(qs)};
-  const double vp = medium_->vp[cell], vs = medium_->vs[cell], p = vp * vp, s = of_shear<D> * vs * vs;
+  const double vp = medium_->vp[cell], vs = medium_->vs[cell], p = vp * vp,
+               s = shear_part<D>(vs, isotropic ? std::nullopt : rock_with_axis(*medium_, cell));
   if (vs == 0) return shares;
   // Least squares for two Q differ a little in shape: no mechanism may give energy.
   for (std::size_t l = 0; l < shares.bulk.size(); ++l)
@@ -249,8 +282,8 @@ double StepwiseRelaxation<D>::kept(const RelaxedShares& shares) const {
 }
 
 template <int D>
-CellShares StepwiseRelaxation<D>::shares(std::size_t cell) const {
-  auto shares = continuous(cell);
+CellShares StepwiseRelaxation<D>::shares(std::size_t cell, bool isotropic) const {
+  auto shares = continuous(cell, isotropic);
   for (auto* of : {&shares.bulk, &shares.shear}) {
     const double left = kept(*of);
     for (std::size_t l = 0; l < of->size(); ++l) (*of)[l] *= parts_[l] / left;
@@ -264,9 +297,13 @@ Medium<D> StepwiseRelaxation<D>::medium() const {
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
     if (!attenuates(medium, cell)) continue;
     const auto shares = continuous(cell);
-    const double vp = medium.vp[cell], vs = medium.vs[cell], s = of_shear<D> * vs * vs;
+    const double vp = medium.vp[cell], vs = medium.vs[cell];
+    const auto rock = rock_with_axis(medium, cell);
+    const double s = shear_part<D>(vs, rock);
     medium.vp[cell] = float(std::sqrt((vp * vp - s) * kept(shares.bulk) + s * kept(shares.shear)));
     medium.vs[cell] = float(vs * std::sqrt(kept(shares.shear)));
+    if constexpr (D == 2)
+      if (rock) set_delta(medium, cell, *rock, (vp * vp - s) * kept(shares.bulk), s * kept(shares.shear));
   }
   return medium;
 }
@@ -274,6 +311,41 @@ Medium<D> StepwiseRelaxation<D>::medium() const {
 template <int D>
 double StepwiseRelaxation<D>::decay(int l) const {
   return -std::expm1(-mechanisms_.rate(l) * interval_s_);
+}
+
+template <int D>
+ComplexStiffness StepwiseRelaxation<D>::stiffness(std::size_t cell, double hz) const {
+  const auto of = shares(cell);
+  const double vp = medium_->vp[cell], vs = medium_->vs[cell], rho = medium_->rho[cell];
+  const auto rock = rock_with_axis(*medium_, cell);
+  // The bulk modulus of 3-D is that of plane strain less a third of the shear modulus.
+  const double s = shear_part<D>(vs, rock), along = rock ? 1 + 2 * rock->epsilon : 1;
+  const auto relaxed_shear = mechanisms_.modulus(of.shear, hz);
+  const auto bulk = (vp * vp - s) * mechanisms_.modulus(of.bulk, hz), shear = s * relaxed_shear,
+             across = rho * (bulk + shear), of_s = rho * vs * vs * relaxed_shear;
+  return {across * along, rock ? rho * (bulk - shear) * std::sqrt(along) : across - 2. * of_s, across, of_s};
+}
+
+RelaxingAxis relaxing_axis(const Material& rock) {
+  const double scale = std::log(1 + 2 * rock.epsilon) / 4, twice = rock.tilt * std::numbers::pi / 90;
+  return {std::cosh(scale), -std::sinh(scale), std::cos(twice), std::sin(twice)};
+}
+
+LossyWaves lossy_waves(const ComplexStiffness& stiffness, double rho, double angle_rad) {
+  const auto& [c11, c13, c33, c55] = stiffness;
+  const double along = std::sin(angle_rad), down = std::cos(angle_rad), x = along * along, z = down * down;
+  const auto mean = ((c11 + c55) * x + (c33 + c55) * z) / 2., apart = (c11 - c55) * x - (c33 - c55) * z,
+             mixed = 2. * (c13 + c55) * along * down;
+  auto half = std::sqrt(apart * apart + mixed * mixed) / 2.;
+  if (half.real() < 0) half = -half;
+  LossyWaves waves;
+  const auto add = [&](std::complex<double> modulus, double& speed, double& quality) {
+    speed = 1 / (1. / std::sqrt(modulus / rho)).real();
+    quality = modulus.imag() > 0 ? modulus.real() / modulus.imag() : infinite;
+  };
+  add(mean + half, waves.speed.p, waves.quality.p);
+  if (c55 != 0.) add(mean - half, waves.speed.s, waves.quality.s);
+  return waves;
 }
 
 template class StepwiseRelaxation<2>;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "model/anisotropy.hpp"
 #include "model/medium.hpp"
 
 namespace slipwave {
@@ -70,17 +71,38 @@ template <int D>
 std::int64_t attenuating_cells(const Medium<D>& medium);
 
 /// Turns speeds at the reference frequency into those of the unrelaxed medium, the highest of any frequency
-/// (Q4). Where qp is larger than shear loss alone makes it, it becomes that (Q6); absent or infinite it may
-/// be. Returns a sentence on cells whose finite qp was lowered by more than 3 %, empty where there are none.
-/// Throws Error naming cell, value and remedy where qp or qs is below least_quality().
+/// (Q4), in 2-D also delta of anisotropic rock (Q10). Where qp is larger than shear loss alone makes it, it
+/// becomes that (Q6); absent or infinite it may be. Returns a sentence on cells whose finite qp was lowered
+/// by more than 3 %, empty where there are none. Throws Error naming cell, value and remedy where qp or qs is
+/// below least_quality().
 template <int D>
 std::string unrelax(Medium<D>& medium, const Attenuation& attenuation);
 
 /// What of the bulk and of the shear modulus of a cell relaxes (Q5). In 2-D the bulk modulus is that of plane
-/// strain, lambda + mu.
+/// strain, lambda + mu; of anisotropic rock they are the parts of (Q9).
 struct CellShares {
   RelaxedShares bulk{}, shear{};
 };
+
+/// How the stress in anisotropic rock of 2-D is taken apart before it relaxes (Q9): with m and h half the sum
+/// and half the difference of the normal stresses along and across its beds, its parts are even m + odd h,
+/// even h + odd m, and the shear stress of the beds. The beds dip by half the angle of cosine and sine.
+struct RelaxingAxis {
+  double even = 1, odd = 0, cosine = 1, sine = 0;
+};
+RelaxingAxis relaxing_axis(const Material& rock);
+
+/// What a plane wave feels of rock that attenuates, by its complex stiffness about its own axis (theory.md
+/// (Q1), (Q9)), Pa; of isotropic rock and fluid, too.
+struct ComplexStiffness {
+  std::complex<double> c11, c13, c33, c55;
+};
+/// Phase speeds and quality factors of plane waves; of S waves 0 in fluid.
+struct LossyWaves {
+  PlaneSpeeds speed, quality;
+};
+/// Of waves whose fronts move at this angle from the axis: (V3) with complex stiffnesses.
+LossyWaves lossy_waves(const ComplexStiffness& stiffness, double rho, double angle_rad);
 
 /// An unrelaxed medium whose stress relaxes at one moment of every `interval_s`, for all of that time: its
 /// speeds and shares are such that waves have the moduli of a medium that relaxes all the time (Q8). With an
@@ -90,15 +112,17 @@ class StepwiseRelaxation {
  public:
   /// Keeps a reference.
   StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
-  /// Its own shares.
-  CellShares shares(std::size_t cell) const;
+  /// Its own shares; `isotropic`: of an interface's cell that the solver takes for its isotropic mean.
+  CellShares shares(std::size_t cell, bool isotropic = false) const;
+  /// The stiffness of plane waves at a frequency.
+  ComplexStiffness stiffness(std::size_t cell, double hz) const;
   /// The medium with its own speeds.
   Medium<D> medium() const;
   /// 1 - exp(-rate interval): how far mechanism l comes in an interval.
   double decay(int l) const;
 
  private:
-  CellShares continuous(std::size_t cell) const;
+  CellShares continuous(std::size_t cell, bool isotropic = false) const;
   double kept(const RelaxedShares& shares) const;
 
   const Medium<D>* medium_;

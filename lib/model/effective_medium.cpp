@@ -34,6 +34,33 @@ Stiffness effective_stiffness(const Stiffness& rock, const std::vector<SlipSyste
   return {s33 / inverse, -s13 / inverse, s11 / inverse, 1 / s55};
 }
 
+namespace {
+
+/// Between -90 and 90 degrees.
+double dip_between(double dip) {
+  dip = std::fmod(dip, 180);
+  return dip > 90 ? dip - 180 : dip <= -90 ? dip + 180 : dip;
+}
+
+/// Planes as beds that dip by so much see them; those along or across them are exactly so.
+std::vector<SlipSystem<2>> seen_from(double tilt, std::vector<SlipSystem<2>> systems) {
+  for (auto& system : systems) {
+    const double dip = dip_between(dip_of_normal(system.normal) - tilt), whole = 90 * std::round(dip / 90);
+    system.normal = normal_of_dip(std::abs(dip - whole) < 1e-4 ? std::abs(whole) : dip);
+  }
+  return systems;
+}
+
+/// The tilt of the axes of a rock full of these planes: of isotropic rock that of the planes, 0 where one
+/// family is level.
+double tilt_of(const Material& rock, const std::vector<SlipSystem<2>>& systems) {
+  if (rock.is_anisotropic() || systems.empty()) return rock.tilt;
+  const double dip = dip_of_normal(systems[0].normal);
+  return is_oblique<2>(systems[0].normal) ? dip : 0;
+}
+
+}  // namespace
+
 FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& systems,
                              const std::function<bool(const Point<2>&)>& inside) {
   FractureCount count;
@@ -42,16 +69,24 @@ FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& 
   for (const auto property : {Property::epsilon, Property::delta})
     if (!medium.has(property)) medium[property] = Field<2>(medium.grid());
   for (const auto cell : cells) {
-    if (has_tilted_axis(medium, cell))
-      refuse("the rock of the cell at " + place_of(model.grid(), std::int64_t(cell)) +
-             " has a tilted axis, expected an upright one or isotropic rock; leave --effective out, or the "
-             "tilt");
-    const auto stiffness = effective_stiffness(stiffness_of(medium, cell), systems);
+    const auto rock = material_of(medium, cell);
+    const double tilt = tilt_of(rock, systems);
+    const auto of_beds = seen_from(tilt, systems);
+    for (std::size_t n = 0; n < systems.size(); ++n)
+      if (is_oblique<2>(of_beds[n].normal))
+        refuse("planes dip by " + shown(dip_of_normal(systems[n].normal), 4) + " degrees in " +
+               (rock.is_anisotropic() ? "rock whose beds dip by " : "rock with planes that dip by ") +
+               shown(tilt, 4) + " at " + place_of(model.grid(), std::int64_t(cell)) +
+               ", expected the same dip or a right angle to it; other planes are springs");
+    const auto stiffness = effective_stiffness(stiffness_of(rock), of_beds);
     if (stiffness.c33 <= stiffness.c55)
       refuse("in the cell at " + place_of(model.grid(), std::int64_t(cell)) +
              " P waves across the planes would be slower than S waves; expected less normal compliance, or "
              "leave --effective out and the planes are springs");
-    put(medium, cell, material_of_stiffness(stiffness, double(medium.rho[cell])));
+    auto effective = material_of_stiffness(stiffness, rock.rho);
+    if (effective.is_anisotropic()) effective.tilt = tilt;
+    if (effective.tilt != 0 && !medium.has(Property::tilt)) medium[Property::tilt] = Field<2>(medium.grid());
+    put(medium, cell, effective);
   }
   return count;
 }

@@ -14,8 +14,9 @@ namespace slipwave {
 Stiffness effective_stiffness(const Stiffness& rock, const std::vector<SlipSystem<2>>& systems);
 
 /// Gives the solid cells whose centres are inside, in true depth, the effective medium of their rock and
-/// these planes. Cells of fracture sets stay in them. Throws a usage Error as above, and as
-/// find_solid_cells().
+/// these planes, which may dip: all along the beds of the rock, or in isotropic rock of the first of them, or
+/// across these. Cells of fracture sets stay in them. Throws a usage Error as above, of planes at other
+/// angles, and as find_solid_cells().
 FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& systems,
                              const std::function<bool(const Point<2>&)>& inside);
 

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
+#include "model/anisotropy.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -32,6 +33,19 @@ double dip_of_normal(const Point<2>& normal) {
   const double up = normal[1] > 0 ? -1 : 1;
   return std::atan2(up * normal[0], up * -normal[1]) * 180 / std::numbers::pi;
 }
+
+template <int D>
+bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell) {
+  if (D == 3 || !is_anisotropic(medium, cell)) return false;
+  if (has_tilted_axis(medium, cell)) return true;
+  for (const auto& trace : set.traces)
+    for (std::size_t n = 1; n < trace.size(); ++n)
+      if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1]) return true;
+  return set.traces.empty() && std::any_of(set.systems.begin(), set.systems.end(),
+                                           [](const auto& system) { return is_oblique<D>(system.normal); });
+}
+template bool lie_askew(const FractureSet<2>&, const Medium<2>&, std::size_t);
+template bool lie_askew(const FractureSet<3>&, const Medium<3>&, std::size_t);
 
 Point<3> normal_of_dip(double dip_deg, double azimuth_deg) {
   const auto [across, down] = normal_of_dip(dip_deg);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -16,6 +18,18 @@ Point<2> normal_of_dip(double dip_deg);
 
 /// The dip of the planes of a unit normal, from -90 to 90 degrees: the inverse of normal_of_dip().
 double dip_of_normal(const Point<2>& normal);
+/// Whether planes lie along no axis of the grid.
+template <int D>
+bool is_oblique(const Point<D>& normal) {
+  double oblique = 0;
+  for (std::size_t axis = 0; axis + 1 < D; ++axis)
+    oblique = std::max(oblique, std::abs(normal[axis] * normal[D - 1]));
+  return oblique > 1e-9;
+}
+/// Whether, in 2-D, any planes of a set lie askew to the axes of symmetry of an anisotropic cell, or these to
+/// the grid.
+template <int D>
+bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell);
 
 /// In 3-D: of planes that dip towards an azimuth in degrees from +x, 90 being +y; and back, with a dip from 0
 /// to 90 degrees.

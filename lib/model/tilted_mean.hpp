@@ -32,6 +32,12 @@ PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell);
 template <int D>
 Material tilted_mean_of(const Medium<D>& medium, std::size_t cell);
 
+/// Of any cell: its rock, or what it is about the normal where it is a tilted mean.
+template <int D>
+Material rock_of(const Medium<D>& medium, std::size_t cell) {
+  return is_tilted_mean(medium, cell) ? tilted_mean_of(medium, cell) : material_of(medium, cell);
+}
+
 /// Gives a medium the properties of tilted means, none anywhere.
 template <int D>
 void add_tilted_means(Medium<D>& medium);

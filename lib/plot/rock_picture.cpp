@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <functional>
 #include <numbers>
 #include <utility>
@@ -46,60 +45,54 @@ Curves curves_of(const Axis& x, const Axis& y, bool solid, const std::array<std:
   return curves;
 }
 
+Axis angles() { return {"angle of the front from the vertical, towards +x", "degrees", -90, 90}; }
+
 Curves speeds_by_angle(const Material& material) {
   const auto stiffness = stiffness_of(material);
-  return curves_of({"angle of the front from the vertical, towards +x", "degrees", -90, 90},
-                   {"phase speed", "m/s"}, material.vs > 0, {"P", "S"}, [&](double angle) {
-                     // The axis of beds that deepen towards +x leans towards -x.
-                     return phase_speeds(stiffness, material.rho, (angle + material.tilt) * degree);
-                   });
+  return curves_of(angles(), {"phase speed", "m/s"}, material.vs > 0, {"P", "S"}, [&](double angle) {
+    // The axis of beds that deepen towards +x leans towards -x.
+    return phase_speeds(stiffness, material.rho, (angle + material.tilt) * degree);
+  });
 }
 
 /// The rock as a medium of one cell, unrelaxed, and its mechanisms.
 class Relaxing {
  public:
-  Relaxing(const RockAt& rock, const Attenuation& attenuation)
-      : mechanisms_(attenuation.mechanisms), medium_(Grid<2>{{1, 1}, 1, {0, 0}}) {
-    put(medium_, 0, {rock.material.vp, rock.material.vs, rock.material.rho});
+  Relaxing(const RockAt& rock, const Attenuation& attenuation) : medium_(Grid<2>{{1, 1}, 1, {0, 0}}) {
+    for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
+      medium_[property] = Field<2>(medium_.grid());
+    put(medium_, 0, rock.material);
     medium_[Property::qp] = Field<2>(medium_.grid(), float(rock.qp));
     medium_[Property::qs] = Field<2>(medium_.grid(), float(rock.qs));
     unrelax(medium_, attenuation);
-    shares_ = StepwiseRelaxation<2>(medium_, mechanisms_, 0).shares(0);
+    relaxation_.emplace(medium_, attenuation.mechanisms, 0);
   }
-  /// Moduli over the density of P and S waves; (m/s)^2.
-  std::array<std::complex<double>, 2> moduli(double hz) const {
-    const double p = double(medium_.vp[0]) * double(medium_.vp[0]),
-                 s = double(medium_.vs[0]) * double(medium_.vs[0]);
-    const auto shear = s * mechanisms_.modulus(shares_.shear, hz);
-    return {(p - s) * mechanisms_.modulus(shares_.bulk, hz) + shear, shear};
-  }
-  PlaneSpeeds quality(double hz) const {
-    const auto [p, s] = moduli(hz);
-    return {p.real() / p.imag(), s.real() / s.imag()};
-  }
-  PlaneSpeeds speeds(double hz) const {
-    const auto [p, s] = moduli(hz);
-    const auto speed = [](std::complex<double> modulus) { return 1 / (1. / std::sqrt(modulus)).real(); };
-    return {speed(p), s == 0. ? 0 : speed(s)};
+  /// Of waves whose fronts move at this angle from the axis of the rock.
+  LossyWaves waves(double hz, double angle_rad = 0) const {
+    return lossy_waves(relaxation_->stiffness(0, hz), double(medium_.rho[0]), angle_rad);
   }
 
  private:
-  Mechanisms mechanisms_;
   Medium<2> medium_;
-  CellShares shares_;
+  std::optional<StepwiseRelaxation<2>> relaxation_;
 };
 
 void add_attenuation(const RockAt& rock, const Attenuation& attenuation, std::vector<Curves>& all) {
   const Relaxing relaxing(rock, attenuation);
   const auto& mechanisms = attenuation.mechanisms;
-  Axis frequency{"frequency", "Hz", mechanisms.low_hz() / 2, 2 * mechanisms.high_hz()};
   const bool s_too = rock.material.vs > 0 && std::isfinite(rock.qs) && rock.qs < double(elastic_quality);
+  if (rock.material.is_anisotropic())
+    all.push_back(curves_of(angles(), {"quality factor", ""}, s_too, {"P", "S"}, [&](double angle) {
+      return relaxing.waves(attenuation.reference_hz, (angle + rock.material.tilt) * degree).quality;
+    }));
+  const Axis frequency{rock.material.is_anisotropic() ? "frequency, along the axis of the rock" : "frequency",
+                       "Hz", mechanisms.low_hz() / 2, 2 * mechanisms.high_hz()};
   all.push_back(curves_of(frequency, {"quality factor", ""}, s_too, {"P", "S"},
-                          [&](double hz) { return relaxing.quality(hz); }));
-  const auto reference = relaxing.speeds(attenuation.reference_hz);
+                          [&](double hz) { return relaxing.waves(hz).quality; }));
+  const auto reference = relaxing.waves(attenuation.reference_hz).speed;
   all.push_back(
       curves_of(frequency, {"phase speed, as a share of the model's", ""}, s_too, {"P", "S"}, [&](double hz) {
-        const auto speeds = relaxing.speeds(hz);
+        const auto speeds = relaxing.waves(hz).speed;
         return PlaneSpeeds{speeds.p / reference.p, reference.s > 0 ? speeds.s / reference.s : 0};
       }));
 }
@@ -135,9 +128,8 @@ RockAt rock_at(const Model<D>& model, const Point<D>& point_m) {
       refuse("outside the model");
   const auto cell = std::size_t(grid.flat(at));
   if (medium.is_void(cell)) refuse("in void");
-  RockAt rock{material_of(medium, cell), medium.value(Property::qp, cell), medium.value(Property::qs, cell),
+  RockAt rock{rock_of(medium, cell), medium.value(Property::qp, cell), medium.value(Property::qs, cell),
               place_of(grid, std::int64_t(cell))};
-  if (is_tilted_mean(medium, cell)) rock.material = tilted_mean_of(medium, cell);
   return rock;
 }
 

@@ -27,7 +27,7 @@ RockAt rock_at(const Model<D>& model, const Point<D>& point_m);
 
 /// Phase speeds of waves by the angle of their fronts from the vertical (theory.md (V3)); with `attenuation`,
 /// where the rock attenuates, the quality factors and the speeds by frequency of the mechanisms that sweeps
-/// would relax ((Q1)-(Q6)).
+/// would relax ((Q1)-(Q6)), along the axis of anisotropic rock, and its quality factors by angle (Q9).
 Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page);
 
 }  // namespace slipwave::plot

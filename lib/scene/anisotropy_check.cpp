@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "model/anisotropy.hpp"
+#include "model/fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -20,20 +21,17 @@ bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
   return false;
 }
 
-/// What keeps the planes of a set from slipping in anisotropic cells, or "".
+/// What keeps the planes of a set from slipping in an anisotropic cell, or "".
 template <int D>
-std::string fault_of(const FractureSet<D>& set) {
-  for (const auto& system : set.systems) {
-    if (system.opens) return "open";
-    double oblique = 0;
-    for (std::size_t axis = 0; axis + 1 < D; ++axis)
-      oblique = std::max(oblique, std::abs(system.normal[axis] * system.normal[D - 1]));
-    if (oblique > 1e-9 && set.traces.empty()) return "are neither level nor upright";
-  }
-  for (const auto& trace : set.traces)
-    for (std::size_t n = 1; n < trace.size(); ++n)
-      if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1])
-        return "are neither level nor upright";
+std::string fault_of(const FractureSet<D>& set, bool askew) {
+  const auto any = [&](const auto& is) { return std::any_of(set.systems.begin(), set.systems.end(), is); };
+  if (any([](const auto& system) { return system.opens; })) return "open, expected closed ones";
+  if (!askew) return "";
+  const std::string alone = " of rock, expected along both or in isotropic rock";
+  if (gives(set)) return "are springs and lie askew to the axes" + alone;
+  if (set.systems.size() > 1 &&
+      any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
+    return "cross, weaken with slip and lie askew to the axes" + alone;
   return "";
 }
 
@@ -61,8 +59,9 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
     refuse(
         "lies in a model in 3-D, where axes of symmetry lie along the grid; leave the tilt out, or use "
         "--without anisotropy");
-  if (scene.attenuation && attenuates(model.medium, cell))
-    refuse("attenuates, expected one of both; use --without attenuation" + std::string(isotropic_instead));
+  if (D == 3 && scene.attenuation && attenuates(model.medium, cell))
+    refuse("attenuates, in 3-D expected one of both; use --without attenuation" +
+           std::string(isotropic_instead));
   if (near_bent)
     refuse(
         "lies in rows that follow a horizon, or beside them, where rock must be isotropic; build the model "
@@ -70,19 +69,14 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
         "--fit none, or use --without anisotropy");
   if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
-  if (has_tilted_axis(model.medium, cell))
-    refuse("its fracture set '" + set.name +
-           "' slips, expected rock whose axis is upright; use --without slip" +
-           std::string(isotropic_instead));
   if (D == 3 && !slips_as_isotropic_rock(model.medium, cell, set))
     refuse("its fracture set '" + set.name +
            "' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma; use --without "
            "slip" +
            std::string(isotropic_instead));
-  if (const auto fault = fault_of(set); !fault.empty())
-    refuse("the planes of its fracture set '" + set.name + "' " + fault +
-           ", expected closed ones with a dip of 0 or 90; use --without " +
-           (fault == "open" ? "opening" : "slip") + isotropic_instead);
+  if (const auto fault = fault_of(set, lie_askew(set, model.medium, cell)); !fault.empty())
+    refuse("the planes of its fracture set '" + set.name + "' " + fault + "; use --without " +
+           (fault.starts_with("open") ? "opening" : "slip") + isotropic_instead);
 }
 
 }  // namespace
@@ -94,9 +88,9 @@ void check_anisotropy(const Scene<D>& scene) {
   // Ranks with other rows refuse what concerns the whole model, too.
   if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
   for (const auto& source : scene.survey.sources)
-    if (std::holds_alternative<PlaneWave<D>>(source.mechanism))
+    if (D == 3 && std::holds_alternative<PlaneWave<D>>(source.mechanism))
       throw Error(
-          "found a plane wave in a model that is anisotropic, expected a point source or --without "
+          "found a plane wave in a model that is anisotropic, expected in 3-D a point source or --without "
           "anisotropy",
           ErrorKind::usage);
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];

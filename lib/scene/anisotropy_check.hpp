@@ -5,8 +5,9 @@
 namespace slipwave {
 
 /// Throws an Error on the first cell whose anisotropy can not be computed together with what else happens
-/// there (theory.md 1.10): one that attenuates, that rows of a fitted grid bend round, or whose planes slip
-/// obliquely to the axes or open, or in 3-D on others than level planes; and on any under a plane wave.
+/// there (theory.md 1.10): one that rows of a fitted grid bend round, or whose planes open, or are springs
+/// and lie askew to the axes; in 3-D one that attenuates, is tilted, or slips on others than level planes,
+/// and any under a plane wave.
 template <int D>
 void check_anisotropy(const Scene<D>& scene);
 

@@ -5,6 +5,8 @@
 
 #include "base/error.hpp"
 #include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
+#include "model/plane_motion.hpp"
 
 namespace slipwave {
 namespace {
@@ -63,13 +65,19 @@ template <int D>
               "; move --source back against its direction of travel");
 }
 
+/// Phase speed of the wave in a cell.
+template <int D>
+double speed_in(const Medium<D>& medium, std::size_t cell, const PlaneWave<D>& wave) {
+  return plane_motion(material_of(medium, cell), wave.across(), wave.direction[D - 1], wave.shear).speed;
+}
+
 /// At t = 0 the wave stands on the near side of its front; that must lie in the medium it comes from.
 template <int D>
 void check_beginning(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave,
                      std::size_t from) {
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
-  const double length = source.wavelet.duration_s() * wave.speed(medium.vp[from], medium.vs[from]);
+  const double length = source.wavelet.duration_s() * speed_in(medium, from, wave);
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     double behind = 0;
@@ -89,7 +97,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
   const auto& medium = scene.model.medium;
   const auto& grid = medium.grid();
   const auto from = std::size_t(grid.flat(way.entry));
-  const double c = wave.speed(medium.vp[from], medium.vs[from]);
+  const double c = speed_in(medium, from, wave);
   const double along = wave.across() / c, across = std::abs(wave.direction[D - 1]) / c;
   // The earliest arrival of each row, on the way from the boundary it enters by.
   const std::int64_t rows = grid.shape[D - 1];
@@ -99,7 +107,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
     auto at = way.column;
     at[D - 1] = way.entry_side == 0 ? n : rows - 1 - n;
     const auto cell = std::size_t(grid.flat(at));
-    const double fast = 1 / double(medium.vp[cell]), height = grid.height(at);
+    const double fast = 1 / fastest_p_speed_at_most(material_of(medium, cell)), height = grid.height(at);
     const double slowness = medium.same(cell, from) && so_far == 0
                                 ? across
                                 : std::sqrt(std::max(fast * fast - along * along, 0.));

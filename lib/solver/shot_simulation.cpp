@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/attenuation.hpp"
+#include "model/tilted_mean.hpp"
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/effect/attenuation.hpp"
@@ -67,17 +68,15 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   return all;
 }
 
-/// The computed grid of a shot. Attenuation and slip take cells for isotropic ones: what attenuates or slips
-/// is no tilted mean.
+/// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
   const auto& model = scene.model;
-  domain.drop_tilted([&](std::size_t cell) {
-    return (scene.slips() && model.fracture[cell] != 0) ||
-           (scene.attenuation && attenuates(model.medium, cell));
-  });
+  if (scene.slips())
+    domain.drop_tilted(
+        [&](std::size_t cell) { return model.fracture[cell] != 0 && is_tilted_mean(model.medium, cell); });
   return domain;
 }
 

@@ -113,10 +113,10 @@ TEST_F(Compliance, MakesAnEffectiveMediumInsteadOfSprings) {
 TEST_F(Compliance, OfAnEffectiveMediumIsRefusedWhereItHasNone) {
   done(model + "-o m.nc");
   const std::string springs = "--compliance 1e-12,1e-12 --spacing 1 --effective ";
-  expect_misuse(
-      springs,
-      "--effective: planes dip by 30 degrees, expected level or upright ones (0 or 90); planes that "
-      "dip are springs");
+  expect_misuse(springs + "--dip 75",
+                "--effective: planes dip by 75 degrees in rock with planes that dip by 30 at x=55 z=105, "
+                "expected the same "
+                "dip or a right angle to it; other planes are springs");
   expect_misuse(springs + "--dashpot 1,1",
                 "--effective: an effective medium has no dashpots, expected springs alone");
   expect_misuse(springs + "--prestress 1e6",

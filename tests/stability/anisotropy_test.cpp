@@ -46,25 +46,54 @@ TEST(EnergyOfAnisotropicRock, NeverRises) {
       }
 }
 
-TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
+namespace {
+
+/// Planes of these normals in every cell slide under a random field, by all rules; `draw` makes a medium.
+void expect_slip_takes_energy(const std::vector<std::vector<Point<2>>>& families,
+                              const std::function<Medium<2>()>& draw, int steps) {
   const ThreadLimit one_thread(1);
-  std::mt19937 engine(9);
-  std::uniform_real_distribution<double> uniform(0, 1);
-  const auto random = [&] { return uniform(engine); };
-  const std::vector<Point<2>> level{{0, 1}}, upright{{1, 0}}, both{{1, 0}, {0, 1}};
-  for (const auto& normals : {level, upright, both})
+  for (const auto& normals : families)
     for (const auto correction :
          {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential}) {
       Lab<double>::Setup setup;
-      setup.medium = of_rocks(24, [&](int, int) { return random_anisotropic(random); });
+      setup.medium = draw();
       FractureSet<2> set{"all", {}};
       for (const auto& normal : normals) set.systems.push_back({normal, 0.3, 1000, 0});
       setup.fracture_sets = {set};
       setup.fracture = Field<2, std::uint8_t>(setup.medium.grid(), 1);
       setup.correction = correction;
       setup.edges = all_edges(EdgeLaw::rigid);
-      Lab<double>(setup).expect_no_growth(600, rounding<double>());
+      Lab<double>(setup).expect_no_growth(steps, rounding<double>());
     }
+}
+
+/// Random rocks whose beds dip at random.
+Medium<2> of_tilted_rocks(int cells, const std::function<double()>& random) {
+  auto medium = of_rocks(cells, [&](int, int) { return random_anisotropic(random); });
+  auto& tilt = medium[Property::tilt] = Field<2>(medium.grid());
+  for (std::size_t cell = 0; cell < tilt.size(); ++cell)
+    if (is_anisotropic(medium, cell)) tilt[cell] = float(180 * random() - 90);
+  return medium;
+}
+
+}  // namespace
+
+TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
+  std::mt19937 engine(9);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  expect_slip_takes_energy(
+      {{{0, 1}}, {{1, 0}}, {{1, 0}, {0, 1}}},
+      [&] { return of_rocks(24, [&](int, int) { return random_anisotropic(random); }); }, 600);
+}
+
+TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfPlanesAskewToItsAxes) {
+  std::mt19937 engine(11);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  expect_slip_takes_energy(
+      {{{0, 1}}, {{0.6, 0.8}}, {{0.6, 0.8}, {1, 0}}}, [&] { return of_tilted_rocks(24, random); },
+      long_form() ? 20000 : 300);
 }
 
 TEST(EnergyOfAnisotropicRock, BetweenFreeEdgesFallsOverThousandsOfSteps) {

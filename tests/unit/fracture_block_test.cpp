@@ -65,6 +65,32 @@ JointSlip<D, double, Coulomb> blocks(SlipCorrection correction, const std::vecto
   return {correction, systems};
 }
 
+TEST(JointSlip, OfPlanesAskewInTheirRockHoldsTheStrengthUnderTheNormalStressItLeaves) {
+  // Slip changes the normal stress, too, by kappa of what it takes off the traction.
+  const Traction<2, double> normal{0.6, 0.8};
+  const double friction = 0.2;
+  for (const auto correction : {SlipCorrection::first, SlipCorrection::second})
+    for (const double kappa : {0., 0.4, -0.4}) {
+      const JointSlip<2, double, Coulomb> dry(correction, {{normal, {.friction = friction}}});
+      // n tau + tau n with tau along (-n_z, n_x), and kappa n n.
+      Stress<2, double> response;
+      response.values = {-2 * 0.48 + kappa * 0.36, 2 * 0.48 + kappa * 0.64, 0.36 - 0.64 + kappa * 0.48};
+      const double relaxation[] = {most_relaxation_pa};
+      const bool shut[] = {false};
+      Stress<2, double> s, plain;
+      s.values = plain.values = {-900, -500, -700};
+      dry.slip(s, s, {relaxation, shut, nullptr, 0, &response});
+      dry.slip(plain, plain, {relaxation, shut});
+      Traction<2, double> tau;
+      const double s_n = resolve<2, double>(normal, s, tau);
+      EXPECT_NEAR((length<2, double>(tau)), friction * -s_n, 1e-3) << kappa;
+      for (std::size_t c = 0; c < 3 && kappa == 0; ++c) EXPECT_NEAR(s.values[c], plain.values[c], 1e-9);
+      if (kappa != 0) {
+        EXPECT_GT(std::abs(s.values[0] - plain.values[0]), 1);
+      }
+    }
+}
+
 TEST(JointSlip, OfTwoSystemsIsTheClosedForm) {
   const auto pair = blocks<2>(SlipCorrection::first, {300, 700});
   const bool shut[2] = {};

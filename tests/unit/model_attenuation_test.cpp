@@ -9,6 +9,7 @@
 #include "model/layers.hpp"
 #include "model/model.hpp"
 #include "model/relations.hpp"
+#include "model/tilted_mean.hpp"
 #include "refusal.hpp"
 
 namespace slipwave {
@@ -121,6 +122,61 @@ TEST(StepwiseRelaxation, LeavesTheModulusAtRestAndTakesOfTheUnrelaxedOne) {
   const double bulk = std::pow(medium.vp[0], 2) - mu, bulk_stepped = std::pow(stepped.vp[0], 2) - mu_stepped;
   EXPECT_NEAR(bulk_stepped * (1 - sum(by_steps.shares(0).bulk)), bulk * (1 - sum(always.shares(0).bulk)),
               1e-6 * bulk);
+}
+
+/// A cell of anisotropic rock, or one that an interface cuts.
+Medium<2> one_cell(const Material& rock, double qp, double qs, bool cut) {
+  auto medium = one_cell(rock.vp, rock.vs, qp, qs);
+  for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
+    medium[property] = Field<2>(medium.grid());
+  add_tilted_means(medium);
+  auto isotropic = rock;
+  isotropic.epsilon = isotropic.delta = isotropic.tilt = 0;
+  put(medium, 0, cut ? isotropic : rock);
+  if (cut) put_tilted_mean(medium, 0, rock, rock.tilt * std::numbers::pi / 180);
+  return medium;
+}
+
+TEST(UnrelaxedMedium, HasThePhaseSpeedsOfAnisotropicRockAtTheReferenceFrequency) {
+  const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
+  const Material rocks[] = {{3000, 1600, 2000, 0.2, 0.1, 30}, {3200, 1700, 2000, -0.05, 0.2}};
+  for (const auto& rock : rocks)
+    for (const bool cut : {false, true}) {
+      auto medium = one_cell(rock, 60, 30, cut);
+      EXPECT_EQ(unrelax(medium, attenuation), "");
+      const StepwiseRelaxation<2> relaxation(medium, attenuation.mechanisms, 0);
+      const auto stiffness = relaxation.stiffness(0, 13);
+      for (int angle = 0; angle <= 90; angle += 15) {
+        const double rad = angle * std::numbers::pi / 180;
+        const auto given = phase_speeds(stiffness_of(rock), rock.rho, rad);
+        const auto found = lossy_waves(stiffness, rock.rho, rad);
+        EXPECT_NEAR(found.speed.p, given.p, 2e-4 * given.p) << angle;
+        EXPECT_NEAR(found.speed.s, given.s, 2e-4 * given.s) << angle;
+        // Along and across the beds Q is what is given, in between not far off.
+        const bool axis = angle % 90 == 0;
+        EXPECT_NEAR(found.quality.p, 60, axis ? 0.5 : 7) << angle;
+        EXPECT_NEAR(found.quality.s, 30, axis ? 0.5 : 1) << angle;
+      }
+    }
+}
+
+TEST(StepwiseRelaxation, LeavesTheStiffnessOfAnisotropicRockAtRest) {
+  const Mechanisms mechanisms(3, 4, 50);
+  const auto medium = one_cell({3000, 1600, 2000, 0.2, 0.1, 30}, 30, 20, false);
+  const StepwiseRelaxation<2> always(medium, mechanisms, 0), by_steps(medium, mechanisms, 0.003);
+  const auto stepped = by_steps.medium();
+  EXPECT_LT(stepped.vp[0], medium.vp[0]);
+  // At a frequency far below the band: what is left at rest.
+  const auto sum = [](const RelaxedShares& shares) { return shares[0] + shares[1] + shares[2]; };
+  const auto shares = by_steps.shares(0);
+  const auto rest = always.stiffness(0, 1e-9);
+  const auto of = stiffness_of(stepped, 0);
+  const double along = std::sqrt(of.c11 / of.c33), mean = of.c33 * along;
+  const double bulk = (mean + of.c13) / 2 * (1 - sum(shares.bulk)),
+               shear = (mean - of.c13) / 2 * (1 - sum(shares.shear));
+  EXPECT_NEAR(bulk + shear, rest.c33.real() * along, 1e-6 * mean);
+  EXPECT_NEAR(bulk - shear, rest.c13.real(), 1e-6 * mean);
+  EXPECT_NEAR(of.c55 * (1 - sum(shares.shear)), rest.c55.real(), 1e-6 * mean);
 }
 
 TEST(QualityRules, FollowTheirSources) {

@@ -13,6 +13,7 @@ Model<2> rocks() {
       layered_medium<2>(Grid<2>{{60, 40}, 10, {0, 0}},
                         {parse_layer("50:1500:0:1000"), parse_layer("100:2500:1250:2200 qp=60 qs=30"),
                          parse_layer("200:3000:1600:2300 epsilon=0.2 delta=0.1 tilt=30"),
+                         parse_layer("250:3000:1600:2300 epsilon=0.2 delta=0.1 tilt=30 qp=60 qs=30"),
                          parse_layer("300:2000:1000:2000"), parse_layer("352:4000:2300:2400:5")},
                         Average::tilted);
   return model;
@@ -31,13 +32,15 @@ TEST(RockPicture, AddsPanelsOfFrequencyWhereRockAttenuates) {
   const auto elastic = words({305, 155}, {});
   EXPECT_GT(words({305, 155}, attenuation), 2 * elastic);
   EXPECT_LT(words({305, 75}, attenuation), elastic + 5);
+  // Of anisotropic rock Q by angle, too.
+  EXPECT_GT(words({305, 275}, attenuation), words({305, 155}, attenuation));
 }
 
 TEST(RockPicture, TakesCutCellsForTheirMeanAboutTheNormal) {
   const auto model = rocks();
-  const auto tilted = rock_at<2>(model, {305, 255});
+  const auto tilted = rock_at<2>(model, {305, 245});
   EXPECT_EQ(tilted.material, (Material{3000, 1600, 2300, double(0.2F), double(0.1F), 30}));
-  EXPECT_EQ(tilted.place, "x=305 z=255");
+  EXPECT_EQ(tilted.place, "x=305 z=245");
   EXPECT_FALSE(tilted.attenuates());
   EXPECT_TRUE(rock_at<2>(model, {305, 155}).attenuates());
   const auto cut = rock_at<2>(model, {105, 365}).material;

@@ -10,6 +10,7 @@
 #include "lab.hpp"
 #include "model/anisotropy.hpp"
 #include "solver/simulation.hpp"
+#include "viscoelastic.hpp"
 
 namespace slipwave::solver {
 
@@ -17,6 +18,35 @@ constexpr double peak_hz = 20;
 
 inline AnisotropicStack::Layer layer_of(const Material& material) {
   return {plane_stiffness_of(material), material.rho};
+}
+
+/// The stiffness of rock that attenuates, by frequency: c11 and c33 as Qp says, c55 as Qs, and c13 between
+/// both (theory.md (Q9)), turned with its beds. Speeds hold at the peak.
+inline std::function<AnisotropicStack::ComplexPlane(Complex omega)> relaxed(
+    const Material& rock, const std::array<double, 2>& quality) {
+  const Mechanisms mechanisms(3, peak_hz / 5, 2.5 * peak_hz);
+  const auto p = standard_linear(mechanisms, quality[0], peak_hz),
+             s = standard_linear(mechanisms, quality[1], peak_hz);
+  const auto about_axis = stiffness_of(rock);
+  const double dip = rock.tilt * std::numbers::pi / 180;
+  return [=](Complex omega) -> AnisotropicStack::ComplexPlane {
+    const auto hz = omega / (2 * std::numbers::pi);
+    const double along = std::sqrt(about_axis.c11 / about_axis.c33),
+                 twice_shear = about_axis.c33 - about_axis.c13 / along;
+    const Complex of_p = p(hz), of_s = s(hz), c11 = about_axis.c11 * of_p, c33 = about_axis.c33 * of_p,
+                  c55 = about_axis.c55 * of_s, c13 = along * (c33 - twice_shear * of_s);
+    // By Bond's rule, with stresses along and across the beds.
+    const double c = std::cos(dip), sn = std::sin(dip);
+    const std::array<std::array<double, 3>, 3> to_beds = {
+        {{c * c, sn * sn, c * sn}, {sn * sn, c * c, -c * sn}, {-2 * c * sn, 2 * c * sn, c * c - sn * sn}}};
+    const std::array<std::array<Complex, 3>, 3> of_beds = {{{c11, c13, 0}, {c13, c33, 0}, {0, 0, c55}}};
+    std::array<std::array<Complex, 3>, 3> turned{};
+    for (std::size_t a = 0; a < 3; ++a)
+      for (std::size_t b = 0; b < 3; ++b)
+        for (std::size_t m = 0; m < 3; ++m)
+          for (std::size_t n = 0; n < 3; ++n) turned[a][b] += to_beds[m][a] * of_beds[m][n] * to_beds[n][b];
+    return {turned[0][0], turned[0][1], turned[0][2], turned[1][1], turned[1][2], turned[2][2]};
+  };
 }
 
 /// Flat layers in a box that absorbs, or has a free surface; all in units of cells of the step.
@@ -32,6 +62,7 @@ struct Stack {
   int order = 5;
   double cfl = 0.9;
   double depth_m = 1000, width_m = 1200;
+  std::vector<std::array<double, 2>> qualities;  // qp and qs of the layers; none: elastic
 
   double spacing() const {
     double slowest = 1e9;
@@ -54,6 +85,11 @@ struct Stack {
       std::size_t layer = 0;
       for (const double top : tops_m) layer += grid.centre(1, grid.index(n)[1]) > top;
       put(medium, std::size_t(n), layers[layer]);
+      if (qualities.empty()) continue;
+      for (const auto property : {Property::qp, Property::qs}) {
+        if (!medium.has(property)) medium[property] = Field<2>(grid, float(PropertyRow::infinite));
+        medium[property][std::size_t(n)] = float(qualities[layer][property == Property::qs]);
+      }
     }
     scene.model.medium = medium;
     const double x = width_m / 2;
@@ -64,12 +100,16 @@ struct Stack {
     scene.numerics.order = order;
     scene.numerics.cfl = cfl;
     scene.recording = {{Component::vx, Component::vz}, duration_s, 0.001};
+    set_attenuation(scene);
     check(scene);
     return scene;
   }
   AnisotropicStack exact() const {
     AnisotropicStack stack;
-    for (const auto& layer : layers) stack.layers.push_back(layer_of(layer));
+    for (std::size_t n = 0; n < layers.size(); ++n) {
+      stack.layers.push_back(layer_of(layers[n]));
+      if (!qualities.empty()) stack.layers[n].relaxed = relaxed(layers[n], qualities[n]);
+    }
     stack.tops_m = tops_m, stack.free_surface = free_surface, stack.source_m = source_m;
     if (kind == "explosion") stack.explosion = 1;
     if (kind == "force:0.6,0.8") stack.force = {0.6, 0.8};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -21,9 +22,14 @@ namespace slipwave::solver {
 /// one interface). Nothing is shared with the solver but the struct of stiffnesses.
 struct AnisotropicStack {
   using Complex = std::complex<double>;
+  /// Of rock that attenuates.
+  struct ComplexPlane {
+    Complex c11, c13, c15, c33, c35, c55;
+  };
   struct Layer {
     PlaneStiffness c;
     double rho;
+    std::function<ComplexPlane(Complex omega)> relaxed = {};  // by frequency; none where it is elastic
   };
   std::vector<Layer> layers;   // from the top down
   std::vector<double> tops_m;  // of the layers below the first
@@ -66,8 +72,6 @@ struct AnisotropicStack {
     return traces;
   }
 
- private:
-  static constexpr Complex i{0, 1};
   /// ux, uz, szz, sxz.
   using Fields = std::array<Complex, 4>;
   /// A wave that decays as exp(-m |z - z0|), with its fields at z0.
@@ -75,6 +79,38 @@ struct AnisotropicStack {
     Complex m;
     Fields fields;
   };
+  /// Both waves of a solid, the one of a fluid, down or up.
+  template <class Plane>
+  static std::vector<Wave> waves(const Plane& c, double rho, bool down, Complex omega, double k) {
+    const auto& [c11, c13, c15, c33, c35, c55] = c;
+    const Complex inertia = rho * omega * omega;
+    if (c55 == 0.) {
+      const auto m = std::sqrt(k * k - inertia / c33), s = down ? -m : m;
+      return {{m, {-i * k, s, -inertia, 0}}};
+    }
+    if (c15 != 0. || c35 != 0.) return tilted_waves(c, down, inertia, k);
+    const auto a = c33 * c55, sum = c13 + c55;
+    const Complex x = inertia - c11 * k * k, z = inertia - c55 * k * k,
+                  b = c55 * z + c33 * x + k * k * sum * sum, root = std::sqrt(b * b - 4. * a * x * z);
+    std::vector<Wave> both;
+    for (const double sign : {1., -1.}) {
+      const Complex square = (-b + sign * root) / (2. * a);
+      auto m = std::sqrt(square);
+      if (m.real() < 0) m = -m;
+      const auto s = down ? -m : m;
+      // Either equation of the two gives the motion; one of them may say nothing.
+      std::array<Complex, 2> u = {i * k * sum * s, c55 * square + x};
+      const std::array<Complex, 2> other = {c33 * square + z, i * k * sum * s};
+      if (std::norm(other[0]) + std::norm(other[1]) > std::norm(u[0]) + std::norm(u[1])) u = other;
+      const double size = std::sqrt(std::norm(u[0]) + std::norm(u[1]));
+      const auto ux = u[0] / size, uz = u[1] / size;
+      both.push_back({m, {ux, uz, -i * k * c13 * ux + c33 * s * uz, c55 * (s * ux - i * k * uz)}});
+    }
+    return both;
+  }
+
+ private:
+  static constexpr Complex i{0, 1};
   struct Unknown {
     std::size_t layer;
     bool down;
@@ -91,37 +127,20 @@ struct AnisotropicStack {
     return n;
   }
 
-  /// Both waves of a solid, the one of a fluid, down or up.
-  std::vector<Wave> waves(std::size_t layer, bool down, Complex omega, double k) const {
-    const auto& [c11, c13, c15, c33, c35, c55] = layers[layer].c;
-    const Complex inertia = layers[layer].rho * omega * omega;
-    if (fluid(layer)) {
-      const auto m = std::sqrt(k * k - inertia / c33), s = down ? -m : m;
-      return {{m, {-i * k, s, -inertia, 0}}};
-    }
-    if (c15 != 0 || c35 != 0) return tilted_waves(layers[layer].c, down, inertia, k);
-    const double a = c33 * c55, sum = c13 + c55;
-    const Complex x = inertia - c11 * k * k, z = inertia - c55 * k * k,
-                  b = c55 * z + c33 * x + k * k * sum * sum, root = std::sqrt(b * b - 4 * a * x * z);
-    std::vector<Wave> both;
-    for (const double sign : {1., -1.}) {
-      const Complex square = (-b + sign * root) / (2 * a);
-      auto m = std::sqrt(square);
-      if (m.real() < 0) m = -m;
-      const auto s = down ? -m : m;
-      // Either equation of the two gives the motion; one of them may say nothing.
-      std::array<Complex, 2> u = {i * k * sum * s, c55 * square + x};
-      const std::array<Complex, 2> other = {c33 * square + z, i * k * sum * s};
-      if (std::norm(other[0]) + std::norm(other[1]) > std::norm(u[0]) + std::norm(u[1])) u = other;
-      const double size = std::sqrt(std::norm(u[0]) + std::norm(u[1]));
-      const auto ux = u[0] / size, uz = u[1] / size;
-      both.push_back({m, {ux, uz, -i * k * c13 * ux + c33 * s * uz, c55 * (s * ux - i * k * uz)}});
-    }
-    return both;
+  /// what(stiffness), real or complex.
+  template <class What>
+  auto with_stiffness(std::size_t layer, Complex omega, const What& what) const {
+    const auto& of = layers[layer];
+    return of.relaxed ? what(of.relaxed(omega)) : what(of.c);
   }
 
+  std::vector<Wave> waves(std::size_t layer, bool down, Complex omega, double k) const {
+    return with_stiffness(layer, omega,
+                          [&](const auto& c) { return waves(c, layers[layer].rho, down, omega, k); });
+  }
   /// Where the axis is tilted: the roots are those of a polynomial of fourth degree, two decay down, two up.
-  static std::vector<Wave> tilted_waves(const PlaneStiffness& c, bool down, Complex inertia, double k) {
+  template <class Plane>
+  static std::vector<Wave> tilted_waves(const Plane& c, bool down, Complex inertia, double k) {
     const Complex q = -i * k;
     // The Christoffel matrix by powers of s, the derivative along z.
     const std::array<Complex, 3> xx = {inertia + q * q * c.c11, 2. * q * c.c15, c.c55},
@@ -136,7 +155,7 @@ struct AnisotropicStack {
       return sum;
     };
     // All roots at once (Durand and Kerner).
-    const double size = std::sqrt(std::abs(inertia) / c.c55) + std::abs(k);
+    const double size = std::sqrt(std::abs(inertia / c.c55)) + std::abs(k);
     std::array<Complex, 4> roots;
     for (std::size_t n = 0; n < 4; ++n) roots[n] = size * std::exp(Complex(0, 0.4 + 1.5 * double(n)));
     for (int round = 0; round < 200; ++round) {
@@ -169,13 +188,13 @@ struct AnisotropicStack {
   }
 
   /// What the source makes of the fields from just above it to just below.
-  Fields jump(double k) const {
-    const auto& c = layers[layer_of(source_m)].c;
-    if (c.c55 == 0) return {0, explosion / c.c33, -force[1], -force[0]};
+  template <class Plane>
+  Fields jump(const Plane& c, double k) const {
+    if (c.c55 == 0.) return {0, explosion / c.c33, -force[1], -force[0]};
     // A moment is what strains across the source would hold.
-    const double size = c.c33 * c.c55 - c.c35 * c.c35;
-    const double ux = (c.c33 * couple - c.c35 * explosion) / size,
-                 uz = (c.c55 * explosion - c.c35 * couple) / size;
+    const auto size = c.c33 * c.c55 - c.c35 * c.c35;
+    const auto ux = (c.c33 * couple - c.c35 * explosion) / size,
+               uz = (c.c55 * explosion - c.c35 * couple) / size;
     return {ux, uz, -force[1], -force[0] - i * k * (explosion - c.c13 * uz - c.c15 * ux)};
   }
   /// The waves that leave the source up and down, with their amplitudes.
@@ -184,7 +203,7 @@ struct AnisotropicStack {
     std::array<std::vector<Wave>, 2> sides = {waves(layer, false, omega, k), waves(layer, true, omega, k)};
     const std::vector<std::size_t> rows =
         fluid(layer) ? std::vector<std::size_t>{1, 2} : std::vector<std::size_t>{0, 1, 2, 3};
-    const auto jumps = jump(k);
+    const auto jumps = with_stiffness(layer, omega, [&](const auto& c) { return jump(c, k); });
     ComplexSystem system;
     for (const auto row : rows) {
       const double scale = row < 2 ? 1 : 1 / (layers[layer].rho * std::abs(omega) * 1000);
@@ -267,8 +286,8 @@ struct AnisotropicStack {
                                                  const std::vector<Receiver>& receivers) const {
     std::vector<std::array<Complex, 2>> sum(receivers.size());
     double slowest = 1e30;
-    for (const auto& [c, rho] : layers)
-      slowest = std::min(slowest, 0.6 * std::sqrt((c.c55 > 0 ? c.c55 : c.c33) / rho));
+    for (const auto& of : layers)
+      slowest = std::min(slowest, 0.6 * std::sqrt((of.c.c55 > 0 ? of.c.c55 : of.c.c33) / of.rho));
     const double dk = 2 * std::numbers::pi / period_m;
     const double largest = std::abs(omega) / slowest + 20 / least_way(receivers);
     const auto rate = force[0] == 0 && force[1] == 0 ? Complex(1) : i * omega;

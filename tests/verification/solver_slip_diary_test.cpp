@@ -40,8 +40,15 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
       {"crossing", {{{0.6, 0.8}, 0.2, 2e3, 1e3}, {{std::sqrt(0.5), std::sqrt(0.5)}, 0.1, 2e3, 0}}}};
   scene.slip_diary = true;
   const double dt_s = 0.9 * 5 / 4500;
-  for (const bool crossing : {true, false}) {
+  const auto crossing_systems = scene.model.fracture_sets[0].systems;
+  auto& medium = scene.model.medium;
+  for (const auto& [crossing, tilted] :
+       {std::pair{true, false}, {false, false}, {true, true}, {false, true}}) {
+    scene.model.fracture_sets[0].systems = crossing_systems;
     if (!crossing) scene.model.fracture_sets[0].systems.pop_back();
+    for (const auto& [property, value] :
+         {std::pair{Property::epsilon, 0.1F}, {Property::delta, 0.05F}, {Property::tilt, 20.F}})
+      medium[property] = tilted ? Field<2>(medium.grid(), value) : Field<2>();
     for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
                                   SlipCorrection::centred}) {
       scene.numerics.correction = correction;
@@ -51,7 +58,7 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
       const double lost = lost_by_slip(lab, slip, 5, 1e5, dt_s);
       const auto totals = slip.totals();
       EXPECT_GT(totals.dissipated, 0);
-      EXPECT_NEAR(totals.dissipated, lost, 1e-9 * lost) << name_of(correction);
+      EXPECT_NEAR(totals.dissipated, lost, 1e-9 * lost) << name_of(correction) << ' ' << tilted;
       EXPECT_EQ(totals.out_of_waves, totals.dissipated);
       EXPECT_GT(totals.slipped, totals.cells / 2);
       EXPECT_LE(totals.slipped, totals.cells);

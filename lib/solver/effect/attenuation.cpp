@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -13,7 +14,8 @@ namespace {
 template <int D>
 Relaxing what_relaxes(const Domain<D>& domain) {
   if (domain.material_kind() == MaterialKind::fluid) return Relaxing::pressure;
-  return domain.shear() || domain.subdomain.shear ? Relaxing::all : Relaxing::mean;
+  if (!domain.shear() && !domain.subdomain.shear) return Relaxing::mean;
+  return D == 2 && (domain.anisotropic() || !domain.tilted().empty()) ? Relaxing::turned : Relaxing::all;
 }
 
 template <class Real>
@@ -32,18 +34,31 @@ RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>
       every_(relaxation_steps(scene.numerics)),
       mechanisms_(scene.attenuation->mechanisms.count()),
       parts_(relaxing_parts(D, what_relaxes(domain))),
-      moduli_(what_relaxes(domain) == Relaxing::all ? 2 : 1),
+      moduli_(parts_ > 1 ? 2 : 1),
       relax_(relaxation_kernel<Real>(D, what_relaxes(domain), mechanisms_)) {
   find_segments(domain, scene.model.medium);
-  fill_shares(domain, relaxation_by_steps(scene, dt_s));
+  fill_shares(domain, scene.model.medium, relaxation_by_steps(scene, dt_s));
+  if constexpr (D == 2)
+    if (what_relaxes(domain) == Relaxing::turned) fill_axes(domain, scene.model.medium);
+}
+
+template <int D, class Real>
+Index<D> RelaxingStress<D, Real>::place_of(std::int64_t line, std::int64_t x) const {
+  auto at = layout_.line_index(line);
+  at[0] = x;
+  return at;
 }
 
 template <int D, class Real>
 std::size_t RelaxingStress<D, Real>::model_cell(const Domain<D>& domain, std::int64_t line,
                                                 std::int64_t x) const {
-  auto at = layout_.line_index(line);
-  at[0] = x;
-  return std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+  return std::size_t(domain.model_grid.flat(domain.model_cell(place_of(line, x))));
+}
+
+template <int D, class Real>
+bool RelaxingStress<D, Real>::is_taken_for_isotropic(const Domain<D>& domain, const Medium<D>& medium,
+                                                     std::int64_t line, std::int64_t x) const {
+  return is_tilted_mean(medium, model_cell(domain, line, x)) && !domain.is_tilted(place_of(line, x));
 }
 
 template <int D, class Real>
@@ -70,7 +85,8 @@ void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Mediu
 }
 
 template <int D, class Real>
-void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation) {
+void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const Medium<D>& medium,
+                                          const StepwiseRelaxation<D>& relaxation) {
   for (int l = 0; l < mechanisms_; ++l) rows_.decays[l] = Real(relaxation.decay(l));
   memory_ = Buffer<Real>(stored_ * mechanisms_ * parts_);
   shares_ = Buffer<Real>(stored_ * mechanisms_ * moduli_);
@@ -80,7 +96,8 @@ void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const Stepwis
     for (auto line = begin; line < end; ++line)
       for (const auto& segment : segments(line)) {
         for (auto x = segment.first; x < std::min(segment.last, layout_.shape()[0]); ++x) {
-          const auto of = relaxation.shares(model_cell(domain, line, x));
+          const auto of =
+              relaxation.shares(model_cell(domain, line, x), is_taken_for_isotropic(domain, medium, line, x));
           for (int l = 0; l < mechanisms_; ++l) {
             const double decay = relaxation.decay(l);
             const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;
@@ -92,6 +109,22 @@ void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const Stepwis
         }
       }
   });
+}
+
+template <int D, class Real>
+void RelaxingStress<D, Real>::fill_axes(const Domain<D>& domain, const Medium<D>& medium) {
+  axes_ = Buffer<Real>(stored_ * axis_values);
+  for (std::int64_t line = 0; line < layout_.lines(); ++line)
+    for (const auto& segment : segments(line))
+      for (auto x = segment.first; x < segment.last; ++x) {
+        RelaxingAxis axis;
+        if (x < layout_.shape()[0] && !is_taken_for_isotropic(domain, medium, line, x))
+          axis = relaxing_axis(rock_of(medium, model_cell(domain, line, x)));
+        const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;
+        Real* to = axes_.data() + (place - lane) * axis_values + lane;
+        for (const double value : {axis.even, axis.odd, axis.cosine, axis.sine})
+          *to = Real(value), to += relaxation_block;
+      }
 }
 
 /// Columns end between two vectors or with the row.
@@ -112,6 +145,7 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
     const auto place = segment.place + (first - segment.first);
     rows.memory = memory_.data() + place * mechanisms_ * parts_;
     rows.shares = shares_.data() + place * mechanisms_ * moduli_;
+    if (axes_.size() > 0) rows.axes = axes_.data() + place * axis_values;
     relax_(last - first, rows);
   }
   if (!injected) return;

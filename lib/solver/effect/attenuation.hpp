@@ -20,7 +20,7 @@ StepwiseRelaxation<D> relaxation_by_steps(const Scene<D>& scene, double dt_s) {
   return {scene.model.medium, scene.attenuation->mechanisms, relaxation_steps(scene.numerics) * dt_s};
 }
 
-/// Relaxation of stress in cells with a finite qp or qs (theory.md (Q1)-(Q8)), at the strain of one moment
+/// Relaxation of stress in cells with a finite qp or qs (theory.md (Q1)-(Q10)), at the strain of one moment
 /// inside the step. It keeps what each mechanism has relaxed so far; cells outside the model relax as the
 /// nearest one of the model. Keeps references.
 template <int D, class Real>
@@ -41,7 +41,7 @@ class RelaxingStress : public Effect<D, Real> {
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override;
   std::int64_t memory_bytes() const override {
-    return std::int64_t(sizeof(Real)) * (memory_.size() + shares_.size());
+    return std::int64_t(sizeof(Real)) * (memory_.size() + shares_.size() + axes_.size());
   }
 
  private:
@@ -55,8 +55,13 @@ class RelaxingStress : public Effect<D, Real> {
             starts_[std::size_t(line) + 1] - starts_[std::size_t(line)]};
   }
   void find_segments(const Domain<D>& domain, const Medium<D>& medium);
-  void fill_shares(const Domain<D>& domain, const StepwiseRelaxation<D>& relaxation);
+  void fill_shares(const Domain<D>& domain, const Medium<D>& medium, const StepwiseRelaxation<D>& relaxation);
+  void fill_axes(const Domain<D>& domain, const Medium<D>& medium);
+  Index<D> place_of(std::int64_t line, std::int64_t x) const;
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
+  /// Whether the solver takes a tilted mean for an isotropic one (Domain::tilted()).
+  bool is_taken_for_isotropic(const Domain<D>& domain, const Medium<D>& medium, std::int64_t line,
+                              std::int64_t x) const;
 
   const Layout<D>& layout_;
   std::vector<const PointSource<D, Real>*> sources_;
@@ -65,6 +70,7 @@ class RelaxingStress : public Effect<D, Real> {
   std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
   Buffer<Real> memory_, shares_;     // [block][mechanism, part][cell], [block][modulus, mechanism][cell]
+  Buffer<Real> axes_;                // [block][value of RelaxingAxis][cell]; empty where all is isotropic
   RelaxationRows<Real> rows_{};      // what all cells have in common
   RelaxationKernel<Real> relax_;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/anisotropy.hpp"
 #include "model/coefficients.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/plane_wave.hpp"
@@ -67,6 +68,22 @@ class UniformWave : public IncidentWave<D, Real> {
   int entry_;
 };
 
+/// Turns the rocks of a column with it: x and z change places.
+void transpose_rocks(Medium<2>& column) {
+  complete_anisotropy(column);
+  for (std::size_t cell = 0; cell < column.vp.size(); ++cell) {
+    auto rock = material_of(column, cell);
+    if (!rock.is_anisotropic()) continue;
+    if (rock.tilt != 0) {
+      rock.tilt = rock.tilt > 0 ? 90 - rock.tilt : -90 - rock.tilt;
+    } else {
+      const auto [c11, c13, c33, c55] = stiffness_of(rock);
+      rock = material_of_stiffness({c33, c13, c11, c55}, rock.rho);
+    }
+    put(column, cell, rock);
+  }
+}
+
 /// A column of cells transposed: z becomes x, where cells follow each other in memory. Cells of another
 /// height become cells of one height that waves cross in the same time, of the same impedance and mass.
 Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
@@ -85,8 +102,9 @@ Medium<2> column_of(const Medium<2>& medium, std::int64_t x) {
     column.vs[cell] = float(column.vs[cell] / height);
     column.rho[cell] = float(column.rho[cell] * height);
   }
-  // Nothing dips in a column.
+  // Interfaces do not dip in a column.
   drop_tilted_means(column);
+  transpose_rocks(column);
   return column;
 }
 
@@ -332,7 +350,7 @@ std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene,
                                                           const Domain<D>& domain, double dt_s) {
   const auto& medium = scene.model.medium;
   const auto way = way_of_plane_wave(scene, source);
-  const PlaneForm<D> form(source, medium.vp(way.entry), medium.vs(way.entry), medium.rho(way.entry));
+  const PlaneForm<D> form(source, material_of(medium, std::size_t(medium.grid().flat(way.entry))));
   if constexpr (D == 2)
     if (way.kind == PlaneWaveKind::vertical)
       return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s, fastest_speed(medium));

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/fft.hpp"
+#include "model/plane_motion.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -63,21 +64,42 @@ Complex across(double c, double along) {
 
 }  // namespace
 
+double PlaneStackResponse::reference_of(std::size_t layer, bool down) const {
+  const double bottom = stack_.depths_m[layer + 1], top = stack_.depths_m[layer];
+  const bool first = layer == 0 && stack_.ends[0] == EdgeLaw::absorbing,
+             last = layer + 1 == stack_.layers.size() && stack_.ends[1] == EdgeLaw::absorbing;
+  return first ? bottom : last ? top : down ? top : bottom;
+}
+
+PlaneStackResponse::Wave PlaneStackResponse::make_in_anisotropic(std::size_t layer, bool shear,
+                                                                 bool down) const {
+  const auto& rock = stack_.layers[layer];
+  const auto wave = layer_waves(rock, stack_.slowness, down)[shear];
+  const auto [sxx, szz, sxz] = stress_of_motion(rock, stack_.slowness, wave.down, wave.x, wave.z);
+  return {layer, reference_of(layer, down), wave.down, {wave.x, wave.z, sxx, szz, sxz}};
+}
+
+PlaneStackResponse::Wave PlaneStackResponse::make_incident() const {
+  const std::size_t layer = stack_.from_top ? 0 : stack_.layers.size() - 1;
+  const auto& rock = stack_.layers[layer];
+  if (!rock.is_anisotropic()) return make(layer, stack_.shear, stack_.from_top);
+  const double p = stack_.slowness, q = stack_.down, size = std::hypot(p, q);
+  const auto motion = plane_motion(rock, p / size, q / size, stack_.shear);
+  const auto [sxx, szz, sxz] = stress_of_motion(rock, p, q, motion.x, motion.z);
+  return {layer, reference_of(layer, stack_.from_top), q, {motion.x, motion.z, sxx, szz, sxz}};
+}
+
 PlaneStackResponse::Wave PlaneStackResponse::make(std::size_t layer, bool shear, bool down) const {
   const auto& rock = stack_.layers[layer];
+  if (rock.is_anisotropic()) return make_in_anisotropic(layer, shear, down);
   const double p = stack_.slowness, c = shear ? rock.vs : rock.vp;
   const Complex q = (down ? 1. : -1.) * across(c, p);
   // Velocity along the slowness, or across it.
   const Complex vx = c * (shear ? q : Complex(p)), vz = c * (shear ? Complex(-p) : q);
   const double mu = rock.rho * rock.vs * rock.vs, lambda = rock.rho * rock.vp * rock.vp - 2 * mu;
   const Complex spread = p * vx + q * vz;
-  const double bottom = stack_.depths_m[layer + 1], top = stack_.depths_m[layer];
-  const bool first = layer == 0 && stack_.ends[0] == EdgeLaw::absorbing,
-             last = layer + 1 == stack_.layers.size() && stack_.ends[1] == EdgeLaw::absorbing;
-  // At the face that it leaves; in half-spaces at their face.
-  const double reference = first ? bottom : last ? top : down ? top : bottom;
   return {layer,
-          reference,
+          reference_of(layer, down),
           q,
           {vx, vz, -(lambda * spread + 2 * mu * p * vx), -(lambda * spread + 2. * mu * q * vz),
            -mu * (p * vz + q * vx)}};
@@ -96,7 +118,7 @@ void PlaneStackResponse::list_waves() {
       }
   }
   first_wave_.push_back(waves_.size());
-  waves_.push_back(make(stack_.from_top ? 0 : count - 1, stack_.shear, stack_.from_top));
+  waves_.push_back(make_incident());
 }
 
 std::vector<Complex> PlaneStackResponse::solve(Complex omega) const {
@@ -241,7 +263,7 @@ TimeSeries StackSeries::series_of(const std::vector<Complex>& spectrum) {
 
 std::array<TimeSeries, std::size_t(along_x_count)> StackSeries::at(double z, std::size_t layer) {
   const auto& rock = stack_.layers[layer];
-  const MotionAlongX medium(rock.vp, rock.vs, rock.rho);
+  const MotionAlongX medium(rock);
   std::array<std::vector<Complex>, std::size_t(along_x_count)> spectra;
   for (auto& spectrum : spectra) spectrum.assign(bins_, 0);
   for (std::size_t n = 0; n < response_.waves().size(); ++n) {
@@ -357,14 +379,17 @@ PlaneStack stack_of(const Scene<D>& scene, const PlaneWave<D>& wave, const Domai
   stack.ends = {scene.edges[z][0], scene.edges[z][1]};
   stack.from_top = way.entry_side == 0;
   stack.shear = wave.shear;
-  stack.slowness = wave.across() / wave.speed(medium.vp(way.entry), medium.vs(way.entry));
+  const auto entry = material_of(medium, std::size_t(medium.grid().flat(way.entry)));
+  const double speed = plane_motion(entry, wave.across(), wave.direction[z], wave.shear).speed;
+  stack.slowness = wave.across() / speed;
+  stack.down = wave.direction[z] / speed;
   double depth = 0;
   for (std::int64_t k = 0; k < domain.grid.shape[z]; ++k) {
     auto cell = way.column;
     cell[z] = std::clamp<std::int64_t>(k - domain.low_zone[z], 0, domain.model_grid.shape[z] - 1);
     const double top = top_of_row(domain, k);
     depth = top_of_row(domain, k + 1);
-    const PlaneStack::Layer layer{medium.vp(cell), medium.vs(cell), medium.rho(cell)};
+    const auto layer = material_of(medium, std::size_t(medium.grid().flat(cell)));
     if (stack.layers.empty() || !(stack.layers.back() == layer)) {
       stack.layers.push_back(layer);
       stack.depths_m.push_back(top);
@@ -419,8 +444,7 @@ LayeredSeries<D>::~LayeredSeries() = default;
 
 template <int D>
 MotionAlongX LayeredSeries<D>::medium(std::size_t row) const {
-  const auto& rock = impl_->stack.layers[impl_->layer_of_row[row]];
-  return {rock.vp, rock.vs, rock.rho};
+  return MotionAlongX(impl_->stack.layers[impl_->layer_of_row[row]]);
 }
 
 template <int D>

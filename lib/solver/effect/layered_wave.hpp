@@ -15,16 +15,13 @@ namespace slipwave::solver {
 /// A stack of layers on which a plane wave falls; the first and the last are half-spaces where their end
 /// absorbs. Fluid where vs = 0.
 struct PlaneStack {
-  struct Layer {
-    double vp, vs, rho;
-    bool operator==(const Layer&) const = default;
-  };
-  std::vector<Layer> layers;      // downwards
+  std::vector<Material> layers;   // downwards
   std::vector<double> depths_m;   // top of each layer and, behind the last, its bottom
   std::array<EdgeLaw, 2> ends{};  // of top and bottom
   bool from_top = true;
   bool shear = false;   // the incident wave: SV, else P
   double slowness = 0;  // along the layers, s/m
+  double down = 0;      // of the incident wave downwards, s/m
 };
 
 /// All waves in such a stack for one angular frequency, by continuity of motion and traction at all
@@ -52,6 +49,10 @@ class PlaneStackResponse {
  private:
   void list_waves();
   Wave make(std::size_t layer, bool shear, bool down) const;
+  Wave make_in_anisotropic(std::size_t layer, bool shear, bool down) const;
+  Wave make_incident() const;
+  /// Where the amplitude of a wave is 1: at the face that it leaves, in half-spaces at their face.
+  double reference_of(std::size_t layer, bool down) const;
 
   const PlaneStack& stack_;
   std::vector<Wave> waves_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/anisotropy.hpp"
+#include "model/plane_motion.hpp"
+
 namespace slipwave::solver {
 namespace {
 
@@ -19,11 +22,56 @@ TimeSeries table_of(const Wavelet& wavelet) {
 
 }  // namespace
 
-MotionAlongX::MotionAlongX(double vp, double vs, double rho) : vp(vp), vs(vs), zp(rho * vp), zs(rho * vs) {
+MotionAlongX::MotionAlongX(const Material& rock) : vp(rock.vp), vs(rock.vs) {
   passive = 1 - 2 * vs * vs / (vp * vp);
+  if (rock.is_anisotropic()) {
+    const auto c = plane_stiffness_of(rock);
+    const auto waves = waves_along({0, rock.rho, c}, 0);
+    vp = waves.z[0] / rock.rho, vs = waves.z[1] / rock.rho;
+    cosine = waves.cosine, sine = rock.tilt == 0 ? 0 : waves.sine;
+    passive = (c.c13 * cosine + c.c35 * sine) / (rock.rho * vp * vp);
+    passive_s = (c.c35 * cosine - c.c13 * sine) / (rock.rho * vs * vs);
+  }
+  zp = rock.rho * vp, zs = rock.rho * vs;
 }
 
+namespace {
+
+/// Of rock whose axis is tilted.
+WavesAlongX turned_waves_along_x(const MotionAlongX& medium, const PlaneFields& fields) {
+  const double c = medium.cosine, s = medium.sine;
+  const double fast = c * fields[plane_vx] + s * fields[plane_vz],
+               slow = c * fields[plane_vz] - s * fields[plane_vx],
+               of_fast = c * fields[plane_sxx] + s * fields[plane_sxz],
+               of_slow = c * fields[plane_sxz] - s * fields[plane_sxx];
+  return {(fast - of_fast / medium.zp) / 2, (fast + of_fast / medium.zp) / 2,
+          (slow - of_slow / medium.zs) / 2, (slow + of_slow / medium.zs) / 2,
+          fields[plane_szz] - medium.passive * of_fast - medium.passive_s * of_slow};
+}
+
+/// The rows of 2-D of it.
+template <class Real>
+void add_up_turned(const MotionAlongX& medium, const CellsAlongX<Real>& waves, std::int64_t count, Real* to,
+                   std::int64_t pitch) {
+  using Rows = FieldRows<2>;
+  const auto c = Real(medium.cosine), s = Real(medium.sine), zp = Real(medium.zp), zs = Real(medium.zs),
+             passive = Real(medium.passive), passive_s = Real(medium.passive_s);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const auto of = [&](int number) { return waves.wave[number][i]; };
+    const Real fast = of(p_forth) + of(p_back), slow = of(s_forth) + of(s_back),
+               of_fast = zp * (of(p_back) - of(p_forth)), of_slow = zs * (of(s_back) - of(s_forth));
+    to[Rows::velocity(0) * pitch + i] = c * fast - s * slow;
+    to[Rows::velocity(1) * pitch + i] = s * fast + c * slow;
+    to[Rows::normal_stress(0) * pitch + i] = c * of_fast - s * of_slow;
+    to[Rows::shear_stress(0, 1) * pitch + i] = s * of_fast + c * of_slow;
+    to[Rows::normal_stress(1) * pitch + i] = of(at_rest) + passive * of_fast + passive_s * of_slow;
+  }
+}
+
+}  // namespace
+
 WavesAlongX waves_along_x(const MotionAlongX& medium, const PlaneFields& fields) {
+  if (medium.turned()) return turned_waves_along_x(medium, fields);
   const double p = fields[plane_sxx] / medium.zp, s = medium.zs > 0 ? fields[plane_sxz] / medium.zs : 0;
   return {(fields[plane_vx] - p) / 2, (fields[plane_vx] + p) / 2, (fields[plane_vz] - s) / 2,
           (fields[plane_vz] + s) / 2, fields[plane_szz] - medium.passive * fields[plane_sxx]};
@@ -32,6 +80,8 @@ WavesAlongX waves_along_x(const MotionAlongX& medium, const PlaneFields& fields)
 template <int D, class Real>
 void add_up(const MotionAlongX& medium, const CellsAlongX<Real>& waves, std::int64_t count, Real* to,
             std::int64_t pitch) {
+  if constexpr (D == 2)
+    if (medium.turned()) return add_up_turned(medium, waves, count, to, pitch);
   using Rows = FieldRows<D>;
   constexpr int z = D - 1;
   const auto zp = Real(medium.zp), zs = Real(medium.zs), passive = Real(medium.passive);
@@ -91,18 +141,24 @@ void TimeSeries::values(double t_s, double step_s, std::int64_t first, std::int6
 }
 
 template <int D>
-PlaneForm<D>::PlaneForm(const Source<D>& source, double vp, double vs, double rho)
+PlaneForm<D>::PlaneForm(const Source<D>& source, const Material& rock)
     : wavelet_(source.wavelet),
       table_(table_of(source.wavelet)),
       origin_{source.position_m[0], source.position_m[D - 1]},
-      medium_(vp, vs, rho) {
+      medium_(rock) {
   const auto& wave = std::get<PlaneWave<D>>(source.mechanism);
-  const double across = wave.across(), down = wave.direction[D - 1], c = wave.speed(vp, vs);
+  const double across = wave.across(), down = wave.direction[D - 1],
+               c = plane_motion(rock, across, down, wave.shear).speed;
   slowness_ = {across / c, down / c};
-  const double mu = rho * vs * vs, lambda = rho * vp * vp - 2 * mu;
+  const double mu = rock.rho * rock.vs * rock.vs, lambda = rock.rho * rock.vp * rock.vp - 2 * mu;
   const double strain = -source.amplitude / c;  // grad v = -d v'/c
   const double a = source.amplitude;
-  if (wave.shear)
+  if (rock.is_anisotropic()) {
+    const auto motion = plane_motion(rock, across, down, wave.shear);
+    const double vx = a * motion.x, vz = a * motion.z;
+    const auto [sxx, szz, sxz] = stress_of_motion(rock, slowness_[0], slowness_[1], vx, vz);
+    factors_ = {vx, vz, sxx, szz, sxz};
+  } else if (wave.shear)
     factors_ = {a * down, -a * across, strain * 2 * mu * across * down, -strain * 2 * mu * across * down,
                 strain * mu * (down * down - across * across)};
   else

@@ -10,12 +10,16 @@
 
 namespace slipwave::solver {
 
-/// What decides how a plane wave moves along x in a cell: speeds of P and S waves, impedances, and the share
-/// of s_xx that a P wave along x has across it. Fluid: no S.
+/// What decides how a plane wave moves along x in a cell: speeds of P and S waves along it, impedances, and
+/// the share of s_xx that a P wave along x has across it. Fluid: no S.
 struct MotionAlongX {
   double vp = 0, vs = 0, zp = 0, zs = 0, passive = 0;
+  /// Of rock whose axis is tilted: the motion of the faster wave, along x and z, and what the slower one has
+  /// across x as a share of its traction.
+  double cosine = 1, sine = 0, passive_s = 0;
   MotionAlongX() = default;
-  MotionAlongX(double vp, double vs, double rho);
+  explicit MotionAlongX(const Material& rock);
+  bool turned() const { return sine != 0; }
 };
 
 /// The waves along x that fields are made of: P and S towards +x and -x, and what sweeps along x leave alone.
@@ -82,13 +86,13 @@ class TimeSeries {
   double first_s_ = 0, interval_s_ = 1;
 };
 
-/// A plane P or SV wave in one medium (theory.md (A7), (A15)): every field is a constant times the wavelet at
-/// the time since the front passed. Its x axis is the way it travels along the layers: of a 3-D wave with an
-/// azimuth turned from the model's.
+/// A plane P or SV wave in one medium (theory.md (A7), (A15), (A17)): every field is a constant times the
+/// wavelet at the time since the front passed. Its x axis is the way it travels along the layers: of a 3-D
+/// wave with an azimuth turned from the model's.
 template <int D>
 class PlaneForm {
  public:
-  PlaneForm(const Source<D>& source, double vp, double vs, double rho);
+  PlaneForm(const Source<D>& source, const Material& rock);
   /// Fields per unit of the wavelet.
   const PlaneFields& factors() const { return factors_; }
   const MotionAlongX& medium() const { return medium_; }

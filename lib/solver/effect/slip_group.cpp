@@ -4,6 +4,7 @@
 #include <array>
 
 #include "model/fracture.hpp"
+#include "model/plane_strain.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -38,6 +39,44 @@ SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, 
 }
 
 template <int D, class Real>
+bool SlipGroup<D, Real>::lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene,
+                                            const Layout<D>& layout) const {
+  bool any = false;
+  places_.each(layout, domain, scene.model, [&](std::size_t, std::size_t cell) {
+    any = any || lie_askew(*set_, scene.model.medium, cell);
+  });
+  return any;
+}
+
+namespace {
+
+/// What a unit of slip strain on planes takes off the stress, C : (n t + t n)/2 with t = (-n_z, n_x).
+std::array<double, 3> stress_of_slip(const Point<2>& n, const PlaneStiffness& c) {
+  return stress_of_strain(c, {-n[0] * n[1], n[1] * n[0], n[0] * n[0] - n[1] * n[1]});
+}
+
+/// Of that the traction along t.
+double traction_along(const Point<2>& n, const std::array<double, 3>& stress) {
+  return n[0] * n[1] * (stress[1] - stress[0]) + (n[0] * n[0] - n[1] * n[1]) * stress[2];
+}
+
+}  // namespace
+
+template <int D, class Real>
+void SlipGroup<D, Real>::put_response(std::size_t place, const PlaneStiffness& stiffness) {
+  if constexpr (D == 2) {
+    stiffness_[place] = stiffness;
+    for (std::size_t n = 0; n < set_->systems.size(); ++n) {
+      const auto normal = unit_normal<D>(set_->systems[n].normal);
+      const auto stress = stress_of_slip(normal, stiffness);
+      const double modulus = traction_along(normal, stress);
+      auto& response = responses_[place * set_->systems.size() + n];
+      for (std::size_t c = 0; c < stress.size(); ++c) response.values[c] = Real(stress[c] / modulus);
+    }
+  }
+}
+
+template <int D, class Real>
 void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout,
                               double dt_s) {
   const auto& model = scene.model;
@@ -57,14 +96,26 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     slip_per_pa_.assign(count_, 0);
   }
   if (scene.slip_diary) mu_.assign(count_, 0);
+  const bool askew = lie_askew_anywhere(domain, scene, layout);
+  if (askew) {
+    responses_.assign(count_ * systems.size(), {});
+    stiffness_.assign(count_, {});
+  }
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
   places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
     const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
-    const double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
-    for (std::size_t n = 0; n < systems.size(); ++n)
+    double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
+    if (askew) put_response(place, plane_stiffness_of(model.medium, cell));
+    for (std::size_t n = 0; n < systems.size(); ++n) {
+      if constexpr (D == 2)
+        if (askew) {
+          const auto normal = unit_normal<D>(systems[n].normal);
+          mu = traction_along(normal, stress_of_slip(normal, stiffness_[place]));
+        }
       if (systems[n].slides())
         relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
+    }
     if (opens()) {
       lambda_[place] = Real(lambda);
       modulus_[place] = Real(rho * vp * vp);
@@ -99,7 +150,7 @@ void SlipGroup<D, Real>::choose_kernels(SlipCorrection correction) {
     if (std::any_of(gaps_.begin(), gaps_.end(), [](const auto& gaps) { return gaps.empty(); }))
       shut_.assign(count_, 0);
   }
-  if (systems.size() == 1 || two) {
+  if ((systems.size() == 1 || two) && responses_.empty()) {
     kernels_ = slip_kernels<Real>({D, int(systems.size()), correction, extended, law()});
     retained_.assign(count_ * std::size_t(kernels_.retained_rows), 0);
     if (extended)
@@ -260,8 +311,9 @@ void SlipGroup<D, Real>::slip_jointly(const JointSlip<D, Real, Law>& joint, Real
       if (Law::has_state) slip_m[k] = slips_m_[k][at];
     }
     const Real slip_per_pa = Law::has_state ? slip_per_pa_[at] : Real(0);
-    const typename JointSlip<D, Real, Law>::Cell cell = {relaxation.data(), open.data(), slip_m.data(),
-                                                         slip_per_pa};
+    const typename JointSlip<D, Real, Law>::Cell cell = {
+        relaxation.data(), open.data(), slip_m.data(), slip_per_pa,
+        responses_.empty() ? nullptr : responses_.data() + at * relaxation_.size()};
     if (begins)
       joint.begin(s, total, cell);
     else
@@ -287,7 +339,9 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
   for (const auto* row :
        {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
     values += row->size();
-  return std::int64_t(values * sizeof(Real)) + places_.memory_bytes();
+  return std::int64_t(values * sizeof(Real) + responses_.size() * sizeof(responses_[0]) +
+                      stiffness_.size() * sizeof(PlaneStiffness)) +
+         places_.memory_bytes();
 }
 
 template class SlipGroup<2, float>;

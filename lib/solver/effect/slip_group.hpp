@@ -8,6 +8,7 @@
 #include "fracture/coulomb.hpp"
 #include "fracture/joint_slip.hpp"
 #include "fracture/slip_weakening.hpp"
+#include "model/anisotropy.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/fracture_cells.hpp"
 #include "solver/kernels/slip_kernels.hpp"
@@ -52,6 +53,10 @@ class SlipGroup {
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
   /// lambda of a cell, Pa, where planes open; else 0.
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
+  /// Stiffness of a cell in whose anisotropic rock planes of this set may lie askew; null where none do.
+  const PlaneStiffness* stiffness(std::size_t place) const {
+    return stiffness_.empty() ? nullptr : &stiffness_[place];
+  }
   std::int64_t memory_bytes() const;
   /// All that changes from step to step.
   std::vector<std::vector<Real>*> memory();
@@ -61,6 +66,9 @@ class SlipGroup {
  private:
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
+  /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
+  bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
+  void put_response(std::size_t place, const PlaneStiffness& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// The law for all systems: one that covers those of each.
   FrictionLaw law() const;
@@ -96,6 +104,9 @@ class SlipGroup {
   std::vector<Real> retained_;                 // rows that kernels retain from step to step
   std::vector<std::vector<Real>> slips_m_;     // [system][cell], where the law has a state; else empty
   std::vector<Real> slip_per_pa_;              // h/mu, where the law has a state
+  // Where planes lie askew in anisotropic rock, of 2-D: [cell][system] (S34), and by cell.
+  std::vector<SymmetricTensor<D, Real>> responses_;
+  std::vector<PlaneStiffness> stiffness_;
 };
 
 }  // namespace slipwave::solver

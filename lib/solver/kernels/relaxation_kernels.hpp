@@ -19,15 +19,18 @@ struct RelaxationRows {
   Real* memory;        // block after block: of mechanism l and part c in row l * parts + c of the block
   const Real* shares;  // the same: c_l times what of the bulk modulus mechanism l relaxes, then of the shear
                        // modulus
+  const Real* axes;    // the same, of Relaxing::turned: the four numbers of RelaxingAxis
   Real decays[most_mechanisms];  // c_l = 1 - exp(-rate_l time)
 };
 
 /// What relaxes: the pressure where it is all that is stored, the mean of the normal stresses, or all
-/// stresses.
-enum class Relaxing { pressure, mean, all };
+/// stresses; in 2-D those about the axes of anisotropic rock, too (theory.md (Q9)).
+enum class Relaxing { pressure, mean, all, turned };
+/// Numbers of a RelaxingAxis.
+inline constexpr int axis_values = 4;
 /// Parts of the stress that relax.
 constexpr int relaxing_parts(int dimensions, Relaxing what) {
-  return what != Relaxing::all ? 1 : dimensions == 2 ? 3 : 6;
+  return what == Relaxing::pressure || what == Relaxing::mean ? 1 : dimensions == 2 ? 3 : 6;
 }
 
 /// Relaxes n neighbouring cells of a row, a multiple of relaxation_block, at constant strain (theory.md

@@ -80,17 +80,65 @@ template <int D, Relaxing What, int Mechanisms, class Real>
   }
 }
 
+/// In 2-D about the axes of anisotropic rock: stresses are turned to its beds and scaled as its stiffness,
+/// and their losses go the way back. Of isotropic rock the same bits as relax().
+template <int Mechanisms, class Real>
+[[gnu::noinline]] void relax_turned(std::int64_t n, const RelaxationRows<Real>& rows) {
+  constexpr std::int64_t block = relaxation_block;
+  constexpr int parts = relaxing_parts(2, Relaxing::turned);
+  const std::int64_t pitch = rows.pitch;
+  Real decays[Mechanisms];
+  for (int l = 0; l < Mechanisms; ++l) decays[l] = rows.decays[l];
+  Real* __restrict stress = rows.stress;
+  Real* __restrict memory = rows.memory;
+  const Real* __restrict bulk = rows.shares;
+  const Real* __restrict axes = rows.axes;
+  for (std::int64_t first = 0; first < n; first += block) {
+    const Real* const shear = bulk + Mechanisms * block;
+#pragma omp simd
+    for (std::int64_t i = 0; i < block; ++i) {
+      const auto lost = [&](int part, Real of, const Real* shares) __attribute__((always_inline)) {
+        return loss<Mechanisms, parts>(of, memory + part * block + i, shares + i, decays);
+      };
+      const Real even = axes[i], odd = axes[block + i], cosine = axes[2 * block + i],
+                 sine = axes[3 * block + i];
+      const Real xx = stress[i], zz = stress[pitch + i], xz = stress[2 * pitch + i];
+      const Real mean = Real(0.5) * (xx + zz), half = Real(0.5) * (xx - zz);
+      const Real of_beds = cosine * half + sine * xz;
+      const Real p = lost(0, even * mean + odd * of_beds, bulk),
+                 s = lost(1, even * of_beds + odd * mean, shear),
+                 t = lost(2, cosine * xz - sine * half, shear);
+      const Real all = even * p - odd * s, of_half = even * s - odd * p, turned = cosine * of_half - sine * t;
+      stress[i] = xx - (all + turned);
+      stress[pitch + i] = zz - (all - turned);
+      stress[2 * pitch + i] = xz - (cosine * t + sine * of_half);
+    }
+    stress += block;
+    memory += Mechanisms * parts * block;
+    bulk += 2 * Mechanisms * block;
+    axes += axis_values * block;
+  }
+}
+
+template <int D, Relaxing What, int Mechanisms, class Real>
+constexpr RelaxationKernel<Real> loop() {
+  if constexpr (What == Relaxing::turned)
+    return relax_turned<Mechanisms, Real>;
+  else
+    return relax<D, What, Mechanisms, Real>;
+}
+
 template <int D, Relaxing What, class Real>
 RelaxationKernel<Real> of_count(int mechanisms) {
   switch (mechanisms) {
     case 2:
-      return relax<D, What, 2, Real>;
+      return loop<D, What, 2, Real>();
     case 3:
-      return relax<D, What, 3, Real>;
+      return loop<D, What, 3, Real>();
     case 4:
-      return relax<D, What, 4, Real>;
+      return loop<D, What, 4, Real>();
     default:
-      return relax<D, What, 5, Real>;
+      return loop<D, What, 5, Real>();
   }
 }
 
@@ -98,6 +146,7 @@ template <int D, class Real>
 RelaxationKernel<Real> of_what(Relaxing what, int mechanisms) {
   if (what == Relaxing::pressure) return of_count<D, Relaxing::pressure, Real>(mechanisms);
   if (what == Relaxing::mean) return of_count<D, Relaxing::mean, Real>(mechanisms);
+  if (D == 2 && what == Relaxing::turned) return of_count<D, Relaxing::turned, Real>(mechanisms);
   return of_count<D, Relaxing::all, Real>(mechanisms);
 }
 

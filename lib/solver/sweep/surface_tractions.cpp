@@ -181,7 +181,7 @@ template <int D, class Real>
 SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side) {
   constexpr int z = D - 1;
   if (domain.edges[z][side] != EdgeLaw::free || domain.anisotropic()) return;
-  const Layout<D> material(domain.grid.shape, material_rows_of(domain.material_kind()));
+  const Layout<D> material(domain.grid.shape, material_rows_of<D>(domain.material_kind()));
   Grid<D> surface = domain.grid;
   surface.shape[z] = 1;
   std::int64_t number = 0;

@@ -1,0 +1,112 @@
+#include "model/plane_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/anisotropy.hpp"
+
+namespace slipwave {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// The Christoffel matrix less the density, of a slowness.
+template <class Number>
+struct Inertia {
+  Number xx, zz, xz;
+  Inertia(const PlaneStiffness& c, double rho, double along, Number down)
+      : xx(c.c11 * along * along + 2 * c.c15 * along * down + c.c55 * down * down - rho),
+        zz(c.c55 * along * along + 2 * c.c35 * along * down + c.c33 * down * down - rho),
+        xz(c.c15 * along * along + (c.c13 + c.c55) * along * down + c.c35 * down * down) {}
+};
+
+/// The four slownesses down of a slowness along x: all roots at once (Durand and Kerner).
+std::array<Complex, 4> slownesses(const PlaneStiffness& c, double rho, double along) {
+  const std::array<double, 3> xx{c.c11 * along * along - rho, 2 * c.c15 * along, c.c55},
+      zz{c.c55 * along * along - rho, 2 * c.c35 * along, c.c33},
+      xz{c.c15 * along * along, (c.c13 + c.c55) * along, c.c35};
+  std::array<double, 5> of{};
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t b = 0; b < 3; ++b) of[a + b] += xx[a] * zz[b] - xz[a] * xz[b];
+  const double size = std::sqrt(rho / c.c55) + std::abs(along);
+  std::array<Complex, 4> roots;
+  for (std::size_t n = 0; n < 4; ++n) roots[n] = size * std::exp(Complex(0, 0.4 + 1.5 * double(n)));
+  constexpr int rounds = 500;
+  for (int round = 0; round < rounds; ++round) {
+    double most = 0;
+    for (std::size_t n = 0; n < 4; ++n) {
+      Complex value = of[4], others = of[4];
+      for (std::size_t power = 4; power-- > 0;) value = value * roots[n] + of[power];
+      for (std::size_t m = 0; m < 4; ++m)
+        if (m != n) others *= roots[n] - roots[m];
+      roots[n] -= value / others;
+      most = std::max(most, std::abs(value / others));
+    }
+    if (most < 1e-15 * size) break;
+  }
+  // Those of a real polynomial are real or pairs; near where both meet they are known to half the digits.
+  for (auto& root : roots)
+    if (std::abs(root.imag()) < 1e-7 * size) root = root.real();
+  return roots;
+}
+
+/// Motion that the equation of motion lets through, of unit size.
+LayerWave wave_of(const PlaneStiffness& c, double rho, double along, Complex down) {
+  const Inertia<Complex> of(c, rho, along, down);
+  // Either row gives the motion; one of them may say nothing.
+  const bool first = std::norm(of.xx) > std::norm(of.zz);
+  const Complex x = first ? -of.xz : of.zz, z = first ? of.xx : -of.xz;
+  const double size = std::sqrt(std::norm(x) + std::norm(z));
+  return {down, x / size, z / size};
+}
+
+/// Whether it decays downwards or carries energy down.
+bool goes_down(const Material& rock, double along, const LayerWave& wave) {
+  if (wave.down.imag() != 0) return wave.down.imag() < 0;
+  const auto stress = stress_of_motion(rock, along, wave.down, wave.x, wave.z);
+  return (std::conj(wave.x) * stress[2] + std::conj(wave.z) * stress[1]).real() < 0;
+}
+
+}  // namespace
+
+template <class Number>
+std::array<Number, 3> stress_of_motion(const Material& rock, double along, Number down, Number vx,
+                                       Number vz) {
+  const auto c = plane_stiffness_of(rock);
+  const Number xx = -along * vx, zz = -down * vz, xz = -(along * vz + down * vx);
+  return {c.c11 * xx + c.c13 * zz + c.c15 * xz, c.c13 * xx + c.c33 * zz + c.c35 * xz,
+          c.c15 * xx + c.c35 * zz + c.c55 * xz};
+}
+
+template std::array<double, 3> stress_of_motion(const Material&, double, double, double, double);
+template std::array<Complex, 3> stress_of_motion(const Material&, double, Complex, Complex, Complex);
+
+PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear) {
+  if (!rock.is_anisotropic())
+    return shear ? PlaneMotion{rock.vs, down, -across} : PlaneMotion{rock.vp, across, down};
+  const Inertia<double> of(plane_stiffness_of(rock), 0, across, down);
+  const double mean = (of.xx + of.zz) / 2, half = std::hypot((of.xx - of.zz) / 2, of.xz),
+               angle = std::atan2(of.xz, (of.xx - of.zz) / 2) / 2;
+  PlaneMotion motion{std::sqrt((mean + (shear ? -half : half)) / rock.rho), std::cos(angle), std::sin(angle)};
+  if (shear) motion.x = -std::sin(angle), motion.z = std::cos(angle);
+  if (shear ? motion.x * down - motion.z * across < 0 : motion.x * across + motion.z * down < 0)
+    motion.x = -motion.x, motion.z = -motion.z;
+  return motion;
+}
+
+std::array<LayerWave, 2> layer_waves(const Material& rock, double along, bool down) {
+  const auto c = plane_stiffness_of(rock);
+  std::array<LayerWave, 4> all;
+  const auto roots = slownesses(c, rock.rho, along);
+  std::transform(roots.begin(), roots.end(), all.begin(),
+                 [&](const Complex& root) { return wave_of(c, rock.rho, along, root); });
+  // Two go down and two up; those that lie along the layers are whichever are left.
+  std::stable_sort(all.begin(), all.end(), [&](const LayerWave& one, const LayerWave& other) {
+    return goes_down(rock, along, one) > goes_down(rock, along, other);
+  });
+  std::array<LayerWave, 2> both{all[down ? 0 : 2], all[down ? 1 : 3]};
+  if (std::abs(both[0].down.real()) > std::abs(both[1].down.real())) std::swap(both[0], both[1]);
+  return both;
+}
+
+}  // namespace slipwave
