@@ -78,7 +78,7 @@ TEST(AttenuatingAnisotropy, OfCellsThatInterfacesCutIsThatOfTiltedMeans) {
       for (const auto& axis : {along, down}) found.push_back(vx * axis[0] + vz * axis[1]);
       for (const std::size_t row : {0, 1}) wanted.push_back(1e6 * exact[r][row][n]);
     }
-  // 0.013 with isotropic means.
+  // 0.0057 is found; 0.011 with isotropic means.
   EXPECT_LT(relative_error(found, wanted), 0.008);
 }
 
