@@ -82,8 +82,7 @@ void declare(cli::Options& options, Settings& settings) {
               "or in a slab of length L and thickness T; in 3-D X,Y,Z:L,WIDTH,T[:DIP[:AZIMUTH]]");
   options.add(
       "segment", settings.segments, "X,Z:X,Z",
-      "instead of a region and planes: a single straight fracture from tip to tip, m, of --compliance "
-      "or --stiffness, without --spacing; repeatable");
+      "instead of a region and planes: one straight fracture of --compliance or --stiffness; repeatable");
   options.add("trace", settings.traces, "FILE",
               "or single fractures along curves, one line \"X Z\" per vertex, an empty line between two; "
               "repeatable");

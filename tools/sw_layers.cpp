@@ -30,8 +30,8 @@ void declare(cli::Options& options, Settings& settings) {
       "x = 0. VS 0 is fluid; above the first layer is void. DEPTH may be sine,MEAN,AMPLITUDE,WAVELENGTH or "
       "@FILE of lines \"X Z\", in 3-D also a grid of lines \"X Y DEPTH\" or in netCDF; smooth@FILE has no "
       "kinks. VP, VS, RHO may be A+K or A-K: A at the top, K more or less per metre. Other properties follow "
-      "by name: 'qp=80 qs=40 epsilon=0.2 delta=0.1 gamma=0.1 tilt=20'; or stiffnesses, with - for VP and VS: "
-      "'0:-:-:2300 c11=26e9 c13=9e9 c33=20e9 c55=6e9'");
+      "by name: 'qp=80 qs=40 epsilon=0.2 delta=0.1 gamma=0.1 tilt=20'; or "
+      "stiffnesses: '0:-:-:2300 c11=26e9 ...'");
   options.add(
       "fit", settings.fit, "surface,floor|all|none",
       "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");

@@ -117,18 +117,22 @@ want() {
           need("fused_row<" (2 * reach + 1) ", 2, false, " real ">", 3 * sums + 2 * weights + 20 + 21 + 13)
           # Of anisotropic media: the same, with what couples stresses in place of a difference.
           need("fused_row<" (2 * reach + 1) ", 1, true, " real ">", 2 * (sums + weights) + 20 + 20)
+          need("fused_row<" (2 * reach + 1) ", 2, true, " real ">", 3 * (sums + weights) + 20 + 20 + 13)
           # Of fluid alone one pair, and one stress.
           need("fused_row<" (2 * reach + 1) ", 0, false, " real ">", sums + weights + 9 + 9)
         }
         # By S pairs.
-        need("solve_riemann<true, 0, " real ">", 6); need("solve_riemann<false, 0, " real ">", 9)
-        need("solve_riemann<true, 1, " real ">", 12); need("solve_riemann<false, 1, " real ">", 20)
-        need("solve_riemann<true, 2, " real ">", 18); need("solve_riemann<false, 2, " real ">", 26)
+        need("solve_riemann<true, 0, false, " real ">", 6); need("solve_riemann<false, 0, false, " real ">", 9)
+        need("solve_riemann<true, 1, false, " real ">", 12); need("solve_riemann<false, 1, false, " real ">", 20)
+        need("solve_riemann<true, 2, false, " real ">", 18); need("solve_riemann<false, 2, false, " real ">", 26)
+        # Of anisotropic media in 3-D each S pair has impedances and a share of its own.
+        need("solve_riemann<true, 2, true, " real ">", 18); need("solve_riemann<false, 2, true, " real ">", 29)
         # Of fluid alone; by dimension.
         need("update<true, 2, false, false, " real ">", 6); need("update<false, 2, false, false, " real ">", 10)
         need("update<true, 2, true, false, " real ">", 14); need("update<false, 2, true, false, " real ">", 22)
         need("update<true, 2, true, true, " real ">", 14); need("update<false, 2, true, true, " real ">", 21)
         need("update<true, 3, true, false, " real ">", 21); need("update<false, 3, true, false, " real ">", 29)
+        need("update<true, 3, true, true, " real ">", 21); need("update<false, 3, true, true, " real ">", 29)
         # Of bent rows, by dimension: both pairs or all components, of order 5.
         for (d = 2; d <= 3; ++d) {
           need("reconstruct_bent_along<5, " d ", " real ">", 40 * d)

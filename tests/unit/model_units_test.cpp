@@ -47,8 +47,9 @@ TEST(InputUnits, OfALayerLeaveItsGradientPerSecond) {
 }
 
 TEST(InputUnits, ThatNothingHasAreRefused) {
-  EXPECT_EQ(sentence_of([] { InputUnits::parse("km/s,lb"); }),
-            "found 'lb', expected units of speed, density and stiffness: m/s, km/s, ft/s, kg/m3, g/cm3, Pa, GPa");
+  EXPECT_EQ(
+      sentence_of([] { InputUnits::parse("km/s,lb"); }),
+      "found 'lb', expected units of speed, density and stiffness: m/s, km/s, ft/s, kg/m3, g/cm3, Pa, GPa");
 }
 
 TEST(RawShape, IsTakenWhereNeighboursContinueEachOther) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/motion_along.hpp"
@@ -112,7 +113,7 @@ double normal_share(double x, bool with_tangential) {
   return 0.85 * (with_tangential ? alone - (0.0245 + 0.012 * x + 0.026 * x * x) : alone);
 }
 
-/// The sums of one pair: of stresses, and of velocities times b.
+/// Terms of one pair, from a cell of the surface on.
 template <int D>
 struct PairSums {
   Sums<D> stresses, velocities;
@@ -124,22 +125,13 @@ struct PairSums {
   }
 };
 
-/// Second differences along the surface of the stresses in it; on a bent row of those along its tangent, for
-/// the traction times |N|.
+/// Second differences along the surface of the stresses in it. On a bent row those of their horizontal
+/// components, which are the contravariant ones along the rows where there is no traction.
 template <int D>
-PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, int side) {
+PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at) {
   using Rows = FieldRows<D>;
   constexpr int z = D - 1;
   PairSums<D> sums(domain, at);
-  if (domain.bent(at[z])) {
-    const auto normal = end_of_rows(domain, at, side).first;
-    const double square = dot(normal, normal), factor = 1 / (square * std::sqrt(square));
-    const auto bend = second_difference<D>(0, 0);
-    sums.add(sums.stresses, bend, Rows::normal_stress(0), factor);
-    sums.add(sums.stresses, bend, Rows::normal_stress(z), factor * normal.x * normal.x);
-    sums.add(sums.stresses, bend, Rows::shear_stress(0, z), -2 * factor * normal.x);
-    return sums;
-  }
   for (int along = 0; along < z; ++along)
     for (int other = 0; other < z; ++other)
       if (!thin(domain, along) && !thin(domain, other))
@@ -149,20 +141,32 @@ PairSums<D> normal_sums(const Domain<D>& domain, const Index<D>& at, int side) {
 }
 
 /// The difference along an axis of the acceleration across the surface, which its normal stress half a row
-/// below it gives, less what sweeps along it have put there since the step began.
+/// below it gives; and over lambda what sweeps along it have put there since the step began.
 template <int D>
 PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int side, int along) {
   using Rows = FieldRows<D>;
   constexpr int z = D - 1;
   PairSums<D> sums(domain, at);
   if (thin(domain, along)) return sums;
-  const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-  const double lambda = zp * zp - 2 * zs * zs, outward = (side ? 1 : -1) / domain.height(at[z]);
+  const double outward = (side ? 1 : -1) / domain.height(at[z]);
   sums.add(sums.stresses, first_difference<D>(along), Rows::normal_stress(z), 2 * outward);
   for (int other = 0; other < z; ++other)
     if (!thin(domain, other))
-      sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other), outward * lambda);
+      sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other), outward);
   return sums;
+}
+
+/// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in bent
+/// rows in 2-D along N, times |N|, in 3-D as a vector.
+template <int D>
+std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>& domain, const Index<D>& at,
+                                                                int side) {
+  if (!domain.bent(at[D - 1])) return {1};
+  const auto normal = end_of_rows(domain, at, side).first;
+  if constexpr (D == 2)
+    return {std::sqrt(dot(normal, normal)), 0};
+  else
+    return {normal.z, normal.x, normal.y};
 }
 
 /// Whether the extension beyond the surface is corrected there.
@@ -180,7 +184,7 @@ bool corrected(const Domain<D>& domain, const Index<D>& at, int side) {
 template <int D, class Real>
 SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side) {
   constexpr int z = D - 1;
-  if (domain.edges[z][side] != EdgeLaw::free || domain.anisotropic()) return;
+  if (domain.edges[z][side] != EdgeLaw::free) return;
   const Layout<D> material(domain.grid.shape, material_rows_of<D>(domain.material_kind()));
   Grid<D> surface = domain.grid;
   surface.shape[z] = 1;
@@ -189,26 +193,37 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
     Index<D> at = surface.index(n);
     at[z] = side ? domain.grid.shape[z] - 1 : 0;
     number = (D == 3 ? at[1] * layout.padded_nx() : 0) + at[0];
+    if (domain.tilted_at(at) || !corrected(domain, at, side)) continue;
     const bool bent = domain.bent(at[z]);
-    if ((bent && D == 3) || domain.tilted_at(at) || !corrected(domain, at, side)) continue;
-    std::vector<PairSums<D>> pairs = {normal_sums(domain, at, side)};
+    std::vector<PairSums<D>> pairs = {normal_sums(domain, at)};
     for (int along = 0; along < z && !bent; ++along)
       pairs.push_back(tangential_sums(domain, at, side, along));
     if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) continue;
     const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
-    const auto add = [&](const Sums<D>& sums) {
-      for (const auto& term : sums.terms())
-        terms_.push_back({layout.cell(term.cell) + term.row * layout.row_pitch(), Real(term.weight)});
-      return terms_.size();
-    };
-    for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
-      const double share = pair == 0 ? normal_share(zs * zs / (zp * zp), !bent) : tangential_share;
-      Cell cell{int(pair), number, material.cell(at) + row_b * material.row_pitch(), Real(share * zs * zs),
-                terms_.size()};
-      cell.velocities = add(pairs[pair].stresses);
-      cell.end = add(pairs[pair].velocities);
-      cells_.push_back(cell);
+    Cell cell{number,
+              layout.cell(at),
+              material.cell(at) + row_b * material.row_pitch(),
+              {},
+              Real(bent ? 0 : tangential_share * zs * zs),
+              Real(domain.coupling_at_edge(at, z, 0).normal * zp * zp),
+              0};
+    const auto entering = entering_per_normal_traction(domain, at, side);
+    for (std::size_t pair = 0; pair < D; ++pair)
+      cell.normal[pair] = Real(normal_share(zs * zs / (zp * zp), !bent) * zs * zs * entering[pair]);
+    Pattern pattern;
+    for (std::size_t pair = 0; pair < pairs.size(); ++pair)
+      for (const bool of_velocities : {false, true})
+        for (const auto& term : (of_velocities ? pairs[pair].velocities : pairs[pair].stresses).terms())
+          pattern[2 * pair + of_velocities].push_back(
+              {layout.cell(term.cell) + term.row * layout.row_pitch() - layout.cell(at), Real(term.weight)});
+    // Neighbours have the same but at the sides.
+    auto found = std::find(patterns_.rbegin(), patterns_.rend(), pattern);
+    if (found == patterns_.rend()) {
+      patterns_.push_back(std::move(pattern));
+      found = patterns_.rbegin();
     }
+    cell.pattern = std::int32_t(patterns_.rend() - found - 1);
+    cells_.push_back(cell);
   }
   if (cells_.empty()) return;
   for (auto& list : tractions_) list.assign(std::size_t(number + layout.padded_nx()), 0);
@@ -216,18 +231,22 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
 
 template <int D, class Real>
 void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
-  const Real* const fields = state.fields.data();
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
                                [](const Cell& one, std::int64_t number) { return one.number < number; });
   for (; cell != cells_.end() && cell->number < last; ++cell) {
-    const auto sum = [&](std::size_t begin, std::size_t end) {
+    const Real* const fields = state.fields.data() + cell->place;
+    const Pattern& pattern = patterns_[std::size_t(cell->pattern)];
+    const auto sum = [&](std::size_t list) {
       Real total = 0;
-      for (auto term = begin; term < end; ++term) total += terms_[term].weight * fields[terms_[term].place];
+      for (const auto& term : pattern[list]) total += term.weight * fields[term.offset];
       return total;
     };
-    const Real b = state.material.data()[cell->b];
-    tractions_[std::size_t(cell->pair)][std::size_t(cell->number)] =
-        cell->factor * b * b * (sum(cell->stresses, cell->velocities) - b * sum(cell->velocities, cell->end));
+    const Real b = state.material.data()[cell->b], normal = sum(0);
+    for (std::size_t pair = 0; pair < D; ++pair) {
+      Real traction = cell->normal[pair] * normal;
+      if (pair > 0) traction += cell->tangential * (sum(2 * pair) - b * cell->lambda * sum(2 * pair + 1));
+      tractions_[pair][std::size_t(cell->number)] = b * b * traction;
+    }
   }
 }
 

@@ -11,8 +11,8 @@ namespace slipwave::solver {
 
 /// What stands for zero traction at a free surface at the top (side 0) or the bottom (1) of the grid in a
 /// sweep across it over a whole step: as much, of second order in the step, as gives waves along the surface
-/// of an isotropic solid the speed that splitting the step takes from them (theory.md (E11b)). Empty in bent
-/// rows, and where the extension beyond the surface has no corrections (FreeSurface).
+/// of an isotropic solid the speed that splitting the step takes from them (theory.md (E11b)). None where the
+/// extension beyond the surface has no corrections (FreeSurface), or the axes of rock are tilted.
 template <int D, class Real>
 class SurfaceTractions {
  public:
@@ -27,19 +27,23 @@ class SurfaceTractions {
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
 
  private:
+  /// A field's value so far from the cell's first one.
   struct Term {
-    std::int64_t place;
+    std::int64_t offset;
     Real weight;
+    bool operator==(const Term& other) const { return offset == other.offset && weight == other.weight; }
   };
-  /// One pair at one cell: the place of b, and where its terms of stresses and of velocities begin.
+  /// Of each pair its terms of stresses and of velocities.
+  using Pattern = std::array<std::vector<Term>, std::size_t(2 * D)>;
+  /// A cell of the surface: places in the fields and of b, shares times mu rho, and lambda rho.
   struct Cell {
-    int pair;
-    std::int64_t number, b;
-    Real factor;
-    std::size_t stresses, velocities = 0, end = 0;
+    std::int64_t number, place, b;
+    std::array<Real, D> normal;  // by pair
+    Real tangential, lambda;
+    std::int32_t pattern;
   };
   std::vector<Cell> cells_;  // by number
-  std::vector<Term> terms_;
+  std::vector<Pattern> patterns_;
   std::array<std::vector<Real>, D> tractions_;
 };
 

@@ -37,10 +37,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     changed_[axis] = rows_changed(axis);
     for (const int side : {0, 1})
       if (reach_ > 0) free_surfaces_[axis][side] = FreeSurface<D, Real>(state.layout, domain, axis, side);
-    for (const int side : {0, 1})
-      if (reach_ > 0 && shear_)
-        surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
   }
+  for (const int side : {0, 1})
+    if (reach_ > 0 && shear_)
+      surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
   TiltedFace<D> tilted;
   if (!domain.tilted().empty())
     tilted = [&](const Index<D>& at, const Index<D>& beside) {

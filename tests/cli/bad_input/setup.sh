@@ -5,6 +5,7 @@ sw-layers --size 200x100 --step 5 --layer 0:1500:0:1000 --layer 60:3000:1500:220
 sw-layers --size 200x100 --step 5 --layer 40:3000:1500:2200 -o void.nc
 sw-layers --size 200x100 --step 5 --layer 0:3000:2500:2200 --allow-auxetic -o auxetic.nc
 sw-layers --size 200x100 --step 5 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti.nc
+sw-layers --size 100x100x100 --step 10 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti-cube.nc
 sw-layers --size 300x100 --step 10 --layer 0:2000:1000:2000 -o rock.nc
 sw-layers --size 100x50 --step 5 --layer 0:2000:1000:2000 -o small.nc
 printf '0 50\n200 70\n' > sloping.txt
