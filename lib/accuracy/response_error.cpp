@@ -513,12 +513,15 @@ std::string why_not_at_all(const Scene<2>& scene) {
   if (std::none_of(marked.begin(), marked.end(), [](auto code) { return code != 0; }))
     return "the model has no fractures whose response could have an error";
   if (!scene.survey.any_receiver()) return "the survey has no receivers";
-  for (const auto& set : sets)
+  for (const auto& set : sets) {
+    if (!set.traces.empty())
+      return "fractures '" + set.name + "' are single ones, whose waves are not followed";
     for (const auto& system : set.systems) {
       if (system.opens) return "fractures '" + set.name + "' open, whose error is not known";
       if (system.law == FrictionLaw::slip_weakening)
         return "fractures '" + set.name + "' weaken with slip, whose error is not known";
     }
+  }
   return "";
 }
 

@@ -53,6 +53,8 @@ TEST_F(Compliance, OfSingleFracturesGoesFromTheCommandLineToTraces) {
   const std::string drawn = "sw-fracture m.nc --box 50:250,50:250 --length 20:80 --dip 30 --concentration 5 ";
   done(drawn + "--network 12 --seed 4 --compliance 1e-10,1e-10 -o n.nc && sw-plot n.nc -o n.png");
   EXPECT_TRUE(has(done("sw-info n.nc"), "single fractures 12"));
+  EXPECT_TRUE(has(done("sw-shoot n.nc" + shot + "--plan"),
+                  "not estimated: fractures 'fractures-1' are single ones, whose waves are not followed"));
 }
 
 TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
