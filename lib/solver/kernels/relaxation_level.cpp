@@ -15,13 +15,13 @@ template <int Mechanisms, int Parts, class Real>
   Real relaxed[Mechanisms], at_once = stress, sum = 0;
 #pragma GCC unroll 5
   for (int l = 0; l < Mechanisms; ++l) {
-    relaxed[l] = memory[l * Parts * block];
+    relaxed[l] = memory[block * l * Parts];
     at_once += relaxed[l];
   }
 #pragma GCC unroll 5
   for (int l = 0; l < Mechanisms; ++l) {
     const Real change = shares[l * block] * at_once - decays[l] * relaxed[l];
-    memory[l * Parts * block] = relaxed[l] + change;
+    memory[block * l * Parts] = relaxed[l] + change;
     sum += change;
   }
   return sum;
@@ -75,8 +75,8 @@ template <int D, Relaxing What, int Mechanisms, class Real>
       }
     }
     stress += block;
-    memory += Mechanisms * parts * block;
-    bulk += (What == Relaxing::all ? 2 : 1) * Mechanisms * block;
+    memory += block * Mechanisms * parts;
+    bulk += block * (What == Relaxing::all ? 2 : 1) * Mechanisms;
   }
 }
 
@@ -114,8 +114,8 @@ template <int Mechanisms, class Real>
       stress[2 * pitch + i] = xz - (cosine * t + sine * of_half);
     }
     stress += block;
-    memory += Mechanisms * parts * block;
-    bulk += 2 * Mechanisms * block;
+    memory += block * Mechanisms * parts;
+    bulk += block * 2 * Mechanisms;
     axes += axis_values * block;
   }
 }
