@@ -66,15 +66,15 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 template <int D>
 double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
+  // Whose stiffness may be anything that is positive.
+  const bool shear_too = D == 3 && medium.has(Property::gamma);
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (has_tilted_axis(medium, cell))
       fastest = std::max(fastest, fastest_p_speed_at_most(material_of(medium, cell)));
     else
       for (int axis = 0; axis < D; ++axis) {
         fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
-        // Whose stiffness may be anything that is positive.
-        if (D == 3 && medium.has(Property::gamma))
-          fastest = std::max(fastest, shear_speed(medium, cell, axis, (axis + 1) % D));
+        if (shear_too) fastest = std::max(fastest, shear_speed(medium, cell, axis, (axis + 1) % D));
       }
   for (const auto cell : cells_of_tilted_means(medium))
     fastest = std::max(fastest, fastest_in_tilted_mean(medium, cell));
