@@ -20,22 +20,10 @@ double& component(RowVector<D, double>& vector, int axis) {
 template <int D>
 bool add_difference(const Domain<D>& domain, const Index<D>& at, int along, int row, double factor,
                     std::vector<SurfaceTerm<D>>& terms) {
-  const std::int64_t n = domain.grid.shape[std::size_t(along)];
   for (std::size_t k = 0; k < offsets_along.size(); ++k) {
-    SurfaceTerm<D> term{at, row, factor * weights_along[k]};
-    auto& place = term.cell[std::size_t(along)];
-    place += offsets_along[k];
-    if (const bool below = place < 0; below || place >= n) {
-      const EdgeLaw law = domain.edges[along][below ? 0 : 1];
-      if (law == EdgeLaw::free) return false;
-      const Wave wave = row == FieldRows<D>::velocity(along) ? wave_p : wave_s;
-      if (extension_of(law, wave) == Extension::motionless) term.weight = -term.weight;
-      place = below ? -1 - place : 2 * n - 1 - place;
-      if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
-      place = std::clamp<std::int64_t>(place, 0, n - 1);
-    }
-    if (!alike(domain, at, term.cell)) return false;
-    terms.push_back(term);
+    Index<D> offset{};
+    offset[std::size_t(along)] = offsets_along[k];
+    if (!add_term(domain, at, offset, row, factor * weights_along[k], terms)) return false;
   }
   return true;
 }
@@ -65,7 +53,41 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return terms;
 }
 
+/// The sign of a field in its mirror image at an edge of an axis.
+template <int D>
+double sign_beyond(EdgeLaw law, int axis, int row) {
+  using Rows = FieldRows<D>;
+  const bool is_velocity = row < D;
+  bool shear = is_velocity && row != Rows::velocity(axis);
+  for (int other = 0; other < D; ++other) shear |= other != axis && row == Rows::shear_stress(axis, other);
+  const auto extension = extension_of(law, shear ? wave_s : wave_p);
+  if (is_velocity) return extension == Extension::motionless ? -1 : 1;
+  return extension == Extension::traction_free ? -1 : 1;
+}
+
 }  // namespace
+
+template <int D>
+bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offset, int row, double weight,
+              std::vector<SurfaceTerm<D>>& terms) {
+  SurfaceTerm<D> term{at, row, weight};
+  for (int axis = 0; axis < D; ++axis) {
+    auto& place = term.cell[std::size_t(axis)];
+    const std::int64_t n = domain.grid.shape[std::size_t(axis)];
+    place += offset[std::size_t(axis)];
+    const bool below = place < 0;
+    if (!below && place < n) continue;
+    const EdgeLaw law = domain.edges[axis][below ? 0 : 1];
+    if (law == EdgeLaw::free) return false;
+    term.weight *= sign_beyond<D>(law, axis, row);
+    place = below ? -1 - place : 2 * n - 1 - place;
+    if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
+    place = std::clamp<std::int64_t>(place, 0, n - 1);
+  }
+  if (!alike(domain, at, term.cell)) return false;
+  terms.push_back(term);
+  return true;
+}
 
 template <int D>
 std::pair<RowVector<D, double>, double> end_of_rows(const Domain<D>& domain, const Index<D>& at, int side) {
@@ -264,6 +286,10 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
 
 template std::vector<SurfaceTerm<2>> surface_slope<2>(const Domain<2>&, const Index<2>&, int, int, int);
 template std::vector<SurfaceTerm<3>> surface_slope<3>(const Domain<3>&, const Index<3>&, int, int, int);
+template bool add_term<2>(const Domain<2>&, const Index<2>&, const Index<2>&, int, double,
+                          std::vector<SurfaceTerm<2>>&);
+template bool add_term<3>(const Domain<3>&, const Index<3>&, const Index<3>&, int, double,
+                          std::vector<SurfaceTerm<3>>&);
 template std::pair<RowVector<2, double>, double> end_of_rows<2>(const Domain<2>&, const Index<2>&, int);
 template std::pair<RowVector<3, double>, double> end_of_rows<3>(const Domain<3>&, const Index<3>&, int);
 template class FreeSurface<2, float>;

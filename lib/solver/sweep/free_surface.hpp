@@ -11,7 +11,7 @@
 
 namespace slipwave::solver {
 
-/// A velocity of a cell of the grid and its weight in a sum.
+/// A field's value in a cell of the grid and its weight in a sum.
 template <int D>
 struct SurfaceTerm {
   Index<D> cell{};
@@ -27,6 +27,12 @@ struct SurfaceTerm {
 template <int D>
 std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D>& at, int axis, int side,
                                           int row);
+
+/// Adds a field's value `offset` from a cell, which beyond an edge is that of its image. Returns false, and
+/// adds nothing, beyond a free surface and where the rock there is not like that of the cell.
+template <int D>
+bool add_term(const Domain<D>& domain, const Index<D>& at, const Index<D>& offset, int row, double weight,
+              std::vector<SurfaceTerm<D>>& terms);
 
 /// N of the first (side 0) or last face of the rows of a fitted grid at a cell beside it, and the height of
 /// this cell in cells.

@@ -51,18 +51,6 @@ Difference<D> second_difference(int along, int other) {
   return difference;
 }
 
-/// The sign of a field in its mirror image at an edge of an axis.
-template <int D>
-double sign_beyond(EdgeLaw law, int axis, int row) {
-  using Rows = FieldRows<D>;
-  const bool is_velocity = row < D;
-  bool shear = is_velocity && row != Rows::velocity(axis);
-  for (int other = 0; other < D; ++other) shear |= other != axis && row == Rows::shear_stress(axis, other);
-  const auto extension = extension_of(law, shear ? wave_s : wave_p);
-  if (is_velocity) return extension == Extension::motionless ? -1 : 1;
-  return extension == Extension::traction_free ? -1 : 1;
-}
-
 /// Sums of fields round a cell of the surface.
 template <int D>
 class Sums {
@@ -72,32 +60,12 @@ class Sums {
   /// Adds a difference of a field; false where there is none.
   bool add(const Difference<D>& difference, int row, double factor) {
     for (const auto& part : difference.parts)
-      if (!add(part.offset, row, factor * part.weight)) return false;
+      if (!add_term(domain_, at_, part.offset, row, factor * part.weight, terms_)) return false;
     return true;
   }
   const std::vector<SurfaceTerm<D>>& terms() const { return terms_; }
 
  private:
-  bool add(const Index<D>& offset, int row, double weight) {
-    SurfaceTerm<D> term{at_, row, weight};
-    for (int axis = 0; axis < D - 1; ++axis) {
-      auto& place = term.cell[std::size_t(axis)];
-      const std::int64_t n = domain_.grid.shape[std::size_t(axis)];
-      place += offset[std::size_t(axis)];
-      const bool below = place < 0;
-      if (!below && place < n) continue;
-      const EdgeLaw law = domain_.edges[axis][below ? 0 : 1];
-      if (law == EdgeLaw::free) return false;
-      term.weight *= sign_beyond<D>(law, axis, row);
-      place = below ? -1 - place : 2 * n - 1 - place;
-      if (law == EdgeLaw::absorbing) place = below ? 0 : n - 1;
-      place = std::clamp<std::int64_t>(place, 0, n - 1);
-    }
-    if (!alike(domain_, at_, term.cell)) return false;
-    terms_.push_back(term);
-    return true;
-  }
-
   const Domain<D>& domain_;
   Index<D> at_;
   std::vector<SurfaceTerm<D>> terms_;
