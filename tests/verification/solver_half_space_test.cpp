@@ -19,9 +19,11 @@ std::vector<SurfaceMotion> shoot_half_space(const Rock& rock, const char* mechan
   const double h = wavelength_m / cells;
   const double duration_s = std::ceil(1000 * (offsets.back() / (0.86 * vs) + 3 / peak_hz)) / 1000;
   const double reach = rock.vp * duration_s;
-  const auto left = std::int64_t(std::min(300 + reach / 4, 800.) / h);
-  const auto right = std::int64_t((offsets.back() + std::min(reach / 4, 600.)) / h);
-  auto medium = uniform_medium(left + right, std::int64_t(std::min(reach / 2, 1200.) / h), h, rock);
+  // What P waves bring back from the edges, at vp/vs = 5 before, would cover the error of the surface.
+  const double wide = std::max(1., rock.vp / (2.5 * vs));
+  const auto left = std::int64_t(std::min(300 + reach / 4, 800. * wide) / h);
+  const auto right = std::int64_t((offsets.back() + std::min(reach / 4, 600. * wide)) / h);
+  auto medium = uniform_medium(left + right, std::int64_t(std::min(reach / 2, 1200. * wide) / h), h, rock);
   for (auto* field : {&medium.vp, &medium.vs, &medium.rho}) {
     Grid<2> grid = field->grid();
     grid.origin_m = {-double(left) * h, 0};
@@ -118,12 +120,12 @@ TEST_P(GarvinAt, ConvergesToTheClosedForm) {
   const double coarse = garvin_error(ratio, 12, 0.9), fine = garvin_error(ratio, 24, 0.9);
   EXPECT_LT(100 * coarse, coarse_bound);
   EXPECT_LT(100 * fine, fine_bound);
-  EXPECT_GT(observed_order(coarse, fine), 1.6);
+  EXPECT_GT(observed_order(coarse, fine), 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfSpace, GarvinAt,
-                         testing::Values(SurfaceCase{1.6, 0.97, 0.19}, SurfaceCase{2, 0.9, 0.15},
-                                         SurfaceCase{3, 0.85, 0.12}, SurfaceCase{5, 0.76, 0.24}),
+                         testing::Values(SurfaceCase{1.6, 0.97, 0.19}, SurfaceCase{2, 0.56, 0.135},
+                                         SurfaceCase{3, 0.69, 0.107}, SurfaceCase{5, 0.7, 0.096}),
                          [](const auto& info) {
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });
@@ -133,7 +135,7 @@ TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
   // wavelengths.
   const Rock rock = rock_of(2);
   for (const auto& [depth_cells, bound] :
-       {std::pair(0.25, 5.3), {0.5, 4.5}, {1., 3.5}, {2., 3.8}, {3., 3.0}, {6., 1.4}}) {
+       {std::pair(0.25, 5.3), {0.5, 4.3}, {1., 2.5}, {2., 3.2}, {3., 2.2}, {6., 0.9}}) {
     const double cells = 24, depth_m = depth_cells * wavelength_m / cells;
     const double error = pooled_error(
         shoot_half_space(rock, "explosion", depth_m, cells, 0.9),
@@ -154,7 +156,7 @@ TEST(Garvin, OfAShallowExplosionIsMetFarAway) {
                         return garvin(rock, x, depth_m, {peak_hz}, interval_s, count);
                       },
                       offsets),
-            3.3);
+            2.5);
 }
 
 /// Force and receivers stand on the surface, nothing but its wave counts, and its velocity has the spectrum
@@ -166,12 +168,12 @@ TEST_P(LambAt, ConvergesToTheClosedForm) {
   const double coarse = lamb_error(ratio, 12, 0.9), fine = lamb_error(ratio, 24, 0.9);
   EXPECT_LT(100 * coarse, coarse_bound);
   EXPECT_LT(100 * fine, fine_bound);
-  EXPECT_GT(observed_order(coarse, fine), 2.4);
+  EXPECT_GT(observed_order(coarse, fine), 2.9);
 }
 
 INSTANTIATE_TEST_SUITE_P(HalfSpace, LambAt,
-                         testing::Values(SurfaceCase{1.6, 41, 6.9}, SurfaceCase{2, 36, 4.3},
-                                         SurfaceCase{3, 36, 3.3}, SurfaceCase{5, 37, 3.2}),
+                         testing::Values(SurfaceCase{1.6, 37, 4.4}, SurfaceCase{2, 33.5, 3.1},
+                                         SurfaceCase{3, 34, 3}, SurfaceCase{5, 35, 2.9}),
                          [](const auto& info) {
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });

@@ -7,19 +7,18 @@
 
 namespace slipwave::solver {
 
-/// Offsets and weights of the difference along a surface or an interface: the mean of the central differences
-/// over two and over four cells, which damps what alternates from cell to cell.
-inline constexpr std::array<int, 4> offsets_along = {-2, -1, 1, 2};
-inline constexpr std::array<double, 4> weights_along = {-0.125, -0.25, 0.25, 0.125};
+/// Offsets and weights of the central difference along a surface or an interface.
+inline constexpr std::array<int, 2> offsets_along = {-1, 1};
+inline constexpr std::array<double, 2> weights_along = {-0.5, 0.5};
 /// Cells without a strong interface or an edge needed across it: no stencil that reads beyond it, by
 /// most_reach_at_mirrors at most, may reach another extension.
 inline constexpr auto fewest_across = std::int64_t(2) * most_reach_at_mirrors;
 
-/// Whether a slice is too thin for a difference along this axis. It has no slope, unless its own edges are
-/// free.
+/// Whether a slice is too thin for differences along this axis, which read up to free_surface_reach cells on
+/// both sides. It has no slope, unless its own edges are free.
 template <int D>
 bool thin(const Domain<D>& domain, int along) {
-  return domain.grid.shape[std::size_t(along)] <= std::int64_t(offsets_along.size());
+  return domain.grid.shape[std::size_t(along)] <= 2 * free_surface_reach;
 }
 template <int D>
 bool ends_free(const Domain<D>& domain, int along) {

@@ -71,23 +71,28 @@ class Sums {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// Shares of the two terms of (E11b), the normal one over x = (vs/vp)^2: fitted to the speed of the discrete
-/// wave at vp/vs of 1.4 to 8. In bent rows there is no tangential term. The rest of the normal share would
-/// cost more where body waves are reflected than surface waves gain.
-constexpr double tangential_share = 0.1;
-double normal_share(double x, bool with_tangential) {
+/// Shares of the terms of (E11b) over x = (vs/vp)^2: the normal one fitted to the speed of the discrete wave
+/// at vp/vs of 1.4 to 8, where all are less in soft rock so that no wave grows. In bent rows there is only
+/// the normal one.
+struct Shares {
+  double normal, tangential, bend;
+};
+Shares shares_of(double x, bool bent) {
   x = std::max(x, 0.01);
-  const double alone = 0.229 - 0.156 * x - 0.0279 / x;
-  return 0.85 * (with_tangential ? alone - (0.0245 + 0.012 * x + 0.026 * x * x) : alone);
+  const double soft = std::min(1., 8 * x);
+  if (bent) return {0.85 * soft * (0.2326 - 0.1551 * x - 0.0242 / x), 0, 0};
+  return {soft * (0.1689 - 0.0465 * x - 0.0267 / x - 0.1472 * x * x), 0.1, std::min(1., 3.6 * x)};
 }
 
 /// Terms of one pair, from a cell of the surface on.
 template <int D>
 struct PairSums {
-  Sums<D> stresses, velocities;
+  Sums<D> stresses, velocities, bend;
   bool found = true;
 
-  PairSums(const Domain<D>& domain, const Index<D>& at) : stresses(domain, at), velocities(domain, at) {}
+  PairSums(const Domain<D>& domain, const Index<D>& at)
+      : stresses(domain, at), velocities(domain, at), bend(domain, at) {}
+  std::array<const Sums<D>*, 3> lists() const { return {&stresses, &velocities, &bend}; }
   void add(Sums<D>& sums, const Difference<D>& difference, int row, double factor) {
     found = found && sums.add(difference, row, factor);
   }
@@ -122,6 +127,28 @@ PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int sid
     if (!thin(domain, other))
       sums.add(sums.velocities, second_difference<D>(along, other), Rows::velocity(other), outward);
   return sums;
+}
+
+/// The bend of the velocity along an axis: half a step of the difference, along the surface, of the slope
+/// that stresses in the surface have across it.
+template <int D>
+void add_bend(const Domain<D>& domain, const Index<D>& at, int side, int along, PairSums<D>& sums) {
+  using Rows = FieldRows<D>;
+  constexpr int z = D - 1;
+  Index<D> second = at;
+  second[z] += side ? -1 : 1;
+  if (thin(domain, along) || domain.bent(second[z])) return;
+  const double height = domain.height(at[z]);
+  const double per_cell = 2 * height / (height + domain.height(second[z]));
+  for (int other = 0; other < z; ++other)
+    for (const std::int64_t row : {0, 1}) {
+      if (thin(domain, other)) continue;
+      auto difference = first_difference<D>(other);
+      for (auto& part : difference.parts) part.offset[z] = side ? -row : row;
+      sums.add(sums.bend, difference,
+               along == other ? Rows::normal_stress(along) : Rows::shear_stress(along, other),
+               (row ? -0.5 : 0.5) * per_cell);
+    }
 }
 
 /// What a normal traction adds to the waves that enter at a face, as the Riemann solution takes them: in bent
@@ -164,25 +191,29 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
     if (domain.tilted_at(at) || !corrected(domain, at, side)) continue;
     const bool bent = domain.bent(at[z]);
     std::vector<PairSums<D>> pairs = {normal_sums(domain, at)};
-    for (int along = 0; along < z && !bent; ++along)
+    for (int along = 0; along < z && !bent; ++along) {
       pairs.push_back(tangential_sums(domain, at, side, along));
+      add_bend(domain, at, side, along, pairs.back());
+    }
     if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) continue;
     const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
+    const Shares shares = shares_of(zs * zs / (zp * zp), bent);
     Cell cell{number,
               layout.cell(at),
               material.cell(at) + row_b * material.row_pitch(),
               {},
-              Real(bent ? 0 : tangential_share * zs * zs),
+              Real(shares.tangential * zs * zs),
               Real(domain.coupling_at_edge(at, z, 0).normal * zp * zp),
+              Real(shares.bend),
               0};
     const auto entering = entering_per_normal_traction(domain, at, side);
     for (std::size_t pair = 0; pair < D; ++pair)
-      cell.normal[pair] = Real(normal_share(zs * zs / (zp * zp), !bent) * zs * zs * entering[pair]);
+      cell.normal[pair] = Real(shares.normal * zs * zs * entering[pair]);
     Pattern pattern;
     for (std::size_t pair = 0; pair < pairs.size(); ++pair)
-      for (const bool of_velocities : {false, true})
-        for (const auto& term : (of_velocities ? pairs[pair].velocities : pairs[pair].stresses).terms())
-          pattern[2 * pair + of_velocities].push_back(
+      for (std::size_t list = 0; list < 3; ++list)
+        for (const auto& term : pairs[pair].lists()[list]->terms())
+          pattern[pair][list].push_back(
               {layout.cell(term.cell) + term.row * layout.row_pitch() - layout.cell(at), Real(term.weight)});
     // Neighbours have the same but at the sides.
     auto found = std::find(patterns_.rbegin(), patterns_.rend(), pattern);
@@ -195,6 +226,7 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
   }
   if (cells_.empty()) return;
   for (auto& list : tractions_) list.assign(std::size_t(number + layout.padded_nx()), 0);
+  for (auto& list : bends_) list.assign(std::size_t(number + layout.padded_nx()), 0);
 }
 
 template <int D, class Real>
@@ -204,16 +236,20 @@ void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t
   for (; cell != cells_.end() && cell->number < last; ++cell) {
     const Real* const fields = state.fields.data() + cell->place;
     const Pattern& pattern = patterns_[std::size_t(cell->pattern)];
-    const auto sum = [&](std::size_t list) {
+    const auto sum = [&](std::size_t pair, std::size_t list) {
       Real total = 0;
-      for (const auto& term : pattern[list]) total += term.weight * fields[term.offset];
+      for (const auto& term : pattern[pair][list]) total += term.weight * fields[term.offset];
       return total;
     };
-    const Real b = state.material.data()[cell->b], normal = sum(0);
+    const auto number = std::size_t(cell->number);
+    const Real b = state.material.data()[cell->b], normal = sum(0, 0);
     for (std::size_t pair = 0; pair < D; ++pair) {
       Real traction = cell->normal[pair] * normal;
-      if (pair > 0) traction += cell->tangential * (sum(2 * pair) - b * cell->lambda * sum(2 * pair + 1));
-      tractions_[pair][std::size_t(cell->number)] = b * b * traction;
+      if (pair > 0) {
+        traction += cell->tangential * (sum(pair, 0) - b * cell->lambda * sum(pair, 1));
+        bends_[pair - 1][number] = b * cell->bend * sum(pair, 2);
+      }
+      tractions_[pair][number] = b * b * traction;
     }
   }
 }

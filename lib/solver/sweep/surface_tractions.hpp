@@ -25,6 +25,9 @@ class SurfaceTractions {
   void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);
   /// Of a pair of the sweep (0 P, then S by axes), by number.
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
+  /// What the sweeps before have bent a velocity along the surface, to be added to its correction
+  /// (FreeSurface). P has none.
+  const Real* bend(int pair) const { return bends_[std::size_t(pair - 1)].data(); }
 
  private:
   /// A field's value so far from the cell's first one.
@@ -33,18 +36,19 @@ class SurfaceTractions {
     Real weight;
     bool operator==(const Term& other) const { return offset == other.offset && weight == other.weight; }
   };
-  /// Of each pair its terms of stresses and of velocities.
-  using Pattern = std::array<std::vector<Term>, std::size_t(2 * D)>;
+  /// Of each pair its terms of stresses, of velocities, and of its bend.
+  using Pattern = std::array<std::array<std::vector<Term>, 3>, std::size_t(D)>;
   /// A cell of the surface: places in the fields and of b, shares times mu rho, and lambda rho.
   struct Cell {
     std::int64_t number, place, b;
     std::array<Real, D> normal;  // by pair
-    Real tangential, lambda;
+    Real tangential, lambda, bend;
     std::int32_t pattern;
   };
   std::vector<Cell> cells_;  // by number
   std::vector<Pattern> patterns_;
   std::array<std::vector<Real>, D> tractions_;
+  std::array<std::vector<Real>, std::size_t(D - 1)> bends_;
 };
 
 }  // namespace slipwave::solver

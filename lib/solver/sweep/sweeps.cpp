@@ -935,6 +935,13 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
       };
       fill(all[p].v, image.v, edge.empty() ? nullptr : edge.velocity_correction(p) + first, Real(2 * j + 1));
       fill(all[p].s, image.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
+      // As in across().
+      if (const auto& splitting = surface_tractions_[std::size_t(side)];
+          axis == z_axis && p > 0 && scale == 1 && !splitting.empty()) {
+        const Real* const bend = splitting.bend(p) + first;
+        Real* const v = state_.field_row(ghost, all[p].v);
+        for (std::int64_t i = columns.first; i < columns.last; ++i) v[i] += Real(2 * j + 1) * bend[i];
+      }
       // Tractions on bent rows take all stresses.
       if (p > 0 || axis != z_axis || !metric_.bent_row(side ? n - 1 : 0)) continue;
       for (int row = D; row < FieldRows<D>::count; ++row)
