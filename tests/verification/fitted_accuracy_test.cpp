@@ -122,7 +122,11 @@ const std::vector<LayerStack::Receiver> under_surface = {{-150, 150}, {0, 60}, {
 const std::vector<LayerStack::Receiver> near_floor = {{-200, 9}, {100, 9}, {250, 9}, {400, 9}, {250, -30}};
 const std::vector<LayerStack::Receiver> on_surface = {{-150, 0}, {0, 0}, {100, 0}, {300, 0}};
 
+const std::vector<LayerStack::Receiver> far_on_surface = {{200, 0}, {400, 0}, {600, 0}, {800, 0}};
+
 const DippingStack stacks[] = {
+    // Waves along the surface: 2.3 % without (E11c).
+    {"ShallowDip15", {rock}, {0}, 15, true, "explosion", far_on_surface, 15, 2.0, 3, true, 20, 0.75},
     {"WaterOverRockDip5", {water, rock}, {0}, 5, false, "explosion", both_sides, -200, 2.0, 2},
     {"WaterOverRockDip15", {water, rock}, {0}, 15, false, "explosion", both_sides, -200, 2.2, 2},
     {"WaterOverRockDip30", {water, rock}, {0}, 30, false, "explosion", both_sides, -200, 3.3, 2},

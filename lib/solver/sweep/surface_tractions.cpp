@@ -80,8 +80,9 @@ struct Shares {
 Shares shares_of(double x, bool bent) {
   x = std::max(x, 0.01);
   const double soft = std::min(1., 8 * x);
-  if (bent) return {0.85 * soft * (0.2326 - 0.1551 * x - 0.0242 / x), 0, 0};
-  return {soft * (0.1689 - 0.0465 * x - 0.0267 / x - 0.1472 * x * x), 0.1, std::min(1., 3.6 * x)};
+  const double bend = std::min(1., 3.6 * x);
+  if (bent) return {0.85 * soft * (0.2326 - 0.1551 * x - 0.0242 / x), 0, bend};
+  return {soft * (0.1689 - 0.0465 * x - 0.0267 / x - 0.1472 * x * x), 0.1, bend};
 }
 
 /// Terms of one pair, from a cell of the surface on.
@@ -129,24 +130,25 @@ PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int sid
   return sums;
 }
 
-/// The bend of the velocity along an axis: half a step of the difference, along the surface, of the slope
-/// that stresses in the surface have across it.
+/// The bend of a component of velocity: half a step of the difference, along the surface, of the slope that
+/// stresses have across it.
 template <int D>
-void add_bend(const Domain<D>& domain, const Index<D>& at, int side, int along, PairSums<D>& sums) {
+void add_bend(const Domain<D>& domain, const Index<D>& at, int side, int component, PairSums<D>& sums) {
   using Rows = FieldRows<D>;
   constexpr int z = D - 1;
   Index<D> second = at;
   second[z] += side ? -1 : 1;
-  if (thin(domain, along) || domain.bent(second[z])) return;
   const double height = domain.height(at[z]);
   const double per_cell = 2 * height / (height + domain.height(second[z]));
-  for (int other = 0; other < z; ++other)
+  for (int along = 0; along < z; ++along)
     for (const std::int64_t row : {0, 1}) {
-      if (thin(domain, other)) continue;
-      auto difference = first_difference<D>(other);
+      if (thin(domain, along)) continue;
+      auto difference = first_difference<D>(along);
       for (auto& part : difference.parts) part.offset[z] = side ? -row : row;
       sums.add(sums.bend, difference,
-               along == other ? Rows::normal_stress(along) : Rows::shear_stress(along, other),
+               component == along
+                   ? Rows::normal_stress(along)
+                   : Rows::shear_stress(std::min(along, component), std::max(along, component)),
                (row ? -0.5 : 0.5) * per_cell);
     }
 }
@@ -162,6 +164,17 @@ std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>&
     return {std::sqrt(dot(normal, normal)), 0};
   else
     return {normal.z, normal.x, normal.y};
+}
+
+template <int D, class Real>
+RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
+  RowVector<D, Real> normal{};
+  normal.z = 1;
+  if (!domain.bent(at[D - 1])) return normal;
+  const auto found = end_of_rows(domain, at, side).first;
+  normal.x = Real(found.x);
+  if constexpr (D == 3) normal.y = Real(found.y);
+  return normal;
 }
 
 /// Whether the extension beyond the surface is corrected there.
@@ -191,9 +204,10 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
     if (domain.tilted_at(at) || !corrected(domain, at, side)) continue;
     const bool bent = domain.bent(at[z]);
     std::vector<PairSums<D>> pairs = {normal_sums(domain, at)};
-    for (int along = 0; along < z && !bent; ++along) {
-      pairs.push_back(tangential_sums(domain, at, side, along));
-      add_bend(domain, at, side, along, pairs.back());
+    if (bent) add_bend(domain, at, side, z, pairs[0]);
+    for (int along = 0; along < z; ++along) {
+      pairs.push_back(bent ? PairSums<D>(domain, at) : tangential_sums(domain, at, side, along));
+      if (!thin(domain, along)) add_bend(domain, at, side, along, pairs.back());
     }
     if (!std::all_of(pairs.begin(), pairs.end(), [](const auto& pair) { return pair.found; })) continue;
     const double zp = domain.impedance(wave_p)(at), zs = domain.impedance(wave_s)(at);
@@ -205,6 +219,7 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
               Real(shares.tangential * zs * zs),
               Real(domain.coupling_at_edge(at, z, 0).normal * zp * zp),
               Real(shares.bend),
+              surface_normal<D, Real>(domain, at, side),
               0};
     const auto entering = entering_per_normal_traction(domain, at, side);
     for (std::size_t pair = 0; pair < D; ++pair)
@@ -243,12 +258,16 @@ void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t
     };
     const auto number = std::size_t(cell->number);
     const Real b = state.material.data()[cell->b], normal = sum(0, 0);
+    RowVector<D, Real> bend{};
+    bend.z = sum(0, 2), bend.x = sum(1, 2);
+    if constexpr (D == 3) bend.y = sum(2, 2);
+    // Only the velocity along the surface.
+    bend = scaled(cell->direction, Real(0), b * cell->bend, bend);
+    bends_[0][number] = bend.z, bends_[1][number] = bend.x;
+    if constexpr (D == 3) bends_[2][number] = bend.y;
     for (std::size_t pair = 0; pair < D; ++pair) {
       Real traction = cell->normal[pair] * normal;
-      if (pair > 0) {
-        traction += cell->tangential * (sum(pair, 0) - b * cell->lambda * sum(pair, 1));
-        bends_[pair - 1][number] = b * cell->bend * sum(pair, 2);
-      }
+      if (pair > 0) traction += cell->tangential * (sum(pair, 0) - b * cell->lambda * sum(pair, 1));
       tractions_[pair][number] = b * b * traction;
     }
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/kernels/bent_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/state.hpp"
 
@@ -25,9 +26,9 @@ class SurfaceTractions {
   void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);
   /// Of a pair of the sweep (0 P, then S by axes), by number.
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
-  /// What the sweeps before have bent a velocity along the surface, to be added to its correction
-  /// (FreeSurface). P has none.
-  const Real* bend(int pair) const { return bends_[std::size_t(pair - 1)].data(); }
+  /// What the sweeps before have bent the velocity along the surface, to be added to the correction of the
+  /// pair's (FreeSurface).
+  const Real* bend(int pair) const { return bends_[std::size_t(pair)].data(); }
 
  private:
   /// A field's value so far from the cell's first one.
@@ -43,12 +44,12 @@ class SurfaceTractions {
     std::int64_t number, place, b;
     std::array<Real, D> normal;  // by pair
     Real tangential, lambda, bend;
+    RowVector<D, Real> direction;  // N, normal to the surface
     std::int32_t pattern;
   };
   std::vector<Cell> cells_;  // by number
   std::vector<Pattern> patterns_;
-  std::array<std::vector<Real>, D> tractions_;
-  std::array<std::vector<Real>, std::size_t(D - 1)> bends_;
+  std::array<std::vector<Real>, D> tractions_, bends_;
 };
 
 }  // namespace slipwave::solver

@@ -937,7 +937,7 @@ void Sweeps<D, Real>::fill_ghost_rows(int axis, const Index<D>& at, int side, co
       fill(all[p].s, image.s, edge.empty() ? nullptr : edge.traction_correction(p) + first, scale);
       // As in across().
       if (const auto& splitting = surface_tractions_[std::size_t(side)];
-          axis == z_axis && p > 0 && scale == 1 && !splitting.empty()) {
+          axis == z_axis && scale == 1 && !splitting.empty()) {
         const Real* const bend = splitting.bend(p) + first;
         Real* const v = state_.field_row(ghost, all[p].v);
         for (std::int64_t i = columns.first; i < columns.last; ++i) v[i] += Real(2 * j + 1) * bend[i];
