@@ -126,7 +126,8 @@ bool any_orthorhombic(const Medium<D>& medium) {
 
 template <int D>
 bool any_tilted_axes(const Medium<D>& medium) {
-  if (D == 2 || (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation)))
+  if (D == 2 ||
+      (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation)))
     return false;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (has_tilted_axis(medium, cell)) return true;
@@ -304,9 +305,9 @@ double largest_turning(const OrthorhombicStiffness& c, int axis) {
 template <int D>
 Medium<D> in_slowest_directions(const Medium<D>& medium) {
   Medium<D> slowest = medium;
-  for (const auto property : {Property::epsilon, Property::delta, Property::tilt, Property::gamma,
-                              Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2,
-                              Property::azimuth, Property::rotation})
+  for (const auto property :
+       {Property::epsilon, Property::delta, Property::tilt, Property::gamma, Property::epsilon1,
+        Property::delta1, Property::delta3, Property::gamma2, Property::azimuth, Property::rotation})
     if (slowest.has(property)) slowest[property] = {};
   // Speeds go over all directions; most cells are like the one before them.
   Material last;
@@ -410,10 +411,10 @@ std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_space) 
                              is + "in 2-D, where beds deepen along x; turn the section, or leave the " +
                                  row_of(property).name + " out"};
     if (!has_axes)
-      return AnisotropyFault{
-          property, is + "where epsilon" + (in_space ? ", delta and gamma" : " and delta") +
-                        " are 0: isotropic rock has no axis; set one of them, or leave the " +
-                        row_of(property).name + " out there"};
+      return AnisotropyFault{property,
+                             is + "where epsilon" + (in_space ? ", delta and gamma" : " and delta") +
+                                 " are 0: isotropic rock has no axis; set one of them, or leave the " +
+                                 row_of(property).name + " out there"};
   }
   return {};
 }

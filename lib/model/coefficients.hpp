@@ -78,7 +78,8 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 }
 
 /// What the largest speed along the axes of the grid is at most where those of the rock are turned, m/s: in
-/// 2-D of quasi-P waves in any direction, in space that of these axes, asked for once of cells that are alike.
+/// 2-D of quasi-P waves in any direction, in space that of these axes, asked for once of cells that are
+/// alike.
 template <int D>
 class FastestOfTilted {
  public:

@@ -218,13 +218,13 @@ class TiltedMedia {
   std::int32_t number(const Material& material) {
     if (known_ && material == last_) return number_;
     known_ = true, last_ = material;
-    const auto extra = material.orthorhombic.value_or(Orthorhombic{
-        material.epsilon, material.delta, 0, material.gamma});
-    const auto [found, is_new] = numbers_.try_emplace(
-        Key{material.vp, material.vs, material.rho, material.epsilon, material.delta, material.gamma,
-            material.tilt, material.azimuth, material.rotation, extra.epsilon1, extra.delta1, extra.delta3,
-            extra.gamma2},
-        none);
+    const auto extra =
+        material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
+    const auto [found, is_new] =
+        numbers_.try_emplace(Key{material.vp, material.vs, material.rho, material.epsilon, material.delta,
+                                 material.gamma, material.tilt, material.azimuth, material.rotation,
+                                 extra.epsilon1, extra.delta1, extra.delta3, extra.gamma2},
+                             none);
     if (is_new) {
       const auto stiffness = space_stiffness_of(material);
       if (couples_pairs(stiffness)) {
@@ -648,8 +648,8 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
         for (int other = axis; other < D; ++other)
           s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
       if (const auto* const in_space = domain.tilted_medium(whole))
-        return energy_with(complementary(in_space->stiffness,
-                                         {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}));
+        return energy_with(
+            complementary(in_space->stiffness, {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}));
       return energy_with(complementary(stiffness_along_grid(medium, cell), s));
     }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
@@ -659,8 +659,8 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
                                        value(Rows::normal_stress(1)), value(Rows::shear_stress(0, 1))));
   const double elastic =
       anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
-                                    value(Rows::normal_stress(D - 1))) +
-                          shear / mu
+                                  value(Rows::normal_stress(D - 1))) +
+                        shear / mu
       : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
                : trace * trace / (D * D * lambda);
   return energy_with(elastic);

@@ -36,8 +36,8 @@ struct TiltedMediumInSpace {
 template <int D>
 using TiltedCell = std::conditional_t<D == 2, TiltedMedium, TiltedCellInSpace>;
 
-/// The waves of such a cell in 2-D in sweeps along an axis: the motion of the faster one along the axis and across
-/// it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
+/// The waves of such a cell in 2-D in sweeps along an axis: the motion of the faster one along the axis and
+/// across it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
 struct TiltedWaves {
   double cosine, sine;
   std::array<double, 2> z;

@@ -392,7 +392,8 @@ void Sweeps<D, Real>::add_tilted_stress(int axis, const Index<D>& line, const In
   const auto rows = swept_rows(axis, fields + columns.first, pitch);
   if constexpr (D == 3)
     tilted_cells_.add_stress(axis, number, columns, size, state_.material_row(line, row_b) + columns.first,
-                             flux.lo, flux.hi, rows, fields + columns.first + changed_[axis][changed] * pitch);
+                             flux.lo, flux.hi, rows,
+                             fields + columns.first + changed_[axis][changed] * pitch);
   else
     tilted_cells_.add_stress(axis, number, columns, size, flux.lo, flux.hi, rows);
 }

@@ -240,7 +240,7 @@ class Sweeps {
   }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
-  std::array<std::array<int, changed_at_most>, D> changed_;                   // [axis]
+  std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
   std::array<SurfaceTractions<D, Real>, 2> surface_tractions_;        // of z, by side
 };

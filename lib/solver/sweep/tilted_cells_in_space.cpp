@@ -180,8 +180,7 @@ void TiltedCells<3, Real>::expand(std::int64_t first, std::int64_t count, int ax
   const auto row_of = [&](std::int64_t k) -> const std::array<Real, Count>& {
     return media_[std::size_t(medium_of(k))].along[std::size_t(axis)].*values;
   };
-  for (std::size_t n = 0; n < Count; ++n)
-    std::fill(to.values[n], to.values[n] + alike, row_of(0)[n]);
+  for (std::size_t n = 0; n < Count; ++n) std::fill(to.values[n], to.values[n] + alike, row_of(0)[n]);
   for (auto k = alike; k < count; ++k) {
     const auto& of = row_of(k);
     for (std::size_t n = 0; n < Count; ++n) to.values[n][k] = of[n];
@@ -284,7 +283,8 @@ void TiltedCells<3, Real>::impedances_beside(int axis, std::int64_t row, const I
                                              const MaterialRows<Real>& material, std::int64_t from,
                                              Expanded<symmetric>& to) const {
   const auto cells = row == none ? IndexRange{} : cells_of(row, columns);
-  if (cells.count() == columns.count()) return expand(cells.first, cells.count(), axis, &OfAxis::impedance, to);
+  if (cells.count() == columns.count())
+    return expand(cells.first, cells.count(), axis, &OfAxis::impedance, to);
   to.of = -1;
   for (std::int64_t k = 0; k < columns.count(); ++k) {
     const auto i = from + k;

@@ -93,13 +93,13 @@ class TiltedCells<3, Real> {
   template <int Order>
   void reconstruct_ending(int axis, const Ending& ending, std::int64_t stride, std::int64_t at,
                           const Pairs& pairs, Real b, Real scale, OutgoingWaves<Real> outgoing) const;
-  /// Impedances beside a run of faces, from column `from` on: those of cells where there are some, else of the
-  /// material.
+  /// Impedances beside a run of faces, from column `from` on: those of cells where there are some, else of
+  /// the material.
   void impedances_beside(int axis, std::int64_t row, const IndexRange& columns,
                          const MaterialRows<Real>& material, std::int64_t from,
                          Expanded<symmetric>& to) const;
 
-  std::vector<Cell> cells_;               // by row, then x
+  std::vector<Cell> cells_;                // by row, then x
   std::vector<std::int64_t> first_cells_;  // of each row, and the end
   std::vector<Medium> media_;
   std::array<std::vector<Ending>, 3> endings_;
