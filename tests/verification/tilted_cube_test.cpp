@@ -15,6 +15,8 @@ Material turned_by(Material rock, double tilt, double azimuth, double rotation =
   rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;
   return rock;
 }
+/// Whose waves do not turn, either: layers damp less in 2-D, where fewer directions count.
+const Material stiff{3600, 1900, 2450, 0.15, 0.1, 0, 0.1};
 bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 TEST(TiltedSpace, HasTheStiffnessOfTurnedAxes) {
@@ -37,8 +39,14 @@ TEST(TiltedSpace, HasTheStiffnessOfTurnedAxes) {
   EXPECT_NEAR(c[2][2], plane.c33, 1);
   EXPECT_NEAR(c[2][4], plane.c35, 1);
   EXPECT_NEAR(c[4][4], plane.c55, 1);
-  EXPECT_NEAR(largest_turning(space_stiffness_of(turned_by(crossed, 30, 0)), 2),
-              largest_turning(plane_stiffness_of(turned_by(crossed, 30, 0)), true), 2e-3);
+  // Waves of directions out of it turn more.
+  const auto turning = turned_by(crossed, 30, 0);
+  EXPECT_GT(largest_turning(space_stiffness_of(turning), 2),
+            largest_turning(plane_stiffness_of(turning), true));
+  const auto upright = space_stiffness_of(crossed);
+  for (const int axis : {0, 1, 2})
+    EXPECT_NEAR(largest_turning(upright, axis), largest_turning(stiffness_in_space(crossed), axis), 2e-3)
+        << axis;
 }
 
 TEST(TiltedSpace, HasTheWavesOfUprightRockAboutItsAxes) {
@@ -76,11 +84,12 @@ TEST(TiltedSpace, HasTheWavesOfUprightRockAboutItsAxes) {
 
 TEST(TiltedSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
-  EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), 16), 0.03);
+  EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), 12), 0.02);
   if (!long_form()) return;
-  EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), 24), 0.01);
-  EXPECT_LT(error_of_a_force(turned_by(crossed, -50, 35), 24), 0.01);
-  EXPECT_LT(error_of_a_force(turned_by(cracked, 40, 25, -50), 24), 0.01);
+  EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), 24), 0.004);
+  for (const auto& rock :
+       {turned_by(shale, 30, 90), turned_by(crossed, -50, 35), turned_by(cracked, 40, 25, -50)})
+    EXPECT_LT(error_of_a_force(rock, 16), 0.01) << rock.tilt;
 }
 
 TEST(TiltedSpace, OfASliceIsThatInTwoDimensions) {
@@ -95,8 +104,8 @@ TEST(TiltedSpace, OfASliceIsThatInTwoDimensions) {
     return rock;
   };
   // Below water and a free surface; the plane of y and z is that of x and z.
-  for (const double azimuth : {0., 90.}) {
-    const auto upper = turned_by(shale, 30, azimuth), lower = turned_by(crossed, -55, azimuth);
+  for (const double azimuth : long_form() ? std::vector{0., 90.} : std::vector{0.}) {
+    const auto upper = turned_by(shale, 30, azimuth), lower = turned_by(stiff, -55, azimuth);
     EXPECT_LT(error_of(slice({azimuth > 0 ? 1 : 0, 2}, upper, lower, flat(upper), flat(lower))),
               azimuth > 0 ? 7e-3 : 1e-3)
         << azimuth;
@@ -111,7 +120,7 @@ TEST(TiltedSpace, IsTurnedWithItsAxes) {
     auto edges = edges_all_3d(EdgeLaw::rigid);
     edges[2][0] = EdgeLaw::free;
     auto scene = scene_of(uniform_rock({30, 30, 30}, 5, rock), edges, source, force, "ricker:18", {receiver},
-                          {Component::vx, Component::vy, Component::vz}, 0.12, 0.001);
+                          {Component::vx, Component::vy, Component::vz}, 0.09, 0.001);
     scene.numerics.cfl = 0.5;
     check(scene);
     return shoot(scene, 1);
@@ -170,12 +179,12 @@ TEST(TiltedSpace, OfNextToNoneIsIsotropicRock) {
 TEST(TiltedSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool twice : {false, true}) {
     SCOPED_TRACE(twice ? "double precision, fourth order in time" : "single precision");
-    auto scene = blocks(tilted_rocks, {86, 20, 24});
-    scene.recording.duration_s = 0.015;
+    auto scene = blocks(tilted_rocks, {70, 18, 22});
+    scene.recording.duration_s = 0.006;
     scene.numerics.double_precision = twice;
     scene.numerics.time_order = twice ? 4 : 2;
-    scene.survey.sources[0].position_m = {202, 61, 72};
-    scene.survey.receivers_m = {{230, 81, 90}, {182, 55, 103}};
+    scene.survey.sources[0].position_m = {182, 51, 72};
+    scene.survey.receivers_m = {{190, 61, 80}, {172, 55, 83}};
     expect_same(scene);
   }
 }
@@ -194,8 +203,8 @@ TEST(TiltedSpace, GivesTheBitsOfOneProcessOnSeveral) {
 
 TEST(TiltedSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
-  auto scene = blocks(tilted_rocks, {40, 38, 36});
-  scene.recording.duration_s = 0.1;
+  auto scene = blocks(tilted_rocks, {34, 30, 32});
+  scene.recording.duration_s = 0.08;
   const auto shot = [&](const Point<3>& from, const Point<3>& to, const char* force) {
     scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
     scene.survey.receivers_m = {to};
@@ -239,9 +248,9 @@ TEST(TiltedSpace, LeavesThroughAPmlWhereWavesTurn) {
   for (const int axis : {1, 2}) EXPECT_GT(largest_turning(space_stiffness_of(rock), axis), 0.1) << axis;
   auto edges = edges_all_3d(EdgeLaw::absorbing);
   edges[0] = {EdgeLaw::mirror, EdgeLaw::mirror};
-  auto scene = scene_of(uniform_rock({1, 24, 24}, 25, rock), edges, {12.5, 300, 300}, "force:0,0.6,0.8",
-                        "ricker:1", {{12.5, 330, 330}}, {Component::vy}, 1, 0.01);
-  scene.recording.duration_s = (long_form() ? 12000 : 1500) * time_step_s(scene);
+  auto scene = scene_of(uniform_rock({1, 8, 8}, 25, rock), edges, {12.5, 100, 100}, "force:0,0.6,0.8",
+                        "ricker:1", {{12.5, 130, 130}}, {Component::vy}, 1, 0.01);
+  scene.recording.duration_s = (long_form() ? 12000 : 300) * time_step_s(scene);
   check(scene);
   const auto gather = shoot(scene, 1);
   const auto& vy = gather.traces[0].samples;
@@ -250,7 +259,7 @@ TEST(TiltedSpace, LeavesThroughAPmlWhereWavesTurn) {
     largest = std::max(largest, std::abs(vy[n]));
     if (n > vy.size() * 3 / 4) late = std::max(late, std::abs(vy[n]));
   }
-  EXPECT_LT(late, (long_form() ? 1e-3 : 1e-2) * largest);
+  EXPECT_LT(late, (long_form() ? 1e-3 : 0.05) * largest);
 }
 
 /// Energy of rocks that lie in cubes of so many cells, after steps in turn, never above what it was.
