@@ -152,21 +152,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
-        if constexpr (D == 2)
-          if (const auto* const tilted = domain.tilted_at(cell); tilted && !bent) {
-            to.tilted = std::int32_t(tilted_.size());
-            const auto& c = tilted->stiffness;
-            const auto of = waves_along(*tilted, z);
-            const auto real = [&](double value) { return Real(value); };
-            tilted_.push_back({real(c.c13 * tilted->rho), real(c.c15 * tilted->rho),
-                               real(c.c35 * tilted->rho), real(c.c55 * tilted->rho), real(of.along),
-                               real(of.mixed), real(of.across)});
-          }
-        if constexpr (D == 3)
-          if (const auto* const tilted = domain.tilted_medium(cell); tilted && !bent) {
-            to.tilted = std::int32_t(tilted_in_space_.size());
-            tilted_in_space_.push_back(tilted_in_space(*tilted));
-          }
+        if (!bent && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
       }
       slots_.push_back(slot);
     }
@@ -174,6 +160,23 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
   }
   for (auto* lists : {&velocities_, &tractions_})
     for (auto& list : *lists) list.assign(slots_.size(), 0);
+}
+
+/// The place of what is known of such a cell.
+template <int D, class Real>
+std::int32_t InterfaceCorrections<D, Real>::add_tilted(const Domain<D>& domain, const Index<D>& cell) {
+  if constexpr (D == 2) {
+    const auto& tilted = *domain.tilted_at(cell);
+    const auto& c = tilted.stiffness;
+    const auto of = waves_along(tilted, D - 1);
+    const auto real = [&](double value) { return Real(value); };
+    tilted_.push_back({real(c.c13 * tilted.rho), real(c.c15 * tilted.rho), real(c.c35 * tilted.rho),
+                       real(c.c55 * tilted.rho), real(of.along), real(of.mixed), real(of.across)});
+    return std::int32_t(tilted_.size()) - 1;
+  } else {
+    tilted_in_space_.push_back(tilted_in_space(*domain.tilted_medium(cell)));
+    return std::int32_t(tilted_in_space_.size()) - 1;
+  }
 }
 
 template <int D, class Real>

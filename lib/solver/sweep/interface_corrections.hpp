@@ -63,6 +63,7 @@ class InterfaceCorrections {
   };
   std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
+  std::int32_t add_tilted(const Domain<D>& domain, const Index<D>& cell);
   static TiltedInSpace tilted_in_space(const TiltedMediumInSpace& medium);
   void update_tilted_slot(const State<D, Real>& state, std::size_t slot);
 
