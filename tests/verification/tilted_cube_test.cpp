@@ -179,7 +179,7 @@ TEST(TiltedSpace, OfNextToNoneIsIsotropicRock) {
 TEST(TiltedSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool twice : {false, true}) {
     SCOPED_TRACE(twice ? "double precision, fourth order in time" : "single precision");
-    auto scene = blocks(tilted_rocks, {70, 18, 22});
+    auto scene = blocks(tilted_rocks, {54, 14, 20});
     scene.recording.duration_s = 0.006;
     scene.numerics.double_precision = twice;
     scene.numerics.time_order = twice ? 4 : 2;
@@ -241,23 +241,23 @@ TEST(TiltedSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
 
 TEST(TiltedSpace, LeavesThroughAPmlWhereWavesTurn) {
   const ThreadLimit one_thread(1);
-  // Medium III of Becache, Fauqueux and Joly (2003), tilted in a slice of the plane of y and z.
+  // Medium III of Becache, Fauqueux and Joly (2003), tilted in a slice of the plane of x and z.
   auto rock = material_of_stiffness({4e9, 7.5e9, 20e9, 2e9}, 2500);
   rock.gamma = -0.25;
-  rock = turned_by(rock, 35, 90);
-  for (const int axis : {1, 2}) EXPECT_GT(largest_turning(space_stiffness_of(rock), axis), 0.1) << axis;
+  rock = turned_by(rock, 35, 0);
+  for (const int axis : {0, 2}) EXPECT_GT(largest_turning(space_stiffness_of(rock), axis), 0.1) << axis;
   auto edges = edges_all_3d(EdgeLaw::absorbing);
-  edges[0] = {EdgeLaw::mirror, EdgeLaw::mirror};
-  auto scene = scene_of(uniform_rock({1, 8, 8}, 25, rock), edges, {12.5, 100, 100}, "force:0,0.6,0.8",
-                        long_form() ? "ricker:1" : "ricker:2", {{12.5, 130, 130}}, {Component::vy}, 1, 0.01);
+  edges[1] = {EdgeLaw::mirror, EdgeLaw::mirror};
+  auto scene = scene_of(uniform_rock({8, 1, 8}, 25, rock), edges, {100, 12.5, 100}, "force:0.6,0,0.8",
+                        long_form() ? "ricker:1" : "ricker:2", {{130, 12.5, 130}}, {Component::vx}, 1, 0.01);
   scene.recording.duration_s = (long_form() ? 12000 : 450) * time_step_s(scene);
   check(scene);
   const auto gather = shoot(scene, 1);
-  const auto& vy = gather.traces[0].samples;
+  const auto& vx = gather.traces[0].samples;
   double largest = 0, late = 0;
-  for (std::size_t n = 0; n < vy.size(); ++n) {
-    largest = std::max(largest, std::abs(vy[n]));
-    if (n > vy.size() * 3 / 4) late = std::max(late, std::abs(vy[n]));
+  for (std::size_t n = 0; n < vx.size(); ++n) {
+    largest = std::max(largest, std::abs(vx[n]));
+    if (n > vx.size() * 3 / 4) late = std::max(late, std::abs(vx[n]));
   }
   EXPECT_LT(late, (long_form() ? 1e-3 : 0.03) * largest);
 }
