@@ -97,7 +97,7 @@ void check_stiffness(const Settings& settings) {
   given.check_kind();
   for (const Property property : all_properties())
     if (row_of(property).mean == Mean::elastic && property != Property::rho &&
-        !settings.file(property).empty())
+        !settings.file(property).empty() && !(turns_axes(property) && !given[Modulus::c15]))
       throw Error("found both stiffnesses and --" + row_of(property).name + ", expected one of them",
                   ErrorKind::usage);
   if (!settings.vs_from.empty() || !settings.rho_from.empty())
@@ -323,7 +323,9 @@ void run(const Settings& settings, const cli::Context& context) {
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<2> model;
   model.medium = read_medium(settings, model.history);
-  check(model, settings.limits);
+  auto limits = settings.limits;
+  limits.in_space = settings.extrude_m.has_value();
+  check(model, limits);
   const double sampled_m = model.grid().spacing_m;
   if (settings.resample_m)
     model =

@@ -124,6 +124,16 @@ bool any_orthorhombic(const Medium<D>& medium) {
   return false;
 }
 
+template <int D>
+bool any_tilted_axes(const Medium<D>& medium) {
+  if (D == 2 ||
+      (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation)))
+    return false;
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (has_tilted_axis(medium, cell)) return true;
+  return false;
+}
+
 PlaneSpeeds phase_speeds(const Stiffness& stiffness, double rho, double angle_rad) {
   const auto& [c11, c13, c33, c55] = stiffness;
   const double along = std::sin(angle_rad), down = std::cos(angle_rad), x = along * along, z = down * down;
@@ -295,8 +305,9 @@ double largest_turning(const OrthorhombicStiffness& c, int axis) {
 template <int D>
 Medium<D> in_slowest_directions(const Medium<D>& medium) {
   Medium<D> slowest = medium;
-  for (const auto property : {Property::epsilon, Property::delta, Property::tilt, Property::gamma,
-                              Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2})
+  for (const auto property :
+       {Property::epsilon, Property::delta, Property::tilt, Property::gamma, Property::epsilon1,
+        Property::delta1, Property::delta3, Property::gamma2, Property::azimuth, Property::rotation})
     if (slowest.has(property)) slowest[property] = {};
   // Speeds go over all directions; most cells are like the one before them.
   Material last;
@@ -385,14 +396,35 @@ std::optional<AnisotropyFault> fault_in_space(const Material& of) {
 
 }  // namespace
 
+namespace {
+
+/// Angles of what has no axes, and those that turn them out of a plane.
+std::optional<AnisotropyFault> fault_of_axes(const Material& of, bool in_space) {
+  const bool has_axes = in_space ? of.is_anisotropic_in_space() : of.is_anisotropic();
+  const std::pair<Property, double> all[] = {
+      {Property::tilt, of.tilt}, {Property::azimuth, of.azimuth}, {Property::rotation, of.rotation}};
+  for (const auto& [property, value] : all) {
+    if (value == 0) continue;
+    const std::string is = "is " + shown(value, 6) + ", expected 0 ";
+    if (!in_space && property != Property::tilt)
+      return AnisotropyFault{property,
+                             is + "in 2-D, where beds deepen along x; turn the section, or leave the " +
+                                 row_of(property).name + " out"};
+    if (!has_axes)
+      return AnisotropyFault{property,
+                             is + "where epsilon" + (in_space ? ", delta and gamma" : " and delta") +
+                                 " are 0: isotropic rock has no axis; set one of them, or leave the " +
+                                 row_of(property).name + " out there"};
+  }
+  return {};
+}
+
+}  // namespace
+
 std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, bool in_space) {
   const double vp = material.vp, vs = material.vs, rho = material.rho;
-  const double epsilon = material.epsilon, delta = material.delta, tilt = material.tilt;
-  if (!material.is_anisotropic() && tilt != 0)
-    return AnisotropyFault{Property::tilt,
-                           "is " + shown(tilt, 6) +
-                               ", expected 0 where epsilon and delta are 0: isotropic rock has "
-                               "no axis; set one of them, or leave the tilt out there"};
+  const double epsilon = material.epsilon, delta = material.delta;
+  if (auto fault = fault_of_axes(material, in_space)) return fault;
   if (!material.is_anisotropic_in_space() || rho == 0) return {};
   if (vs == 0) return fault_of_fluid(material);
   // (c13 + c55)^2 must not be negative, and c11 c33 must be more than c13^2.
@@ -415,6 +447,8 @@ std::optional<AnisotropyFault> fault_of_anisotropy(const Material& material, boo
 template bool any_orthorhombic(const Medium<2>&);
 template bool any_orthorhombic(const Medium<3>&);
 
+template bool any_tilted_axes(const Medium<2>&);
+template bool any_tilted_axes(const Medium<3>&);
 template std::int64_t anisotropic_cells(const Medium<2>&);
 template std::int64_t anisotropic_cells(const Medium<3>&);
 template void complete_anisotropy(Medium<2>&);

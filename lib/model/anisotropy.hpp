@@ -80,11 +80,16 @@ bool is_anisotropic(const Medium<D>& medium, std::size_t cell) {
 /// Whether any cell is orthorhombic; in 2-D nothing tells.
 template <int D>
 bool any_orthorhombic(const Medium<D>& medium);
-/// Whether its axis of symmetry lies along no axis of the grid.
+/// Whether its axes of symmetry are turned from those of the grid.
 template <int D>
 bool has_tilted_axis(const Medium<D>& medium, std::size_t cell) {
-  return medium.value(Property::tilt, cell) != 0;
+  if (medium.value(Property::tilt, cell) != 0) return true;
+  return D == 3 && is_orthorhombic(medium, cell) &&
+         medium.value(Property::azimuth, cell) + medium.value(Property::rotation, cell) != 0;
 }
+/// Whether any cell in space has such axes; in 2-D nothing asks.
+template <int D>
+bool any_tilted_axes(const Medium<D>& medium);
 /// How many cells are anisotropic.
 template <int D>
 std::int64_t anisotropic_cells(const Medium<D>& medium);

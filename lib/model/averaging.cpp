@@ -21,7 +21,10 @@ bool MaterialMean::add(const Material& part, double volume) {
   if (part.vs > 0) {
     const auto [c11, c13, c33, c55] = stiffness_of(part);
     anisotropic_ = anisotropic_ || part.is_anisotropic_in_space();
-    if (part.is_anisotropic() && volume > tilted_volume_) tilted_volume_ = volume, tilt_ = part.tilt;
+    if (part.is_anisotropic_in_space() && volume > tilted_volume_) {
+      tilted_volume_ = volume;
+      tilt_ = part.tilt, azimuth_ = part.azimuth, rotation_ = part.rotation;
+    }
     ratio_ += volume * c13 / c33;
     plate_ += volume * (c11 - c13 * c13 / c33);
     const auto of = stiffness_in_space(part);
@@ -56,7 +59,7 @@ Material MaterialMean::of_layers() const {
       mass_ / volume_);
   mean.gamma = in_space.gamma, mean.orthorhombic = in_space.orthorhombic;
   // Rounding makes no isotropic rock of one with an axis; parts may make one.
-  if (mean.is_anisotropic()) mean.tilt = tilt_;
+  if (mean.is_anisotropic_in_space()) mean.tilt = tilt_, mean.azimuth = azimuth_, mean.rotation = rotation_;
   return mean;
 }
 

@@ -22,6 +22,8 @@ struct Material {
 
   double gamma = 0;                               // of S waves in level directions, felt in 3-D alone
   std::optional<Orthorhombic> orthorhombic = {};  // none: alike in all horizontal directions
+  // Of the axes in 3-D, degrees: where beds deepen, and their turn about the tilted axis (theory.md (O6)).
+  double azimuth = 0, rotation = 0;
 
   /// In the plane of x and z, and in space.
   bool is_anisotropic() const { return epsilon != 0 || delta != 0; }
@@ -39,6 +41,8 @@ Material material_of(const Medium<D>& medium, std::size_t cell) {
                  medium.value(Property::delta, cell),
                  medium.value(Property::tilt, cell),
                  medium.value(Property::gamma, cell)};
+  of.azimuth = medium.value(Property::azimuth, cell);
+  of.rotation = medium.value(Property::rotation, cell);
   if (!medium.has(Property::epsilon1)) return of;
   const Orthorhombic found = {medium.value(Property::epsilon1, cell), medium.value(Property::delta1, cell),
                               medium.value(Property::delta3, cell), medium.value(Property::gamma2, cell)};
@@ -56,6 +60,8 @@ void put(Medium<D>& medium, std::size_t cell, const Material& material) {
   if (medium.has(Property::delta)) medium[Property::delta][cell] = float(material.delta);
   if (medium.has(Property::tilt)) medium[Property::tilt][cell] = float(material.tilt);
   if (medium.has(Property::gamma)) medium[Property::gamma][cell] = float(material.gamma);
+  if (medium.has(Property::azimuth)) medium[Property::azimuth][cell] = float(material.azimuth);
+  if (medium.has(Property::rotation)) medium[Property::rotation][cell] = float(material.rotation);
   if (!medium.has(Property::epsilon1)) return;
   const auto of =
       material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
@@ -96,7 +102,8 @@ class MaterialMean {
   // The same along y, of c12 in the plane of both, and volume times c66 and 1/c44.
   double ratio_y_ = 0, plate_y_ = 0, plate_xy_ = 0, level_ = 0, compliance_yz_ = 0;
   bool anisotropic_ = false;
-  double tilt_ = 0, tilted_volume_ = 0;  // of the largest anisotropic part
+  // Of the axes of the largest anisotropic part.
+  double tilt_ = 0, azimuth_ = 0, rotation_ = 0, tilted_volume_ = 0;
 };
 
 /// The mean of a property that stands by itself, over the parts of a cell that count for MaterialMean.

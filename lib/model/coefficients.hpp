@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/anisotropy.hpp"
+#include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -21,8 +22,13 @@ template <int D>
 double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave) {
   if (medium.is_void(cell)) return 0;
   if (has_tilted_axis(medium, cell)) {
+    const double rho = medium.rho[cell];
+    if constexpr (D == 3) {
+      const auto c = space_stiffness_of(material_of(medium, cell)).along_grid();
+      return std::sqrt((wave == wave_s ? c.c55 : c.normal(axis, axis)) / rho);
+    }
     const auto c = plane_stiffness_of(medium, cell);
-    return std::sqrt((wave == wave_s ? c.c55 : axis < D - 1 ? c.c11 : c.c33) / double(medium.rho[cell]));
+    return std::sqrt((wave == wave_s ? c.c55 : axis < D - 1 ? c.c11 : c.c33) / rho);
   }
   if (D == 3 && wave == wave_p && axis == 1 && is_orthorhombic(medium, cell))
     return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon1, cell));
@@ -31,14 +37,21 @@ double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave
   return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
 }
 
+/// The stiffness by which sweeps load stresses, of a cell in space: that of the nine along the grid.
+inline OrthorhombicStiffness stiffness_along_grid(const Medium<3>& medium, std::size_t cell) {
+  const auto material = material_of(medium, cell);
+  return has_tilted_axis(medium, cell) ? space_stiffness_of(material).along_grid()
+                                       : stiffness_in_space(material);
+}
+
 /// Of S waves with motion along `motion` in sweeps along `axis`, m/s: those of the shear stiffness of the
 /// plane of both (theory.md (O1)).
 template <int D>
 double shear_speed(const Medium<D>& medium, std::size_t cell, int axis, int motion) {
-  if (D == 2 || !is_anisotropic(medium, cell)) return wave_speed(medium, cell, axis, wave_s);
-  if (medium.is_void(cell)) return 0;
-  return std::sqrt(stiffness_in_space(material_of(medium, cell)).shear(axis, motion) /
-                   double(medium.rho[cell]));
+  if constexpr (D == 3)
+    if (is_anisotropic(medium, cell) && !medium.is_void(cell))
+      return std::sqrt(stiffness_along_grid(medium, cell).shear(axis, motion) / double(medium.rho[cell]));
+  return wave_speed(medium, cell, axis, wave_s);
 }
 
 /// The density times c13, by which the strain along x loads szz and that along z sxx: lambda of an isotropic
@@ -46,14 +59,16 @@ double shear_speed(const Medium<D>& medium, std::size_t cell, int axis, int moti
 template <int D>
 double wave_coupling(const Medium<D>& medium, std::size_t cell) {
   if (medium.is_void(cell)) return 0;
-  return double(medium.rho[cell]) * (has_tilted_axis(medium, cell) ? plane_stiffness_of(medium, cell).c13
-                                                                   : stiffness_of(medium, cell).c13);
+  const double rho = medium.rho[cell];
+  if (!has_tilted_axis(medium, cell)) return rho * stiffness_of(medium, cell).c13;
+  if constexpr (D == 3) return rho * stiffness_along_grid(medium, cell).c13;
+  return rho * plane_stiffness_of(medium, cell).c13;
 }
 
 /// In 3-D, by the axes: the density times c12, c13 or c23.
 inline double wave_coupling(const Medium<3>& medium, std::size_t cell, int one, int other) {
   if (medium.is_void(cell)) return 0;
-  return double(medium.rho[cell]) * stiffness_in_space(material_of(medium, cell)).normal(one, other);
+  return double(medium.rho[cell]) * stiffness_along_grid(medium, cell).normal(one, other);
 }
 
 /// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.
@@ -62,15 +77,34 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
   return double(medium.rho[cell]) * wave_speed(medium, cell, axis, wave);
 }
 
+/// What the largest speed along the axes of the grid is at most where those of the rock are turned, m/s: in
+/// 2-D of quasi-P waves in any direction, in space that of these axes, asked for once of cells that are
+/// alike.
+template <int D>
+class FastestOfTilted {
+ public:
+  double operator()(const Medium<D>& medium, std::size_t cell) {
+    const auto material = material_of(medium, cell);
+    if (D == 2) return fastest_p_speed_at_most(material);
+    if (!(material == last_)) speed_ = fastest_along_grid(last_ = material);
+    return speed_;
+  }
+
+ private:
+  Material last_;
+  double speed_ = 0;
+};
+
 /// The largest speed of all cells, axes and waves, m/s; 0 where all is void.
 template <int D>
 double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
   // Whose stiffness may be anything that is positive.
   const bool shear_too = D == 3 && medium.has(Property::gamma);
+  FastestOfTilted<D> of_tilted;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (has_tilted_axis(medium, cell))
-      fastest = std::max(fastest, fastest_p_speed_at_most(material_of(medium, cell)));
+      fastest = std::max(fastest, of_tilted(medium, cell));
     else
       for (int axis = 0; axis < D; ++axis) {
         fastest = std::max(fastest, wave_speed(medium, cell, axis, wave_p));
@@ -93,9 +127,9 @@ double fastest_across_cells(const Medium<D>& medium) {
     at[D - 1] += grid.first[D - 1];
     fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
   };
+  FastestOfTilted<D> of_tilted;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-    see(cell, has_tilted_axis(medium, cell) ? fastest_p_speed_at_most(material_of(medium, cell))
-                                            : double(medium.vp[cell]));
+    see(cell, has_tilted_axis(medium, cell) ? of_tilted(medium, cell) : double(medium.vp[cell]));
   for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }

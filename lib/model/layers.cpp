@@ -191,7 +191,7 @@ void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& name
   given.check_kind();
   for (const auto& text : named)
     if (const auto other = find_property(text.substr(0, text.find('='))))
-      if (row_of(*other).mean == Mean::elastic)
+      if (row_of(*other).mean == Mean::elastic && !(turns_axes(*other) && !given[Modulus::c15]))
         throw Error("found both stiffnesses and " + row_of(*other).name + ", expected one of them",
                     ErrorKind::usage);
   if (!(layer.material.rho > 0))
@@ -233,6 +233,8 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     if (property == Property::epsilon) layer.material.epsilon = value;
     if (property == Property::delta) layer.material.delta = value;
     if (property == Property::tilt) layer.material.tilt = value;
+    if (property == Property::azimuth) layer.material.azimuth = value;
+    if (property == Property::rotation) layer.material.rotation = value;
     if (property == Property::gamma) layer.material.gamma = value;
   }
   set_orthorhombic(layer);

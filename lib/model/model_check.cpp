@@ -126,8 +126,8 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
            "is " + shown_float(double(medium[Property::qs][cell])) +
                ", expected inf in fluid, which carries no S waves");
   if (medium.has(Property::epsilon) || medium.has(Property::delta) || medium.has(Property::tilt) ||
-      medium.has(Property::gamma))
-    if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3))
+      medium.has(Property::gamma) || medium.has(Property::azimuth) || medium.has(Property::rotation))
+    if (const auto fault = fault_of_anisotropy(material_of(medium, cell), D == 3 || limits.in_space))
       refuse(medium.grid(), cell, row_of(fault->of).name, fault->text);
   if (medium.has(Property::cut_epsilon) || medium.has(Property::cut_delta))
     if (const auto fault = fault_of_tilted_mean(medium, cell))

@@ -39,6 +39,31 @@ PropertyRow dip(const std::string& name, const std::string& of, const std::strin
           .if_absent = 0};
 }
 
+/// Of the axes of rock in 3-D, besides the tilt.
+PropertyRow turn(const std::string& name, const std::string& long_name) {
+  return {.name = name,
+          .long_name = long_name,
+          .help = long_name + ", degrees, in 3-D, a file or a number",
+          .units = "degree",
+          .shown_unit = "degrees",
+          .si = {"degree", "degrees"},
+          .least = -360,
+          .largest = 360,
+          .mean = Mean::elastic,
+          .if_absent = 0};
+}
+
+PropertyRow tilt() {
+  return dip("tilt", "beds of anisotropic rock, the tilt of its axis of symmetry",
+             "dip of such layers, degrees: the tilt of their axis from the vertical, a file or a number");
+}
+PropertyRow azimuth() {
+  return turn("azimuth", "direction in which the beds of anisotropic rock deepen, from +x towards +y");
+}
+PropertyRow rotation() {
+  return turn("rotation", "turn of orthorhombic rock about the normal of its beds, from down dip");
+}
+
 /// Of cells that interfaces of solids cut.
 PropertyRow of_cut_cells(PropertyRow row) {
   row.computed = true;
@@ -100,8 +125,9 @@ std::vector<PropertyRow> property_rows() {
           in_space("delta1", "Tsvankin's delta(1) of orthorhombic rock"),
           in_space("delta3", "Tsvankin's delta(3) of orthorhombic rock"),
           in_space("gamma2", "Tsvankin's gamma(2) of orthorhombic rock"),
-          dip("tilt", "beds of anisotropic rock, the tilt of its axis of symmetry",
-              "dip of such layers, degrees: the tilt of their axis from the vertical, a file or a number"),
+          tilt(),
+          azimuth(),
+          rotation(),
           of_cut_cells(thomsen("cut_epsilon", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(thomsen("cut_delta", "normal of the interface that cuts the cell, 0 = none")),
           of_cut_cells(dip("cut_dip", "interface that cuts the cell", ""))};

@@ -50,6 +50,8 @@ enum class Property : std::size_t {
   delta3,
   gamma2,
   tilt,
+  azimuth,
+  rotation,
   cut_epsilon,
   cut_delta,
   cut_dip
@@ -68,6 +70,10 @@ std::vector<PropertyRow> property_rows();
 std::span<const PropertyRow> material_properties();
 
 const PropertyRow& row_of(Property property);
+/// Whether it is an angle of the axes of rock, which may be given beside stiffnesses along them.
+constexpr bool turns_axes(Property property) {
+  return property == Property::tilt || property == Property::azimuth || property == Property::rotation;
+}
 /// Nothing where no row has this name.
 std::optional<Property> find_property(const std::string& name);
 /// In the order of the table.

@@ -168,9 +168,9 @@ void GivenStiffness::check_kind() const {
   with(std::array{Modulus::c15, Modulus::c35}, "tilted axes have");
   for (const auto modulus : {Modulus::c66, Modulus::c22})
     if (given(modulus))
-      throw Error(
-          "found c15 and c35 with " + name_of(modulus) + ", expected one of both: axes tilt in 2-D alone",
-          ErrorKind::usage);
+      throw Error("found c15 and c35 with " + name_of(modulus) +
+                      ", expected one of both: in 3-D tilt, azimuth and rotation turn the axes",
+                  ErrorKind::usage);
 }
 
 std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {

@@ -9,6 +9,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 #include "plot/panel.hpp"
 
@@ -27,6 +28,12 @@ struct Curves {
   double at(int n) const { return x.low + (x.high - x.low) * n / (points - 1); }
 };
 
+/// Room above and below values between these.
+void set_heights(Curves& curves, double low, double high) {
+  const double room = std::max(0.08 * (high - low), 0.01 * high);
+  curves.y.low = std::max(low - room, 0.), curves.y.high = high + room;
+}
+
 Curves curves_of(const Axis& x, const Axis& y, bool solid, const std::array<std::string, 2>& names,
                  const OfWaves& of_waves) {
   Curves curves{x, y, {{names[0], {}}}};
@@ -40,8 +47,7 @@ Curves curves_of(const Axis& x, const Axis& y, bool solid, const std::array<std:
       low = std::min(low, value), high = std::max(high, value);
     }
   }
-  const double room = std::max(0.08 * (high - low), 0.01 * high);
-  curves.y.low = std::max(low - room, 0.), curves.y.high = high + room;
+  set_heights(curves, low, high);
   return curves;
 }
 
@@ -53,6 +59,25 @@ Curves speeds_by_angle(const Material& material) {
     // The axis of beds that deepen towards +x leans towards -x.
     return phase_speeds(stiffness, material.rho, (angle + material.tilt) * degree);
   });
+}
+
+/// Of all three waves in space, in the upright plane of an axis.
+Curves speeds_in_space(const Material& material, std::size_t axis) {
+  auto x = angles();
+  if (axis == 1) x.name = "angle of the front from the vertical, towards +y";
+  const auto stiffness = space_stiffness_of(material);
+  Curves curves{x, {"phase speed", "m/s"}, {{"P", {}}, {"S1", {}}, {"S2", {}}}};
+  double low = 1e300, high = 0;
+  for (int n = 0; n < points; ++n) {
+    const double angle = curves.at(n) * degree;
+    SpaceVector direction{0, 0, std::cos(angle)};
+    direction[axis] = std::sin(angle);
+    const auto speeds = phase_speeds(stiffness, material.rho, direction);
+    for (std::size_t wave = 0; wave < 3; ++wave) curves.lines[wave].second.push_back(speeds[wave]);
+    low = std::min(low, speeds[2]), high = std::max(high, speeds[0]);
+  }
+  set_heights(curves, low, high);
+  return curves;
 }
 
 /// The rock as a medium of one cell, unrelaxed, and its mechanisms.
@@ -101,7 +126,11 @@ std::string words_of(const RockAt& rock) {
   const auto& of = rock.material;
   std::string words = rock.place + ": vp " + shown(of.vp, 4) + " m/s, vs " + shown(of.vs, 4) + " m/s";
   if (of.is_anisotropic()) words += ", epsilon " + shown(of.epsilon, 3) + ", delta " + shown(of.delta, 3);
-  if (of.tilt != 0) words += ", tilt " + shown(of.tilt, 3) + "\u00b0";
+  if (rock.in_space && of.gamma != 0) words += ", gamma " + shown(of.gamma, 3);
+  const std::pair<const char*, double> all[] = {
+      {"tilt", of.tilt}, {"azimuth", of.azimuth}, {"rotation", of.rotation}};
+  for (const auto& [name, value] : all)
+    if (value != 0) words += std::string(", ") + name + " " + shown(value, 3) + "\u00b0";
   if (rock.attenuates()) words += ", qp " + shown(rock.qp, 3) + ", qs " + shown(rock.qs, 3);
   return words;
 }
@@ -129,12 +158,16 @@ RockAt rock_at(const Model<D>& model, const Point<D>& point_m) {
   const auto cell = std::size_t(grid.flat(at));
   if (medium.is_void(cell)) refuse("in void");
   RockAt rock{rock_of(medium, cell), medium.value(Property::qp, cell), medium.value(Property::qs, cell),
-              place_of(grid, std::int64_t(cell))};
+              place_of(grid, std::int64_t(cell)), D == 3};
   return rock;
 }
 
 Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page) {
-  std::vector<Curves> all = {speeds_by_angle(rock.material)};
+  std::vector<Curves> all;
+  if (rock.in_space && rock.material.is_anisotropic_in_space())
+    all = {speeds_in_space(rock.material, 0), speeds_in_space(rock.material, 1)};
+  else
+    all = {speeds_by_angle(rock.material)};
   if (attenuation && rock.attenuates()) add_attenuation(rock, *attenuation, all);
   if (page.height_pt == 0) page.height_pt = double(all.size()) * 7.5 * points_per_cm;
   const double height = page.height_pt / double(all.size());

@@ -39,26 +39,25 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
 template <int D>
 bool slips_as_isotropic_rock(const Medium<D>& medium, std::size_t cell, const FractureSet<D>& set) {
   return set.systems.size() == 1 && std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9 &&
-         !is_orthorhombic(medium, cell);
+         !is_orthorhombic(medium, cell) && !has_tilted_axis(medium, cell);
 }
 
 template <int D>
 void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   const auto& model = scene.model;
+  const auto azimuth = [&](std::size_t of) {
+    return D == 3 ? ", azimuth " + shown(model.medium.value(Property::azimuth, of), 6) : std::string();
+  };
   const auto refuse = [&](const std::string& what) {
     throw Error("the cell at " + place_of(model.grid(), std::int64_t(cell)) + " is anisotropic (epsilon " +
                 shown(model.medium.value(Property::epsilon, cell), 6) + ", delta " +
                 shown(model.medium.value(Property::delta, cell), 6) +
                 (D == 3 ? ", gamma " + shown(model.medium.value(Property::gamma, cell), 6) : "") +
                 (has_tilted_axis(model.medium, cell)
-                     ? ", tilt " + shown(model.medium.value(Property::tilt, cell), 6)
+                     ? ", tilt " + shown(model.medium.value(Property::tilt, cell), 6) + azimuth(cell)
                      : "") +
                 ") and " + what);
   };
-  if (D == 3 && has_tilted_axis(model.medium, cell))
-    refuse(
-        "lies in a model in 3-D, where axes of symmetry lie along the grid; leave the tilt out, or use "
-        "--without anisotropy");
   if (D == 3 && scene.attenuation && attenuates(model.medium, cell))
     refuse("attenuates, in 3-D expected one of both; use --without attenuation" +
            std::string(isotropic_instead));
@@ -71,8 +70,8 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
   if (D == 3 && !slips_as_isotropic_rock(model.medium, cell, set))
     refuse("its fracture set '" + set.name +
-           "' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma; use --without "
-           "slip" +
+           "' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma and level beds; "
+           "use --without slip" +
            std::string(isotropic_instead));
   if (const auto fault = fault_of(set, lie_askew(set, model.medium, cell)); !fault.empty())
     refuse("the planes of its fracture set '" + set.name + "' " + fault + "; use --without " +

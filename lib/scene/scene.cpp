@@ -240,6 +240,11 @@ void check_monotone(const Scene<D>& scene) {
         "ones; "
         "use --without anisotropy, or build the model with --average isotropic",
         ErrorKind::usage);
+  if (scene.subdomain.tilted || any_tilted_axes(scene.model.medium))
+    throw Error(
+        "found --monotone in a model with rock whose axes are tilted, expected axes along the grid; use "
+        "--without anisotropy",
+        ErrorKind::usage);
 }
 
 template <int D>

@@ -18,6 +18,7 @@ struct Subdomain {
   bool slips = false;               // whether anything slips in any part
   bool shear = false;               // whether any part has shear stress: solid cells or bent rows
   bool anisotropic = false;         // whether any part has anisotropic cells
+  bool tilted = false;              // whether any part has rock in 3-D whose axes are turned
   bool tilted_means = false;        // whether any part has cells that interfaces cut as tilted means
   double fastest = 0;               // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()

@@ -150,6 +150,7 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
   scene.subdomain.anisotropic = largest_of(&ranks, anisotropic_cells(scene.model.medium) > 0 ? 1 : 0) > 0;
+  scene.subdomain.tilted = largest_of(&ranks, any_tilted_axes(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.tilted_means = largest_of(&ranks, tilted_means(scene.model.medium) > 0 ? 1 : 0) > 0;
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;

@@ -137,8 +137,12 @@ std::string surroundings(const Scene<D>& scene, std::size_t shot, const Index<D>
           : " epsilon=" + shown(medium.value(Property::epsilon, inside)) +
                 " delta=" + shown(medium.value(Property::delta, inside)) +
                 (D == 3 ? " gamma=" + shown(medium.value(Property::gamma, inside)) : "") +
-                (has_tilted_axis(medium, inside) ? " tilt=" + shown(medium.value(Property::tilt, inside))
-                                                 : "");
+                (has_tilted_axis(medium, inside)
+                     ? " tilt=" + shown(medium.value(Property::tilt, inside)) +
+                           (D == 3 ? " azimuth=" + shown(medium.value(Property::azimuth, inside)) +
+                                         " rotation=" + shown(medium.value(Property::rotation, inside))
+                                   : "")
+                     : "");
   return "vp=" + shown(medium.vp[inside]) + " vs=" + shown(medium.vs[inside]) +
          " rho=" + shown(medium.rho[inside]) + anisotropy + nearby.text(grid.spacing_m);
 }

@@ -204,8 +204,8 @@ TEST_F(Temperature, CostsNothingWhereAModelLacksIt) {
 TEST(PropertyTable, BeginsWithWhatEveryModelHas) {
   EXPECT_EQ(property_names(),
             (std::vector<std::string>{"vp", "vs", "rho", "qp", "qs", "epsilon", "delta", "gamma", "epsilon1",
-                                      "delta1", "delta3", "gamma2", "tilt", "cut_epsilon", "cut_delta",
-                                      "cut_dip", "temperature"}));
+                                      "delta1", "delta3", "gamma2", "tilt", "azimuth", "rotation",
+                                      "cut_epsilon", "cut_delta", "cut_dip", "temperature"}));
   for (const Property property : all_properties()) {
     const auto& row = row_of(property);
     EXPECT_EQ(row.if_absent.has_value(), std::size_t(property) >= required_properties) << row.name;

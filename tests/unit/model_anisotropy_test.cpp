@@ -257,16 +257,25 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
   EXPECT_EQ(
       told(),
       "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0) and its fracture set "
-      "'upright' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma; use "
-      "--without slip or --without anisotropy");
-  deep.with_slip = false;
+      "'upright' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma and level "
+      "beds; use --without slip or --without anisotropy");
+  deep.model.fracture_sets = {{"level", {{{0, 0, 1}, 0.5, 0, 0}}}};
   EXPECT_EQ(told(), "");
   deep.model.medium[Property::tilt] = Field<3>(deep.model.grid(), 30);
+  deep.model.medium[Property::azimuth] = Field<3>(deep.model.grid(), 40);
   EXPECT_EQ(
       told(),
-      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0, tilt 30) and lies in a "
-      "model in 3-D, where axes of symmetry lie along the grid; leave the tilt out, or use --without "
-      "anisotropy");
+      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0, tilt 30, azimuth 40) "
+      "and its fracture set 'level' slips, expected in 3-D one system of level planes, in rock with gamma2 = "
+      "gamma and level beds; use --without slip or --without anisotropy");
+  deep.with_slip = false;
+  EXPECT_EQ(told(), "");
+  deep.numerics.monotone = true;
+  deep.survey.receivers_m = {{2.5, 2.5, 2.5}};
+  deep.recording = {{Component::vz}, 0.01, 0.001};
+  EXPECT_EQ(refusal([&] { check(deep); }),
+            "found --monotone in a model with rock whose axes are tilted, expected axes along the grid; use "
+            "--without anisotropy");
 }
 
 /// Vosges-like orthorhombic rock: stiffnesses over density that Schoenberg and Helbig (1997) give for cracked

@@ -26,7 +26,9 @@ class AnisotropicSpace {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) c_[i][j] = c.normal(int(i), int(j));
     c_[3][3] = c.c44, c_[4][4] = c.c55, c_[5][5] = c.c66;
+    turn(material);
   }
+  double stiffness(std::size_t one, std::size_t other) const { return c_[one][other]; }
 
   /// Velocity [component][sample] at an offset from a force along `axis` that grows and falls as the wavelet.
   std::array<std::vector<double>, 3> velocity(const Point<3>& at, int axis, const RickerForm& wavelet,
@@ -92,6 +94,32 @@ class AnisotropicSpace {
   }
 
  private:
+  /// Turns all four indices, one after another: about the third axis by the rotation, then about the second
+  /// by the tilt, then about the third by the azimuth.
+  void turn(const Material& material) {
+    constexpr double degree = std::numbers::pi / 180;
+    about(2, material.rotation * degree);
+    about(1, -material.tilt * degree);
+    about(2, material.azimuth * degree);
+  }
+  void about(std::size_t axis, double angle) {
+    Matrix r{};
+    const std::size_t one = (axis + 1) % 3, two = (axis + 2) % 3;
+    r[axis][axis] = 1, r[one][one] = r[two][two] = std::cos(angle);
+    r[two][one] = std::sin(angle), r[one][two] = -r[two][one];
+    const auto before = c_;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k)
+          for (std::size_t l = k; l < 3; ++l) {
+            double sum = 0;
+            for (std::size_t n = 0; n < 81; ++n) {
+              const std::size_t a = n / 27, b = n / 9 % 3, c = n / 3 % 3, d = n % 3;
+              sum += r[i][a] * r[j][b] * r[k][c] * r[l][d] * before[voigt(a, b)][voigt(c, d)];
+            }
+            c_[voigt(i, j)][voigt(k, l)] = sum;
+          }
+  }
   static std::size_t voigt(std::size_t i, std::size_t j) { return i == j ? i : 6 - i - j; }
   static Matrix frame_along(const Point<3>& at, double distance) {
     Matrix frame{};

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/anisotropy.hpp"
+#include "model/space_stiffness.hpp"
 #include "scene/splitting.hpp"
 
 namespace slipwave::solver {
@@ -54,6 +55,13 @@ class Turning {
     return of(stiffness, last_plane_, axis_ == 1);
   }
   double operator()(const Domain<3>& domain, const Index<3>& at) {
+    if (const auto* const tilted = domain.tilted_medium(at)) {
+      // Cells of a medium share what is found of it.
+      const auto number = std::size_t(domain.tilted_at(at)->medium);
+      if (of_media_.empty()) of_media_.assign(domain.tilted_media().size(), not_known);
+      if (of_media_[number] == not_known) of_media_[number] = largest_turning(tilted->stiffness, axis_);
+      return of_media_[number];
+    }
     const auto c = stiffness_at(domain, at);
     if (domain.material_kind() == MaterialKind::orthorhombic) return of(c, last_, axis_);
     // Alike in all horizontal directions: in a plane, since the SH wave never turns.
@@ -70,6 +78,8 @@ class Turning {
   PlaneStiffness last_plane_;
   OrthorhombicStiffness last_;
   double turning_ = 0;
+  static constexpr double not_known = -1;
+  std::vector<double> of_media_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -196,6 +197,69 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
   return found;
 }
 
+/// Less, as a share of c33, is rounding.
+constexpr double least_coupling = 1e-12;
+
+/// Whether sweeps along the grid couple the pairs of a medium: axes turned by right angles do not.
+bool couples_pairs(const SpaceStiffness& c) {
+  const auto& m = c.voigt;
+  const double least = least_coupling * m[2][2];
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = std::max<std::size_t>(i + 1, 3); j < 6; ++j)
+      if (std::abs(m[i][j]) > least) return true;
+  return false;
+}
+
+/// Numbers the distinct media of cells whose axes are turned.
+class TiltedMedia {
+ public:
+  static constexpr std::int32_t none = -1;
+  /// None where sweeps need no more than the nine stiffnesses along the grid.
+  std::int32_t number(const Material& material) {
+    if (known_ && material == last_) return number_;
+    known_ = true, last_ = material;
+    const auto extra =
+        material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
+    const auto [found, is_new] =
+        numbers_.try_emplace(Key{material.vp, material.vs, material.rho, material.epsilon, material.delta,
+                                 material.gamma, material.tilt, material.azimuth, material.rotation,
+                                 extra.epsilon1, extra.delta1, extra.delta3, extra.gamma2},
+                             none);
+    if (is_new) {
+      const auto stiffness = space_stiffness_of(material);
+      if (couples_pairs(stiffness)) {
+        found->second = std::int32_t(media_.size());
+        media_.push_back({material.rho, stiffness});
+      }
+    }
+    return number_ = found->second;
+  }
+  std::vector<TiltedMediumInSpace> take() { return std::move(media_); }
+
+ private:
+  using Key = std::array<double, 13>;
+  std::map<Key, std::int32_t> numbers_;
+  std::vector<TiltedMediumInSpace> media_;
+  Material last_;
+  std::int32_t number_ = none;
+  bool known_ = false;
+};
+
+/// Rock continues beyond the edges of the model as it is.
+void find_tilted(Domain<3>& domain, const Medium<3>& medium) {
+  if (!any_tilted_axes(medium)) return;
+  TiltedMedia media;
+  std::vector<TiltedCellInSpace> cells;
+  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
+    if (!has_tilted_axis(medium, cell)) continue;
+    if (const auto of = media.number(material_of(medium, cell)); of != TiltedMedia::none)
+      cells.push_back({n, of});
+  }
+  domain.set_tilted(std::move(cells));
+  domain.set_tilted_media(media.take());
+}
+
 /// The run of cells first <= x < last of a row that are like the first.
 template <int D, class Real>
 UniformRun<Real> run_of(const State<D, Real>& state, const Index<D>& line, std::int64_t first,
@@ -248,37 +312,65 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   }
 }
 
-/// What a row of the material of anisotropic media holds of a cell, but b.
+/// What the rows of the material hold of cells, but b, in their order: asked for once of neighbours that are
+/// alike.
 template <int D>
-double value_of_row(const Medium<D>& medium, std::size_t cell, int row) {
-  const double rho = medium.rho[cell];
-  if (row == row_zp || row == row_zs)
-    return wave_impedance(medium, cell, D - 1, row == row_zp ? wave_p : wave_s);
-  if (row == row_zp_across) return wave_impedance(medium, cell, 0, wave_p);
-  if (row == row_coupling) return wave_coupling(medium, cell);
-  if constexpr (D == 3) {
-    if (row == row_zs_level) return rho * shear_speed(medium, cell, 0, 1);
-    if (row == row_coupling_level) return wave_coupling(medium, cell, 0, 1);
-    if (row == row_zp_y) return wave_impedance(medium, cell, 1, wave_p);
-    if (row == row_zs_y) return rho * shear_speed(medium, cell, 1, 2);
-    if (row == row_coupling_y) return wave_coupling(medium, cell, 1, 2);
+class RowValues {
+ public:
+  using Values = std::array<double, std::size_t(most_material_rows)>;
+  RowValues(const Medium<D>& medium, bool anisotropic) : medium_(medium), anisotropic_(anisotropic) {
+    for (const auto property : medium.properties())
+      if (row_of(property).mean == Mean::elastic) fields_.push_back(&medium[property]);
   }
-  return 0;
-}
+
+  const Values& operator()(std::size_t cell) {
+    if (!anisotropic_) {
+      const double rho = medium_.rho[cell];
+      values_[row_zp] = rho * double(medium_.vp[cell]), values_[row_zs] = rho * double(medium_.vs[cell]);
+      return values_;
+    }
+    const auto differs = [&](const Field<D>* field) { return (*field)[cell] != (*field)[last_]; };
+    if (!known_ || std::any_of(fields_.begin(), fields_.end(), differs)) find(cell);
+    known_ = true, last_ = cell;
+    return values_;
+  }
+
+ private:
+  void find(std::size_t cell) {
+    const double rho = medium_.rho[cell];
+    values_[row_zp] = wave_impedance(medium_, cell, D - 1, wave_p);
+    values_[row_zs] = wave_impedance(medium_, cell, D - 1, wave_s);
+    values_[row_zp_across] = wave_impedance(medium_, cell, 0, wave_p);
+    values_[row_coupling] = wave_coupling(medium_, cell);
+    if constexpr (D == 3) {
+      values_[row_zs_level] = rho * shear_speed(medium_, cell, 0, 1);
+      values_[row_coupling_level] = wave_coupling(medium_, cell, 0, 1);
+      values_[row_zp_y] = wave_impedance(medium_, cell, 1, wave_p);
+      values_[row_zs_y] = rho * shear_speed(medium_, cell, 1, 2);
+      values_[row_coupling_y] = wave_coupling(medium_, cell, 1, 2);
+    }
+  }
+  const Medium<D>& medium_;
+  bool anisotropic_, known_ = false;
+  std::vector<const Field<D>*> fields_;
+  std::size_t last_ = 0;
+  Values values_{};
+};
 
 /// What sweeps know of the medium, in zones that of the edge of the model.
 template <int D>
 void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
-  constexpr int z = D - 1;
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
   const bool anisotropic = domain.subdomain.anisotropic || anisotropic_cells(medium) > 0;
-  const auto kind = any_orthorhombic(medium) ? MaterialKind::orthorhombic : MaterialKind::anisotropic;
+  const auto kind = any_orthorhombic(medium) || any_tilted_axes(medium) ? MaterialKind::orthorhombic
+                                                                        : MaterialKind::anisotropic;
   typename Domain<D>::Rows more;
   for (int row = row_zp_across; anisotropic && row < material_rows_of<D>(kind); ++row)
     more[std::size_t(row)] = Field<D>(domain.grid);
   const std::int64_t nx = domain.grid.shape[0], model_nx = domain.model_grid.shape[0];
   parallel_for(domain.grid.size() / nx, 64, [&](std::int64_t begin, std::int64_t end, int) {
+    RowValues<D> values_of(medium, anisotropic);
     for (std::int64_t line = begin; line < end; ++line) {
       auto first = domain.model_cell(domain.grid.index(line * nx));
       first[0] = 0;
@@ -287,11 +379,11 @@ void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
         const auto cell =
             std::size_t(of_line + std::clamp<std::int64_t>(x - domain.low_zone[0], 0, model_nx - 1));
         const auto to = std::size_t(line * nx + x);
-        for (const Wave wave : {wave_p, wave_s})
-          impedance[wave][to] = float(wave_impedance(medium, cell, z, wave));
+        const auto& values = values_of(cell);
+        impedance[wave_p][to] = float(values[row_zp]), impedance[wave_s][to] = float(values[row_zs]);
         if (!anisotropic) continue;
-        for (int row = row_zp_across; row < material_rows_of<D>(kind); ++row)
-          more[std::size_t(row)][to] = float(value_of_row(medium, cell, row));
+        for (auto row = std::size_t(row_zp_across); row < std::size_t(material_rows_of<D>(kind)); ++row)
+          more[row][to] = float(values[row]);
       }
     }
   });
@@ -338,24 +430,50 @@ const Field<D>& Domain<D>::impedance_of_pair(int axis, int pair) const {
 }
 
 template <int D>
-const TiltedMedium* Domain<D>::tilted_at(const Index<D>& at) const {
+const TiltedCell<D>* Domain<D>::tilted_at(const Index<D>& at) const {
   if (tilted_.empty()) return nullptr;
   const auto cell = grid.flat(at);
   const auto found =
       std::lower_bound(tilted_.begin(), tilted_.end(), cell,
-                       [](const TiltedMedium& medium, std::int64_t wanted) { return medium.cell < wanted; });
+                       [](const TiltedCell<D>& of, std::int64_t wanted) { return of.cell < wanted; });
   return found != tilted_.end() && found->cell == cell ? &*found : nullptr;
 }
 
 template <int D>
-EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
-  if (const auto* const tilted = tilted_at(cell)) {
-    const auto& [c11, c13, c15, c33, c35, c55] = tilted->stiffness;
-    const bool upright = axis < D - 1;
-    const double across = upright ? c11 : c33, mixed = upright ? c15 : c35, beside = upright ? c35 : c15;
-    const double determinant = across * c55 - mixed * mixed;
-    return {(c13 * c55 - mixed * beside) / determinant, (across * beside - mixed * c13) / determinant};
+const TiltedMediumInSpace* Domain<D>::tilted_medium(const Index<D>& at) const {
+  if constexpr (D == 3)
+    if (const auto* const of = tilted_at(at)) return &tilted_media_[std::size_t(of->medium)];
+  return nullptr;
+}
+
+std::array<SpaceVector, 3> tractions_of_motion(const SpaceStiffness& stiffness, int axis, int along) {
+  std::array<SpaceVector, 3> matrix{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) matrix[std::size_t(i)][std::size_t(j)] = stiffness(i, axis, j, along);
+  return matrix;
+}
+
+std::array<SpaceVector, 3> coupling_at_edge_in_space(const SpaceStiffness& stiffness, int axis, int along) {
+  const auto across = tractions_of_motion(stiffness, axis, axis),
+             load = tractions_of_motion(stiffness, axis, along);
+  std::array<SpaceVector, 3> coupling{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const auto column = solved<double>(across, {load[0][j], load[1][j], load[2][j]});
+    for (std::size_t i = 0; i < 3; ++i) coupling[i][j] = column[i];
   }
+  return coupling;
+}
+
+template <int D>
+EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
+  if constexpr (D == 2)
+    if (const auto* const tilted = tilted_at(cell)) {
+      const auto& [c11, c13, c15, c33, c35, c55] = tilted->stiffness;
+      const bool upright = axis < D - 1;
+      const double across = upright ? c11 : c33, mixed = upright ? c15 : c35, beside = upright ? c35 : c15;
+      const double determinant = across * c55 - mixed * mixed;
+      return {(c13 * c55 - mixed * beside) / determinant, (across * beside - mixed * c13) / determinant};
+    }
   const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
   return {anisotropic_ ? coupling(cell, axis, along) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp), 0};
 }
@@ -407,7 +525,10 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
   set_impedances(domain, medium);
   domain.find_material_kind();
-  if constexpr (D == 2) domain.set_tilted(find_tilted(domain, medium));
+  if constexpr (D == 2)
+    domain.set_tilted(find_tilted(domain, medium));
+  else
+    find_tilted(domain, medium);
   return domain;
 }
 
@@ -415,33 +536,31 @@ template <int D, class Real>
 void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium, double dt_s) {
   const auto& layout = state.layout;
   const double courant = dt_s / domain.grid.spacing_m;
-  const auto write = [&](const Index<D>& at, const Index<D>& from, bool ghost, int p_factor, int s_factor) {
+  const auto write = [&](RowValues<D>& values_of, const Index<D>& at, const Index<D>& from, bool ghost,
+                         int p_factor, int s_factor) {
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(from)));
     const bool carries = !ghost && !medium.is_void(cell);
-    double values[most_material_rows] = {carries ? courant / double(medium.rho[cell]) : 0,
-                                         p_factor * wave_impedance(medium, cell, D - 1, wave_p),
-                                         s_factor * wave_impedance(medium, cell, D - 1, wave_s)};
-    for (int row = row_zp_across; row < state.material_layout.rows(); ++row) {
-      const bool of_p = row == row_zp_across || row == row_zp_y,
-                 of_s = row == row_zs_level || row == row_zs_y;
-      values[row] = (of_p ? p_factor : of_s ? s_factor : 1) * value_of_row(medium, cell, row);
-    }
+    auto values = values_of(cell);
+    values[row_b] = carries ? courant / double(medium.rho[cell]) : 0;
+    for (const auto row : {row_zp, row_zp_across, row_zp_y}) values[row] *= p_factor;
+    for (const auto row : {row_zs, row_zs_level, row_zs_y}) values[row] *= s_factor;
     Index<D> line = at;
     line[0] = 0;
     for (int row = 0; row < state.material_layout.rows(); ++row)
-      state.material_row(line, row)[at[0]] = Real(values[row]);
+      state.material_row(line, row)[at[0]] = Real(values[std::size_t(row)]);
   };
   const std::int64_t lines = layout.lines(), nx = layout.shape()[0];
   parallel_for(lines, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    RowValues<D> values_of(medium, state.anisotropic);
     for (std::int64_t line = begin; line < end; ++line) {
       Index<D> at = layout.line_index(line);
-      for (at[0] = 0; at[0] < nx; ++at[0]) write(at, at, false, 1, 1);
+      for (at[0] = 0; at[0] < nx; ++at[0]) write(values_of, at, at, false, 1, 1);
       for (const int side : {0, 1}) {
         Index<D> from = at;
         from[0] = side ? nx - 1 : 0;
         at[0] = side ? nx : -1;
         const EdgeLaw law = domain.edges[0][side];
-        write(at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+        write(values_of, at, from, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
       }
       // Ghost lines beyond the edges of the other axes repeat the line before them.
       for (int axis = 1; axis < D; ++axis) {
@@ -453,7 +572,7 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
           for (cell[0] = 0; cell[0] < nx; ++cell[0]) {
             Index<D> ghost = cell;
             ghost[axis] += side ? 1 : -1;
-            write(ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
+            write(values_of, ghost, cell, true, ghost_impedance(law, wave_p), ghost_impedance(law, wave_s));
           }
         }
       }
@@ -505,7 +624,6 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   at[0] = 0;
   const auto value = [&](int row) { return double(state.field_row(at, row)[x]); };
   const bool anisotropic = is_anisotropic(medium, cell);
-  const auto* const tilted = domain.tilted_at(whole);
   const double rho = medium.rho[cell], mu = rho * medium.vs[cell] * medium.vs[cell];
   const double lambda = rho * medium.vp[cell] * medium.vp[cell] - 2 * mu;
   double kinetic = 0, squares = 0, trace = 0, shear = 0;
@@ -529,15 +647,20 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
       for (int axis = 0; axis < D; ++axis)
         for (int other = axis; other < D; ++other)
           s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
-      return energy_with(complementary(stiffness_in_space(material_of(medium, cell)), s));
+      if (const auto* const in_space = domain.tilted_medium(whole))
+        return energy_with(
+            complementary(in_space->stiffness, {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}));
+      return energy_with(complementary(stiffness_along_grid(medium, cell), s));
     }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
+  if constexpr (D == 2)
+    if (const auto* const tilted = domain.tilted_at(whole))
+      return energy_with(complementary(tilted->stiffness, value(Rows::normal_stress(0)),
+                                       value(Rows::normal_stress(1)), value(Rows::shear_stress(0, 1))));
   const double elastic =
-      tilted        ? complementary(tilted->stiffness, value(Rows::normal_stress(0)),
-                                    value(Rows::normal_stress(D - 1)), value(Rows::shear_stress(0, D - 1)))
-      : anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
-                                    value(Rows::normal_stress(D - 1))) +
-                          shear / mu
+      anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
+                                  value(Rows::normal_stress(D - 1))) +
+                        shear / mu
       : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
                : trace * trace / (D * D * lambda);
   return energy_with(elastic);

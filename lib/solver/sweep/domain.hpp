@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "model/model.hpp"
+#include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/edges.hpp"
 #include "scene/subdomain.hpp"
@@ -22,8 +24,20 @@ struct TiltedMedium {
   PlaneStiffness stiffness;
 };
 
-/// The waves of such a cell in sweeps along an axis: the motion of the faster one along the axis and across
-/// it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
+/// In 3-D: the number of its medium, and that.
+struct TiltedCellInSpace {
+  std::int64_t cell;
+  std::int32_t medium;
+};
+struct TiltedMediumInSpace {
+  double rho;
+  SpaceStiffness stiffness;
+};
+template <int D>
+using TiltedCell = std::conditional_t<D == 2, TiltedMedium, TiltedCellInSpace>;
+
+/// The waves of such a cell in 2-D in sweeps along an axis: the motion of the faster one along the axis and
+/// across it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
 struct TiltedWaves {
   double cosine, sine;
   std::array<double, 2> z;
@@ -79,19 +93,27 @@ class Domain {
   EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis, int along) const;
   /// Tilted means and cells of rock whose axis is tilted, by cell. Tilted means of zones are isotropic, and
   /// those in bent rows and beside them.
-  const std::vector<TiltedMedium>& tilted() const { return tilted_; }
+  const std::vector<TiltedCell<D>>& tilted() const { return tilted_; }
   bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
   /// Null where a cell is none.
-  const TiltedMedium* tilted_at(const Index<D>& at) const;
-  void set_tilted(std::vector<TiltedMedium> cells) { tilted_ = std::move(cells); }
+  const TiltedCell<D>* tilted_at(const Index<D>& at) const;
+  void set_tilted(std::vector<TiltedCell<D>> cells) { tilted_ = std::move(cells); }
+  /// In 3-D: the distinct media of those cells; of any part whether it has some; null where a cell is none.
+  const std::vector<TiltedMediumInSpace>& tilted_media() const { return tilted_media_; }
+  bool any_tilted_in_space() const { return D == 3 && (subdomain.tilted || !tilted_.empty()); }
+  const TiltedMediumInSpace* tilted_medium(const Index<D>& at) const;
+  void set_tilted_media(std::vector<TiltedMediumInSpace> media) { tilted_media_ = std::move(media); }
   /// Takes those cells of the model for isotropic ones.
   void drop_tilted(const std::function<bool(std::size_t cell)>& which) {
-    std::erase_if(tilted_, [&](const TiltedMedium& of) {
+    std::erase_if(tilted_, [&](const TiltedCell<D>& of) {
       return which(std::size_t(model_grid.flat(model_cell(grid.index(of.cell)))));
     });
   }
   /// Frees their memory.
-  void release_impedances() { impedances_ = {}, more_ = {}; }
+  void release_impedances() {
+    impedances_ = {}, more_ = {};
+    if (D == 3) tilted_ = {}, tilted_media_ = {};
+  }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
   /// Of an anisotropic medium, besides: the other rows of its material, by MaterialRow.
   using Rows = std::array<Field<D>, std::size_t(most_material_rows)>;
@@ -135,8 +157,27 @@ class Domain {
   bool anisotropic_ = false;
   MaterialKind material_kind_ = MaterialKind::isotropic;
   Rows more_;
-  std::vector<TiltedMedium> tilted_;
+  std::vector<TiltedCell<D>> tilted_;
+  std::vector<TiltedMediumInSpace> tilted_media_;
 };
+
+/// Of a free edge across an axis of a tilted medium in space: what a difference of the velocity along another
+/// leaves of that across it where no traction acts there, as a matrix of x, y and z: the difference across is
+/// minus the matrix times that along (theory.md (O9)).
+std::array<SpaceVector, 3> coupling_at_edge_in_space(const SpaceStiffness& stiffness, int axis, int along);
+/// The rows of C_iajb, axis a: its acoustic tensor for b = a, else what motion along b puts on the face.
+std::array<SpaceVector, 3> tractions_of_motion(const SpaceStiffness& stiffness, int axis, int along);
+/// What a symmetric positive matrix times it is `right`.
+template <class Real>
+std::array<Real, 3> solved(const std::array<std::array<Real, 3>, 3>& m, const std::array<Real, 3>& right) {
+  const Real a = m[1][1] * m[2][2] - m[1][2] * m[1][2], b = m[0][2] * m[1][2] - m[0][1] * m[2][2],
+             c = m[0][1] * m[1][2] - m[0][2] * m[1][1], d = m[0][0] * m[2][2] - m[0][2] * m[0][2],
+             e = m[0][1] * m[0][2] - m[0][0] * m[1][2], f = m[0][0] * m[1][1] - m[0][1] * m[0][1];
+  const Real share = 1 / (m[0][0] * a + m[0][1] * b + m[0][2] * c);
+  return {share * (a * right[0] + b * right[1] + c * right[2]),
+          share * (b * right[0] + d * right[1] + e * right[2]),
+          share * (c * right[0] + e * right[1] + f * right[2])};
+}
 
 /// The stiffness of a cell of an anisotropic domain times the density, tilted ones as upright.
 template <int D>

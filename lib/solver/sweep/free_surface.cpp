@@ -53,6 +53,19 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return terms;
 }
 
+/// Adds what motion along one axis of the edge bends of a velocity in rock whose axes are turned; false where
+/// there is no difference.
+bool add_tilted(const Domain<3>& domain, const TiltedMediumInSpace& medium, const Index<3>& at, int axis,
+                int along, int row, double outward, std::vector<SurfaceTerm<3>>& terms) {
+  const auto coupling = coupling_at_edge_in_space(medium.stiffness, axis, along);
+  for (int of = 0; of < 3; ++of) {
+    const double factor = outward * coupling[std::size_t(row)][std::size_t(of)];
+    if (factor != 0 && !add_difference(domain, at, along, FieldRows<3>::velocity(of), factor, terms))
+      return false;
+  }
+  return true;
+}
+
 /// The sign of a field in its mirror image at an edge of an axis.
 template <int D>
 double sign_beyond(EdgeLaw law, int axis, int row) {
@@ -137,6 +150,11 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       if (ends_free(domain, along)) return {};
       continue;
     }
+    if constexpr (D == 3)
+      if (const auto* const tilted = domain.tilted_medium(at)) {
+        if (!add_tilted(domain, *tilted, at, axis, along, row, outward, terms)) return {};
+        continue;
+      }
     const auto coupling = domain.coupling_at_edge(at, axis, along);
     const auto add = [&](int of, double factor) {
       return factor == 0 || add_difference(domain, at, along, Rows::velocity(of), outward * factor, terms);
@@ -189,10 +207,8 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
         bent_ends_.push_back(end);
       }
       ++pair;
-      if (const auto* const tilted = domain.tilted_at(at); tilted && pair == D && !terms.empty()) {
-        const double mixed = axis < D - 1 ? tilted->stiffness.c15 : tilted->stiffness.c35;
-        tilted_ends_.push_back({number(at), place(row_b), Real(mixed * tilted->rho * outward_ / height)});
-      }
+      if (pair == D && !terms.empty() && domain.is_tilted(at))
+        tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward_ / height)});
     };
     add(FieldRows<D>::velocity(axis), p_row<D>(kind, axis));
     for (int along = 0; along < D; ++along)
@@ -204,6 +220,24 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
   if (axis < D - 1) retained_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
   for (auto* lists : {&velocity_corrections_, &traction_corrections_})
     for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
+}
+
+/// Of both pairs, in 3-D of the first two, of the first and the last, and of the last two.
+template <int D, class Real>
+auto FreeSurface<D, Real>::mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const
+    -> Mixed {
+  if constexpr (D == 2) {
+    const auto& tilted = *domain.tilted_at(at);
+    const double mixed = axis_ < D - 1 ? tilted.stiffness.c15 : tilted.stiffness.c35;
+    return {Real(mixed * tilted.rho * factor)};
+  } else {
+    const auto& tilted = *domain.tilted_medium(at);
+    const int one = axis_of_pair<D>(axis_, 1), two = axis_of_pair<D>(axis_, 2);
+    const auto mixed = [&](int i, int j) {
+      return Real(tilted.stiffness(i, axis_, j, axis_) * tilted.rho * factor);
+    };
+    return {mixed(axis_, one), mixed(axis_, two), mixed(one, two)};
+  }
 }
 
 template <int D, class Real>
@@ -254,9 +288,13 @@ void FreeSurface<D, Real>::correct_tilted_ends(const State<D, Real>& state, std:
                               [](const TiltedEnd& one, std::int64_t number) { return one.number < number; });
   for (; end != tilted_ends_.end() && end->number < last; ++end) {
     const auto n = std::size_t(end->number);
-    const Real mixed = end->mixed * state.material.data()[end->b];
-    for (const std::size_t pair : {0, 1})
-      traction_corrections_[pair][n] += mixed * velocity_corrections_[1 - pair][n];
+    std::size_t k = 0;
+    for (std::size_t one = 0; one < D; ++one)
+      for (std::size_t other = one + 1; other < D; ++other) {
+        const Real mixed = end->mixed[k++] * state.material.data()[end->b];
+        traction_corrections_[one][n] += mixed * velocity_corrections_[other][n];
+        traction_corrections_[other][n] += mixed * velocity_corrections_[one][n];
+      }
   }
 }
 

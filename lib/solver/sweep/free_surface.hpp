@@ -83,12 +83,15 @@ class FreeSurface {
     Real factor;
   };
   void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
-  /// A cell of rock whose axis is tilted: the place of b, and the density times the modulus by which shear
-  /// across the edge puts normal stress on it, over the height of the row, negative at a high side.
+  /// A cell of rock whose axis is tilted: the place of b, and the density times the moduli by which what one
+  /// pair does across the edge puts traction of another on it, over the height of the row, negative at a high
+  /// side.
+  using Mixed = std::array<Real, std::size_t(D == 2 ? 1 : 3)>;
   struct TiltedEnd {
     std::int64_t number, b;
-    Real mixed;
+    Mixed mixed;
   };
+  Mixed mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const;
   void correct_tilted_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
 
   int axis_ = 0, side_ = 0;

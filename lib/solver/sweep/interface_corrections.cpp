@@ -88,7 +88,7 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
 
 /// The vector that a symmetric matrix of the components along z and x turns into this one, in 2-D.
 template <class Real, class Vector>
-Vector solved(Real along, Real mixed, Real across, const Vector& product) {
+Vector solved_in_plane(Real along, Real mixed, Real across, const Vector& product) {
   const Real share = 1 / (along * across - mixed * mixed);
   Vector found{};
   found.z = share * (across * product.z - mixed * product.x);
@@ -152,16 +152,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
-        if constexpr (D == 2)
-          if (const auto* const tilted = domain.tilted_at(cell); tilted && !bent) {
-            to.tilted = std::int32_t(tilted_.size());
-            const auto& c = tilted->stiffness;
-            const auto of = waves_along(*tilted, z);
-            const auto real = [&](double value) { return Real(value); };
-            tilted_.push_back({real(c.c13 * tilted->rho), real(c.c15 * tilted->rho),
-                               real(c.c35 * tilted->rho), real(c.c55 * tilted->rho), real(of.along),
-                               real(of.mixed), real(of.across)});
-          }
+        if (!bent && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
       }
       slots_.push_back(slot);
     }
@@ -169,6 +160,23 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
   }
   for (auto* lists : {&velocities_, &tractions_})
     for (auto& list : *lists) list.assign(slots_.size(), 0);
+}
+
+/// The place of what is known of such a cell.
+template <int D, class Real>
+std::int32_t InterfaceCorrections<D, Real>::add_tilted(const Domain<D>& domain, const Index<D>& cell) {
+  if constexpr (D == 2) {
+    const auto& tilted = *domain.tilted_at(cell);
+    const auto& c = tilted.stiffness;
+    const auto of = waves_along(tilted, D - 1);
+    const auto real = [&](double value) { return Real(value); };
+    tilted_.push_back({real(c.c13 * tilted.rho), real(c.c15 * tilted.rho), real(c.c35 * tilted.rho),
+                       real(c.c55 * tilted.rho), real(of.along), real(of.mixed), real(of.across)});
+    return std::int32_t(tilted_.size()) - 1;
+  } else {
+    tilted_in_space_.push_back(tilted_in_space(*domain.tilted_medium(cell)));
+    return std::int32_t(tilted_in_space_.size()) - 1;
+  }
 }
 
 template <int D, class Real>
@@ -212,6 +220,8 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
   using Vector = RowVector<D, Real>;
   const Slot& slot = slots_[n];
+  if (D == 3 && (slot.sides[0].tilted != none || slot.sides[1].tilted != none))
+    return update_tilted_slot(state, n);
   const Vector normal = row_normal<D>(slot.normal.data(), 1);
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();
@@ -234,7 +244,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
         const Tilted& of = tilted_[std::size_t(side.tilted)];
         const Vector t{of.c13 * along[0].x + of.c35 * along[0].z, of.c15 * along[0].x + of.c55 * along[0].z};
         // (T3): Z over the tensor is the density times the inverse of Z.
-        velocity = velocity + (-sign * side.j) * solved(of.z_along, of.z_mixed, of.z_across, t);
+        velocity = velocity + (-sign * side.j) * solved_in_plane(of.z_along, of.z_mixed, of.z_across, t);
         traction = traction + (-sign / 2 * b) * t;
         sum_p += of.z_along, sum_s += of.z_across, sum_mixed += of.z_mixed;
         continue;
@@ -257,13 +267,75 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
   const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
   Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
-  if (sum_mixed != 0) v = solved(sum_p, sum_mixed, sum_s, velocity);
+  if (sum_mixed != 0) v = solved_in_plane(sum_p, sum_mixed, sum_s, velocity);
   velocities_[0][n] = v.z, velocities_[1][n] = v.x;
   if (!beside_void) traction = Real(traction_share) * traction;
   tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;
   if constexpr (D == 3) {
     if (sum_s_y != sum_s) v.y = (1 / sum_s_y) * velocity.y;
     velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
+  }
+}
+
+template <int D, class Real>
+auto InterfaceCorrections<D, Real>::tilted_in_space(const TiltedMediumInSpace& medium) -> TiltedInSpace {
+  constexpr int z = 2;
+  constexpr std::array<int, 3> component = {2, 0, 1};
+  TiltedInSpace of{};
+  SpaceVector down{};
+  down[z] = 1;
+  const auto waves = waves_along(medium.stiffness, down);
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) {
+      const auto at = [&](std::size_t k) { return std::size_t(component[k]); };
+      for (const int along : {0, 1})
+        of.motion[std::size_t(along)][i][j] =
+            Real(medium.rho * medium.stiffness(component[i], z, component[j], along));
+      double impedance = 0;
+      for (std::size_t wave = 0; wave < 3; ++wave)
+        impedance += std::sqrt(medium.rho * waves.moduli[wave]) * waves.motions[wave][at(i)] *
+                     waves.motions[wave][at(j)];
+      of.z[i][j] = Real(impedance);
+    }
+  return of;
+}
+
+/// The same of a level face with rock on one side whose axes are turned, in 3-D; the other is fluid.
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update_tilted_slot(const State<D, Real>& state, std::size_t n) {
+  if constexpr (D == 3) {
+    using Vector = std::array<Real, 3>;
+    const Slot& slot = slots_[n];
+    typename TiltedInSpace::Matrix sum{};
+    Vector velocity{}, traction{};
+    for (const int which : {0, 1}) {
+      const Side& side = slot.sides[std::size_t(which)];
+      const Real* const material = state.material.data() + side.b;
+      const Real b = material[0], zp = material[row_zp * material_pitch_];
+      const auto along = differences_along<D>(side.cells, state.fields.data(), state.layout.row_pitch());
+      const Real sign = which ? Real(-1) : Real(1);
+      if (side.tilted == none) {
+        // Pressure alone, by lambda = lambda + 2 mu.
+        const Real t = zp * zp * (along[0].x + along[1].y);
+        velocity[0] += -sign * side.j * (t / zp), traction[0] += -sign / 2 * b * t, sum[0][0] += zp;
+        continue;
+      }
+      const auto& of = tilted_in_space_[std::size_t(side.tilted)];
+      Vector t{};
+      for (const std::size_t axis : {0, 1}) {
+        const Vector motion = {along[axis].z, along[axis].x, along[axis].y};
+        for (std::size_t i = 0; i < 3; ++i)
+          for (std::size_t k = 0; k < 3; ++k) t[i] += of.motion[axis][i][k] * motion[k];
+      }
+      const auto bend = solved(of.z, t);
+      for (std::size_t i = 0; i < 3; ++i) {
+        velocity[i] += -sign * side.j * bend[i], traction[i] += -sign / 2 * b * t[i];
+        for (std::size_t k = 0; k < 3; ++k) sum[i][k] += of.z[i][k];
+      }
+    }
+    const auto v = solved(sum, velocity);
+    for (std::size_t i = 0; i < 3; ++i)
+      velocities_[i][n] = v[i], tractions_[i][n] = Real(traction_share) * traction[i];
   }
 }
 

@@ -50,6 +50,12 @@ class InterfaceCorrections {
     Real c13, c15, c35, c55;
     Real z_along, z_mixed, z_across;
   };
+  /// The same in 3-D; components z, x, y.
+  struct TiltedInSpace {
+    using Matrix = std::array<std::array<Real, 3>, 3>;
+    std::array<Matrix, 2> motion;  // by the axis along the face: what motion along it puts on it
+    Matrix z;
+  };
   struct Slot {
     std::int64_t row, column;
     std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
@@ -57,11 +63,15 @@ class InterfaceCorrections {
   };
   std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
+  std::int32_t add_tilted(const Domain<D>& domain, const Index<D>& cell);
+  static TiltedInSpace tilted_in_space(const TiltedMediumInSpace& medium);
+  void update_tilted_slot(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
   int zs_y_row_ = row_zs, coupling_y_row_ = row_coupling;  // of the plane of y and z
   std::vector<Slot> slots_;                                // by row, then column
   std::vector<Tilted> tilted_;
+  std::vector<TiltedInSpace> tilted_in_space_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;
 };

@@ -29,6 +29,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       reach_(reach_of(order)),
       shear_(!state.fluid),
       anisotropic_(domain.anisotropic()),
+      couples_all_(domain.any_tilted_in_space()),
       metric_(domain),
       corrections_(state, domain, metric_),
       bent_stencils_(domain, reach_, corrections_) {
@@ -64,7 +65,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
           domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected, slot_before, tilted);
     }
   });
-  tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
+  if constexpr (D == 2)
+    tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
+  else
+    tilted_cells_ = TiltedCells<D, Real>(domain, reach_, stencils_);
   find_plain_lines();
 }
 
@@ -130,8 +134,8 @@ auto Sweeps<D, Real>::make_pairs(int axis) const -> std::array<Pair, D> {
 }
 
 template <int D, class Real>
-auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
-  std::array<int, changed> rows{};
+auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed_at_most> {
+  std::array<int, changed_at_most> rows{};
   int n = 0;
   rows[n++] = pairs_[axis][0].v;
   rows[n++] = pairs_[axis][0].s;
@@ -141,6 +145,8 @@ auto Sweeps<D, Real>::rows_changed(int axis) const -> std::array<int, changed> {
     rows[n++] = pairs_[axis][p].v;
     rows[n++] = pairs_[axis][p].s;
   }
+  if constexpr (D == 3)
+    rows[n++] = FieldRows<D>::shear_stress(axis_of_pair<D>(axis, 1), axis_of_pair<D>(axis, 2));
   return rows;
 }
 
@@ -203,8 +209,9 @@ void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const Index
                                                      fields + of.s * pitch + columns.first,
                                                      corrections_of(axis, p)};
   };
-  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride, {pair(0), pair(1)}, b, scale,
-                            outgoing);
+  typename TiltedCells<D, Real>::Pairs pairs{};
+  for (int p = 0; p < D; ++p) pairs[std::size_t(p)] = pair(p);
+  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride, pairs, b, scale, outgoing);
 }
 
 template <int D, class Real>
@@ -298,7 +305,7 @@ void Sweeps<D, Real>::filtered(int axis, const Index<D>& line, const IndexRange&
                                Advance&& advance) {
   if (filters_.empty()) return advance();
   const auto& rows = changed_[axis];
-  const int row_count = shear_ ? changed : changed_in_fluid;
+  const int row_count = rows_changed();
   // Built in place: a copy would wait until all stores of the loops before this are done.
   std::array<std::array<IndexRange, 2>, most_filters> filtered;
   for (std::size_t f = 0; f < filters_.size(); ++f) filtered[f] = filters_[f]->filtered(axis, line, columns);
@@ -359,11 +366,36 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     } else {
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
-      tilted_cells_.add_stress(axis, number, columns, std::abs(own_scale), flux.lo, flux.hi,
-                               swept(columns.first));
+      add_tilted_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
     }
     work.prefetch().prefetch_one();
   });
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns,
+                                   OutgoingWaves<Real> below, OutgoingWaves<Real> above,
+                                   const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+                                   InterfaceStates<Real> faces) const {
+  if (tilted_cells_.empty()) return;
+  if constexpr (D == 3)
+    tilted_cells_.solve(axis, {lines.lo, lines.hi, lines.shift}, columns, below, above, lo, hi, faces);
+  else
+    tilted_cells_.solve(axis, axis == 0 ? lines.hi : lines.lo + 1, columns, below, above, lo, hi, faces);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns,
+                                        Real* fields, std::int64_t pitch, Real size, const Flux& flux) const {
+  if (tilted_cells_.empty()) return;
+  const auto number = state_.layout.line_number(line);
+  const auto rows = swept_rows(axis, fields + columns.first, pitch);
+  if constexpr (D == 3)
+    tilted_cells_.add_stress(axis, number, columns, size, state_.material_row(line, row_b) + columns.first,
+                             flux.lo, flux.hi, rows,
+                             fields + columns.first + changed_[axis][changed] * pitch);
+  else
+    tilted_cells_.add_stress(axis, number, columns, size, flux.lo, flux.hi, rows);
 }
 
 template <int D, class Real>
@@ -561,8 +593,8 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     const auto lo = run ? run->template rows<D>(0) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
                                     run ? lo : state_.material_from(at, part.first, 0), faces.at(from));
-    tilted_cells_.solve(0, line, part, here.at(-1), here, material, state_.material_from(at, part.first, 0),
-                        faces.at(from));
+    solve_tilted(0, {line, line, 1}, part, here.at(-1), here, material,
+                 state_.material_from(at, part.first, 0), faces.at(from));
   };
   if (metric_.bent(line)) return solve(cells);
   // The faces at the ends of a row have other material on one side.
@@ -636,7 +668,9 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   face_kernels(uniform).solve_riemann(columns.count(), up, down,
                                       uniform ? lo->template rows<D>(axis) : material_lo,
                                       uniform ? hi->template rows<D>(axis) : material_hi, faces);
-  if (axis == z_axis) tilted_cells_.solve(axis, row, columns, up, down, material_lo, material_hi, faces);
+  solve_tilted(axis,
+               {has_lo ? layout.line_number(line_lo) : -1, has_hi ? layout.line_number(line_hi) : -1, 0},
+               columns, up, down, material_lo, material_hi, faces);
 }
 
 template <int D, class Real>

@@ -13,7 +13,7 @@
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
-#include "solver/sweep/tilted_cells.hpp"
+#include "solver/sweep/tilted_cells_in_space.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -169,6 +169,17 @@ class Sweeps {
   void reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns, const Real* fields,
                           std::int64_t pitch, std::int64_t stride, const Real* b, Real scale,
                           OutgoingWaves<Real> outgoing) const;
+  /// The states of faces beside tilted cells. `lo` and `hi` are the numbers of the lines before and behind
+  /// them, -1 beyond the grid; the cell before a face stands `shift` columns before that behind it.
+  struct FaceLines {
+    std::int64_t lo, hi, shift;
+  };
+  void solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns, OutgoingWaves<Real> below,
+                    OutgoingWaves<Real> above, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
+                    InterfaceStates<Real> faces) const;
+  /// What is missing in the stresses of tilted cells.
+  void add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                         std::int64_t pitch, Real size, const Flux& flux) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
@@ -191,9 +202,11 @@ class Sweeps {
   void fill_ghost_cells(std::int64_t line, int side, Real* fields, std::int64_t pitch, Real scale) const;
   void fill_ghost_rows(int axis, const Index<D>& at, int side, const IndexRange& columns, Real scale);
   std::array<Pair, D> make_pairs(int axis) const;
-  /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs.
-  static constexpr int changed = 3 * D - 1, changed_in_fluid = 2;
-  std::array<int, changed> rows_changed(int axis) const;
+  /// Rows that a sweep changes: of the P pair, the passive normal stresses, of the S pairs, and in 3-D where
+  /// axes of rock are turned the shear stress across the axis.
+  static constexpr int changed = 3 * D - 1, changed_in_fluid = 2, changed_at_most = 4 * D - 3;
+  std::array<int, changed_at_most> rows_changed(int axis) const;
+  int rows_changed() const { return shear_ ? changed + (couples_all_ ? 1 : 0) : changed_in_fluid; }
   int pair_count() const { return shear_ ? D : 1; }
 
   State<D, Real>& state_;
@@ -201,7 +214,7 @@ class Sweeps {
   std::vector<Effect<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
-  bool shear_, anisotropic_, monotone_ = false;
+  bool shear_, anisotropic_, couples_all_, monotone_ = false;
   std::array<std::array<InterfaceStencils, D>, D>
       stencils_;  // [axis], of P and of S pairs as distinct_pairs_
   /// The S pairs of an axis share their stencils, but where they have different impedances.
@@ -227,7 +240,7 @@ class Sweeps {
   }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
-  std::array<std::array<int, changed>, D> changed_;                   // [axis]
+  std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
   std::array<SurfaceTractions<D, Real>, 2> surface_tractions_;        // of z, by side
 };

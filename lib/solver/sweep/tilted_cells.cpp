@@ -308,7 +308,5 @@ std::int64_t TiltedCells<D, Real>::memory_bytes() const {
 
 template class TiltedCells<2, float>;
 template class TiltedCells<2, double>;
-template class TiltedCells<3, float>;
-template class TiltedCells<3, double>;
 
 }  // namespace slipwave::solver

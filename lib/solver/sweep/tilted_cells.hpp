@@ -17,6 +17,13 @@ struct MatrixRows {
   const Real *along, *mixed, *across;
 };
 
+/// One pair of a sweep: v and s of the first of the columns, and its corrections.
+template <class Real>
+struct TiltedPairFields {
+  const Real *v, *s;
+  PairCorrections<Real> corrections;
+};
+
 /// Cells whose axes of symmetry do not lie along the grid, in 2-D: interfaces cut them (theory.md 1.11), or
 /// their beds dip (1.12). The
 /// loops of a sweep take them for isotropic or upright ones; then this overwrites their outgoing waves, the
@@ -33,11 +40,7 @@ class TiltedCells {
   /// Whether a row holds any in these columns.
   bool any(std::int64_t row, const IndexRange& columns) const;
 
-  /// One pair of a sweep: v and s of the first of the columns, and its corrections.
-  struct PairFields {
-    const Real *v, *s;
-    PairCorrections<Real> corrections;
-  };
+  using PairFields = TiltedPairFields<Real>;
   using Pairs = std::array<PairFields, 2>;
   /// Outgoing waves of the cells of these columns of a row, from the fields of P and S; `b` is dt/(rho h) of
   /// the first of them.

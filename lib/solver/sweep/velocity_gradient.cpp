@@ -86,6 +86,22 @@ Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, cons
   return {-determinant(0) / whole, -determinant(1) / whole, -determinant(2) / whole};
 }
 
+/// The same in a rock whose axes are turned.
+Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, const SpaceStiffness& c) {
+  const auto of = [&](const Point<3>& a) {
+    std::array<SpaceVector, 3> matrix{};
+    for (int i = 0; i < 3; ++i)
+      for (int m = 0; m < 3; ++m)
+        for (int j = 0; j < 3; ++j)
+          for (int l = 0; l < 3; ++l)
+            matrix[std::size_t(i)][std::size_t(m)] += c(i, j, m, l) * n[std::size_t(j)] * a[std::size_t(l)];
+    return matrix;
+  };
+  const auto load = of(g);
+  const auto change = solved<double>(of(n), {load[0][k], load[1][k], load[2][k]});
+  return {-change[0], -change[1], -change[2]};
+}
+
 template <int D, class Add>
 void for_products(const std::array<std::vector<CellWeight>, std::size_t(D)>& along, const Add& add) {
   std::array<std::size_t, std::size_t(D)> n{};
@@ -208,6 +224,9 @@ void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Fac
                                                             stiffness_at(domain_, cell))[std::size_t(row)]
                                             : forced_change<D>(normal, tangent, std::size_t(moved), lambda,
                                                                mu)[std::size_t(row)];
+      if constexpr (D == 3)
+        if (const auto* const tilted = domain_.tilted_medium(cell))
+          change = forced_change(normal, tangent, std::size_t(moved), tilted->stiffness)[std::size_t(row)];
       if (change == 0) continue;
       change *= face.side ? -factor : factor;
       if (values == Values::one_sided)

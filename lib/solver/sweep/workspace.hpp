@@ -109,7 +109,7 @@ class Workspace {
 
  private:
   static constexpr std::int64_t gap = 16;
-  static constexpr int most_changed = 8;  // fields that a sweep changes
+  static constexpr int most_changed = 9;  // fields that a sweep changes
   Real* row(int n) { return values_.data() + n * pitch_ + 2 * gap; }
   std::int64_t pitch_;
   int pairs_;
