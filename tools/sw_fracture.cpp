@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -11,6 +13,7 @@
 #include "model/fracture.hpp"
 #include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/parted_faces.hpp"
 #include "model/prestress.hpp"
 #include "model/region.hpp"
 #include "model/single_fracture.hpp"
@@ -33,7 +36,7 @@ struct Settings {
   std::string law;
   ComplianceText compliance;
   std::optional<double> for_hz, strain_rate;
-  bool block = false, opening = false, effective = false;
+  bool block = false, opening = false, effective = false, open = false, faces = false;
   std::string prestress;
   std::string name;
   std::string output = "-";
@@ -86,6 +89,12 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("trace", settings.traces, "FILE",
               "or single fractures along curves, one line \"X Z\" per vertex, an empty line between two; "
               "repeatable");
+  options.add("open", settings.open,
+              "single fractures carry no traction: open cracks, instead of --compliance; level or upright "
+              "ones, which --faces moves to the nearest face between cells");
+  options.add("faces", settings.faces,
+              "single fractures part the faces between cells instead of softening the cells beside them: for "
+              "compliances above 2e-10 m/Pa; level or upright ones");
   options.add("network", settings.network, "N",
               "or N straight single fractures with centres drawn from the region, of --length, about --dip");
   options.add("intensity", settings.intensity, "P21",
@@ -243,7 +252,7 @@ void check_friction(const Settings& s) {
   if (s.friction && !s.viscosity_s && !proposed)
     refuse("--viscosity is missing; expected --viscosity ETA, or --for-frequency HZ --strain-rate RATE");
   if (s.friction) return;
-  if (!s.compliance.given())
+  if (!s.compliance.given() && !s.open)
     refuse(
         "--friction is missing; expected --friction Q, or planes that give way: --compliance ZN,ZT, "
         "--stiffness KN,KT or --crack-density E");
@@ -277,6 +286,9 @@ SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
     in_place("--law", [&] { set_friction_law(system, settings.law); });
   if (settings.compliance.given())
     system.compliance = parse_compliance(settings.compliance, single(settings));
+  if (settings.open)
+    system.compliance.normal_m_per_pa = system.compliance.tangential_m_per_pa =
+        std::numeric_limits<double>::infinity();
   return system;
 }
 
@@ -286,13 +298,18 @@ void check_single(const Settings& s) {
     for (const auto& [name, given] :
          {std::pair{"length", !s.length.empty()}, {"concentration", s.concentration.has_value()}})
       if (given) refuse("--" + std::string(name) + " needs --network or --intensity");
+  for (const auto& [name, given] : {std::pair{"open", s.open}, {"faces", s.faces}})
+    if (given && !single(s))
+      refuse("--" + std::string(name) + " needs single fractures: --segment or --trace");
   if (!single(s)) return;
+  if (s.open && s.compliance.given())
+    refuse("found --open and a compliance, give one of both: an open fracture carries no traction");
   if (drawn(s) && (!s.segments.empty() || !s.traces.empty() || (!s.network.empty() && s.intensity)))
     refuse(
         "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "
         "--trace may stand together)");
-  if (!s.compliance.given())
-    refuse("--compliance is missing; expected --compliance ZN,ZT or --stiffness KN,KT");
+  if (!s.compliance.given() && !s.open)
+    refuse("--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT or --open");
   if (drawn(s) && s.length.empty()) refuse("--length is missing; expected --length MIN:MAX[:EXPONENT]");
   if (drawn(s) && s.dips.size() != 1) refuse("--network and --intensity need one --dip");
   const auto& of = s.compliance;
@@ -355,18 +372,35 @@ std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>&
   return all;
 }
 
-/// Puts single fractures into the model, and says how many cells they lie in.
+/// Checks that fractures can lie on faces, and says how far the farthest is moved to get there.
+void place_on_faces(const Settings& settings, const Grid<2>& grid,
+                    const std::vector<FractureTrace<2>>& traces, const cli::Context& context) {
+  double moved_m = 0;
+  for (const auto& trace : traces) {
+    const auto place =
+        in_place(settings.open ? "--open" : "--faces", [&] { return check_on_faces(grid, trace); });
+    if (std::abs(place.moved_m) > std::abs(moved_m)) moved_m = place.moved_m;
+  }
+  if (std::abs(moved_m) > 1e-6 * grid.spacing_m)
+    context.warn("fractures lie on the nearest face between cells, up to " + shown(std::abs(moved_m), 3) +
+                 " m beside their traces: what they scatter comes from there");
+}
+
+/// Puts single fractures into the model, and says how many cells they lie in, or faces on.
 FractureCount put_single(const Settings& settings, Model<2>& model, const cli::Context& context) {
   FractureSet<2> set{settings.name, {}, {}};
   set.traces = traces_of(settings, model.grid());
   if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
   set.systems = {system_of<2>(settings, normal_between_tips(set.traces.front()))};
+  set.on_faces = settings.open || settings.faces;
+  if (set.on_faces) place_on_faces(settings, model.grid(), set.traces, context);
   const auto count = add_single_fractures(model, set);
   double length_m = 0;
   for (const auto& trace : set.traces) length_m += length_of(trace);
   context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
-               " of set '" + set.name + "', " + shown(length_m, 4) + " m in all, in " +
-               std::to_string(count.marked) + " cells");
+               " of set '" + set.name + "', " + shown(length_m, 4) + " m in all, " +
+               (set.on_faces ? "on " : "in ") + std::to_string(count.marked) +
+               (set.on_faces ? " faces" : " cells"));
   if (count.taken > 0)
     context.warn(std::to_string(count.taken) +
                  " cells of earlier clusters have only the single fractures now");
@@ -440,7 +474,8 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left && single(settings)) {
     context.warn("fractures end where rock does: " + std::to_string(count.left) +
-                 " fluid or void cells beside them stay intact");
+                 (settings.open || settings.faces ? " faces beside fluid or void stay whole"
+                                                  : " fluid or void cells beside them stay intact"));
   } else if (count.left) {
     context.warn(std::to_string(count.left) + " fluid or void cells in the region stay intact, " +
                  std::to_string(count.marked) +

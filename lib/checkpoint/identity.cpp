@@ -66,10 +66,11 @@ class Digest {
   }
   template <int D>
   void add(const FractureSet<D>& set) {
-    const auto& [name, systems, traces] = set;
+    const auto& [name, systems, traces, on_faces] = set;
     add(name);
     add(systems);
     if (!traces.empty()) add(traces);
+    if (on_faces) add(on_faces);
   }
   /// Which optional properties there are counts, too.
   template <int D>

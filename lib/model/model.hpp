@@ -33,12 +33,15 @@ template <int D>
 using FractureTrace = std::vector<Point<D>>;
 
 /// Cells that share slip systems: 1 to D systems. Or single fractures (2-D), all of the compliance of the one
-/// system, without spacing and whatever its normal: then the set's cells are those beside the traces.
+/// system, without spacing and whatever its normal: then the set's cells are those beside the traces, or,
+/// with `on_faces`, none: the fractures part the faces between cells that they lie on (parted_faces.hpp), and
+/// may have infinite compliances: they are open.
 template <int D>
 struct FractureSet {
   std::string name;
   std::vector<SlipSystem<D>> systems;
   std::vector<FractureTrace<D>> traces = {};
+  bool on_faces = false;
 };
 
 /// Whether any planes of a set give way as springs; whether any may slide.

@@ -149,7 +149,7 @@ void check_cell(const Medium<D>& medium, std::size_t cell, const MediumLimits& l
 
 /// The constants of planes that give way as springs.
 template <int D>
-void check_compliance(const SlipSystem<D>& system, bool single, const std::string& name) {
+void check_compliance(const SlipSystem<D>& system, bool single, bool on_faces, const std::string& name) {
   const auto& of = system.compliance;
   const auto refuse_unless = [&](bool good, const std::string& what, double value, const std::string& rest) {
     if (!good) throw Error(name + ": " + what + " is " + shown(value) + ", expected " + rest);
@@ -159,8 +159,14 @@ void check_compliance(const SlipSystem<D>& system, bool single, const std::strin
       {"normal dashpot", of.normal_dashpot_pa_s_m}, {"tangential dashpot", of.tangential_dashpot_pa_s_m},
       {"spacing of planes", of.spacing_m},          {"crack density", of.crack_density},
       {"aspect ratio of cracks", of.aspect},        {"bulk modulus of the fill", of.fill_pa}};
+  // On faces a fracture may be open.
+  const auto infinite = [&](const double& value) {
+    return on_faces && std::isinf(value) &&
+           (&value == &constants[0].second || &value == &constants[1].second);
+  };
   for (const auto& [what, value] : constants)
-    refuse_unless(value >= 0 && std::isfinite(value), what, value, "a finite number not below zero");
+    refuse_unless((infinite(value) && value > 0) || (value >= 0 && std::isfinite(value)), what, value,
+                  "a finite number not below zero");
   if (!single && (of.normal_m_per_pa > 0 || of.tangential_m_per_pa > 0))
     refuse_unless(of.spacing_m > 0, "spacing of planes", of.spacing_m, "it above zero, in metres");
   if (of.fill_pa > 0)
@@ -187,6 +193,8 @@ void check_together(const FractureSet<D>& set, const std::string& name) {
 /// What single fractures can not have.
 template <int D>
 void check_single(const FractureSet<D>& set, const std::string& name) {
+  if (set.on_faces && set.traces.empty())
+    throw Error(name + " lies on faces, expected single fractures there");
   if (set.traces.empty()) return;
   if (D == 3) throw Error(name + " has single fractures, which are of models in 2-D");
   const auto& system = set.systems.front();
@@ -226,7 +234,7 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
     check_constant("friction", system.friction);
     check_constant("viscosity", system.viscosity_s);
     check_constant("strength", system.strength_pa);
-    check_compliance(system, !set.traces.empty(), name);
+    check_compliance(system, !set.traces.empty(), set.on_faces, name);
     if (system.law != FrictionLaw::slip_weakening) continue;
     check_constant("dynamic friction", system.dynamic_friction);
     if (system.dynamic_friction > system.friction)

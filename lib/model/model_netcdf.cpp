@@ -168,6 +168,11 @@ std::size_t vertices_of(const std::vector<FractureSet<D>>& sets) {
   return sum;
 }
 
+template <int D>
+bool any_on_faces(const std::vector<FractureSet<D>>& sets) {
+  return std::any_of(sets.begin(), sets.end(), [](const auto& set) { return set.on_faces; });
+}
+
 /// Vertices of single fractures, one fracture after the other.
 template <int D>
 void define_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
@@ -186,6 +191,10 @@ void define_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   define("fracture_trace_position", Type::f64, {"fracture_trace_vertex", "axis"},
          "vertex of a single fracture, in true depth");
   file.put_attribute("fracture_trace_position", "units", "m");
+  if (!any_on_faces(sets)) return;
+  define("fracture_on_faces", Type::u8, {"fracture_set"},
+         "1: the single fractures of the set lie on faces between cells");
+  put_flags<std::uint8_t>(file, "fracture_on_faces", {"in_cells", "on_faces"});
 }
 
 template <int D>
@@ -206,6 +215,10 @@ void put_traces(NetcdfFile& file, const std::vector<FractureSet<D>>& sets) {
   file.put("fracture_trace_set", owner.data());
   file.put("fracture_trace_number", number.data());
   file.put("fracture_trace_position", position.data());
+  if (!any_on_faces(sets)) return;
+  std::vector<std::uint8_t> on_faces;
+  for (const auto& set : sets) on_faces.push_back(set.on_faces ? 1 : 0);
+  file.put("fracture_on_faces", on_faces.data());
 }
 
 template <int D>
@@ -223,6 +236,14 @@ void read_traces_of(const NetcdfFile& file, std::vector<FractureSet<D>>& sets) {
     Point<D> vertex{};
     for (std::size_t axis = 0; axis < D; ++axis) vertex[axis] = position[i * D + axis];
     traces.back().push_back(vertex);
+  }
+  if (!file.has_variable("fracture_on_faces")) return;
+  const auto on_faces = read_column(file, "fracture_on_faces", sets.size());
+  for (std::size_t set = 0; set < sets.size(); ++set) {
+    if (on_faces[set] != 0 && on_faces[set] != 1)
+      throw Error(file.shown_name() + ": fracture_on_faces: found " + shown(on_faces[set]) +
+                  ", expected 0 or 1");
+    sets[set].on_faces = on_faces[set] == 1;
   }
 }
 

@@ -81,8 +81,14 @@ void report_compliance(Report& report, const LinearCompliance& of) {
       report.number("fill", of.fill_pa, "Pa");
     }
   } else if (of.gives()) {
-    report.number("normal compliance", of.normal_m_per_pa, "m/Pa");
-    report.number("tangential compliance", of.tangential_m_per_pa, "m/Pa");
+    const auto compliance = [&](const std::string& name, double m_per_pa) {
+      if (std::isinf(m_per_pa))
+        report.text(name, "infinite: open");
+      else
+        report.number(name, m_per_pa, "m/Pa");
+    };
+    compliance("normal compliance", of.normal_m_per_pa);
+    compliance("tangential compliance", of.tangential_m_per_pa);
     if (of.normal_dashpot_pa_s_m > 0) report.number("normal dashpot", of.normal_dashpot_pa_s_m, "Pa s/m");
     if (of.tangential_dashpot_pa_s_m > 0)
       report.number("tangential dashpot", of.tangential_dashpot_pa_s_m, "Pa s/m");
@@ -101,6 +107,7 @@ Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
     if (!set.traces.empty()) {
       of_set.count("single fractures", std::int64_t(set.traces.size()));
       of_set.number("length of all", length_m, "m");
+      if (set.on_faces) of_set.text("lie", "on faces between cells");
     }
   }
   std::vector<Report> systems;

@@ -8,6 +8,7 @@
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
 #include "io/input_bytes.hpp"
+#include "model/parted_faces.hpp"
 #include "model/points_file.hpp"
 
 namespace slipwave {
@@ -119,6 +120,26 @@ FractureCount mark(Model<2>& model, std::size_t code) {
   return count;
 }
 
+/// Adds a set whose fractures lie on faces; counts faces, not cells.
+FractureCount add_on_faces(Model<2>& model, const FractureSet<2>& set) {
+  for (const auto& trace : set.traces) check_on_faces(model.grid(), trace);
+  const auto count_faces = [&model] {
+    FractureCount count;
+    count.marked = std::int64_t(parted_faces(model, &count.left).size());
+    return count;
+  };
+  const auto before = count_faces();
+  model.fracture_sets.push_back(set);
+  auto count = count_faces();
+  count.left -= before.left;
+  count.marked -= before.marked;
+  if (count.marked <= 0)
+    throw Error("none of the " + std::to_string(count.left) +
+                " faces that the fractures lie on is between solid cells, at least one must be that no other "
+                "fracture lies on");
+  return count;
+}
+
 }  // namespace
 
 FractureTrace<2> parse_segment(const std::string& text) {
@@ -201,7 +222,7 @@ void place_single_fractures(Model<2>& model) {
   for (auto& code : model.fracture)
     if (code > 0 && !sets[code - 1U].traces.empty()) code = 0;
   for (std::size_t code = 1; code <= sets.size(); ++code)
-    if (!sets[code - 1].traces.empty()) mark(model, code);
+    if (!sets[code - 1].traces.empty() && !sets[code - 1].on_faces) mark(model, code);
 }
 template <>
 void place_single_fractures(Model<3>&) {}
@@ -228,6 +249,7 @@ FractureCount add_single_fractures(Model<2>& model, const FractureSet<2>& set) {
   for (const auto& trace : set.traces) check_trace(model.grid(), trace);
   check_room_for_set(model);
   if (model.fracture.empty()) model.fracture = Field<2, std::uint8_t>(model.grid());
+  if (set.on_faces) return add_on_faces(model, set);
   model.fracture_sets.push_back(set);
   const auto count = mark(model, model.fracture_sets.size());
   if (count.marked == 0)

@@ -45,7 +45,8 @@ void place_single_fractures(Model<D>& model);
 void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace);
 
 /// Adds a set of single fractures and marks the solid cells they lie in; an earlier cluster gives way there,
-/// earlier single fractures stay. Throws as check_trace() does, and an Error where none crosses rock.
+/// earlier single fractures stay. One on faces marks no cells: its faces are counted. Throws as check_trace()
+/// does, and an Error where none crosses rock.
 FractureCount add_single_fractures(Model<2>& model, const FractureSet<2>& set);
 
 }  // namespace slipwave

@@ -11,7 +11,9 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
+#include "model/anisotropy.hpp"
 #include "model/coefficients.hpp"
+#include "model/parted_faces.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/anisotropy_check.hpp"
 #include "scene/model_ground.hpp"
@@ -247,6 +249,27 @@ void check_monotone(const Scene<D>& scene) {
         ErrorKind::usage);
 }
 
+/// What does not go with fractures that part faces.
+template <int D>
+void check_parted(const Scene<D>& scene) {
+  const auto& sets = scene.model.fracture_sets;
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.on_faces && gives(set); });
+  if (!scene.with_slip || found == sets.end()) return;
+  const auto refuse = [&](const std::string& what, const std::string& wanted) {
+    throw Error("found " + what + " in a model whose fractures '" + found->name +
+                    "' lie on faces, expected " + wanted + "; or leave them out by --without slip",
+                ErrorKind::usage);
+  };
+  if (scene.numerics.monotone) refuse("--monotone", "it without");
+  if (scene.numerics.time_order != 2)
+    refuse("--time-order " + std::to_string(scene.numerics.time_order), "--time-order 2");
+  const auto& grid = scene.model.grid();
+  for (const auto& face : parted_faces(scene.model))
+    if (is_anisotropic(scene.model.medium, std::size_t(grid.flat(face.behind))))
+      refuse("anisotropic rock at " + place_of(grid, grid.flat(face.behind)), "isotropic rock there");
+}
+
 template <int D>
 void check(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
@@ -284,6 +307,7 @@ void check(const Scene<D>& scene) {
         "found time order " + std::to_string(numerics.time_order) + ", expected " + alternatives(time_orders),
         ErrorKind::usage);
   if (numerics.monotone) check_monotone(scene);
+  check_parted(scene);
   const double limit = stable_time_step_s(scene), largest = largest_cfl(numerics);
   if (numerics.time_step_s) {
     check_positive(*numerics.time_step_s, "--time-step", "s");

@@ -58,6 +58,8 @@ std::int64_t spread_of_a_tile(const Scene<D>& scene) {
   for (int axis = 0; axis < D; ++axis)
     for (const EdgeLaw law : scene.edges[axis])
       if (law == EdgeLaw::free) surface_reach[std::size_t(axis)] = free_surface_reach;
+  for (const auto& set : scene.model.fracture_sets)
+    if (set.on_faces) surface_reach[0] = free_surface_reach;
   const auto of_a_step = spread_of_a_step<D>(splitting(D, scene.numerics.time_order), D - 1,
                                              reach_of(scene.numerics.order), surface_reach);
   // The first tile of all has one more sweep along x.

@@ -74,6 +74,8 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
   const auto& model = scene.model;
+  if (scene.with_slip) domain.parted = parted_faces(model);
+  for (auto& face : domain.parted) face.behind = domain.computed_cell(face.behind);
   if (scene.slips())
     domain.drop_tilted(
         [&](std::size_t cell) { return model.fracture[cell] != 0 && is_tilted_mean(model.medium, cell); });

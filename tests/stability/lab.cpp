@@ -61,10 +61,16 @@ Lab<Real>::Lab(const Setup& setup)
   scene_.numerics.correction = setup.correction;
   domain_ = solver::make_domain(model.medium, setup.edges, setup.zone_cells, {}, setup.order);
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
+  domain_.parted = parted_faces(model);
+  for (auto& face : domain_.parted) face.behind = domain_.computed_cell(face.behind);
   state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.material_kind());
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   if (setup.monotone) sweeps_->keep_monotone();
+  if (!domain_.parted.empty()) {
+    parted_ = std::make_unique<solver::PartedFaces<2, Real>>(state_, domain_, dt_s_, 1);
+    sweeps_->part(parted_.get());
+  }
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
   const double vp_max = fastest_speed(model.medium);
   if (zones && setup.layer_hz > 0) {
@@ -182,7 +188,8 @@ double Lab<Real>::sum(Stress which) const {
 
 template <class Real>
 double Lab<Real>::energy() const {
-  return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0);
+  return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0) +
+         (parted_ ? parted_->stored_energy() : 0);
 }
 
 template <class Real>

@@ -96,6 +96,7 @@ class Lab {
   std::unique_ptr<solver::Pml<2, Real>> layer_;
   std::unique_ptr<Sponge<2, Real>> sponge_;
   std::unique_ptr<solver::Effect<2, Real>> slip_;
+  std::unique_ptr<solver::PartedFaces<2, Real>> parted_;
   std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
   bool along_z_only_;
   double work_of_prestress_ = 0;

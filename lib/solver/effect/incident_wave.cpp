@@ -182,7 +182,7 @@ class Column {
     for (std::size_t n = 0; n < sweeps_of_step_.size(); ++n) {
       if (sweeps_of_step_[n].axis != 1) continue;
       if (sweeps_.corrects_surface(0)) sweeps_.retain(0, 0, all);
-      sweeps_.correct_side_surfaces(0);
+      sweeps_.correct_side_surfaces(0, all);
       work_.time() = {step, n};
       sweeps_.along_x(0, all, Real(sweeps_of_step_[n].fraction), boundary_, work_);
       ++made_;

@@ -108,7 +108,7 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
       ahead_(scene.numerics.correction == SlipCorrection::first ? Real(0) : Real(0.5)) {
   for (std::size_t number = 0; number < model_.fracture_sets.size(); ++number) {
     const auto& set = model_.fracture_sets[number];
-    if (!gives(set)) continue;
+    if (!gives(set) || set.on_faces) continue;
     Group group{FractureCells<D>(state.layout, domain, model_, number), &set, {}, {}, {}, {}, {}};
     if (group.places.cells() == 0) continue;
     const auto any = [&](const auto& has) {

@@ -53,7 +53,7 @@ void PlainExecutor<D, Real>::end_of_step(const StepTime& time) {
   if (sweeps_.corrects_surface(0))
     for (std::int64_t row = 0; row < rows; ++row) sweeps_.retain(0, row, {0, state_.layout.shape()[0]});
   for (std::int64_t row = 0; row < rows; ++row) {
-    sweeps_.correct_side_surfaces(row);
+    sweeps_.correct_side_surfaces(row, {0, state_.layout.shape()[0]});
     if (step_.splits(time, row))
       split_row(time, row);
     else

@@ -348,7 +348,7 @@ void TiledExecutor<D, Real>::sweep_rows(const Stage& stage, std::int64_t row, st
   if (ends && !step_.patches().empty())
     patches = &worker.patches[std::size_t(D == 2 ? stage.end * boundaries_per_sweep() + in_band : stage.end)];
   const auto line = [&](std::int64_t number, const IndexRange& first, const IndexRange& second) {
-    if (!first.empty()) sweeps_.correct_side_surfaces(number);
+    if (!first.empty()) sweeps_.correct_side_surfaces(number, first);
     if (ends)
       end_of_step(stage, number, first, second, boundary(0), boundary(1), patches, worker);
     else if (!first.empty())

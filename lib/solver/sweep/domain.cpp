@@ -277,6 +277,19 @@ UniformRun<Real> run_of(const State<D, Real>& state, const Index<D>& line, std::
   return run;
 }
 
+/// On both sides of parted faces, ascending: their faces are not those of one material.
+template <int D>
+std::vector<std::int64_t> cells_beside_parted(const Domain<D>& domain) {
+  std::vector<std::int64_t> cells;
+  for (const auto& face : domain.parted) {
+    auto before = face.behind;
+    if (before[std::size_t(face.axis)] > 0) --before[std::size_t(face.axis)];
+    for (const auto& at : {before, face.behind}) cells.push_back(domain.grid.flat(at));
+  }
+  std::sort(cells.begin(), cells.end());
+  return cells;
+}
+
 template <int D, class Real>
 void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   const std::int64_t nx = state.layout.shape()[0];
@@ -287,6 +300,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
   };
   const auto& all_tilted = domain.tilted();
   std::vector<char> tilted(std::size_t(nx), 0);
+  const auto parted = cells_beside_parted(domain);
+  auto next_parted = parted.begin();
   auto next = all_tilted.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
@@ -295,6 +310,8 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     std::fill(tilted.begin(), tilted.end(), 0);
     for (auto of = next; of != all_tilted.end() && of->cell < (line + 1) * nx; ++of)
       tilted[std::size_t(of->cell - line * nx)] = 1;
+    for (; next_parted != parted.end() && *next_parted < (line + 1) * nx; ++next_parted)
+      tilted[std::size_t(*next_parted - line * nx)] = 1;
     const auto same = [&](std::int64_t i, std::int64_t j) {
       return !tilted[std::size_t(i)] && !tilted[std::size_t(j)] && material.b[i] == material.b[j] &&
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&

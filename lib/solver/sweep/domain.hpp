@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/model.hpp"
+#include "model/parted_faces.hpp"
 #include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/edges.hpp"
@@ -64,8 +65,9 @@ class Domain {
   EdgeLaws<D> edges;        // absorbing, without a zone, where other processes continue
   EdgeLaws<D> whole_edges;  // of the whole model
   Subdomain subdomain;
-  IndexRange own;  // rows of the computed grid that this process owns
-  int order = 1;   // of the reconstruction, at most
+  IndexRange own;                     // rows of the computed grid that this process owns
+  std::vector<PartedFace<D>> parted;  // of the computed grid, by axis and cell
+  int order = 1;                      // of the reconstruction, at most
   /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
   std::vector<char> bent_rows;

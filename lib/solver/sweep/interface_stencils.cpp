@@ -21,6 +21,7 @@ struct Side {
   int beyond = 0;
   double share = 0;
   bool inside = false;  // the interface is inside the grid
+  std::int32_t parted = -1;
   bool at_edge() const { return !inside && law == Extension::traction_free; }
 };
 
@@ -28,8 +29,9 @@ struct Side {
 template <int D>
 class Walk {
  public:
-  Walk(const Field<D>& impedance, const TiltedFace<D>& tilted, const Index<D>& from, int axis, int step)
-      : impedance_(impedance), tilted_(tilted), at_(from), axis_(axis), step_(step) {}
+  Walk(const Field<D>& impedance, const TiltedFace<D>& tilted, const PartedLine<D>& parted,
+       const Index<D>& from, int axis, int step)
+      : impedance_(impedance), tilted_(tilted), parted_(parted), at_(from), axis_(axis), step_(step) {}
   bool leaves_grid(int n) const {
     const auto i = at_[std::size_t(axis_)] + n * step_;
     return i < 0 || i >= impedance_.grid().shape[std::size_t(axis_)];
@@ -38,6 +40,12 @@ class Walk {
   /// Whether the face behind cell n is a strong interface of two media that carry the wave, where stencils
   /// end.
   bool strong_behind(int n) const { return strong((*this)(n), (*this)(n + 1)) && !parted_by_mean(n); }
+  /// The slot of the face behind cell n where a fracture parts the rock, on this side of it, or -1.
+  std::int32_t parted_behind(int n) const {
+    if (!parted_.slot) return -1;
+    const auto slot = parted_.slot(place(step_ > 0 ? n + 1 : n));
+    return slot < 0 ? slot : 2 * slot + (step_ > 0 ? 0 : 1);
+  }
   /// Cells up to the next strong interface at a tilted mean, which stencils cross; at most `reach`.
   int cells_to_tilted(int reach) const {
     if (!tilted_) return reach;
@@ -55,9 +63,23 @@ class Walk {
   }
   const Field<D>& impedance_;
   const TiltedFace<D>& tilted_;
+  const PartedLine<D>& parted_;
   Index<D> at_;
   int axis_, step_;
 };
+
+/// Cells from `next` on up to the next end of stencils, at most `reach`.
+template <int D>
+int cells_beyond(const Walk<D>& z, int next, int reach) {
+  int cells = 1;
+  for (; cells < reach; ++cells) {
+    const int further = next + cells;
+    if (z.leaves_grid(further) || z(further) == 0 || z.strong_behind(further - 1) ||
+        z.parted_behind(further - 1) >= 0)
+      break;
+  }
+  return cells;
+}
 
 template <int D>
 Side side_of(const Walk<D>& z, Extension edge, int reach) {
@@ -74,14 +96,18 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
       side.inside = true;
       return side;
     }
+    if (const auto slot = z.parted_behind(side.cells); slot >= 0) {
+      side.law = Extension::parted;
+      side.inside = true;
+      side.parted = slot;
+      side.beyond = cells_beyond(z, next, reach);
+      return side;
+    }
     if (z.strong_behind(side.cells)) {
       side.law = Extension::interface;
       side.share = other / (own + other);
       side.inside = true;
-      for (side.beyond = 1; side.beyond < reach; ++side.beyond) {
-        const int further = next + side.beyond;
-        if (z.leaves_grid(further) || z(further) == 0 || z.strong_behind(further - 1)) break;
-      }
+      side.beyond = cells_beyond(z, next, reach);
       return side;
     }
   }
@@ -137,6 +163,15 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
+/// The same of cells beside parted faces, in the line that begins with cell `first`.
+template <int D>
+void mark_beside(const PartedLine<D>& parted, std::int64_t first, std::vector<std::int32_t>& marks) {
+  const auto last = first + std::int64_t(marks.size());
+  for (auto near = std::lower_bound(parted.near.begin(), parted.near.end(), first);
+       near != parted.near.end() && *near < last; ++near)
+    marks[std::size_t(*near - first)] = 1;
+}
+
 /// Cells of the sides that end at `law`: the fewest, or `reach`.
 int fewest_cells_to(Extension law, const Side& low, const Side& high, int reach) {
   if (low.law == law) reach = std::min(reach, low.cells);
@@ -144,10 +179,14 @@ int fewest_cells_to(Extension law, const Side& low, const Side& high, int reach)
 }
 
 int reach_within(const Side& low, const Side& high, int reach) {
-  const int interfaces = (low.law == Extension::interface) + (high.law == Extension::interface);
+  const auto inner = [](const Side& side) {
+    return side.law == Extension::interface || side.law == Extension::parted;
+  };
+  const int interfaces = inner(low) + inner(high);
   const int to_void = fewest_cells_to(Extension::traction_free, low, high, reach);
-  return solver::reach_within(interfaces, fewest_cells_to(Extension::interface, low, high, reach),
-                              low.law != Extension::none && high.law != Extension::none,
+  const int nearest = std::min(fewest_cells_to(Extension::interface, low, high, reach),
+                               fewest_cells_to(Extension::parted, low, high, reach));
+  return solver::reach_within(interfaces, nearest, low.law != Extension::none && high.law != Extension::none,
                               low.cells + high.cells, reach_up_to(to_void, most_reach_at_mirrors, reach));
 }
 
@@ -163,6 +202,32 @@ struct PairOfLine {
     return j_ ? j_[offset * j_stride] * s_[offset * stride] : s_[offset * stride];
   }
 };
+
+/// Turns the mirror image into the extension beyond a parted face (S36).
+template <class Real>
+void extend_across_fracture(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>& pair,
+                            Real& v_at, Real& s_at) {
+  const bool below = offset < -stencil.low;
+  const auto slot = below ? stencil.slot_low : stencil.slot_high;
+  const auto &own = pair.corrections.parted[slot], &other = pair.corrections.parted[slot ^ 1];
+  const int ghost = below ? -stencil.low - 1 - offset : offset - stencil.high - 1;
+  const auto cells = Real(2 * ghost + 1);
+  const Real image = own.s + pair.scale * own.swept - s_at, gain = cells * own.v;
+  if (own.stiffness == 0) {
+    v_at += gain;
+    s_at = image;
+    return;
+  }
+  const std::int64_t across = below ? std::max(offset, -stencil.low - stencil.beyond_low)
+                                    : std::min(offset, stencil.high + stencil.beyond_high);
+  const Real through = cells * own.stiffness / (1 + cells * own.stiffness);
+  const Real welded =
+      s_at + own.share_s * (pair.s(across) - s_at) + pair.scale * (own.swept - other.swept) / 2;
+  v_at += gain + through * own.share_v * (pair.v(across) - v_at - (gain - cells * other.v) / 2);
+  // What the spring remembers of the last sweep comes late for a stiff one.
+  const Real spring = (1 - through) * (1 - through);
+  s_at = welded + spring * (image - welded);
+}
 
 /// Value of the pair at a stencil offset, extended beyond the strong interfaces or edges (E10), (E11).
 template <class Real>
@@ -187,6 +252,7 @@ void extend(const InterfaceStencil& stencil, int offset, const PairOfLine<Real>&
   const auto slot = below ? stencil.slot_low : stencil.slot_high;
   const Real share =
       law == Extension::interface ? Real(below ? stencil.share_low : stencil.share_high) : Real(0);
+  if (law == Extension::parted) return extend_across_fracture(stencil, offset, pair, v_at, s_at);
   if (law == Extension::traction_free) {
     s_at = -s_at;
   } else if (law == Extension::motionless) {
@@ -242,7 +308,8 @@ int reach_within(int interfaces, int nearest, bool ends, int others, int reach) 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
                                      int reach, const CorrectedAt<D>& corrected,
-                                     const SlotBefore<D>& slot_before, const TiltedFace<D>& tilted)
+                                     const SlotBefore<D>& slot_before, const TiltedFace<D>& tilted,
+                                     const PartedLine<D>& parted)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -250,10 +317,12 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
   std::vector<std::int32_t> marks(std::size_t(nx), 0);
   for (std::int64_t line = 0; line < lines; ++line) {
     mark(impedance, line, axis, reach, marks);
+    mark_beside(parted, line * nx, marks);
     for (std::int64_t x = 0; x < nx; ++x) {
       if (marks[std::size_t(x)] == 0) continue;
       const auto at = grid.index(line * nx + x);
-      const Walk<D> down(impedance, tilted, at, axis, -1), up(impedance, tilted, at, axis, +1);
+      const Walk<D> down(impedance, tilted, parted, at, axis, -1),
+          up(impedance, tilted, parted, at, axis, +1);
       constexpr auto on = Extension::none;
       if (impedance(at) == 0) {
         if (carried_near(down, reach) || carried_near(up, reach))
@@ -271,6 +340,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
         const auto slot = [&](const Side& side, std::int64_t cells) {
           Index<D> face = at;
           face[std::size_t(axis)] += cells;
+          if (side.parted >= 0) return side.parted;
           return side.inside && slot_before ? slot_before(face) : -1;
         };
         const auto slot_low = slot(low, -low.cells), slot_high = slot(high, high.cells + 1);
@@ -353,10 +423,10 @@ template void extended_pair(const InterfaceStencil&, int, std::int64_t, const do
                             const PairCorrections<double>&, double, double*, double*);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
                                               const CorrectedAt<2>&, const SlotBefore<2>&,
-                                              const TiltedFace<2>&);
+                                              const TiltedFace<2>&, const PartedLine<2>&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
                                               const CorrectedAt<3>&, const SlotBefore<3>&,
-                                              const TiltedFace<3>&);
+                                              const TiltedFace<3>&, const PartedLine<3>&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
                                               float*, float*, const PairCorrections<float>&,

@@ -18,6 +18,7 @@ enum class Extension : std::uint8_t {
   traction_free,  // v even, s odd (antisymmetric)
   motionless,     // v odd (antisymmetric), s even
   constant,       // the last value stays
+  parted,         // as the two sides of a fracture along the face have it
   interface,      // as the two sides of a welded interface couple them
 };
 
@@ -76,10 +77,20 @@ using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
 /// Slot of the corrections (InterfaceCorrections) at the face between a cell and the one before it, or -1.
 template <int D>
 using SlotBefore = std::function<std::int32_t(const Index<D>& at)>;
+/// The extension of one side of a parted face (theory.md (S36)): what its mirror image gains, v over 2 j + 1,
+/// s at the beginning of a sweep and besides in one over a whole step; and how stiff the fracture is for
+/// waves of half a cell. The other side is the slot that differs in the last bit.
+template <class Real>
+struct PartedImage {
+  Real v = 0, s = 0, swept = 0;
+  Real stiffness = 0;             // 0: open
+  Real share_v = 0, share_s = 0;  // of what is read across it, were it welded (E10)
+};
 /// By slot, of one pair: the correction of v over 2 j + 1, and the jump of s in a sweep over a whole step.
 template <class Real>
 struct PairCorrections {
   const Real *v, *s;
+  const PartedImage<Real>* parted = nullptr;
 };
 
 /// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
@@ -93,6 +104,14 @@ void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stri
 template <int D>
 using TiltedFace = std::function<bool(const Index<D>& at, const Index<D>& beside)>;
 
+/// Faces of one axis where fractures part the rock: cells within reach of them, ascending; and the slot of
+/// the side (0 before, 1 behind) of the face before a cell, or -1.
+template <int D>
+struct PartedLine {
+  std::vector<std::int64_t> near{};
+  std::function<std::int32_t(const Index<D>& behind)> slot{};
+};
+
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
 /// these are corrected.
 class InterfaceStencils {
@@ -104,7 +123,7 @@ class InterfaceStencils {
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
                     const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before,
-                    const TiltedFace<D>& tilted = {});
+                    const TiltedFace<D>& tilted = {}, const PartedLine<D>& parted = {});
   /// That of a cell, null where the bulk kernel serves.
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 

@@ -20,6 +20,36 @@ constexpr int prefetched_by_bent = 3;
 
 }  // namespace
 
+namespace {
+
+/// Faces that fractures part for a pair of sweeps along an axis.
+template <int D>
+PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reach) {
+  PartedLine<D> line;
+  std::vector<std::pair<std::int64_t, std::int32_t>> faces;  // cell behind, place in the domain's list
+  const auto along = std::size_t(axis);
+  for (std::size_t n = 0; n < domain.parted.size(); ++n) {
+    const auto& face = domain.parted[n];
+    const double compliance = pair == 0 ? face.normal_m_per_pa : face.tangential_m_per_pa;
+    if (face.axis != axis || compliance == 0) continue;
+    faces.emplace_back(domain.grid.flat(face.behind), std::int32_t(n));
+    auto near = face.behind;
+    const auto first = std::max<std::int64_t>(near[along] - reach, 0),
+               last = std::min(near[along] + reach, domain.grid.shape[along]);
+    for (near[along] = first; near[along] < last; ++near[along]) line.near.push_back(domain.grid.flat(near));
+  }
+  if (faces.empty()) return line;
+  std::sort(line.near.begin(), line.near.end());
+  line.slot = [faces = std::move(faces), grid = domain.grid](const Index<D>& behind) {
+    const std::pair<std::int64_t, std::int32_t> wanted{grid.flat(behind), 0};
+    const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
+    return found != faces.end() && found->first == wanted.first ? found->second : -1;
+  };
+  return line;
+}
+
+}  // namespace
+
 template <int D, class Real>
 Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int order)
     : state_(state),
@@ -61,8 +91,9 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
         at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
         return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
       };
-      stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
-          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected, slot_before, tilted);
+      stencils_[std::size_t(axis)][std::size_t(pair)] =
+          InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected,
+                            slot_before, tilted, parted_along(domain, axis, pair, reach_));
     }
   });
   if constexpr (D == 2)
@@ -367,6 +398,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
       add_tilted_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
+      if (parted_)
+        parted_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
     }
     work.prefetch().prefetch_one();
   });
@@ -414,7 +447,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
     parallel_for(lines, 4, [&](std::int64_t begin, std::int64_t end, int worker) {
       StripeBoundary<Real> boundary{};
       for (std::int64_t line = begin; line < end; ++line) {
-        correct_side_surfaces(line);
+        correct_side_surfaces(line, {0, layout.shape()[0]});
         along_x(line, {0, layout.shape()[0]}, scale, boundary, work[std::size_t(worker)]);
       }
     });
@@ -428,6 +461,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
       surface_tractions_[std::size_t(side)].update(state_, 0, std::numeric_limits<std::int64_t>::max());
   }
   if (axis == z_axis) corrections_.update_all(state_);
+  if (axis == z_axis && parted_) parted_->update_all();
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -774,6 +808,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
+  if (parted_ && parted_->beside(axis, layout.line_number(advanced))) return false;
   // Rows in between become those before and behind others.
   if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
   const auto& plain = plain_lines_[std::size_t(axis)];
@@ -891,13 +926,15 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
     const auto row = state_.layout.line_index(line)[std::size_t(axis)];
     return IndexRange{row, row + 1};
   }();
+  if (axis == 0 && parted_) parted_->retain(line, lagging(columns));
   auto& edges = free_surfaces_[axis];
   if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
   if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line) {
+void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
+  if (parted_) parted_->update_line(line, lagging(columns));
   for (auto& edge : free_surfaces_[0])
     if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
 }
@@ -919,6 +956,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
   corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
+  if (parted_) parted_->update(step, columns);
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

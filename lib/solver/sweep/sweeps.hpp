@@ -11,6 +11,7 @@
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
+#include "solver/sweep/parted_faces.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
 #include "solver/sweep/tilted_cells_in_space.hpp"
@@ -32,6 +33,8 @@ class Sweeps {
   /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
   void use(Effect<D, Real>* filter);
+  /// From now on these faces are parted; they must outlive this.
+  void part(PartedFaces<D, Real>* faces) { parted_ = faces; }
   static constexpr std::size_t most_filters = 2;
   /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
   /// rows are bent.
@@ -78,7 +81,7 @@ class Sweeps {
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
-           (axis == z_axis && !corrections_.empty());
+           (axis == z_axis && !corrections_.empty()) || (parted_ && parted_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -86,7 +89,7 @@ class Sweeps {
   /// row is one of them.
   void retain(int axis, std::int64_t line, const IndexRange& columns);
   /// Corrections at the edges of x. Before the first piece of a row is swept along x.
-  void correct_side_surfaces(std::int64_t line);
+  void correct_side_surfaces(std::int64_t line, const IndexRange& columns);
   /// In 3-D at the edges of y, before a plane of rows is swept along y.
   void correct_flank_surfaces(std::int64_t plane);
   /// At the edges of z, before across() of that step: of all columns (in 3-D rows of a plane) that it and the
@@ -191,6 +194,10 @@ class Sweeps {
     return {columns.first,
             columns.last == state_.layout.shape()[0] ? state_.layout.padded_nx() : columns.last};
   }
+  /// Of a piece along x the columns whose outgoing waves it or a copy ahead of it finds anew.
+  IndexRange lagging(const IndexRange& columns) const {
+    return {columns.first == 0 ? 0 : columns.first + lag, columns.last + 2 * lag};
+  }
   template <class Advance>
   void filtered(int axis, const Index<D>& line, const IndexRange& columns, Real* fields, Real scale,
                 std::int64_t pitch, Workspace<Real>& work, bool remember, Advance&& advance);
@@ -229,14 +236,16 @@ class Sweeps {
     return false;
   }
   TiltedCells<D, Real> tilted_cells_;
+  PartedFaces<D, Real>* parted_ = nullptr;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.
   PairCorrections<Real> corrections_of(int axis, int pair) const {
-    if (axis != z_axis) return {nullptr, nullptr};
-    return {corrections_.velocity(pair), corrections_.traction(pair)};
+    const auto* const parted = parted_ ? parted_->images(pair) : nullptr;
+    if (axis != z_axis) return {nullptr, nullptr, parted};
+    return {corrections_.velocity(pair), corrections_.traction(pair), parted};
   }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes

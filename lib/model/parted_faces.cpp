@@ -1,0 +1,139 @@
+#include "model/parted_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+namespace {
+
+/// A shorter fracture is nothing but tips.
+constexpr double fewest_cells = 3;
+/// A tip opens as far as the trace reaches with these springs (S37): fitted to boundary elements.
+constexpr double tip_compliance = 4.5, normal_share = 1.2;
+
+/// Springs one behind the other in stiffness: what both leave.
+double together(double one_m_per_pa, double other_m_per_pa) {
+  if (one_m_per_pa == 0 || other_m_per_pa == 0) return 0;
+  return 1 / (1 / one_m_per_pa + 1 / other_m_per_pa);
+}
+
+/// mu/(1 - nu), by which a static crack in plane strain opens.
+double modulus_of_cracks(const Medium<2>& medium, std::size_t cell) {
+  const double vs2 = double(medium.vs[cell]) * medium.vs[cell],
+               vp2 = double(medium.vp[cell]) * medium.vp[cell];
+  return 2 * medium.rho[cell] * vs2 * (vp2 - vs2) / vp2;
+}
+
+void add_faces(const Model<2>& model, const FacesOfTrace& of, const LinearCompliance& compliance,
+               std::vector<PartedFace<2>>& faces, std::int64_t& left) {
+  const auto& grid = model.grid();
+  const auto across = std::size_t(of.axis), along = 1 - across;
+  const std::int64_t face = of.face - grid.first[across];
+  if (face < 0 || face >= grid.shape[across]) return;
+  const auto first = std::max(std::int64_t(std::floor(of.first)), grid.first[along]);
+  const auto last = std::min(std::int64_t(std::ceil(of.last)), grid.first[along] + grid.shape[along]);
+  for (auto n = first; n < last; ++n) {
+    PartedFace<2> one;
+    one.axis = of.axis;
+    one.behind[across] = face, one.behind[along] = n - grid.first[along];
+    auto before = one.behind;
+    // The first row of a part of the model: its face belongs to the part above, too.
+    if (face > 0) --before[across];
+    const auto low = std::size_t(grid.flat(before)), high = std::size_t(grid.flat(one.behind));
+    if (!model.medium.is_solid(low) || !model.medium.is_solid(high)) {
+      ++left;
+      continue;
+    }
+    // How far the nearer tip is from the inner end of the face.
+    const double inside = std::min(double(n + 1) - of.first, of.last - double(n));
+    const double covered = std::min(double(n + 1), of.last) - std::max(double(n), of.first);
+    double tip = std::numeric_limits<double>::infinity();
+    if (inside < 2)
+      tip = tip_compliance * inside / ((2 - inside) * (2 - inside)) * grid.spacing_m * 2 /
+            (modulus_of_cracks(model.medium, low) + modulus_of_cracks(model.medium, high));
+    one.normal_m_per_pa = together(compliance.normal_m_per_pa * covered, tip * normal_share);
+    one.tangential_m_per_pa = together(compliance.tangential_m_per_pa * covered, tip / normal_share);
+    faces.push_back(one);
+  }
+}
+
+/// Where fractures share a face their compliances add up.
+void join(const Grid<2>& grid, std::vector<PartedFace<2>>& faces) {
+  const auto place = [&](const PartedFace<2>& face) { return std::pair(face.axis, grid.flat(face.behind)); };
+  std::stable_sort(faces.begin(), faces.end(),
+                   [&](const auto& one, const auto& other) { return place(one) < place(other); });
+  std::vector<PartedFace<2>> joined;
+  for (const auto& face : faces) {
+    if (joined.empty() || place(joined.back()) != place(face)) {
+      joined.push_back(face);
+      continue;
+    }
+    joined.back().normal_m_per_pa += face.normal_m_per_pa;
+    joined.back().tangential_m_per_pa += face.tangential_m_per_pa;
+  }
+  faces = std::move(joined);
+}
+
+}  // namespace
+
+FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace) {
+  const auto refuse = [](const std::string& what) { throw Error(what, ErrorKind::usage); };
+  if (grid.rows)
+    refuse(
+        "found a fracture on faces in a model whose rows follow a horizon, expected a regular grid (--fit "
+        "none)");
+  const bool level = trace.front()[1] == trace.back()[1], upright = trace.front()[0] == trace.back()[0];
+  if (trace.size() != 2 || level == upright)
+    refuse(
+        "found a fracture that dips or bends, expected a level or an upright one: only those lie on faces "
+        "between cells; give others a --compliance without --open and --faces");
+  FacesOfTrace of;
+  of.axis = level ? 1 : 0;
+  const auto across = std::size_t(of.axis), along = 1 - across;
+  const auto in_cells = [&](std::size_t axis, double place_m) {
+    return (place_m - grid.origin_m[axis]) / grid.spacing_m;
+  };
+  const double place_m = trace.front()[across];
+  of.face = std::int64_t(std::lround(in_cells(across, place_m)));
+  of.moved_m = grid.origin_m[across] + double(of.face) * grid.spacing_m - place_m;
+  of.first = in_cells(along, std::min(trace[0][along], trace[1][along]));
+  of.last = in_cells(along, std::max(trace[0][along], trace[1][along]));
+  if (of.last - of.first < fewest_cells * (1 - 1e-9))
+    refuse("found a fracture of " + shown(of.last - of.first, 3) + " cells on faces, expected at least " +
+           shown(fewest_cells));
+  return of;
+}
+
+FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace) {
+  const auto of = faces_of(grid, trace);
+  if (of.face < 1 || of.face >= grid.shape[std::size_t(of.axis)])
+    throw Error(
+        "found a fracture on faces along the edge of the model, expected it half a cell or more inside",
+        ErrorKind::usage);
+  return of;
+}
+
+template <>
+std::vector<PartedFace<2>> parted_faces(const Model<2>& model, std::int64_t* left) {
+  std::vector<PartedFace<2>> faces;
+  std::int64_t count = 0;
+  for (const auto& set : model.fracture_sets) {
+    if (!set.on_faces || !gives(set)) continue;
+    for (const auto& trace : set.traces)
+      add_faces(model, faces_of(model.grid(), trace), set.systems.front().compliance, faces, count);
+  }
+  join(model.grid(), faces);
+  if (left) *left = count;
+  return faces;
+}
+template <>
+std::vector<PartedFace<3>> parted_faces(const Model<3>&, std::int64_t* left) {
+  if (left) *left = 0;
+  return {};
+}
+
+}  // namespace slipwave

@@ -1,0 +1,295 @@
+#include "solver/sweep/parted_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "solver/sweep/motion_along.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+/// Stiffer fractures are welded, as far as numbers go.
+constexpr double most_stiffness = 1e6;
+
+}  // namespace
+
+template <int D, class Real>
+PartedFaces<D, Real>::PartedFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s,
+                                  double unit)
+    : state_(state), spacing_m_(domain.grid.spacing_m), unit_(unit), own_(domain.own) {
+  for (auto& of_pair : images_) of_pair.resize(2 * domain.parted.size());
+  for (const auto& parted : domain.parted) {
+    Face face{};
+    place(face, domain, parted, dt_s);
+    faces_.push_back(face);
+  }
+  for (auto& face : faces_) find_along(face);
+  tractions_.assign(faces_.size() * D, 0);
+  retained_.assign(faces_.size() * 2 * D, 0);
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted,
+                                 double dt_s) {
+  const auto& layout = state_.layout;
+  auto before = parted.behind;
+  face.axis = parted.axis;
+  face.inside = parted.behind[std::size_t(parted.axis)] > 0;
+  if (face.inside) --before[std::size_t(parted.axis)];
+  face.line = layout.line_number(parted.behind), face.x = parted.behind[0];
+  face.cells = {layout.cell(before), layout.cell(parted.behind)};
+  face.compliance.fill(parted.tangential_m_per_pa);
+  face.compliance[0] = parted.normal_m_per_pa;
+  const auto b_of = [&](Index<D> at) {
+    const auto x = at[0];
+    at[0] = 0;
+    return double(state_.material_row(at, row_b)[x]);
+  };
+  for (std::size_t pair = 0; pair < D; ++pair) {
+    const auto& impedance = domain.impedance_of_pair(parted.axis, int(pair));
+    const double lo = impedance(before), hi = impedance(parted.behind);
+    const double relaxation = dt_s / (face.compliance[pair] * lo * hi / (lo + hi));
+    face.relaxation[pair] = Real(std::min(relaxation, double(std::numeric_limits<float>::max())));
+    // Mean time in steps that the wave takes through half a cell, of both sides.
+    const double half_cell = (1 / (lo * b_of(before)) + 1 / (hi * b_of(parted.behind))) / 4;
+    for (const std::size_t side : {0, 1}) {
+      auto& image = images_[pair][2 * faces_.size() + side];
+      image.stiffness = Real(std::min(relaxation * half_cell, most_stiffness));
+      image.share_v = Real(2 * (side == 0 ? hi : lo) / (lo + hi));
+      image.share_s = Real(2 - image.share_v);
+    }
+  }
+}
+
+/// Differences along the face need its neighbours, and no other fracture that crosses between them.
+template <int D, class Real>
+void PartedFaces<D, Real>::find_along(Face& face) const {
+  const auto along = std::size_t(face.axis == 0 ? D - 1 : 0);
+  auto line = state_.layout.line_index(face.line);
+  line[0] = face.x;
+  bool all = !crossed(face);
+  for (std::size_t k = 0; k < offsets_along.size(); ++k) {
+    auto at = line;
+    at[along] += offsets_along[k];
+    const auto x = at[0];
+    at[0] = 0;
+    const bool is_there = at[along] >= 0 && at[along] < state_.layout.shape()[along];
+    const auto [first, last] =
+        is_there ? find(face.axis, state_.layout.line_number(at), {x, x + 1}) : std::array<std::size_t, 2>{};
+    all = all && first < last;
+    face.along[k] = std::int32_t(first);
+  }
+  if (!all) face.along.fill(-1);
+}
+
+/// Whether a fracture across the other axis lies within reach of the differences along a face, on either
+/// side.
+template <int D, class Real>
+bool PartedFaces<D, Real>::crossed(const Face& face) const {
+  const int other = face.axis == 0 ? D - 1 : 0;
+  const auto across = std::size_t(face.axis), along = std::size_t(other);
+  for (const int side : {-1, 0})
+    for (int n = offsets_along.front() + 1; n <= offsets_along.back(); ++n) {
+      auto at = state_.layout.line_index(face.line);
+      at[0] = face.x;
+      at[across] += side, at[along] += n;
+      const auto x = at[0];
+      at[0] = 0;
+      if (at[D - 1] < 0 || at[D - 1] >= state_.layout.shape()[D - 1]) continue;
+      const auto [first, last] = find(other, state_.layout.line_number(at), {x, x + 1});
+      if (first < last) return true;
+    }
+  return false;
+}
+
+template <int D, class Real>
+std::array<std::size_t, 2> PartedFaces<D, Real>::find(int axis, std::int64_t line,
+                                                      const IndexRange& columns) const {
+  const auto at = [&](std::int64_t x) {
+    const auto found = std::lower_bound(
+        faces_.begin(), faces_.end(), std::tie(axis, line, x),
+        [](const Face& face, const auto& wanted) { return std::tie(face.axis, face.line, face.x) < wanted; });
+    return std::size_t(found - faces_.begin());
+  };
+  return {at(columns.first), at(columns.last)};
+}
+
+template <int D, class Real>
+bool PartedFaces<D, Real>::any(int axis) const {
+  return std::any_of(faces_.begin(), faces_.end(), [axis](const Face& face) { return face.axis == axis; });
+}
+
+template <int D, class Real>
+bool PartedFaces<D, Real>::beside(int axis, std::int64_t line) const {
+  auto next = state_.layout.line_index(line);
+  const auto [first, last] = find(axis, line, whole_line());
+  if (first < last || axis == 0) return first < last;
+  if (++next[std::size_t(axis)] >= state_.layout.shape()[std::size_t(axis)]) return false;
+  const auto [of_next, end] = find(axis, state_.layout.line_number(next), whole_line());
+  return of_next < end;
+}
+
+/// What the images gain from motion along the face, as at a free surface (E11), and from the spring.
+template <int D, class Real>
+void PartedFaces<D, Real>::put_images(std::size_t n) {
+  using Rows = FieldRows<D>;
+  const Face& face = faces_[n];
+  if (!face.inside) return;
+  const int along = face.axis == 0 ? D - 1 : 0;
+  const auto pitch = state_.layout.row_pitch();
+  const auto velocity = [&](std::size_t of, std::size_t side, int row) {
+    return face.axis == 0 ? retained_[(2 * of + side) * D + std::size_t(row)]
+                          : state_.fields.data()[faces_[of].cells[side] + row * pitch];
+  };
+  for (const std::size_t side : {0, 1}) {
+    const auto slope = [&](int row) {
+      Real sum = 0;
+      for (std::size_t k = 0; face.along[k] >= 0 && k < offsets_along.size(); ++k)
+        sum += Real(weights_along[k]) * velocity(std::size_t(face.along[k]), side, row);
+      return sum;
+    };
+    auto line = state_.layout.line_index(face.line);
+    auto x = face.x;
+    if (side == 0) face.axis == 0 ? --x : --line[std::size_t(face.axis)];
+    const auto material = state_.material_from(line, x, face.axis);
+    const Real zp = *material.zp, zs = *material.zs, b = *material.b, outward = side == 0 ? -1 : 1;
+    const Real lambda = zp * zp - 2 * zs * zs;
+    const Real stretched = slope(Rows::velocity(along)), turned = slope(Rows::velocity(face.axis));
+    const std::array<Real, 2> bend{lambda / (zp * zp) * stretched, turned};
+    const std::array<Real, 2> traction{b * lambda * stretched, b * zs * zs * turned};
+    for (const std::size_t pair : {0, 1}) {
+      auto& image = images_[pair][2 * n + side];
+      image.v = outward * bend[pair];
+      image.swept = traction[pair];
+      image.s = 2 * tractions_[n * D + pair];
+    }
+  }
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::update(std::int64_t row, const IndexRange& columns) {
+  Index<D> at{};
+  at[D - 1] = row;
+  if (row >= state_.layout.shape()[D - 1]) return;
+  const auto [first, last] = find(D - 1, state_.layout.line_number(at), columns);
+  for (auto n = first; n < last; ++n) put_images(n);
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::update_all() {
+  for (std::size_t n = 0; n < faces_.size(); ++n)
+    if (faces_[n].axis == D - 1) put_images(n);
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::update_line(std::int64_t line, const IndexRange& columns) {
+  const auto [first, last] = find(0, line, columns);
+  for (auto n = first; n < last; ++n) put_images(n);
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) {
+  const auto [first, last] = find(0, line, columns);
+  for (auto n = first; n < last; ++n)
+    for (const std::size_t side : {0, 1})
+      for (int row = 0; row < D; ++row)
+        retained_[(2 * n + side) * D + std::size_t(row)] =
+            state_.fields.data()[faces_[n].cells[side] + row * state_.layout.row_pitch()];
+}
+
+/// The mean traction of the spring during the sweep less that of the welded face, put on one of its cells;
+/// `side` is 1 before the face and -1 behind it. Both cells see their own wave come back.
+template <int D, class Real>
+void PartedFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale,
+                                       const Real* face, std::int64_t pitch, std::int64_t i, Real side,
+                                       const SweptRows<Real>& rows) const {
+  const auto material = state_.material_from(state_.layout.line_index(line), x, faces_[n].axis);
+  const Real b = *material.b, zp = *material.zp, zs = *material.zs, size = std::abs(scale);
+  for (int pair = 0; pair < D; ++pair) {
+    if (faces_[n].compliance[std::size_t(pair)] == 0) continue;
+    const Real lag = faces_[n].relaxation[std::size_t(pair)] * size;
+    const Real kept = lag > 0 ? -std::expm1(-lag) / lag : Real(1);
+    const Real change = kept * (tractions_[n * D + std::size_t(pair)] - face[(2 * pair + 1) * pitch]);
+    const Real moved = side * scale * b * change, strained = size * b * change;
+    if (pair == 0) {
+      rows.v[i] += moved;
+      rows.s[i] += zp * strained;
+      rows.passive[i] += (zp * zp - 2 * zs * zs) / zp * strained;
+    } else {
+      rows.vt[i] += moved;
+      rows.st[i] += zs * strained;
+    }
+  }
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& columns, Real scale,
+                               InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+                               const SweptRows<Real>& rows, bool remember) {
+  auto next = state_.layout.line_index(line);
+  const std::int64_t shift = axis == 0 ? 1 : 0;
+  if (axis > 0) ++next[std::size_t(axis)];
+  // The cells before their faces first: they need the tractions of the beginning.
+  if (next[std::size_t(axis)] < state_.layout.shape()[std::size_t(axis)]) {
+    const auto [first, last] =
+        find(axis, state_.layout.line_number(next), {columns.first + shift, columns.last + shift});
+    for (auto n = first; n < last; ++n) {
+      const auto x = faces_[n].x - shift, i = x - columns.first;
+      add_to_cell(n, line, x, scale, hi.first + i, hi.pitch, i, 1, rows);
+    }
+  }
+  const auto [first, last] = find(axis, line, columns);
+  for (auto n = first; n < last; ++n) {
+    if (!faces_[n].inside) continue;
+    const auto i = faces_[n].x - columns.first;
+    add_to_cell(n, line, faces_[n].x, scale, lo.first + i, lo.pitch, i, -1, rows);
+    for (int pair = 0; remember && pair < D; ++pair) {
+      Real& traction = tractions_[n * D + std::size_t(pair)];
+      const Real welded = lo.s(pair)[i];
+      const Real left = std::exp(-faces_[n].relaxation[std::size_t(pair)] * std::abs(scale));
+      traction = welded + left * (traction - welded);
+    }
+  }
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::exchange(const IndexRange& rows,
+                                    const std::function<void(Real*, std::int64_t)>& to) {
+  const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
+  for (const int axis : {0, D - 1}) {
+    const auto first = find(axis, rows.first * lines_a_row, whole_line())[0],
+               last = find(axis, rows.last * lines_a_row, whole_line())[0];
+    if (first < last) to(tractions_.data() + first * D, std::int64_t(last - first) * D);
+  }
+}
+
+template <int D, class Real>
+std::int64_t PartedFaces<D, Real>::memory_bytes() const {
+  std::size_t bytes = faces_.size() * sizeof(Face) + (tractions_.size() + retained_.size()) * sizeof(Real);
+  for (const auto& of_pair : images_) bytes += of_pair.size() * sizeof(PartedImage<Real>);
+  return std::int64_t(bytes);
+}
+
+/// Half of traction times jump, that is C times traction, of each face. An open one has no traction.
+template <int D, class Real>
+double PartedFaces<D, Real>::stored_energy() const {
+  double energy = 0;
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    const auto row = state_.layout.line_index(faces_[n].line)[D - 1];
+    if (row < own_.first || row >= own_.last) continue;
+    for (std::size_t pair = 0; pair < D; ++pair) {
+      const double traction = double(tractions_[n * D + pair]) / unit_;
+      if (traction != 0) energy += faces_[n].compliance[pair] * traction * traction / 2;
+    }
+  }
+  return energy * std::pow(spacing_m_, D - 1);
+}
+
+template class PartedFaces<2, float>;
+template class PartedFaces<2, double>;
+template class PartedFaces<3, float>;
+template class PartedFaces<3, double>;
+
+}  // namespace slipwave::solver

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "solver/effect/effect.hpp"
+#include "solver/sweep/domain.hpp"
+#include "solver/sweep/interface_stencils.hpp"
+
+namespace slipwave::solver {
+
+/// Faces between cells that single fractures part (theory.md 2.8): each side has its own velocity, and the
+/// traction is that of a spring between them, none where it is open. Sweeps take such faces for welded ones;
+/// add() then gives both sides what the spring leaves of that (S35). The stencils beside them read images()
+/// (S36). Retains the tractions.
+template <int D, class Real>
+class PartedFaces : public Effect<D, Real> {
+ public:
+  /// Keeps a reference to the state; `unit` of its fields.
+  PartedFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s, double unit);
+
+  EffectDeclaration declaration() const override {
+    return {ActsOn::nothing, false, all_fields<D>, all_fields<D>, true};
+  }
+  std::string name() const override { return "fractures on faces"; }
+  /// The faces.
+  std::int64_t cells() const override { return std::int64_t(faces_.size()); }
+
+  /// Whether any is across this axis.
+  bool any(int axis) const;
+  /// Whether any parts a cell of a line from its neighbours along the axis.
+  bool beside(int axis, std::int64_t line) const;
+  /// Changes what a sweep over `scale` of the step has left in these columns of a line, whose faces before
+  /// and behind are `lo` and `hi`. Only with `remember` the tractions advance, with the cell behind the face.
+  void add(int axis, std::int64_t line, const IndexRange& columns, Real scale, InterfaceStates<Real> lo,
+           InterfaceStates<Real> hi, const SweptRows<Real>& rows, bool remember);
+
+  /// Of a pair, by slot: twice the place of the face in the domain's list, and 1 for the side behind it.
+  const PartedImage<Real>* images(int pair) const { return images_[std::size_t(pair)].data(); }
+  /// Computes them for a sweep along the last axis, of the faces before row `row` in these columns, from
+  /// velocities as they are before the sweep up to free_surface_reach cells beside them.
+  void update(std::int64_t row, const IndexRange& columns);
+  void update_all();
+  /// The same for a sweep along x of a line; its velocities and those of lines beside it as retain() found
+  /// them, since sweeps change line after line.
+  void update_line(std::int64_t line, const IndexRange& columns);
+  void retain(std::int64_t line, const IndexRange& columns);
+
+  void serialize(Archive& archive) override { archive.fixed(tractions_); }
+  void exchange(const IndexRange& rows,
+                const std::function<void(Real* values, std::int64_t count)>& to) override;
+  std::int64_t memory_bytes() const override;
+  /// Adds the energy of the springs to what is left in the model.
+  void report(ShotReport& report) const override { report.energy_left += stored_energy(); }
+  /// Of the springs of the rows that this process owns, J/m.
+  double stored_energy() const;
+
+ private:
+  struct Face {
+    int axis;
+    std::int64_t line, x;               // of the cell behind it
+    bool inside;                        // not at the first row of a part of the model
+    std::array<std::int64_t, 2> cells;  // before and behind it, in the fields
+    std::array<std::int32_t, 4> along;  // faces beside it at offsets_along; -1: one is missing
+    std::array<Real, D> relaxation;     // of a pair in a step: dt/(C Z)
+    std::array<double, D> compliance;   // C, m/Pa
+  };
+  void place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted, double dt_s);
+  void find_along(Face& face) const;
+  bool crossed(const Face& face) const;
+  void put_images(std::size_t n);
+  void add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale, const Real* face,
+                   std::int64_t pitch, std::int64_t i, Real side, const SweptRows<Real>& rows) const;
+  /// Places of the first face of an axis whose cell behind is in these columns of a line, and of the one
+  /// after the last.
+  std::array<std::size_t, 2> find(int axis, std::int64_t line, const IndexRange& columns) const;
+  IndexRange whole_line() const { return {0, state_.layout.shape()[0]}; }
+
+  const State<D, Real>& state_;
+  double spacing_m_, unit_;
+  IndexRange own_;
+  std::vector<Face> faces_;      // by axis, line, x
+  std::vector<Real> tractions_;  // D of each
+  std::vector<Real> retained_;   // velocities before and behind each across x
+  std::array<std::vector<PartedImage<Real>>, D> images_;
+};
+
+}  // namespace slipwave::solver
