@@ -276,8 +276,8 @@ struct ErrorSources::Shot {
   struct Dispersion {
     double p = 0, s = 0, both = 0;
   };
-  /// Squared errors, times the energy.
-  Dispersion dispersion(const Discretisation& cells) const;
+  /// Squared errors, times the energy; unless `by_wave` of all waves together only, in a third of the time.
+  Dispersion dispersion(const Discretisation& cells, bool by_wave) const;
   double face_error(std::size_t face, const Discretisation& cells) const;
   double near_field(const Discretisation& cells) const;
   double edge_error(const Edge& edge, const Discretisation& cells) const;
@@ -655,7 +655,8 @@ ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells)
   return all;
 }
 
-ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisation& cells) const {
+ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisation& cells,
+                                                              bool by_wave) const {
   const auto& places = stack.places;
   const auto all = steps(cells);
   const double dt = cells.time_step_s;
@@ -688,9 +689,10 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
       }
       const double weight =
           (0.5 / directions + (n == direct ? 0.5 : 0)) * dispersion_margin * dispersion_margin;
+      sum.both += weight * energy_of(wrong[2], r);
+      if (!by_wave) continue;
       sum.p += weight * energy_of(wrong[0], r);
       sum.s += weight * energy_of(wrong[1], r);
-      sum.both += weight * energy_of(wrong[2], r);
     }
   }
   return sum;
@@ -805,64 +807,98 @@ std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, d
 
 }  // namespace
 
-PromisedError ErrorSources::promised(const Discretisation& cells) const {
-  PromisedError promise;
-  Sum causes;
+/// What all causes add up to: squared errors times energies.
+struct ErrorSources::Sums {
   double energy = 0, all = 0, floor = 0, slip = 0, sides = 0;
-  const auto add = [&](ErrorCause cause, double squared) {
+  Sum causes;
+  void add(ErrorCause cause, double squared) {
     all += squared;
     if (!cause.curable) floor += squared;
     causes.add(std::move(cause), squared);
-  };
-  for (const auto& shot : shots_) {
-    energy += shot->energy;
-    const auto& places = shot->stack.places;
-    const auto of = shot->dispersion(cells);
-    all += of.both;
-    causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
-    causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
-    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry,
-                   shot->offset_m(face, cells) > 0),
-          shot->face_error(face, cells));
-    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
-          shot->bound_wave(face, cells));
-    for (const auto& interface : shot->stack.interfaces)
-      if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
-        add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
-            shot->bent_sides(interface));
-    for (const auto& interface : shot->stack.interfaces) {
-      const double bent = shot->bent_interfaces(interface);
-      sides += bent;
-      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away",
-           0, false},
-          bent);
-    }
-    add({"weak interfaces", "", 0, shot->finer_geometry}, shot->weak_interfaces(cells));
-    add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
-        shot->shallow_source(cells));
-    add({"near fields of the source", "", 0, true}, shot->near_field(cells));
-    add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
-         shot->finer_geometry},
-        std::pow(shot->at_source, 2) * shot->energy);
-    if (shot->corners.count > 0)
-      add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot->stack.maker), 0, false},
-          std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
-    for (const auto& edge : shot->edges)
-      add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
-          shot->edge_error(edge, cells));
-    add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot->fit_of_quality);
-    slip += shot->slip(cells);
-    add({"slip of fractures", "shorter time steps", 0, true}, shot->slip(cells));
   }
-  if (!(energy > 0)) return promise;
-  promise.error = saturated(all / energy);
-  promise.without_slip = saturated((all - slip - sides) / energy);
-  promise.slip = saturated(slip / energy);
-  promise.floor = saturated(floor / energy);
-  promise.causes = causes.take(energy);
+  double without_slip() const { return energy > 0 ? saturated((all - slip - sides) / energy) : 0; }
+};
+
+void ErrorSources::add_dispersion(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  const auto of = shot.dispersion(cells, true);
+  const auto& places = shot.stack.places;
+  sums.all += of.both;
+  sums.causes.add({cells_per_wave(places, false, shot.highest_hz, cells.spacing_m), "", 0, true}, of.p);
+  sums.causes.add({cells_per_wave(places, true, shot.highest_hz, cells.spacing_m), "", 0, true}, of.s);
+}
+
+void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  const auto& stack = shot.stack;
+  for (std::size_t face = 0; face < shot.by_face.size(); ++face)
+    sums.add(
+        cause_of(stack.interfaces[face], stack.maker, shot.finer_geometry, shot.offset_m(face, cells) > 0),
+        shot.face_error(face, cells));
+  for (std::size_t face = 0; face < shot.by_face.size(); ++face)
+    sums.add({"waves along the " + stack.interfaces[face].name(), "", 0, true}, shot.bound_wave(face, cells));
+  for (const auto& interface : stack.interfaces)
+    if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
+      sums.add(
+          {"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
+          shot.bent_sides(interface));
+  for (const auto& interface : stack.interfaces) {
+    const double bent = shot.bent_interfaces(interface);
+    sums.sides += bent;
+    sums.add({"interfaces that are level beyond the sides of the model, and bend there",
+              "move the sides away", 0, false},
+             bent);
+  }
+  sums.add({"weak interfaces", "", 0, shot.finer_geometry}, shot.weak_interfaces(cells));
+}
+
+void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  sums.add({"waves straight up from a shallow source", "", 0, shot.explodes_in_rock()},
+           shot.shallow_source(cells));
+  sums.add({"near fields of the source", "", 0, true}, shot.near_field(cells));
+  sums.add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
+            shot.finer_geometry},
+           std::pow(shot.at_source, 2) * shot.energy);
+  if (shot.corners.count > 0)
+    sums.add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot.stack.maker), 0, false},
+             std::pow(too_much_in_corners, 2) * shot.corners.share * shot.energy);
+  for (const auto& edge : shot.edges)
+    sums.add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
+             shot.edge_error(edge, cells));
+  sums.add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot.fit_of_quality);
+  const double slip = shot.slip(cells);
+  sums.slip += slip;
+  sums.add({"slip of fractures", "shorter time steps", 0, true}, slip);
+}
+
+ErrorSources::Sums ErrorSources::apart_from_dispersion(const Discretisation& cells) const {
+  Sums sums;
+  for (const auto& shot : shots_) {
+    sums.energy += shot->energy;
+    add_interfaces(*shot, cells, sums);
+    add_all_else(*shot, cells, sums);
+  }
+  return sums;
+}
+
+PromisedError ErrorSources::promised(const Discretisation& cells) const {
+  PromisedError promise;
+  auto sums = apart_from_dispersion(cells);
+  if (!(sums.energy > 0)) return promise;
+  for (const auto& shot : shots_) add_dispersion(*shot, cells, sums);
+  promise.error = saturated(sums.all / sums.energy);
+  promise.without_slip = sums.without_slip();
+  promise.slip = saturated(sums.slip / sums.energy);
+  promise.floor = saturated(sums.floor / sums.energy);
+  promise.causes = sums.causes.take(sums.energy);
   return promise;
+}
+
+double ErrorSources::without_slip(const Discretisation& cells, double most) const {
+  auto sums = apart_from_dispersion(cells);
+  for (const auto& shot : shots_) {
+    if (sums.without_slip() > most) break;
+    sums.all += shot->dispersion(cells, false).both;
+  }
+  return sums.without_slip();
 }
 
 std::string sentence_of(const ErrorCause& cause) {

@@ -40,11 +40,19 @@ class ErrorSources {
   bool any() const { return !shots_.empty(); }
   /// Of other cells and steps of the same model.
   PromisedError promised(const Discretisation& cells) const;
+  /// Of that without_slip alone, in a third of the time; where it is above `most`, something between that and
+  /// it, in hardly any.
+  double without_slip(const Discretisation& cells, double most) const;
   /// Sentences on what is not in it.
   const std::vector<std::string>& not_covered() const { return not_covered_; }
 
  private:
   struct Shot;
+  struct Sums;
+  static void add_dispersion(const Shot& shot, const Discretisation& cells, Sums& sums);
+  static void add_interfaces(const Shot& shot, const Discretisation& cells, Sums& sums);
+  static void add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums);
+  Sums apart_from_dispersion(const Discretisation& cells) const;
   void note_left_out(double duration_s);
   std::vector<std::unique_ptr<Shot>> shots_;
   std::vector<std::string> not_covered_;
