@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "accuracy/grazing.hpp"
 #include "accuracy/local_stack.hpp"
@@ -176,6 +177,9 @@ double shear_of_explosion(double away, double per_wave) {
   return 0.006 * (1 + 5 / away) * std::pow(14.7 / per_wave, 6);
 }
 
+/// Error of the near field where normal moments differ by all of them.
+double uneven_near_error(double away, double per_wave) { return 300 * per_wave / std::pow(away, 4); }
+
 /// Error of the near field `away` cells from a source in a medium of `per_wave` cells per wavelength and of
 /// this Courant number: near fields are static, so the longer waves are, the more counts that the smallest
 /// lose.
@@ -191,7 +195,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
       return std::hypot(0.15 * cubed * std::min(3., std::pow(shorter, 1.3)),
                         sustained_by_force(cells, away, per_wave, courant));
     case NearField::of_uneven_moment:
-      return 300 * cubed / away;
+      return uneven_near_error(away, per_wave);
   }
   return 0;
 }
@@ -226,7 +230,8 @@ struct ErrorSources::Shot {
   };
   std::vector<FollowedReceiver> followed;
   LocalStack stack;
-  StackResponse response;
+  const StackResponse& response;  // of the stack
+  Recorded recorded = Recorded::velocity;
   double nominal_hz, highest_hz;
   double own_spacing_m;
   bool finer_geometry;
@@ -238,6 +243,7 @@ struct ErrorSources::Shot {
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
   double at_source = 0;       // change_at_source()
+  double unevenness = 0;      // unevenness_at_source()
   Point<2> source_m{};
   std::vector<Point<2>> receivers_m;  // in 2-D
   struct Corners {
@@ -252,11 +258,14 @@ struct ErrorSources::Shot {
   };
   std::vector<Edge> edges;
 
-  Shot(const Scene<2>& scene, std::size_t shot, bool finer)
-      : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
+  using Responses = std::vector<std::unique_ptr<const StackResponse>>;
+  /// Its response is kept in `responses`.
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer, Responses& responses)
+      : Shot(scene, shot, finer, responses, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
     const auto all = scene.survey.receivers_of(shot + 1);
     source_m = scene.survey.sources[shot].position_m;
     at_source = change_at_source(scene, shot);
+    unevenness = explodes_in_rock() ? unevenness_at_source(scene, shot) : 0;
     for (const auto& receiver : followed) receivers_m.push_back(all[receiver.index].point_m);
     if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
       const auto& at = all[found[0]].point_m;
@@ -266,12 +275,16 @@ struct ErrorSources::Shot {
     add_edges(scene, scene.survey.sources[shot], receivers_m);
   }
   /// Of some receivers of a shot in 3-D.
-  Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
-      : Shot(plane.scene, 0, false, Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
+  Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane, Responses& responses)
+      : Shot(plane.scene, 0, false, responses,
+             Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
     std::vector<Point<3>> receivers;
     for (const auto& receiver : followed) receivers.push_back(plane.receivers_m[receiver.index]);
     add_edges(scene, scene.survey.sources[shot], receivers);
   }
+
+  /// Takes what of the records counts.
+  void count(Recorded what, const std::optional<Attenuation>& attenuation);
 
   struct Dispersion {
     double p = 0, s = 0, both = 0;
@@ -280,6 +293,7 @@ struct ErrorSources::Shot {
   Dispersion dispersion(const Discretisation& cells, bool by_wave) const;
   double face_error(std::size_t face, const Discretisation& cells) const;
   double near_field(const Discretisation& cells) const;
+  double ghosted(const LayeredPlaces::Receiver& at) const;
   double edge_error(const Edge& edge, const Discretisation& cells) const;
   double slip(const Discretisation& cells) const;
   /// Of waves bound to an interface, where source and receivers are near it.
@@ -288,6 +302,8 @@ struct ErrorSources::Shot {
   /// Of an interface that bends where it leaves the model.
   double bent_interfaces(const LocalInterface& interface) const;
   double weak_interfaces(const Discretisation& cells) const;
+  /// Of a body of another matter beside the way of the waves.
+  double body(const Discretisation& cells) const;
   /// Size of the cells that show where interfaces are, of which `block` a side are alike.
   double geometry_m(const Discretisation& cells, std::int64_t block) const {
     return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
@@ -318,11 +334,12 @@ struct ErrorSources::Shot {
   }
 
  private:
-  Shot(const Scene<2>& scene, std::size_t shot, bool finer, const Whole& whole)
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer, Responses& responses, const Whole& whole)
       : followed(followed_receivers(scene, shot, receivers_followed)),
         stack(stack_of(scene, shot, whole, followed)),
-        response(stack.places, scene.survey.sources[shot].wavelet,
-                 scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        response(*responses.emplace_back(
+            std::make_unique<StackResponse>(stack.places, scene.survey.sources[shot].wavelet,
+                                            scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)))),
         nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
         highest_hz(scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
         own_spacing_m(scene.model.grid().spacing_m),
@@ -333,17 +350,13 @@ struct ErrorSources::Shot {
       const auto& at = stack.places.receivers[r];
       weights.push_back(followed[r].count *
                         (whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1));
-      energies.push_back(energy_of(response.motion(r), r));
-      energy += energies.back();
     }
-    for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
-    if (scene.attenuates()) fit_of_quality = quality_error(*scene.attenuation);
   }
   static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
                              const std::vector<FollowedReceiver>& followed);
   /// Of a spectrum at a receiver.
-  double energy_of(const MotionSpectrum& spectrum, std::size_t receiver) const {
-    return weights[receiver] * response.energy(spectrum);
+  double energy_of(const RecordSpectrum& spectrum, std::size_t receiver) const {
+    return weights[receiver] * response.energy(spectrum, recorded);
   }
   void add_face(std::size_t face);
   /// The absorbing edges, for the receivers that are followed.
@@ -354,6 +367,17 @@ struct ErrorSources::Shot {
   using Steps = std::vector<std::vector<std::vector<Complex>>>;
   Steps steps(const Discretisation& cells) const;
 };
+
+void ErrorSources::Shot::count(Recorded what, const std::optional<Attenuation>& attenuation) {
+  recorded = what;
+  energies.clear();
+  by_face.clear();
+  by_drag.clear();
+  for (std::size_t r = 0; r < weights.size(); ++r) energies.push_back(energy_of(response.records(r), r));
+  energy = std::accumulate(energies.begin(), energies.end(), 0.);
+  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
+  if (attenuation) fit_of_quality = quality_error(*attenuation);
+}
 
 void ErrorSources::Shot::add_face(std::size_t face) {
   double moved = 0, dragged = 0;
@@ -420,7 +444,7 @@ LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot,
 double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
-    MotionSpectrum wrong(response.bins());
+    RecordSpectrum wrong(response.bins());
     for (std::size_t n = 0; n < 2 * stack.losses.size(); ++n) {
       const double loss = stack.losses[n / 2][n % 2];
       if (!(loss > 0)) continue;
@@ -436,7 +460,7 @@ double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
       for (std::size_t bin = 0; bin < wrong.size(); ++bin) {
         const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
         const auto faster = factor(hz) / (scale * constant(hz)) - 1.;
-        for (const std::size_t c : {0, 1}) wrong[bin][c] += faster * change[bin][c];
+        for (const std::size_t c : {0, 1, 2}) wrong[bin][c] += faster * change[bin][c];
       }
     }
     sum += energy_of(wrong, r);
@@ -474,6 +498,21 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
 }
 
+/// By how much the direct motion at a receiver is larger than that which the surface of water leaves of it:
+/// of near fields, where motion is the slope of ln r, and what comes from the mirror image of the source
+/// takes from it.
+double ErrorSources::Shot::ghosted(const LayeredPlaces::Receiver& at) const {
+  const auto& places = stack.places;
+  if (!places.free_surface || places.layers[0].vs > 0 || places.source_layer() > 0 || at.layer > 0) return 1;
+  const auto slope = [&](double across_m) {
+    const double square = std::max(at.a_m * at.a_m + across_m * across_m, own_spacing_m * own_spacing_m);
+    return Point<2>{at.a_m / square, across_m / square};
+  };
+  const auto own = slope(at.b_m), image = slope(at.b_m - 2 * places.faces_m[0]);
+  const double direct = std::hypot(own[0], own[1]), left = std::hypot(own[0] - image[0], own[1] - image[1]);
+  return std::clamp(direct / left, 1., 5.);
+}
+
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   const auto& places = stack.places;
   const auto& rock = places.layers[places.source_layer()];
@@ -488,7 +527,10 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
     const double share =
         near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
     const double s_waves = sheared ? shear_of_explosion(way, rock.vp / nominal_hz / h) : 0;
-    sum += std::pow(std::min(most_of_near_field(near_kind(), own_way), std::hypot(share, s_waves)), 2) *
+    const double uneven = unevenness * uneven_near_error(way, per_wave);
+    sum += std::pow(std::min(most_of_near_field(near_kind(), own_way),
+                             ghosted(at) * std::hypot(share, s_waves, uneven)),
+                    2) *
            energies[r];
   }
   return sum;
@@ -551,7 +593,7 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
   return share * share * energy;
 }
 
-double reflection_of(double contrast) { return (contrast - 1) / (contrast + 1); }
+double reflection_of(double contrast) { return 1 - 2 / (contrast + 1); }
 
 double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) const {
   const auto& places = stack.places;
@@ -584,6 +626,30 @@ double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
     const double way = std::hypot(places.receivers[r].a_m, places.receivers[r].b_m);
     for (const auto& [contrast, away_m] : stack.left_out)
       sum += std::pow(moved * reflection_of(contrast), 2) * way / std::hypot(way, 2 * away_m) * energies[r];
+  }
+  return sum;
+}
+
+double ErrorSources::Shot::body(const Discretisation& cells) const {
+  if (!stack.body) return 0;
+  const auto& body = *stack.body;
+  const auto& places = stack.places;
+  const double h = std::max(geometry_m(cells, 1), cells.spacing_m);
+  double slowest = places.layers.front().vp;
+  for (const auto& rock : places.layers) slowest = std::min(slowest, rock.vp);
+  const double k = 2 * std::numbers::pi * nominal_hz / slowest;
+  const double moved = 2 * k * shift_of_stairs * h, reflects = reflection_of(body.contrast);
+  const double away = std::hypot(body.nearest_m[0] - source_m[0], body.nearest_m[1] - source_m[1]);
+  double sum = 0;
+  for (std::size_t r = 0; r < receivers_m.size(); ++r) {
+    const auto& at = receivers_m[r];
+    const double back = std::hypot(body.nearest_m[0] - at[0], body.nearest_m[1] - at[1]);
+    const double way = std::hypot(at[0] - source_m[0], at[1] - source_m[1]);
+    if (away + back > stable_speed * places.duration_s) continue;
+    // Less than a Fresnel zone reflects in proportion to its width, from its top and its bottom.
+    const double zone = std::sqrt(2 * std::numbers::pi / k * std::max(away * back / (away + back), h));
+    const double seen = std::min(1., body.wide_m() / zone);
+    sum += 2 * std::pow(moved * reflects * seen, 2) * std::max(way, h) / (away + back) * energies[r];
   }
   return sum;
 }
@@ -668,8 +734,8 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
     const double own = std::asin(std::abs(std::sin(std::atan2(at.a_m, at.b_m) - radians(stack.dip_deg))));
     const auto direct = std::min(directions - 1, std::size_t(own / (std::numbers::pi / 2) * directions));
     for (std::size_t n = 0; n < directions; ++n) {
-      std::array<MotionSpectrum, 3> wrong;
-      wrong.fill(MotionSpectrum(response.bins()));
+      std::array<RecordSpectrum, 3> wrong;
+      wrong.fill(RecordSpectrum(response.bins()));
       for (std::size_t m = 0; m < all[n].size(); ++m) {
         const auto& rock = places.layers[m / 2];
         const double speed = m % 2 == 0 ? rock.vp : rock.vs;
@@ -684,7 +750,7 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
               whole * (size < 0.1 ? 1 + whole.real() / 2 : std::abs(std::exp(whole) - 1.) / size);
           const auto slower = limited / (count * dt) * Complex(0, 1) / response.omega(bin).real();
           for (const auto of : {m % 2, std::size_t(2)})
-            for (const std::size_t c : {0, 1}) wrong[of][bin][c] -= slower * change[bin][c];
+            for (const std::size_t c : {0, 1, 2}) wrong[of][bin][c] -= slower * change[bin][c];
         }
       }
       const double weight =
@@ -698,13 +764,26 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
   return sum;
 }
 
+namespace {
+
+/// Pressure counts by itself, all else as velocities do.
+std::vector<Recorded> counted(const std::vector<Component>& components) {
+  const auto pressures = std::count(components.begin(), components.end(), Component::p);
+  std::vector<Recorded> all;
+  if (pressures < std::ptrdiff_t(components.size()) || components.empty()) all.push_back(Recorded::velocity);
+  if (pressures > 0) all.push_back(Recorded::pressure);
+  return all;
+}
+
+}  // namespace
+
 ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
   const auto& sources = scene.survey.sources;
   if (scene.survey.any_receiver()) {
     const std::size_t stride =
         std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)
-      if (point_injection(sources[n])) shots_.push_back(std::make_unique<Shot>(scene, n, finer_geometry));
+      if (point_injection(sources[n])) add(Shot(scene, n, finer_geometry, responses_), scene);
     if (shots_.empty()) not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
   }
   note_left_out(scene.recording.duration_s);
@@ -721,7 +800,7 @@ ErrorSources::ErrorSources(const Scene<3>& scene) {
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)
       for (const auto& plane : upright_planes(scene, n, receivers_followed)) {
         across = across || plane.moves_across;
-        if (!plane.still) shots_.push_back(std::make_unique<Shot>(scene, n, plane));
+        if (!plane.still) add(Shot(scene, n, plane, responses_), scene);
       }
     if (shots_.empty() && !across)
       not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
@@ -731,6 +810,14 @@ ErrorSources::ErrorSources(const Scene<3>& scene) {
   if (across) not_covered_.emplace_back("SH waves");
   if (scene.slips())
     not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
+}
+
+template <int D>
+void ErrorSources::add(const Shot& shot, const Scene<D>& scene) {
+  recorded_ = counted(scene.recording.components);
+  const auto attenuation = scene.attenuates() ? scene.attenuation : std::nullopt;
+  for (const auto what : recorded_)
+    shots_.emplace_back(std::make_unique<Shot>(shot))->count(what, attenuation);
 }
 
 /// What the layers round the sources do not tell.
@@ -755,9 +842,9 @@ void ErrorSources::note_left_out(double duration_s) {
     break;
   }
   for (const auto& shot : shots_)
-    if (const auto& other = shot->stack.other_fluid) {
-      not_covered_.push_back("fluid beside solid between x=" + shown(other->at(0), 4) + " and " +
-                             shown(other->at(1), 4) + ", which the source does not lie above");
+    if (const auto& body = shot->stack.body) {
+      not_covered_.push_back("waves within the body between x=" + shown(body->from_x_m, 4) + " and " +
+                             shown(body->to_x_m, 4));
       break;
     }
   if (left_out > 0)
@@ -848,6 +935,11 @@ void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells,
              bent);
   }
   sums.add({"weak interfaces", "", 0, shot.finer_geometry}, shot.weak_interfaces(cells));
+  if (stack.body)
+    sums.add({"a body of another matter between x=" + shown(stack.body->from_x_m, 4) + " and " +
+                  shown(stack.body->to_x_m, 4) + ", a staircase",
+              "smaller cells of the model", 0, shot.finer_geometry},
+             shot.body(cells));
 }
 
 void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums) {
@@ -869,9 +961,11 @@ void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, S
   sums.add({"slip of fractures", "shorter time steps", 0, true}, slip);
 }
 
-ErrorSources::Sums ErrorSources::apart_from_dispersion(const Discretisation& cells) const {
+ErrorSources::Sums ErrorSources::sums_apart_from_dispersion(Recorded what,
+                                                            const Discretisation& cells) const {
   Sums sums;
   for (const auto& shot : shots_) {
+    if (shot->recorded != what) continue;
     sums.energy += shot->energy;
     add_interfaces(*shot, cells, sums);
     add_all_else(*shot, cells, sums);
@@ -881,24 +975,40 @@ ErrorSources::Sums ErrorSources::apart_from_dispersion(const Discretisation& cel
 
 PromisedError ErrorSources::promised(const Discretisation& cells) const {
   PromisedError promise;
-  auto sums = apart_from_dispersion(cells);
-  if (!(sums.energy > 0)) return promise;
-  for (const auto& shot : shots_) add_dispersion(*shot, cells, sums);
-  promise.error = saturated(sums.all / sums.energy);
-  promise.without_slip = sums.without_slip();
-  promise.slip = saturated(sums.slip / sums.energy);
-  promise.floor = saturated(sums.floor / sums.energy);
-  promise.causes = sums.causes.take(sums.energy);
+  double without_slip = 0;
+  for (const auto what : recorded_) {
+    auto sums = sums_apart_from_dispersion(what, cells);
+    if (!(sums.energy > 0)) continue;
+    for (const auto& shot : shots_)
+      if (shot->recorded == what) add_dispersion(*shot, cells, sums);
+    without_slip = std::max(without_slip, sums.without_slip());
+    if (const double error = saturated(sums.all / sums.energy); error > promise.error)
+      promise = {error, 0, saturated(sums.slip / sums.energy), saturated(sums.floor / sums.energy),
+                 sums.causes.take(sums.energy)};
+  }
+  promise.without_slip = without_slip;
   return promise;
 }
 
 double ErrorSources::without_slip(const Discretisation& cells, double most) const {
-  auto sums = apart_from_dispersion(cells);
-  for (const auto& shot : shots_) {
-    if (sums.without_slip() > most) break;
-    sums.all += shot->dispersion(cells, false).both;
+  double error = 0;
+  for (const auto what : recorded_) {
+    auto sums = sums_apart_from_dispersion(what, cells);
+    for (const auto& shot : shots_) {
+      error = std::max(error, sums.without_slip());
+      if (error > most) return error;
+      if (shot->recorded == what) sums.all += shot->dispersion(cells, false).both;
+    }
+    error = std::max(error, sums.without_slip());
   }
-  return sums.without_slip();
+  return error;
+}
+
+double ErrorSources::apart_from_dispersion(const Discretisation& cells) const {
+  double most = 0;
+  for (const auto what : recorded_)
+    most = std::max(most, sums_apart_from_dispersion(what, cells).without_slip());
+  return most;
 }
 
 std::string sentence_of(const ErrorCause& cause) {

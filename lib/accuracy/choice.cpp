@@ -106,7 +106,9 @@ namespace {
 /// A setting, what it costs, and the least that its error is known to be.
 struct Candidate {
   AccuracySetting setting;
-  double cost, error = 0;
+  double cost;
+  bool finest;  // of all cells
+  double error = 0;
 };
 
 /// All there are, the cheapest first.
@@ -118,39 +120,71 @@ std::vector<Candidate> candidates_for(const Scene<2>& scene) {
       for (int parts = 1; parts <= most_parts; ++parts)
         candidates.push_back({{scheme.order, cfl, scene.model.grid().spacing_m / parts,
                                scene.numerics.correction, scheme.time_order},
-                              scheme.cost * cells_of(scene, parts, zone) * parts / cfl});
+                              scheme.cost * cells_of(scene, parts, zone) * parts / cfl,
+                              parts == most_parts});
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   return candidates;
 }
 
-/// The cheapest within `reach`, by error(setting, most), which need not be right above `most`; null: none.
-template <class Error>
-const Candidate* cheapest_within(double reach, std::vector<Candidate>& candidates, Error&& error) {
-  for (auto& candidate : candidates) {
-    if (candidate.error > reach) continue;
-    candidate.error = error(candidate.setting, reach);
-    if (candidate.error <= reach) return &candidate;
-  }
-  return nullptr;
-}
-
 /// What gains less than this over all others is not worth more time.
 constexpr double hardly_more = 1.02;
 
-/// The cheapest that is hardly worse than any other.
-template <class Error>
-const Candidate& best_of(std::vector<Candidate>& candidates, Error&& error) {
-  double least = std::numeric_limits<double>::infinity();
-  // The most expensive are the best, and most others are told to be worse soon.
-  for (auto candidate = candidates.rbegin(); candidate != candidates.rend(); ++candidate)
-    if (candidate->error < least) {
-      candidate->error = error(candidate->setting, least);
-      least = std::min(least, candidate->error);
+/// Settings of a scene by their errors.
+class Search {
+ public:
+  Search(const Scene<2>& scene, const WavesOfScene& waves)
+      : waves_(waves),
+        stable_per_m_(stable_time_step_s(scene) / scene.model.grid().spacing_m),
+        candidates_(candidates_for(scene)) {}
+  /// Rows of other cells have the heights of the scene's, in cells.
+  Discretisation cells(const AccuracySetting& setting) const {
+    return {setting.order, setting.cfl * stable_per_m_ * setting.spacing_m, setting.spacing_m,
+            setting.time_order};
+  }
+  /// The cheapest within `reach`; null: none.
+  const Candidate* cheapest_within(double reach) {
+    for (auto& candidate : candidates_)
+      if (candidate.finest && !tried(candidate, reach)) tell_larger(candidate);
+    for (auto& candidate : candidates_)
+      if (tried(candidate, reach)) return &candidate;
+    return nullptr;
+  }
+  /// The cheapest that is hardly worse than any other.
+  const Candidate& best() {
+    double least = std::numeric_limits<double>::infinity();
+    // The most expensive are the best, and most others are told to be worse soon.
+    for (auto candidate = candidates_.rbegin(); candidate != candidates_.rend(); ++candidate)
+      if (tried(*candidate, least))
+        least = candidate->error;
+      else if (candidate->finest)
+        tell_larger(*candidate);
+    const auto* best = cheapest_within(hardly_more * least);
+    return best ? *best : candidates_.back();
+  }
+
+ private:
+  /// Whether it is within reach; its error need not be right where it is not.
+  bool tried(Candidate& candidate, double reach) const {
+    if (candidate.error <= reach)
+      candidate.error = waves_.of_reflections_too(cells(candidate.setting), reach);
+    return candidate.error <= reach;
+  }
+  /// Cells that are larger have at least the dispersion of the finest.
+  void tell_larger(const Candidate& finest) {
+    const double apart = waves_.apart_from_dispersion(cells(finest.setting));
+    const double dispersion = std::sqrt(std::max(0., finest.error * finest.error - apart * apart));
+    for (auto& other : candidates_) {
+      const auto &a = other.setting, &b = finest.setting;
+      if (a.order == b.order && a.time_order == b.time_order && a.cfl == b.cfl)
+        other.error = std::max(other.error, dispersion);
     }
-  const auto* best = cheapest_within(hardly_more * least, candidates, error);
-  return best ? *best : candidates.back();
-}
+  }
+
+  const WavesOfScene& waves_;
+  double stable_per_m_;
+  std::vector<Candidate> candidates_;
+};
 
 /// The largest cause that no setting cures, where it is above `reach`, or the largest of all.
 std::string reason_of(const PromisedError& promise, double reach) {
@@ -168,26 +202,17 @@ Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const double own_m = scene.model.grid().spacing_m;
   const bool finer = has_finer_geometry(scene);
   const WavesOfScene waves(scene, finer);
-  // Rows of other cells have the heights of these, in cells.
-  const double stable_per_m = stable_time_step_s(scene) / own_m;
-  const auto in = [&](const AccuracySetting& setting) {
-    const double time_step_s = setting.cfl * stable_per_m * setting.spacing_m;
-    return Discretisation{setting.order, time_step_s, setting.spacing_m, setting.time_order};
-  };
-  const auto error = [&](const AccuracySetting& setting, double most) {
-    return waves.of_reflections_too(in(setting), most);
-  };
-  auto candidates = candidates_for(scene);
-  const auto* found = cheapest_within(wanted / margin, candidates, error);
-  const auto& best = found ? *found : best_of(candidates, error);
+  Search search(scene, waves);
+  const auto* found = search.cheapest_within(wanted / margin);
+  const auto& best = found ? *found : search.best();
   Choice choice{best.setting, best.error, found != nullptr, finer, 0, false, ""};
   if (scene.slips())
     if (const FractureResponse response(scene); response.any())
       choice.slip_error = response
-                              .promised({in(best.setting), best.setting.correction,
+                              .promised({search.cells(best.setting), best.setting.correction,
                                          usual_zone(scene, int(std::lround(own_m / best.setting.spacing_m)))})
                               .error;
-  if (const auto promise = found ? std::nullopt : waves.promised(in(best.setting)))
+  if (const auto promise = found ? std::nullopt : waves.promised(search.cells(best.setting)))
     choice.reason = reason_of(*promise, wanted / margin);
   return choice;
 }
