@@ -51,14 +51,19 @@ constexpr double bent_interface = 0.07;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
-constexpr double bound_to_surface = 0.015, bound_to_stairs = 0.028, bound_to_floor = 0.011,
+constexpr double bound_to_surface = 0.01, bound_to_stairs = 0.028, bound_to_floor = 0.011,
                  bound_to_bent_floor = 0.018;
 /// Of those bound to stairs of a free surface, whose teeth slow them; in proportion to cells, and to the dip
 /// up to this one, degrees.
 constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
-/// Of those of an explosion in hard rock, and at order 7.
-constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
-/// Their decay with the distance from it, over the wave number.
+/// Of those of an explosion in hard rock, and at order 7, there of those bound to a free surface too.
+constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5, surface_at_order_7 = 0.75;
+/// At order 3, of those bound to a free surface.
+constexpr double bound_at_order_3 = 4;
+/// Error of all that an explosion sends out from up to 2.6 cells below a free surface of rock, at 24 cells
+/// per wavelength of S; it falls with their square, whatever the order.
+constexpr double beside_surface = 0.0135;
+/// Decay of bound waves with the distance from their interface, over the wave number.
 constexpr double bound_decay = 0.3;
 /// What receivers in corners of stairs record too much, as part of what they should.
 constexpr double too_much_in_corners = 2.8;
@@ -309,6 +314,8 @@ struct ErrorSources::Shot {
     return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
   }
   double shallow_source(const Discretisation& cells) const;
+  /// Of an explosion few cells below a free surface, which takes most of what it sends out.
+  double weak_explosion(const Discretisation& cells) const;
   bool source_is_force() const { return stack.places.force[0] != 0 || stack.places.force[1] != 0; }
   bool explodes_in_rock() const {
     const auto& places = stack.places;
@@ -487,9 +494,10 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
     by *= interface.kind == Kind::surface                      ? high_order_at_surfaces
           : interface.kind == Kind::inner && source_is_force() ? high_order_of_forces
                                                                : 1;
-  // The long stairs of a plane surface scatter less where waves are longer.
+  // The long stairs of a plane surface scatter less where waves are longer than some of them.
   if (interface.representation == staircase && interface.kind == Kind::surface &&
-      interface.steepest_deg < 14 && !interface.is_curved())
+      interface.steepest_deg < 14 && !interface.is_curved() &&
+      std::tan(radians(interface.steepest_deg)) * per_wave > 2)
     by *= std::min(1., 10 / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
@@ -536,6 +544,12 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   return sum;
 }
 
+/// Of waves bound to an interface, over that at order 5.
+double bound_at_order(int order, bool floor) {
+  if (order == 3 && !floor) return bound_at_order_3;
+  return order < 7 ? 1 : floor ? bound_at_order_7 : surface_at_order_7;
+}
+
 double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& cells) const {
   const auto& interface = stack.interfaces[face];
   const auto& places = stack.places;
@@ -554,8 +568,7 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
   const double finer =
       cells.order >= 9 ? (bent && !force ? 2.4 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
-  double rate =
-      (floor ? at_floor : bound_to_surface) * finer * steps * (cells.order >= 7 ? bound_at_order_7 : 1);
+  double rate = (floor ? at_floor : bound_to_surface) * finer * steps * bound_at_order(cells.order, floor);
   const auto& rock = places.layers[places.source_layer()];
   // An explosion in rock sends out less of them, the less the harder the rock is.
   if (!force && rock.vs > 0)
@@ -667,6 +680,16 @@ double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
     if (at.b_m < 0) sum += error * error * energies[r];
   }
   return sum;
+}
+
+double ErrorSources::Shot::weak_explosion(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  if (!places.free_surface || places.source_layer() > 0 || !explodes_in_rock()) return 0;
+  const double depth = std::abs(places.faces_m[0]) / cells.spacing_m;
+  const double per_wave = places.layers[0].vs / nominal_hz / cells.spacing_m;
+  const double share =
+      beside_surface * std::pow(24 / per_wave, 2) * std::min(1., std::pow(2.6 / std::max(depth, 1e-3), 1.6));
+  return share * share * energy;
 }
 
 double ErrorSources::Shot::edge_error(const Edge& edge, const Discretisation& cells) const {
@@ -945,6 +968,7 @@ void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells,
 void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums) {
   sums.add({"waves straight up from a shallow source", "", 0, shot.explodes_in_rock()},
            shot.shallow_source(cells));
+  sums.add({"an explosion beside a free surface", "", 0, true}, shot.weak_explosion(cells));
   sums.add({"near fields of the source", "", 0, true}, shot.near_field(cells));
   sums.add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
             shot.finer_geometry},
