@@ -52,12 +52,14 @@ constexpr double bent_interface = 0.07;
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
 constexpr double bound_to_surface = 0.01, bound_to_stairs = 0.028, bound_to_floor = 0.011,
-                 bound_to_bent_floor = 0.018;
+                 bound_to_bent_floor = 0.02;
 /// Of those bound to stairs of a free surface, whose teeth slow them; in proportion to cells, and to the dip
 /// up to this one, degrees.
-constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
-/// Of those of an explosion in hard rock, and at order 7, there of those bound to a free surface too.
-constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5, surface_at_order_7 = 0.75;
+constexpr double bound_to_surface_stairs = 0.5, steep_stairs_deg = 12;
+/// Of those of an explosion in hard rock.
+constexpr double bound_by_explosion = 0.4;
+/// Of those at order 7: along floors, floors where rows bend, and free surfaces.
+constexpr double bound_at_order_7 = 0.5, bent_at_order_7 = 0.8, surface_at_order_7 = 0.75;
 /// At order 3, of those bound to a free surface.
 constexpr double bound_at_order_3 = 4;
 /// Error of all that an explosion sends out from up to 2.6 cells below a free surface of rock, at 24 cells
@@ -545,9 +547,11 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
 }
 
 /// Of waves bound to an interface, over that at order 5.
-double bound_at_order(int order, bool floor) {
+double bound_at_order(int order, bool floor, bool bent) {
   if (order == 3 && !floor) return bound_at_order_3;
-  return order < 7 ? 1 : floor ? bound_at_order_7 : surface_at_order_7;
+  if (order < 7) return 1;
+  if (!floor) return surface_at_order_7;
+  return bent && order == 7 ? bent_at_order_7 : bound_at_order_7;
 }
 
 double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& cells) const {
@@ -560,15 +564,16 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
   const bool floor = interface.kind == Kind::fluid_solid, stairs = interface.representation == staircase;
   const bool bent = !stairs && interface.steepest_deg > 1;
-  // Short steps make those along level fluid worse.
+  // Short steps make those along fluid worse.
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double steps = floor && !bent ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
+  const double steps = floor ? 1 + (bent ? 0.7 : 1.6) * std::max(0., 0.9 - courant) : 1;
   const double at_floor = stairs ? bound_to_stairs : bent ? bound_to_bent_floor : bound_to_floor;
   const bool force = source_is_force();
   // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
   const double finer =
       cells.order >= 9 ? (bent && !force ? 2.4 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
-  double rate = (floor ? at_floor : bound_to_surface) * finer * steps * bound_at_order(cells.order, floor);
+  double rate =
+      (floor ? at_floor : bound_to_surface) * finer * steps * bound_at_order(cells.order, floor, bent);
   const auto& rock = places.layers[places.source_layer()];
   // An explosion in rock sends out less of them, the less the harder the rock is.
   if (!force && rock.vs > 0)

@@ -690,7 +690,7 @@ double change_at_source(const Scene<2>& scene, std::size_t shot) {
   double most = 0;
   for (const std::size_t axis : {0, 1})
     most = std::max(most, std::abs(strength(cells.beside(axis, 1)) - strength(cells.beside(axis, -1))));
-  return most / 6;
+  return most / 10;
 }
 
 double unevenness_at_source(const Scene<2>& scene, std::size_t shot) {
