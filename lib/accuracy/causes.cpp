@@ -252,7 +252,8 @@ struct ErrorSources::Shot {
   double at_source = 0;       // change_at_source()
   double unevenness = 0;      // unevenness_at_source()
   Point<2> source_m{};
-  std::vector<Point<2>> receivers_m;  // in 2-D
+  std::vector<Point<2>> receivers_m;  // in 3-D in the plane
+  bool in_3d = false, x_is_known = true;
   struct Corners {
     std::size_t first = 0, count = 0;  // number of the first receiver, from 1
     double share = 0;                  // of all receivers
@@ -285,8 +286,13 @@ struct ErrorSources::Shot {
   Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane, Responses& responses)
       : Shot(plane.scene, 0, false, responses,
              Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
+    source_m = plane.scene.survey.sources[0].position_m;
+    const auto all = plane.scene.survey.receivers_of(1);
     std::vector<Point<3>> receivers;
-    for (const auto& receiver : followed) receivers.push_back(plane.receivers_m[receiver.index]);
+    for (const auto& receiver : followed) {
+      receivers.push_back(plane.receivers_m[receiver.index]);
+      receivers_m.push_back(all[receiver.index].point_m);
+    }
     add_edges(scene, scene.survey.sources[shot], receivers);
   }
 
@@ -300,7 +306,6 @@ struct ErrorSources::Shot {
   Dispersion dispersion(const Discretisation& cells, bool by_wave) const;
   double face_error(std::size_t face, const Discretisation& cells) const;
   double near_field(const Discretisation& cells) const;
-  double ghosted(const LayeredPlaces::Receiver& at) const;
   double edge_error(const Edge& edge, const Discretisation& cells) const;
   double slip(const Discretisation& cells) const;
   /// Of waves bound to an interface, where source and receivers are near it.
@@ -311,6 +316,11 @@ struct ErrorSources::Shot {
   double weak_interfaces(const Discretisation& cells) const;
   /// Of a body of another matter beside the way of the waves.
   double body(const Discretisation& cells) const;
+  std::string name_of_body() const {
+    return "a body of another matter" + (x_is_known ? " between x=" + shown(stack.body->from_x_m, 4) +
+                                                          " and " + shown(stack.body->to_x_m, 4)
+                                                    : "");
+  }
   /// Size of the cells that show where interfaces are, of which `block` a side are alike.
   double geometry_m(const Discretisation& cells, std::int64_t block) const {
     return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
@@ -354,7 +364,9 @@ struct ErrorSources::Shot {
         own_spacing_m(scene.model.grid().spacing_m),
         finer_geometry(finer),
         stable_speed(own_spacing_m / whole.stable_time_step_s),
-        slips(whole.slips) {
+        slips(whole.slips),
+        in_3d(whole.in_3d),
+        x_is_known(whole.x_is_known) {
     for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
       const auto& at = stack.places.receivers[r];
       weights.push_back(followed[r].count *
@@ -508,21 +520,6 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
 }
 
-/// By how much the direct motion at a receiver is larger than that which the surface of water leaves of it:
-/// of near fields, where motion is the slope of ln r, and what comes from the mirror image of the source
-/// takes from it.
-double ErrorSources::Shot::ghosted(const LayeredPlaces::Receiver& at) const {
-  const auto& places = stack.places;
-  if (!places.free_surface || places.layers[0].vs > 0 || places.source_layer() > 0 || at.layer > 0) return 1;
-  const auto slope = [&](double across_m) {
-    const double square = std::max(at.a_m * at.a_m + across_m * across_m, own_spacing_m * own_spacing_m);
-    return Point<2>{at.a_m / square, across_m / square};
-  };
-  const auto own = slope(at.b_m), image = slope(at.b_m - 2 * places.faces_m[0]);
-  const double direct = std::hypot(own[0], own[1]), left = std::hypot(own[0] - image[0], own[1] - image[1]);
-  return std::clamp(direct / left, 1., 5.);
-}
-
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   const auto& places = stack.places;
   const auto& rock = places.layers[places.source_layer()];
@@ -537,11 +534,11 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
     const double share =
         near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
     const double s_waves = sheared ? shear_of_explosion(way, rock.vp / nominal_hz / h) : 0;
-    const double uneven = unevenness * uneven_near_error(way, per_wave);
-    sum += std::pow(std::min(most_of_near_field(near_kind(), own_way),
-                             ghosted(at) * std::hypot(share, s_waves, uneven)),
-                    2) *
-           energies[r];
+    const double uneven =
+        unevenness * uneven_near_error(way, per_wave) * std::sqrt(std::max(1., 0.9 / courant));
+    sum +=
+        std::pow(std::min(most_of_near_field(near_kind(), own_way), std::hypot(share, s_waves, uneven)), 2) *
+        energies[r];
   }
   return sum;
 }
@@ -614,6 +611,8 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
 double reflection_of(double contrast) { return 1 - 2 / (contrast + 1); }
 
 double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) const {
+  // Planes of 3-D end elsewhere than the model.
+  if (in_3d) return 0;
   const auto& places = stack.places;
   const double wavelength = places.layers[places.source_layer()].vp / nominal_hz;
   double sum = 0;
@@ -835,6 +834,12 @@ ErrorSources::ErrorSources(const Scene<3>& scene) {
   }
   note_left_out(scene.recording.duration_s);
   if (!shots_.empty()) not_covered_.emplace_back("slopes across the vertical planes of source and receivers");
+  const auto dips = [](const auto& shot) {
+    const auto& all = shot->stack.interfaces;
+    return std::any_of(all.begin(), all.end(), [](const auto& face) { return face.steepest_deg > 1; });
+  };
+  if (std::any_of(shots_.begin(), shots_.end(), dips))
+    not_covered_.emplace_back("interfaces that bend at the sides of the model");
   if (across) not_covered_.emplace_back("SH waves");
   if (scene.slips())
     not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
@@ -870,9 +875,8 @@ void ErrorSources::note_left_out(double duration_s) {
     break;
   }
   for (const auto& shot : shots_)
-    if (const auto& body = shot->stack.body) {
-      not_covered_.push_back("waves within the body between x=" + shown(body->from_x_m, 4) + " and " +
-                             shown(body->to_x_m, 4));
+    if (shot->stack.body) {
+      not_covered_.push_back("waves that stay within " + shot->name_of_body());
       break;
     }
   if (left_out > 0)
@@ -964,9 +968,7 @@ void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells,
   }
   sums.add({"weak interfaces", "", 0, shot.finer_geometry}, shot.weak_interfaces(cells));
   if (stack.body)
-    sums.add({"a body of another matter between x=" + shown(stack.body->from_x_m, 4) + " and " +
-                  shown(stack.body->to_x_m, 4) + ", a staircase",
-              "smaller cells of the model", 0, shot.finer_geometry},
+    sums.add({shot.name_of_body() + ", a staircase", "smaller cells of the model", 0, shot.finer_geometry},
              shot.body(cells));
 }
 

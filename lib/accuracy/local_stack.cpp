@@ -690,11 +690,11 @@ double change_at_source(const Scene<2>& scene, std::size_t shot) {
   double most = 0;
   for (const std::size_t axis : {0, 1})
     most = std::max(most, std::abs(strength(cells.beside(axis, 1)) - strength(cells.beside(axis, -1))));
-  return most / 10;
+  return most / 12;
 }
 
 double unevenness_at_source(const Scene<2>& scene, std::size_t shot) {
-  constexpr double share = 0.45, reach_cells = 0.45;
+  constexpr double share = 0.3, reach_cells = 0.45;
   const auto& medium = scene.model.medium;
   const CellsAtSource cells(scene, shot);
   const auto stiffness = [&](std::size_t cell) {

@@ -65,9 +65,9 @@ class DrawnScene {
       const double stiffness = rock.rho * (rock.vp * rock.vp - rock.vs * rock.vs);
       double pressure = 0, before = 0;
       for (std::size_t n = 0; n < count; ++n) {
-        const double divergence = (found[4 * r + 1][0][n] - found[4 * r][0][n] + found[4 * r + 3][1][n] -
-                                   found[4 * r + 2][1][n]) /
-                                  (2 * apart_m);
+        const double divergence =
+            (found[4 * r + 1][0][n] - found[4 * r][0][n] + found[4 * r + 3][1][n] - found[4 * r + 2][1][n]) /
+            (2 * apart_m);
         pressure -= stiffness * interval_s * (before + divergence) / 2;
         before = divergence;
         all.push_back(pressure);
