@@ -150,17 +150,23 @@ class Search {
       if (tried(candidate, reach)) return &candidate;
     return nullptr;
   }
-  /// The cheapest that is hardly worse than any other.
+  /// That of the least error; where most of that has no cure, the cheapest that is hardly worse.
   const Candidate& best() {
     double least = std::numeric_limits<double>::infinity();
+    const Candidate* best = &candidates_.back();
     // The most expensive are the best, and most others are told to be worse soon.
-    for (auto candidate = candidates_.rbegin(); candidate != candidates_.rend(); ++candidate)
-      if (tried(*candidate, least))
+    for (auto candidate = candidates_.rbegin(); candidate != candidates_.rend(); ++candidate) {
+      if (tried(*candidate, least)) {
         least = candidate->error;
-      else if (candidate->finest)
+        best = &*candidate;
+      } else if (candidate->finest) {
         tell_larger(*candidate);
-    const auto* best = cheapest_within(hardly_more * least);
-    return best ? *best : candidates_.back();
+      }
+    }
+    const auto promise = waves_.promised(cells(best->setting));
+    if (!promise || promise->floor <= 0.5 * least) return *best;
+    const auto* cheaper = cheapest_within(hardly_more * least);
+    return cheaper ? *cheaper : *best;
   }
 
  private:
