@@ -91,8 +91,8 @@ std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::siz
 std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
 
 /// By which part what a source sends out is uncertain where rock changes from cell to cell: a twelfth of
-/// the change between the neighbours of its cell of 1/(rho vp^3), which an explosion is in proportion to, or of
-/// 1/rho.
+/// the change between the neighbours of its cell of 1/(rho vp^3), which an explosion is in proportion to, or
+/// of 1/rho.
 double change_at_source(const Scene<2>& scene, std::size_t shot);
 /// By which part the normal moments of an explosion in rock come to differ where softer rock lies beside its
 /// cell, the nearer the more.
