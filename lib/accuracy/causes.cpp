@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "accuracy/grazing.hpp"
 #include "accuracy/local_stack.hpp"
@@ -50,14 +51,21 @@ constexpr double bent_interface = 0.07;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
-constexpr double bound_to_surface = 0.015, bound_to_stairs = 0.028, bound_to_floor = 0.011,
-                 bound_to_bent_floor = 0.018;
+constexpr double bound_to_surface = 0.01, bound_to_stairs = 0.028, bound_to_floor = 0.011,
+                 bound_to_bent_floor = 0.02;
 /// Of those bound to stairs of a free surface, whose teeth slow them; in proportion to cells, and to the dip
 /// up to this one, degrees.
-constexpr double bound_to_surface_stairs = 0.3, steep_stairs_deg = 12;
-/// Of those of an explosion in hard rock, and at order 7.
-constexpr double bound_by_explosion = 0.4, bound_at_order_7 = 0.5;
-/// Their decay with the distance from it, over the wave number.
+constexpr double bound_to_surface_stairs = 0.5, steep_stairs_deg = 12;
+/// Of those of an explosion in hard rock.
+constexpr double bound_by_explosion = 0.4;
+/// Of those at order 7: along floors, floors where rows bend, and free surfaces.
+constexpr double bound_at_order_7 = 0.5, bent_at_order_7 = 0.8, surface_at_order_7 = 0.75;
+/// At order 3, of those bound to a free surface.
+constexpr double bound_at_order_3 = 4;
+/// Error of all that an explosion sends out from up to 2.6 cells below a free surface of rock, at 24 cells
+/// per wavelength of S; it falls with their square, whatever the order.
+constexpr double beside_surface = 0.0135;
+/// Decay of bound waves with the distance from their interface, over the wave number.
 constexpr double bound_decay = 0.3;
 /// What receivers in corners of stairs record too much, as part of what they should.
 constexpr double too_much_in_corners = 2.8;
@@ -176,6 +184,9 @@ double shear_of_explosion(double away, double per_wave) {
   return 0.006 * (1 + 5 / away) * std::pow(14.7 / per_wave, 6);
 }
 
+/// Error of the near field where normal moments differ by all of them.
+double uneven_near_error(double away, double per_wave) { return 300 * per_wave / std::pow(away, 4); }
+
 /// Error of the near field `away` cells from a source in a medium of `per_wave` cells per wavelength and of
 /// this Courant number: near fields are static, so the longer waves are, the more counts that the smallest
 /// lose.
@@ -191,7 +202,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
       return std::hypot(0.15 * cubed * std::min(3., std::pow(shorter, 1.3)),
                         sustained_by_force(cells, away, per_wave, courant));
     case NearField::of_uneven_moment:
-      return 300 * cubed / away;
+      return uneven_near_error(away, per_wave);
   }
   return 0;
 }
@@ -226,7 +237,8 @@ struct ErrorSources::Shot {
   };
   std::vector<FollowedReceiver> followed;
   LocalStack stack;
-  StackResponse response;
+  const StackResponse& response;  // of the stack
+  Recorded recorded = Recorded::velocity;
   double nominal_hz, highest_hz;
   double own_spacing_m;
   bool finer_geometry;
@@ -238,8 +250,10 @@ struct ErrorSources::Shot {
   bool slips = false;
   double fit_of_quality = 0;  // squared error, times the energy
   double at_source = 0;       // change_at_source()
+  double unevenness = 0;      // unevenness_at_source()
   Point<2> source_m{};
-  std::vector<Point<2>> receivers_m;  // in 2-D
+  std::vector<Point<2>> receivers_m;  // in 3-D in the plane
+  bool in_3d = false, x_is_known = true;
   struct Corners {
     std::size_t first = 0, count = 0;  // number of the first receiver, from 1
     double share = 0;                  // of all receivers
@@ -252,11 +266,14 @@ struct ErrorSources::Shot {
   };
   std::vector<Edge> edges;
 
-  Shot(const Scene<2>& scene, std::size_t shot, bool finer)
-      : Shot(scene, shot, finer, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
+  using Responses = std::vector<std::unique_ptr<const StackResponse>>;
+  /// Its response is kept in `responses`.
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer, Responses& responses)
+      : Shot(scene, shot, finer, responses, Whole{stable_time_step_s(scene), scene.slips(), false, true}) {
     const auto all = scene.survey.receivers_of(shot + 1);
     source_m = scene.survey.sources[shot].position_m;
     at_source = change_at_source(scene, shot);
+    unevenness = explodes_in_rock() ? unevenness_at_source(scene, shot) : 0;
     for (const auto& receiver : followed) receivers_m.push_back(all[receiver.index].point_m);
     if (const auto found = receivers_in_corners(scene, shot); !found.empty()) {
       const auto& at = all[found[0]].point_m;
@@ -266,18 +283,27 @@ struct ErrorSources::Shot {
     add_edges(scene, scene.survey.sources[shot], receivers_m);
   }
   /// Of some receivers of a shot in 3-D.
-  Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane)
-      : Shot(plane.scene, 0, false, Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
+  Shot(const Scene<3>& scene, std::size_t shot, const UprightPlane& plane, Responses& responses)
+      : Shot(plane.scene, 0, false, responses,
+             Whole{stable_time_step_s(scene), scene.slips(), true, plane.along_x}) {
+    source_m = plane.scene.survey.sources[0].position_m;
+    const auto all = plane.scene.survey.receivers_of(1);
     std::vector<Point<3>> receivers;
-    for (const auto& receiver : followed) receivers.push_back(plane.receivers_m[receiver.index]);
+    for (const auto& receiver : followed) {
+      receivers.push_back(plane.receivers_m[receiver.index]);
+      receivers_m.push_back(all[receiver.index].point_m);
+    }
     add_edges(scene, scene.survey.sources[shot], receivers);
   }
+
+  /// Takes what of the records counts.
+  void count(Recorded what, const std::optional<Attenuation>& attenuation);
 
   struct Dispersion {
     double p = 0, s = 0, both = 0;
   };
-  /// Squared errors, times the energy.
-  Dispersion dispersion(const Discretisation& cells) const;
+  /// Squared errors, times the energy; unless `by_wave` of all waves together only, in a third of the time.
+  Dispersion dispersion(const Discretisation& cells, bool by_wave) const;
   double face_error(std::size_t face, const Discretisation& cells) const;
   double near_field(const Discretisation& cells) const;
   double edge_error(const Edge& edge, const Discretisation& cells) const;
@@ -288,11 +314,20 @@ struct ErrorSources::Shot {
   /// Of an interface that bends where it leaves the model.
   double bent_interfaces(const LocalInterface& interface) const;
   double weak_interfaces(const Discretisation& cells) const;
+  /// Of a body of another matter beside the way of the waves.
+  double body(const Discretisation& cells) const;
+  std::string name_of_body() const {
+    return "a body of another matter" + (x_is_known ? " between x=" + shown(stack.body->from_x_m, 4) +
+                                                          " and " + shown(stack.body->to_x_m, 4)
+                                                    : "");
+  }
   /// Size of the cells that show where interfaces are, of which `block` a side are alike.
   double geometry_m(const Discretisation& cells, std::int64_t block) const {
     return double(block) * (finer_geometry ? cells.spacing_m : own_spacing_m);
   }
   double shallow_source(const Discretisation& cells) const;
+  /// Of an explosion few cells below a free surface, which takes most of what it sends out.
+  double weak_explosion(const Discretisation& cells) const;
   bool source_is_force() const { return stack.places.force[0] != 0 || stack.places.force[1] != 0; }
   bool explodes_in_rock() const {
     const auto& places = stack.places;
@@ -318,32 +353,31 @@ struct ErrorSources::Shot {
   }
 
  private:
-  Shot(const Scene<2>& scene, std::size_t shot, bool finer, const Whole& whole)
+  Shot(const Scene<2>& scene, std::size_t shot, bool finer, Responses& responses, const Whole& whole)
       : followed(followed_receivers(scene, shot, receivers_followed)),
         stack(stack_of(scene, shot, whole, followed)),
-        response(stack.places, scene.survey.sources[shot].wavelet,
-                 scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
+        response(*responses.emplace_back(
+            std::make_unique<StackResponse>(stack.places, scene.survey.sources[shot].wavelet,
+                                            scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)))),
         nominal_hz(scene.survey.sources[shot].wavelet.nominal_hz()),
         highest_hz(scene.survey.sources[shot].wavelet.highest_frequency_hz(0.01)),
         own_spacing_m(scene.model.grid().spacing_m),
         finer_geometry(finer),
         stable_speed(own_spacing_m / whole.stable_time_step_s),
-        slips(whole.slips) {
+        slips(whole.slips),
+        in_3d(whole.in_3d),
+        x_is_known(whole.x_is_known) {
     for (std::size_t r = 0; r < stack.places.receivers.size(); ++r) {
       const auto& at = stack.places.receivers[r];
       weights.push_back(followed[r].count *
                         (whole.in_3d ? 1 / std::max(std::hypot(at.a_m, at.b_m), own_spacing_m) : 1));
-      energies.push_back(energy_of(response.motion(r), r));
-      energy += energies.back();
     }
-    for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
-    if (scene.attenuates()) fit_of_quality = quality_error(*scene.attenuation);
   }
   static LocalStack stack_of(const Scene<2>& scene, std::size_t shot, const Whole& whole,
                              const std::vector<FollowedReceiver>& followed);
   /// Of a spectrum at a receiver.
-  double energy_of(const MotionSpectrum& spectrum, std::size_t receiver) const {
-    return weights[receiver] * response.energy(spectrum);
+  double energy_of(const RecordSpectrum& spectrum, std::size_t receiver) const {
+    return weights[receiver] * response.energy(spectrum, recorded);
   }
   void add_face(std::size_t face);
   /// The absorbing edges, for the receivers that are followed.
@@ -354,6 +388,17 @@ struct ErrorSources::Shot {
   using Steps = std::vector<std::vector<std::vector<Complex>>>;
   Steps steps(const Discretisation& cells) const;
 };
+
+void ErrorSources::Shot::count(Recorded what, const std::optional<Attenuation>& attenuation) {
+  recorded = what;
+  energies.clear();
+  by_face.clear();
+  by_drag.clear();
+  for (std::size_t r = 0; r < weights.size(); ++r) energies.push_back(energy_of(response.records(r), r));
+  energy = std::accumulate(energies.begin(), energies.end(), 0.);
+  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
+  if (attenuation) fit_of_quality = quality_error(*attenuation);
+}
 
 void ErrorSources::Shot::add_face(std::size_t face) {
   double moved = 0, dragged = 0;
@@ -420,7 +465,7 @@ LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot,
 double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
-    MotionSpectrum wrong(response.bins());
+    RecordSpectrum wrong(response.bins());
     for (std::size_t n = 0; n < 2 * stack.losses.size(); ++n) {
       const double loss = stack.losses[n / 2][n % 2];
       if (!(loss > 0)) continue;
@@ -436,7 +481,7 @@ double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
       for (std::size_t bin = 0; bin < wrong.size(); ++bin) {
         const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
         const auto faster = factor(hz) / (scale * constant(hz)) - 1.;
-        for (const std::size_t c : {0, 1}) wrong[bin][c] += faster * change[bin][c];
+        for (const std::size_t c : {0, 1, 2}) wrong[bin][c] += faster * change[bin][c];
       }
     }
     sum += energy_of(wrong, r);
@@ -463,9 +508,10 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
     by *= interface.kind == Kind::surface                      ? high_order_at_surfaces
           : interface.kind == Kind::inner && source_is_force() ? high_order_of_forces
                                                                : 1;
-  // The long stairs of a plane surface scatter less where waves are longer.
+  // The long stairs of a plane surface scatter less where waves are longer than some of them.
   if (interface.representation == staircase && interface.kind == Kind::surface &&
-      interface.steepest_deg < 14 && !interface.is_curved())
+      interface.steepest_deg < 14 && !interface.is_curved() &&
+      std::tan(radians(interface.steepest_deg)) * per_wave > 2)
     by *= std::min(1., 10 / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
@@ -488,10 +534,21 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
     const double share =
         near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
     const double s_waves = sheared ? shear_of_explosion(way, rock.vp / nominal_hz / h) : 0;
-    sum += std::pow(std::min(most_of_near_field(near_kind(), own_way), std::hypot(share, s_waves)), 2) *
-           energies[r];
+    const double uneven =
+        unevenness * uneven_near_error(way, per_wave) * std::sqrt(std::max(1., 0.9 / courant));
+    sum +=
+        std::pow(std::min(most_of_near_field(near_kind(), own_way), std::hypot(share, s_waves, uneven)), 2) *
+        energies[r];
   }
   return sum;
+}
+
+/// Of waves bound to an interface, over that at order 5.
+double bound_at_order(int order, bool floor, bool bent) {
+  if (order == 3 && !floor) return bound_at_order_3;
+  if (order < 7) return 1;
+  if (!floor) return surface_at_order_7;
+  return bent && order == 7 ? bent_at_order_7 : bound_at_order_7;
 }
 
 double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& cells) const {
@@ -504,16 +561,16 @@ double ErrorSources::Shot::bound_wave(std::size_t face, const Discretisation& ce
   const double coarser = 24 * 0.93 * cells.spacing_m / wavelength;
   const bool floor = interface.kind == Kind::fluid_solid, stairs = interface.representation == staircase;
   const bool bent = !stairs && interface.steepest_deg > 1;
-  // Short steps make those along level fluid worse.
+  // Short steps make those along fluid worse.
   const double courant = stable_speed * cells.time_step_s / cells.spacing_m;
-  const double steps = floor && !bent ? 1 + 1.6 * std::max(0., 0.9 - courant) : 1;
+  const double steps = floor ? 1 + (bent ? 0.7 : 1.6) * std::max(0., 0.9 - courant) : 1;
   const double at_floor = stairs ? bound_to_stairs : bent ? bound_to_bent_floor : bound_to_floor;
   const bool force = source_is_force();
   // Orders 9 and 11, which fall to 5 there, leave what falls with the square.
   const double finer =
       cells.order >= 9 ? (bent && !force ? 2.4 : 3) * std::pow(coarser, 2) : std::pow(coarser, 3);
   double rate =
-      (floor ? at_floor : bound_to_surface) * finer * steps * (cells.order >= 7 ? bound_at_order_7 : 1);
+      (floor ? at_floor : bound_to_surface) * finer * steps * bound_at_order(cells.order, floor, bent);
   const auto& rock = places.layers[places.source_layer()];
   // An explosion in rock sends out less of them, the less the harder the rock is.
   if (!force && rock.vs > 0)
@@ -551,9 +608,11 @@ double ErrorSources::Shot::bent_sides(const LocalInterface& interface) const {
   return share * share * energy;
 }
 
-double reflection_of(double contrast) { return (contrast - 1) / (contrast + 1); }
+double reflection_of(double contrast) { return 1 - 2 / (contrast + 1); }
 
 double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) const {
+  // Planes of 3-D end elsewhere than the model.
+  if (in_3d) return 0;
   const auto& places = stack.places;
   const double wavelength = places.layers[places.source_layer()].vp / nominal_hz;
   double sum = 0;
@@ -588,6 +647,30 @@ double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
   return sum;
 }
 
+double ErrorSources::Shot::body(const Discretisation& cells) const {
+  if (!stack.body) return 0;
+  const auto& body = *stack.body;
+  const auto& places = stack.places;
+  const double h = std::max(geometry_m(cells, 1), cells.spacing_m);
+  double slowest = places.layers.front().vp;
+  for (const auto& rock : places.layers) slowest = std::min(slowest, rock.vp);
+  const double k = 2 * std::numbers::pi * nominal_hz / slowest;
+  const double moved = 2 * k * shift_of_stairs * h, reflects = reflection_of(body.contrast);
+  const double away = std::hypot(body.nearest_m[0] - source_m[0], body.nearest_m[1] - source_m[1]);
+  double sum = 0;
+  for (std::size_t r = 0; r < receivers_m.size(); ++r) {
+    const auto& at = receivers_m[r];
+    const double back = std::hypot(body.nearest_m[0] - at[0], body.nearest_m[1] - at[1]);
+    const double way = std::hypot(at[0] - source_m[0], at[1] - source_m[1]);
+    if (away + back > stable_speed * places.duration_s) continue;
+    // Less than a Fresnel zone reflects in proportion to its width, from its top and its bottom.
+    const double zone = std::sqrt(2 * std::numbers::pi / k * std::max(away * back / (away + back), h));
+    const double seen = std::min(1., body.wide_m() / zone);
+    sum += 2 * std::pow(moved * reflects * seen, 2) * std::max(way, h) / (away + back) * energies[r];
+  }
+  return sum;
+}
+
 double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
   const auto& places = stack.places;
   if (!places.free_surface || !(places.layers[0].vs > 0) || places.source_layer() > 0) return 0;
@@ -601,6 +684,16 @@ double ErrorSources::Shot::shallow_source(const Discretisation& cells) const {
     if (at.b_m < 0) sum += error * error * energies[r];
   }
   return sum;
+}
+
+double ErrorSources::Shot::weak_explosion(const Discretisation& cells) const {
+  const auto& places = stack.places;
+  if (!places.free_surface || places.source_layer() > 0 || !explodes_in_rock()) return 0;
+  const double depth = std::abs(places.faces_m[0]) / cells.spacing_m;
+  const double per_wave = places.layers[0].vs / nominal_hz / cells.spacing_m;
+  const double share =
+      beside_surface * std::pow(24 / per_wave, 2) * std::min(1., std::pow(2.6 / std::max(depth, 1e-3), 1.6));
+  return share * share * energy;
 }
 
 double ErrorSources::Shot::edge_error(const Edge& edge, const Discretisation& cells) const {
@@ -655,7 +748,8 @@ ErrorSources::Shot::Steps ErrorSources::Shot::steps(const Discretisation& cells)
   return all;
 }
 
-ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisation& cells) const {
+ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisation& cells,
+                                                              bool by_wave) const {
   const auto& places = stack.places;
   const auto all = steps(cells);
   const double dt = cells.time_step_s;
@@ -667,8 +761,8 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
     const double own = std::asin(std::abs(std::sin(std::atan2(at.a_m, at.b_m) - radians(stack.dip_deg))));
     const auto direct = std::min(directions - 1, std::size_t(own / (std::numbers::pi / 2) * directions));
     for (std::size_t n = 0; n < directions; ++n) {
-      std::array<MotionSpectrum, 3> wrong;
-      wrong.fill(MotionSpectrum(response.bins()));
+      std::array<RecordSpectrum, 3> wrong;
+      wrong.fill(RecordSpectrum(response.bins()));
       for (std::size_t m = 0; m < all[n].size(); ++m) {
         const auto& rock = places.layers[m / 2];
         const double speed = m % 2 == 0 ? rock.vp : rock.vs;
@@ -683,18 +777,32 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
               whole * (size < 0.1 ? 1 + whole.real() / 2 : std::abs(std::exp(whole) - 1.) / size);
           const auto slower = limited / (count * dt) * Complex(0, 1) / response.omega(bin).real();
           for (const auto of : {m % 2, std::size_t(2)})
-            for (const std::size_t c : {0, 1}) wrong[of][bin][c] -= slower * change[bin][c];
+            for (const std::size_t c : {0, 1, 2}) wrong[of][bin][c] -= slower * change[bin][c];
         }
       }
       const double weight =
           (0.5 / directions + (n == direct ? 0.5 : 0)) * dispersion_margin * dispersion_margin;
+      sum.both += weight * energy_of(wrong[2], r);
+      if (!by_wave) continue;
       sum.p += weight * energy_of(wrong[0], r);
       sum.s += weight * energy_of(wrong[1], r);
-      sum.both += weight * energy_of(wrong[2], r);
     }
   }
   return sum;
 }
+
+namespace {
+
+/// Pressure counts by itself, all else as velocities do.
+std::vector<Recorded> counted(const std::vector<Component>& components) {
+  const auto pressures = std::count(components.begin(), components.end(), Component::p);
+  std::vector<Recorded> all;
+  if (pressures < std::ptrdiff_t(components.size()) || components.empty()) all.push_back(Recorded::velocity);
+  if (pressures > 0) all.push_back(Recorded::pressure);
+  return all;
+}
+
+}  // namespace
 
 ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
   const auto& sources = scene.survey.sources;
@@ -702,7 +810,7 @@ ErrorSources::ErrorSources(const Scene<2>& scene, bool finer_geometry) {
     const std::size_t stride =
         std::max<std::size_t>(1, (sources.size() + shots_followed - 1) / shots_followed);
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)
-      if (point_injection(sources[n])) shots_.push_back(std::make_unique<Shot>(scene, n, finer_geometry));
+      if (point_injection(sources[n])) add(Shot(scene, n, finer_geometry, responses_), scene);
     if (shots_.empty()) not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
   }
   note_left_out(scene.recording.duration_s);
@@ -719,16 +827,30 @@ ErrorSources::ErrorSources(const Scene<3>& scene) {
     for (std::size_t n = stride / 2; n < sources.size(); n += stride)
       for (const auto& plane : upright_planes(scene, n, receivers_followed)) {
         across = across || plane.moves_across;
-        if (!plane.still) shots_.push_back(std::make_unique<Shot>(scene, n, plane));
+        if (!plane.still) add(Shot(scene, n, plane, responses_), scene);
       }
     if (shots_.empty() && !across)
       not_covered_.emplace_back("interfaces and reflected waves of a plane wave");
   }
   note_left_out(scene.recording.duration_s);
   if (!shots_.empty()) not_covered_.emplace_back("slopes across the vertical planes of source and receivers");
+  const auto dips = [](const auto& shot) {
+    const auto& all = shot->stack.interfaces;
+    return std::any_of(all.begin(), all.end(), [](const auto& face) { return face.steepest_deg > 1; });
+  };
+  if (std::any_of(shots_.begin(), shots_.end(), dips))
+    not_covered_.emplace_back("interfaces that bend at the sides of the model");
   if (across) not_covered_.emplace_back("SH waves");
   if (scene.slips())
     not_covered_.emplace_back("how strong the waves of slipping fractures are (taken as 10 %)");
+}
+
+template <int D>
+void ErrorSources::add(const Shot& shot, const Scene<D>& scene) {
+  recorded_ = counted(scene.recording.components);
+  const auto attenuation = scene.attenuates() ? scene.attenuation : std::nullopt;
+  for (const auto what : recorded_)
+    shots_.emplace_back(std::make_unique<Shot>(shot))->count(what, attenuation);
 }
 
 /// What the layers round the sources do not tell.
@@ -753,9 +875,8 @@ void ErrorSources::note_left_out(double duration_s) {
     break;
   }
   for (const auto& shot : shots_)
-    if (const auto& other = shot->stack.other_fluid) {
-      not_covered_.push_back("fluid beside solid between x=" + shown(other->at(0), 4) + " and " +
-                             shown(other->at(1), 4) + ", which the source does not lie above");
+    if (shot->stack.body) {
+      not_covered_.push_back("waves that stay within " + shot->name_of_body());
       break;
     }
   if (left_out > 0)
@@ -805,64 +926,120 @@ std::string cells_per_wave(const LayeredPlaces& places, bool shear, double hz, d
 
 }  // namespace
 
-PromisedError ErrorSources::promised(const Discretisation& cells) const {
-  PromisedError promise;
-  Sum causes;
+/// What all causes add up to: squared errors times energies.
+struct ErrorSources::Sums {
   double energy = 0, all = 0, floor = 0, slip = 0, sides = 0;
-  const auto add = [&](ErrorCause cause, double squared) {
+  Sum causes;
+  void add(ErrorCause cause, double squared) {
     all += squared;
     if (!cause.curable) floor += squared;
     causes.add(std::move(cause), squared);
-  };
-  for (const auto& shot : shots_) {
-    energy += shot->energy;
-    const auto& places = shot->stack.places;
-    const auto of = shot->dispersion(cells);
-    all += of.both;
-    causes.add({cells_per_wave(places, false, shot->highest_hz, cells.spacing_m), "", 0, true}, of.p);
-    causes.add({cells_per_wave(places, true, shot->highest_hz, cells.spacing_m), "", 0, true}, of.s);
-    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add(cause_of(shot->stack.interfaces[face], shot->stack.maker, shot->finer_geometry,
-                   shot->offset_m(face, cells) > 0),
-          shot->face_error(face, cells));
-    for (std::size_t face = 0; face < shot->by_face.size(); ++face)
-      add({"waves along the " + shot->stack.interfaces[face].name(), "", 0, true},
-          shot->bound_wave(face, cells));
-    for (const auto& interface : shot->stack.interfaces)
-      if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
-        add({"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
-            shot->bent_sides(interface));
-    for (const auto& interface : shot->stack.interfaces) {
-      const double bent = shot->bent_interfaces(interface);
-      sides += bent;
-      add({"interfaces that are level beyond the sides of the model, and bend there", "move the sides away",
-           0, false},
-          bent);
-    }
-    add({"weak interfaces", "", 0, shot->finer_geometry}, shot->weak_interfaces(cells));
-    add({"waves straight up from a shallow source", "", 0, shot->explodes_in_rock()},
-        shot->shallow_source(cells));
-    add({"near fields of the source", "", 0, true}, shot->near_field(cells));
-    add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
-         shot->finer_geometry},
-        std::pow(shot->at_source, 2) * shot->energy);
-    if (shot->corners.count > 0)
-      add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot->stack.maker), 0, false},
-          std::pow(too_much_in_corners, 2) * shot->corners.share * shot->energy);
-    for (const auto& edge : shot->edges)
-      add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
-          shot->edge_error(edge, cells));
-    add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot->fit_of_quality);
-    slip += shot->slip(cells);
-    add({"slip of fractures", "shorter time steps", 0, true}, shot->slip(cells));
   }
-  if (!(energy > 0)) return promise;
-  promise.error = saturated(all / energy);
-  promise.without_slip = saturated((all - slip - sides) / energy);
-  promise.slip = saturated(slip / energy);
-  promise.floor = saturated(floor / energy);
-  promise.causes = causes.take(energy);
+  double without_slip() const { return energy > 0 ? saturated((all - slip - sides) / energy) : 0; }
+};
+
+void ErrorSources::add_dispersion(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  const auto of = shot.dispersion(cells, true);
+  const auto& places = shot.stack.places;
+  sums.all += of.both;
+  sums.causes.add({cells_per_wave(places, false, shot.highest_hz, cells.spacing_m), "", 0, true}, of.p);
+  sums.causes.add({cells_per_wave(places, true, shot.highest_hz, cells.spacing_m), "", 0, true}, of.s);
+}
+
+void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  const auto& stack = shot.stack;
+  for (std::size_t face = 0; face < shot.by_face.size(); ++face)
+    sums.add(
+        cause_of(stack.interfaces[face], stack.maker, shot.finer_geometry, shot.offset_m(face, cells) > 0),
+        shot.face_error(face, cells));
+  for (std::size_t face = 0; face < shot.by_face.size(); ++face)
+    sums.add({"waves along the " + stack.interfaces[face].name(), "", 0, true}, shot.bound_wave(face, cells));
+  for (const auto& interface : stack.interfaces)
+    if (interface.kind == Kind::surface && interface.representation == fitted && interface.steepest_deg > 1)
+      sums.add(
+          {"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
+          shot.bent_sides(interface));
+  for (const auto& interface : stack.interfaces) {
+    const double bent = shot.bent_interfaces(interface);
+    sums.sides += bent;
+    sums.add({"interfaces that are level beyond the sides of the model, and bend there",
+              "move the sides away", 0, false},
+             bent);
+  }
+  sums.add({"weak interfaces", "", 0, shot.finer_geometry}, shot.weak_interfaces(cells));
+  if (stack.body)
+    sums.add({shot.name_of_body() + ", a staircase", "smaller cells of the model", 0, shot.finer_geometry},
+             shot.body(cells));
+}
+
+void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums) {
+  sums.add({"waves straight up from a shallow source", "", 0, shot.explodes_in_rock()},
+           shot.shallow_source(cells));
+  sums.add({"an explosion beside a free surface", "", 0, true}, shot.weak_explosion(cells));
+  sums.add({"near fields of the source", "", 0, true}, shot.near_field(cells));
+  sums.add({"rock that changes within a cell of the source", "move it, or make the model in smaller cells", 0,
+            shot.finer_geometry},
+           std::pow(shot.at_source, 2) * shot.energy);
+  if (shot.corners.count > 0)
+    sums.add({"receivers in corners of a staircase", fit_of(Kind::fluid_solid, shot.stack.maker), 0, false},
+             std::pow(too_much_in_corners, 2) * shot.corners.share * shot.energy);
+  for (const auto& edge : shot.edges)
+    sums.add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
+             shot.edge_error(edge, cells));
+  sums.add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot.fit_of_quality);
+  const double slip = shot.slip(cells);
+  sums.slip += slip;
+  sums.add({"slip of fractures", "shorter time steps", 0, true}, slip);
+}
+
+ErrorSources::Sums ErrorSources::sums_apart_from_dispersion(Recorded what,
+                                                            const Discretisation& cells) const {
+  Sums sums;
+  for (const auto& shot : shots_) {
+    if (shot->recorded != what) continue;
+    sums.energy += shot->energy;
+    add_interfaces(*shot, cells, sums);
+    add_all_else(*shot, cells, sums);
+  }
+  return sums;
+}
+
+PromisedError ErrorSources::promised(const Discretisation& cells) const {
+  PromisedError promise;
+  double without_slip = 0;
+  for (const auto what : recorded_) {
+    auto sums = sums_apart_from_dispersion(what, cells);
+    if (!(sums.energy > 0)) continue;
+    for (const auto& shot : shots_)
+      if (shot->recorded == what) add_dispersion(*shot, cells, sums);
+    without_slip = std::max(without_slip, sums.without_slip());
+    if (const double error = saturated(sums.all / sums.energy); error > promise.error)
+      promise = {error, 0, saturated(sums.slip / sums.energy), saturated(sums.floor / sums.energy),
+                 sums.causes.take(sums.energy)};
+  }
+  promise.without_slip = without_slip;
   return promise;
+}
+
+double ErrorSources::without_slip(const Discretisation& cells, double most) const {
+  double error = 0;
+  for (const auto what : recorded_) {
+    auto sums = sums_apart_from_dispersion(what, cells);
+    for (const auto& shot : shots_) {
+      error = std::max(error, sums.without_slip());
+      if (error > most) return error;
+      if (shot->recorded == what) sums.all += shot->dispersion(cells, false).both;
+    }
+    error = std::max(error, sums.without_slip());
+  }
+  return error;
+}
+
+double ErrorSources::apart_from_dispersion(const Discretisation& cells) const {
+  double most = 0;
+  for (const auto what : recorded_)
+    most = std::max(most, sums_apart_from_dispersion(what, cells).without_slip());
+  return most;
 }
 
 std::string sentence_of(const ErrorCause& cause) {

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "accuracy/error_cause.hpp"
+#include "accuracy/stack_response.hpp"
 #include "accuracy/wave_train.hpp"
 #include "scene/scene.hpp"
 
 namespace slipwave {
 
-/// What is promised of a scene: the error of all traces together, and where it comes from.
+/// What is promised of a scene: the error of all traces together, of velocities or of pressure, whichever is
+/// larger where both are recorded, and where it comes from.
 struct PromisedError {
   double error = 0;  // up to
   /// Of it, all that a setting may change: not the response of fractures, which is a first estimate, nor what
@@ -40,13 +42,27 @@ class ErrorSources {
   bool any() const { return !shots_.empty(); }
   /// Of other cells and steps of the same model.
   PromisedError promised(const Discretisation& cells) const;
+  /// Of that without_slip alone, in a third of the time; where it is above `most`, something between that and
+  /// it, in hardly any.
+  double without_slip(const Discretisation& cells, double most) const;
+  /// The same but for dispersion, which alone is always larger in larger cells.
+  double apart_from_dispersion(const Discretisation& cells) const;
   /// Sentences on what is not in it.
   const std::vector<std::string>& not_covered() const { return not_covered_; }
 
  private:
   struct Shot;
+  struct Sums;
+  static void add_dispersion(const Shot& shot, const Discretisation& cells, Sums& sums);
+  static void add_interfaces(const Shot& shot, const Discretisation& cells, Sums& sums);
+  static void add_all_else(const Shot& shot, const Discretisation& cells, Sums& sums);
+  Sums sums_apart_from_dispersion(Recorded what, const Discretisation& cells) const;
+  template <int D>
+  void add(const Shot& shot, const Scene<D>& scene);
   void note_left_out(double duration_s);
-  std::vector<std::unique_ptr<Shot>> shots_;
+  std::vector<std::unique_ptr<const StackResponse>> responses_;
+  std::vector<Recorded> recorded_;
+  std::vector<std::unique_ptr<Shot>> shots_;  // once for each of them
   std::vector<std::string> not_covered_;
 };
 

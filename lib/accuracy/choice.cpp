@@ -1,6 +1,7 @@
 #include "accuracy/choice.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "accuracy/expected_error.hpp"
@@ -100,64 +101,125 @@ Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted) {
   return best;
 }
 
-Choice cheapest_setting(const Scene<2>& scene, double wanted) {
-  const double own_m = scene.model.grid().spacing_m;
-  struct Candidate {
-    AccuracySetting setting;
-    double cost, error;
-  };
+namespace {
+
+/// A setting, what it costs, and the least that its error is known to be.
+struct Candidate {
+  AccuracySetting setting;
+  double cost;
+  bool finest;  // of all cells
+  double error = 0;
+};
+
+/// All there are, the cheapest first.
+std::vector<Candidate> candidates_for(const Scene<2>& scene) {
+  const int zone = zone_cells(scene, scene.survey.sources.front());
   std::vector<Candidate> candidates;
   for (const auto& scheme : schemes())
     for (const double cfl : scheme.courant_numbers)
       for (int parts = 1; parts <= most_parts; ++parts)
-        candidates.push_back(
-            {{scheme.order, cfl, own_m / parts, scene.numerics.correction, scheme.time_order},
-             scheme.cost * cells_of(scene, parts, zone_cells(scene, scene.survey.sources.front())) * parts /
-                 cfl,
-             0});
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+        candidates.push_back({{scheme.order, cfl, scene.model.grid().spacing_m / parts,
+                               scene.numerics.correction, scheme.time_order},
+                              scheme.cost * cells_of(scene, parts, zone) * parts / cfl,
+                              parts == most_parts});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
+  return candidates;
+}
+
+/// What gains less than this over all others is not worth more time.
+constexpr double hardly_more = 1.02;
+
+/// Settings of a scene by their errors.
+class Search {
+ public:
+  Search(const Scene<2>& scene, const WavesOfScene& waves)
+      : waves_(waves),
+        stable_per_m_(stable_time_step_s(scene) / scene.model.grid().spacing_m),
+        candidates_(candidates_for(scene)) {}
+  /// Rows of other cells have the heights of the scene's, in cells.
+  Discretisation cells(const AccuracySetting& setting) const {
+    return {setting.order, setting.cfl * stable_per_m_ * setting.spacing_m, setting.spacing_m,
+            setting.time_order};
+  }
+  /// The cheapest within `reach`; null: none.
+  const Candidate* cheapest_within(double reach) {
+    for (auto& candidate : candidates_)
+      if (candidate.finest && !tried(candidate, reach)) tell_larger(candidate);
+    for (auto& candidate : candidates_)
+      if (tried(candidate, reach)) return &candidate;
+    return nullptr;
+  }
+  /// That of the least error; where most of that has no cure, the cheapest that is hardly worse.
+  const Candidate& best() {
+    double least = std::numeric_limits<double>::infinity();
+    const Candidate* best = &candidates_.back();
+    // The most expensive are the best, and most others are told to be worse soon.
+    for (auto candidate = candidates_.rbegin(); candidate != candidates_.rend(); ++candidate) {
+      if (tried(*candidate, least)) {
+        least = candidate->error;
+        best = &*candidate;
+      } else if (candidate->finest) {
+        tell_larger(*candidate);
+      }
+    }
+    const auto promise = waves_.promised(cells(best->setting));
+    if (!promise || promise->floor <= 0.5 * least) return *best;
+    const auto* cheaper = cheapest_within(hardly_more * least);
+    return cheaper ? *cheaper : *best;
+  }
+
+ private:
+  /// Whether it is within reach; its error need not be right where it is not.
+  bool tried(Candidate& candidate, double reach) const {
+    if (candidate.error <= reach)
+      candidate.error = waves_.of_reflections_too(cells(candidate.setting), reach);
+    return candidate.error <= reach;
+  }
+  /// Cells that are larger have at least the dispersion of the finest.
+  void tell_larger(const Candidate& finest) {
+    const double apart = waves_.apart_from_dispersion(cells(finest.setting));
+    const double dispersion = std::sqrt(std::max(0., finest.error * finest.error - apart * apart));
+    for (auto& other : candidates_) {
+      const auto &a = other.setting, &b = finest.setting;
+      if (a.order == b.order && a.time_order == b.time_order && a.cfl == b.cfl)
+        other.error = std::max(other.error, dispersion);
+    }
+  }
+
+  const WavesOfScene& waves_;
+  double stable_per_m_;
+  std::vector<Candidate> candidates_;
+};
+
+/// The largest cause that no setting cures, where it is above `reach`, or the largest of all.
+std::string reason_of(const PromisedError& promise, double reach) {
+  const auto& causes = promise.causes;
+  if (causes.empty()) return "";
+  const auto stays = std::find_if(causes.begin(), causes.end(), [&](const ErrorCause& cause) {
+    return !cause.curable && cause.error > reach;
+  });
+  return sentence_of(stays == causes.end() ? causes.front() : *stays);
+}
+
+}  // namespace
+
+Choice cheapest_setting(const Scene<2>& scene, double wanted) {
+  const double own_m = scene.model.grid().spacing_m;
   const bool finer = has_finer_geometry(scene);
   const WavesOfScene waves(scene, finer);
-  const Candidate* best = nullptr;
-  // Rows of other cells have the heights of these, in cells.
-  const double stable_per_m = stable_time_step_s(scene) / own_m;
-  const auto in = [&](const AccuracySetting& setting) {
-    const double time_step_s = setting.cfl * stable_per_m * setting.spacing_m;
-    return Discretisation{setting.order, time_step_s, setting.spacing_m, setting.time_order};
-  };
-  for (auto& candidate : candidates) {
-    const auto cells = in(candidate.setting);
-    // The promise alone may tell that it is neither better nor good enough.
-    if (const auto promise = best ? waves.promised(cells) : std::nullopt;
-        promise && promise->without_slip >= best->error && margin * promise->without_slip > wanted)
-      continue;
-    const auto expected = waves.expected(cells);
-    candidate.error = expected.of_reflections_too();
-    // Where most of the error has no cure, what gains a little is not worth more time.
-    const bool in_vain = expected.promise && expected.promise->floor > 0.5 * candidate.error;
-    if (!best || candidate.error < (in_vain ? 0.98 : 1) * best->error) best = &candidate;
-    if (margin * candidate.error > wanted) continue;
-    best = &candidate;
-    break;
-  }
-  Choice choice{best->setting, best->error, margin * best->error <= wanted, finer, 0, false, ""};
-  const auto expected = waves.expected(in(best->setting));
+  Search search(scene, waves);
+  const auto* found = search.cheapest_within(wanted / margin);
+  const auto& best = found ? *found : search.best();
+  Choice choice{best.setting, best.error, found != nullptr, finer, 0, false, ""};
   if (scene.slips())
     if (const FractureResponse response(scene); response.any())
-      choice.slip_error =
-          response
-              .promised({in(best->setting), best->setting.correction,
-                         usual_zone(scene, int(std::lround(own_m / best->setting.spacing_m)))})
-              .error;
-  if (choice.good_enough) return choice;
-  if (const auto& promise = expected.promise; promise && !promise->causes.empty()) {
-    const auto& causes = promise->causes;
-    const auto stays = std::find_if(causes.begin(), causes.end(), [&](const ErrorCause& cause) {
-      return !cause.curable && margin * cause.error > wanted;
-    });
-    choice.reason = sentence_of(stays == causes.end() ? causes.front() : *stays);
-  }
+      choice.slip_error = response
+                              .promised({search.cells(best.setting), best.setting.correction,
+                                         usual_zone(scene, int(std::lround(own_m / best.setting.spacing_m)))})
+                              .error;
+  if (const auto promise = found ? std::nullopt : waves.promised(search.cells(best.setting)))
+    choice.reason = reason_of(*promise, wanted / margin);
   return choice;
 }
 

@@ -221,6 +221,14 @@ std::optional<PromisedError> WavesOfScene::promised(const Discretisation& cells)
   return sources_.promised(cells);
 }
 
+double WavesOfScene::of_reflections_too(const Discretisation& cells, double most) const {
+  // What takes longest comes last.
+  double error = sources_.any() ? sources_.without_slip(cells, most) : 0;
+  for (const auto* trains : {&longest_p_, &direct_})
+    if (error <= most && !trains->empty()) error = std::max(error, std::sqrt(squared_error(cells, *trains)));
+  return error;
+}
+
 ExpectedError expected_error(const Scene<2>& scene) {
   auto error = WavesOfScene(scene, has_finer_geometry(scene)).expected();
   if (!scene.slips()) return error;

@@ -49,6 +49,12 @@ class WavesOfScene {
   ExpectedError expected(const Discretisation& cells) const;
   /// Of that the promise alone, which takes less time.
   std::optional<PromisedError> promised(const Discretisation& cells) const;
+  /// Of that of_reflections_too() alone; where it is above `most` something between the two, in less time.
+  double of_reflections_too(const Discretisation& cells, double most) const;
+  /// What is in that but for dispersion, which alone is always larger in larger cells.
+  double apart_from_dispersion(const Discretisation& cells) const {
+    return sources_.apart_from_dispersion(cells);
+  }
 
  private:
   WavesOfScene(const Discretisation& own, const Scene<2>& isotropic, bool finer_geometry);

@@ -50,6 +50,12 @@ class Columns {
                                   : Matter::solid,
             medium_.vp[n], medium_.vs[n], medium_.rho[n]};
   }
+  /// Whether only air lies above a row of a column.
+  bool is_ground(std::int64_t i, std::int64_t row) const {
+    for (std::int64_t k = 0; k < row; ++k)
+      if (cell(i, k).matter != Matter::empty) return false;
+    return true;
+  }
   /// 1/qp or 1/qs, the mean over rows of a column.
   double loss(std::int64_t i, std::int64_t first, std::int64_t last, Property quality) const {
     double sum = 0;
@@ -188,10 +194,10 @@ class Follower {
       : columns_(columns), upper_(upper), lower_(lower) {}
   /// The row coordinate of the interface in a column, near one; nothing where it is not there.
   std::optional<double> row(std::int64_t i, double near_row) const {
-    constexpr std::int64_t reach = 6;
     const auto middle = std::int64_t(std::lround(near_row));
     const auto first = std::max<std::int64_t>(middle - reach, 0);
     const auto end = std::min(middle + reach, columns_.rows());
+    if (const auto face = jump(i, first, end)) return double(*face);
     double above = 0;
     bool in_upper = true;
     for (auto k = first; k < end; ++k) {
@@ -206,6 +212,24 @@ class Follower {
   }
 
  private:
+  static constexpr std::int64_t reach = 6;
+  /// The face at which rock changes at once by most of what these two differ by, where it hardly changes from
+  /// cell to cell on both sides: within layers with gradients, too.
+  std::optional<std::int64_t> jump(std::int64_t i, std::int64_t first, std::int64_t end) const {
+    if (upper_.matter != lower_.matter) return std::nullopt;
+    const double whole = std::log(lower_.stiffness() / upper_.stiffness());
+    const auto change = [&](std::int64_t k) {
+      const auto above = columns_.cell(i, k - 1), below = columns_.cell(i, k);
+      return above.matter == upper_.matter && below.matter == upper_.matter
+                 ? std::log(below.stiffness() / above.stiffness()) / whole
+                 : 1;
+    };
+    for (auto k = first + 2; k + 1 < end; ++k)
+      if (change(k) > 0.5 && change(k) < 1.5 && std::abs(change(k - 1)) < 0.05 &&
+          std::abs(change(k + 1)) < 0.05)
+        return k;
+    return std::nullopt;
+  }
   double share_of_upper(const Cell& cell) const {
     if (upper_.matter != lower_.matter) return cell.matter == upper_.matter ? 1 : 0;
     if (cell.matter != upper_.matter) return 0;
@@ -370,12 +394,12 @@ class Tracker {
     }
     low_ = std::max<std::int64_t>(low_ - 12, 0);
     high_ = std::min(high_ + 12, columns_.count() - 1);
-    find_other_fluid();
     segments_ = segments_of(columns_, column_);
     join_cut_cells(segments_);
     for (const auto& [row, contrast] : join_weakest(segments_))
       stack_.left_out.push_back({contrast, std::abs(columns_.face(column_, row) - source_.position_m[1])});
     follow_all();
+    find_body();
     flatten();
   }
   void add_receivers(const std::vector<FollowedReceiver>& followed) {
@@ -386,22 +410,36 @@ class Tracker {
  private:
   bool fitted() const { return scene_.model.grid().rows != nullptr; }
 
-  void find_other_fluid() {
-    const auto faces = [&](std::int64_t i) {
-      int count = 0;
+  /// Faces of two matters in columns that no interface below the source continues to.
+  void find_body() {
+    for (auto i = low_; i <= high_; ++i)
       for (std::int64_t k = 1; k < columns_.rows(); ++k) {
-        const auto upper = columns_.cell(i, k - 1).matter, lower = columns_.cell(i, k).matter;
-        count += upper != lower && upper != Matter::empty && lower != Matter::empty;
+        const auto upper = columns_.cell(i, k - 1), lower = columns_.cell(i, k);
+        if (upper.matter == lower.matter || is_followed(i, k)) continue;
+        // Air above the ground is no cave.
+        if (upper.matter == Matter::empty && columns_.is_ground(i, k)) continue;
+        add_to_body(i, k, upper, lower);
       }
-      return count;
+  }
+  bool is_followed(std::int64_t i, std::int64_t row) const {
+    return std::any_of(lines_.begin(), lines_.end(), [&](const Followed& line) {
+      return line.first <= i && i < line.first + std::int64_t(line.rows.size()) &&
+             std::abs(line.row(i) - double(row)) <= 2;
+    });
+  }
+  void add_to_body(std::int64_t i, std::int64_t row, const Cell& upper, const Cell& lower) {
+    const double h = columns_.spacing(), x = columns_.x(i);
+    const Point<2> at = {x, columns_.face(i, row)};
+    const auto way = [&](const Point<2>& to) {
+      return std::hypot(to[0] - source_.position_m[0], to[1] - source_.position_m[1]);
     };
-    const int own = faces(column_);
-    for (auto i = low_; i <= high_; ++i) {
-      if (faces(i) <= own) continue;
-      auto& found = stack_.other_fluid;
-      if (!found) found = {columns_.x(i), 0};
-      found->at(1) = columns_.x(i);
-    }
+    auto& body = stack_.body;
+    if (!body) body = {x - h / 2, x, at};
+    body->to_x_m = x + h / 2;
+    if (way(at) < way(body->nearest_m)) body->nearest_m = at;
+    const bool cave = upper.matter == Matter::empty || lower.matter == Matter::empty;
+    body->contrast = std::max(body->contrast, cave ? std::numeric_limits<double>::infinity()
+                                                   : ratio(upper.rho * upper.vp, lower.rho * lower.vp));
   }
 
   void follow_all() {
@@ -614,22 +652,64 @@ std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t
   return found;
 }
 
+namespace {
+
+/// The cell of a source and those beside it.
+class CellsAtSource {
+ public:
+  CellsAtSource(const Scene<2>& scene, std::size_t shot)
+      : medium_(scene.model.medium),
+        at_(cell_of(medium_.grid(), scene.survey.sources[shot].position_m)),
+        own_(std::size_t(medium_.grid().flat(at_))) {}
+  std::size_t own() const { return own_; }
+  const Index<2>& at() const { return at_; }
+  /// What lies behind a floor or surface is another matter: then it is the source's own.
+  std::size_t beside(std::size_t axis, std::int64_t way) const {
+    auto place = at_;
+    place[axis] = std::clamp<std::int64_t>(place[axis] + way, 0, medium_.grid().shape[axis] - 1);
+    const auto cell = std::size_t(medium_.grid().flat(place));
+    return medium_.is_fluid(cell) != medium_.is_fluid(own_) || medium_.is_void(cell) ? own_ : cell;
+  }
+
+ private:
+  const Medium<2>& medium_;
+  Index<2> at_;
+  std::size_t own_;
+};
+
+}  // namespace
+
 double change_at_source(const Scene<2>& scene, std::size_t shot) {
   const auto& medium = scene.model.medium;
-  const auto& grid = medium.grid();
-  const auto at = cell_of(grid, scene.survey.sources[shot].position_m);
-  const auto own = std::size_t(grid.flat(at));
-  const auto strength = [&](Index<2> place, std::size_t axis, std::int64_t way) {
-    place[axis] = std::clamp<std::int64_t>(place[axis] + way, 0, grid.shape[axis] - 1);
-    auto cell = std::size_t(grid.flat(place));
-    // What lies behind a floor or surface is another matter.
-    if (medium.is_fluid(cell) != medium.is_fluid(own) || medium.is_void(cell)) cell = own;
-    return std::log(double(medium.rho[cell]) * std::pow(double(medium.vp[cell]), 3));
+  const CellsAtSource cells(scene, shot);
+  const auto injection = point_injection(scene.survey.sources[shot]);
+  const bool force = injection && (injection->force[0] != 0 || injection->force[1] != 0);
+  const auto strength = [&](std::size_t cell) {
+    return std::log(double(medium.rho[cell]) * (force ? 1 : std::pow(double(medium.vp[cell]), 3)));
   };
   double most = 0;
   for (const std::size_t axis : {0, 1})
-    most = std::max(most, std::abs(strength(at, axis, 1) - strength(at, axis, -1)));
-  return most / 6;
+    most = std::max(most, std::abs(strength(cells.beside(axis, 1)) - strength(cells.beside(axis, -1))));
+  return most / 12;
+}
+
+double unevenness_at_source(const Scene<2>& scene, std::size_t shot) {
+  constexpr double share = 0.3, reach_cells = 0.45;
+  const auto& medium = scene.model.medium;
+  const CellsAtSource cells(scene, shot);
+  const auto stiffness = [&](std::size_t cell) {
+    return double(medium.rho[cell]) * double(medium.vp[cell]) * double(medium.vp[cell]);
+  };
+  const auto place = medium.grid().row_coordinates(scene.survey.sources[shot].position_m);
+  double most = 0;
+  for (const std::size_t axis : {0, 1})
+    for (const std::int64_t way : {-1, 1}) {
+      const double softer = std::log(stiffness(cells.own()) / stiffness(cells.beside(axis, way)));
+      const double off = medium.grid().position(int(axis), place[axis]) - double(cells.at()[axis]);
+      const double away = 0.5 - double(way) * off;
+      most = std::max(most, share * softer * std::exp(-std::max(away, 0.) / reach_cells));
+    }
+  return most;
 }
 
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

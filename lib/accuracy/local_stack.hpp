@@ -65,9 +65,14 @@ struct LocalStack {
     double contrast = 1, away_m = 0;  // from the source
   };
   std::vector<LeftOut> left_out;
-  /// Where, between source and receivers, columns have more faces of fluid and solid than that of the source,
-  /// m.
-  std::optional<std::array<double, 2>> other_fluid;
+  /// A body of another matter that the source does not lie above: fluid in rock, rock in fluid, a cave.
+  struct Body {
+    double from_x_m, to_x_m;  // where it is found between source and receivers
+    Point<2> nearest_m;       // its place nearest to the source
+    double contrast = 1;      // ratio of impedances of P, above 1; infinite: of a cave
+    double wide_m() const { return to_x_m - from_x_m; }
+  };
+  std::optional<Body> body;
   /// 1/qp and 1/qs of each layer where the scene attenuates; empty elsewhere.
   std::vector<std::array<double, 2>> losses;
 };
@@ -85,9 +90,13 @@ std::vector<FollowedReceiver> followed_receivers(const Scene<2>& scene, std::siz
 /// where they can move several times too much.
 std::vector<std::size_t> receivers_in_corners(const Scene<2>& scene, std::size_t shot);
 
-/// By which part what a source sends out, in proportion to 1/(rho vp^3), is uncertain where rock changes from
-/// cell to cell: a sixth of the change between the neighbours of its cell.
+/// By which part what a source sends out is uncertain where rock changes from cell to cell: a twelfth of
+/// the change between the neighbours of its cell of 1/(rho vp^3), which an explosion is in proportion to, or
+/// of 1/rho.
 double change_at_source(const Scene<2>& scene, std::size_t shot);
+/// By which part the normal moments of an explosion in rock come to differ where softer rock lies beside its
+/// cell, the nearer the more.
+double unevenness_at_source(const Scene<2>& scene, std::size_t shot);
 
 /// Of a shot with a point source and those receivers.
 LocalStack local_stack(const Scene<2>& scene, std::size_t shot,

@@ -8,8 +8,10 @@ namespace slipwave {
 namespace {
 
 using Complex = std::complex<double>;
-/// Displacements along a and b and the tractions bb and ab.
-using Quantities = std::array<Complex, 4>;
+/// Velocities along a and b, the rates of the tractions bb and ab, and the pressure.
+using Quantities = std::array<Complex, 5>;
+/// Of them those that receivers record.
+constexpr std::array<std::size_t, 3> recorded = {0, 1, 4};
 /// Systems of equations solved for a response at most, before its record is cut.
 constexpr double most_systems = 200000;
 /// By so much waves are taken as longer, at most.
@@ -116,17 +118,17 @@ class PlaneProblem {
     solution_.swap(residual_);
   }
   std::size_t waves() const { return waves_; }
-  /// Displacement along a and b; the direct wave times `share`.
-  std::array<Complex, 2> motion(std::size_t layer, double b, double direct_share) const {
-    std::array<Complex, 2> sum{};
+  /// What is recorded; the direct wave times `share`.
+  std::array<Complex, 3> records(std::size_t layer, double b, double direct_share) const {
+    std::array<Complex, 3> sum{};
     if (layer == source_) {
       const auto own = direct(b);
-      for (std::size_t n = 0; n < 2; ++n) sum[n] = direct_share * own[n];
+      for (std::size_t n = 0; n < 3; ++n) sum[n] = direct_share * own[recorded[n]];
     }
     auto wave = first_wave_[layer];
     for_waves(layer, [&](bool shear, bool down) {
       const auto of = quantities(layer, shear, down, b);
-      for (std::size_t n = 0; n < 2; ++n) sum[n] += times(solution_[wave], of[n]);
+      for (std::size_t n = 0; n < 3; ++n) sum[n] += times(solution_[wave], of[recorded[n]]);
       ++wave;
     });
     return sum;
@@ -178,11 +180,13 @@ class PlaneProblem {
   Quantities of_potentials(std::size_t layer, Complex p, Complex dp, Complex s, Complex ds) const {
     const Complex i(0, 1);
     const auto& rock = places_->layers[layer];
-    if (fluid(layer)) return {-i * k_ * p, dp, -rock.rho * omega_ * omega_ * p, 0};
-    const auto vs = layers_[layer].speed[1], mu = rock.rho * vs * vs;
+    const auto pressure = -i * rock.rho * times(omega_, p);
+    if (fluid(layer)) return {-i * k_ * p, dp, -rock.rho * omega_ * omega_ * p, 0, pressure};
+    const auto [vp, vs] = layers_[layer].speed;
+    const auto mu = rock.rho * vs * vs;
     const auto q = 2 * k_ * k_ - omega_ * omega_ / (vs * vs);
     return {-i * k_ * p - ds, dp - i * k_ * s, times(mu, times(q, p) - 2. * k_ * times(i, ds)),
-            times(mu, -2. * k_ * times(i, dp) - times(q, s))};
+            times(mu, -2. * k_ * times(i, dp) - times(q, s)), times(pressure, 1. - vs * vs / (vp * vp))};
   }
   /// A wave of potential 1 at the face that it leaves.
   Quantities quantities(std::size_t layer, bool shear, bool down, double b) const {
@@ -320,7 +324,7 @@ std::size_t LayeredPlaces::source_layer() const {
   return layer;
 }
 
-/// Motions of receivers of one plane wave.
+/// What receivers record of one plane wave.
 class StackResponse::PlaneWaves {
  public:
   /// With the wave of -k where the source is its own mirror image (1) or the opposite of it (-1).
@@ -338,15 +342,16 @@ class StackResponse::PlaneWaves {
     const double at = std::abs(k) * slowest_ / std::abs(omega_);
     direct_ = at < 1.3 ? 1 : at > 2 ? 0 : 0.5 + 0.5 * std::cos(std::numbers::pi * (at - 1.3) / 0.7);
     base_.solve(rows_);
-    of_base_ = motions(base_);
+    of_base_ = records(base_);
     for (std::size_t r = 0; r < of_base_.size(); ++r) {
       const auto phase = scale * std::exp(Complex(0, -k * places.receivers[r].a_m));
-      phases_.push_back({phase, phase});
+      phases_.push_back({phase, phase, phase});
       if (mirror != 0 && k != 0) {
         const auto back = mirror * scale * std::exp(Complex(0, k * places.receivers[r].a_m));
-        phases_[r] = {phase - back, phase + back};
+        phases_[r] = {phase - back, phase + back, phase + back};
       }
-      for (std::size_t c = 0; c < 2; ++c) response.motion_[r][bin][c] += times(phases_[r][c], of_base_[r][c]);
+      for (std::size_t c = 0; c < 3; ++c)
+        response.records_[r][bin][c] += times(phases_[r][c], of_base_[r][c]);
     }
   }
   /// `changed` starts and ends as the places.
@@ -376,25 +381,25 @@ class StackResponse::PlaneWaves {
 
  private:
   static constexpr double small = 1e-5;
-  using Motions = std::vector<std::array<Complex, 2>>;
+  using Records = std::vector<std::array<Complex, 3>>;
 
   /// Receivers at one depth differ by their phases.
-  Motions motions(const PlaneProblem& problem) const {
-    Motions found;
+  Records records(const PlaneProblem& problem) const {
+    Records found;
     const auto& all = places_.receivers;
     for (std::size_t r = 0; r < all.size(); ++r)
       found.push_back(r > 0 && all[r].layer == all[r - 1].layer && all[r].b_m == all[r - 1].b_m
                           ? found.back()
-                          : problem.motion(all[r].layer, all[r].b_m, direct_));
+                          : problem.records(all[r].layer, all[r].b_m, direct_));
     return found;
   }
   /// Of places that differ by `by` in the layers [first, end).
   void add(const LayeredPlaces& changed, std::size_t first, std::size_t end, double by,
-           std::vector<MotionSpectrum>& into) {
+           std::vector<RecordSpectrum>& into) {
     problem_.change(base_, rows_, changed, first, std::min(end, places_.layers.size()));
-    const auto found = motions(problem_);
+    const auto found = records(problem_);
     for (std::size_t r = 0; r < found.size(); ++r)
-      for (std::size_t c = 0; c < 2; ++c)
+      for (std::size_t c = 0; c < 3; ++c)
         into[r][bin_][c] += times(phases_[r][c], (response_.slower_ / by) * (found[r][c] - of_base_[r][c]));
   }
 
@@ -405,8 +410,8 @@ class StackResponse::PlaneWaves {
   Complex omega_;
   PlaneProblem base_, problem_;
   SparseRows rows_;
-  Motions of_base_;
-  std::vector<std::array<Complex, 2>> phases_;
+  Records of_base_;
+  std::vector<std::array<Complex, 3>> phases_;
 };
 
 StackResponse::StackResponse(const LayeredPlaces& places, const Wavelet& wavelet, double band_hz) {
@@ -429,11 +434,11 @@ StackResponse::StackResponse(const LayeredPlaces& places, const Wavelet& wavelet
   window_s_ = 1.1 * seconds_;
   const double dk = 2 * pi / period_m(window_s_);
   const auto bins = std::size_t(std::max(4., band_hz * window_s_));
-  const MotionSpectrum none(bins);
-  motion_.assign(places.receivers.size(), none);
-  by_face_.assign(places.faces_m.size(), motion_);
+  const RecordSpectrum none(bins);
+  records_.assign(places.receivers.size(), none);
+  by_face_.assign(places.faces_m.size(), records_);
   by_drag_ = by_face_;
-  by_speed_.assign(2 * places.layers.size(), motion_);
+  by_speed_.assign(2 * places.layers.size(), records_);
   auto changed = places;
   for (std::size_t bin = 0; bin < bins; ++bin) {
     const Complex omega(2 * pi * (double(bin) + 0.5) / window_s_, -damping / window_s_);
@@ -449,11 +454,12 @@ StackResponse::StackResponse(const LayeredPlaces& places, const Wavelet& wavelet
   transform_ = std::make_unique<RealTransform>(fast_transform_length(2 * bins + bins / 2 + 2));
 }
 
-double StackResponse::energy(const MotionSpectrum& spectrum) const {
+double StackResponse::energy(const RecordSpectrum& spectrum, Recorded what) const {
   const auto length = transform_->length();
   std::vector<Complex> bins(transform_->bins());
   double sum = 0;
-  for (const std::size_t c : {0, 1}) {
+  const std::size_t first = what == Recorded::velocity ? 0 : 2, end = what == Recorded::velocity ? 2 : 3;
+  for (auto c = first; c < end; ++c) {
     // Bins lie half between those of the transform.
     std::vector<double> real(length);
     for (const bool imaginary : {false, true}) {

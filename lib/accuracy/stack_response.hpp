@@ -20,7 +20,7 @@ struct LayeredPlaces {
   /// At each interface, the thickness of fluid that resists motion of the solid along it, of a free surface
   /// that of the solid itself, m; empty: none.
   std::vector<double> drag_m;
-  /// Interfaces for which d motion / d drag is wanted; empty: none.
+  /// Interfaces for which d records / d drag is wanted; empty: none.
   std::vector<bool> drags;
   bool free_surface = false;
   Point<2> force{};                          // along a and b, N/m
@@ -39,8 +39,10 @@ struct LayeredPlaces {
   std::size_t source_layer() const;
 };
 
-/// The motion of a receiver, along a and b, by bins of frequency.
-using MotionSpectrum = std::vector<std::array<std::complex<double>, 2>>;
+/// What a receiver records, by bins of frequency: its velocity along a and b, and the pressure.
+using RecordSpectrum = std::vector<std::array<std::complex<double>, 3>>;
+/// What of it counts together.
+enum class Recorded { velocity, pressure };
 
 /// How the exact response of layers changes with what they are: with the place of each interface and with the
 /// speed of each wave in each layer. All waves are in it: reflected, converted, multiple ones, those bound to
@@ -57,22 +59,22 @@ class StackResponse {
   /// True angular frequency of a bin, 1/s; below the real axis, so that what comes later than the window
   /// decays.
   std::complex<double> omega(std::size_t bin) const { return omega_[bin]; }
-  const MotionSpectrum& motion(std::size_t receiver) const { return motion_[receiver]; }
-  /// d motion / d b of an interface, 1/m.
-  const MotionSpectrum& by_face(std::size_t face, std::size_t receiver) const {
+  const RecordSpectrum& records(std::size_t receiver) const { return records_[receiver]; }
+  /// d records / d b of an interface, 1/m.
+  const RecordSpectrum& by_face(std::size_t face, std::size_t receiver) const {
     return by_face_[face][receiver];
   }
-  /// d motion / d drag of an interface, 1/m; zero where it is not wanted.
-  const MotionSpectrum& by_drag(std::size_t face, std::size_t receiver) const {
+  /// d records / d drag of an interface, 1/m; zero where it is not wanted.
+  const RecordSpectrum& by_drag(std::size_t face, std::size_t receiver) const {
     return by_drag_[face][receiver];
   }
-  /// d motion / d ln c of P (0) or S (1) waves in a layer.
-  const MotionSpectrum& by_speed(std::size_t layer, int wave, std::size_t receiver) const {
+  /// d records / d ln c of P (0) or S (1) waves in a layer.
+  const RecordSpectrum& by_speed(std::size_t layer, int wave, std::size_t receiver) const {
     return by_speed_[2 * layer + std::size_t(wave)][receiver];
   }
   double seconds() const { return seconds_; }
-  /// The sum of squares over all times of the traces that belong to a spectrum, both components.
-  double energy(const MotionSpectrum& spectrum) const;
+  /// The sum of squares over all times of the traces that belong to a spectrum.
+  double energy(const RecordSpectrum& spectrum, Recorded what) const;
 
  private:
   class PlaneWaves;
@@ -80,8 +82,8 @@ class StackResponse {
   double seconds_ = 0, window_s_ = 0, slower_ = 1;
   std::vector<std::complex<double>> omega_;
   std::unique_ptr<RealTransform> transform_;
-  std::vector<MotionSpectrum> motion_;
-  std::vector<std::vector<MotionSpectrum>> by_face_, by_drag_, by_speed_;
+  std::vector<RecordSpectrum> records_;
+  std::vector<std::vector<RecordSpectrum>> by_face_, by_drag_, by_speed_;
 };
 
 }  // namespace slipwave

@@ -43,12 +43,42 @@ class DrawnScene {
   }
   const Scene<2>& scene() const { return scene_; }
   const std::string& name() const { return name_; }
+  /// The same, recording pressure.
+  Scene<2> scene_of_pressure() const {
+    auto scene = scene_;
+    scene.recording.components = {Component::p};
+    return scene;
+  }
+  /// Pressure of all receivers: -rho (vp^2 - vs^2) times the divergence of displacement.
+  std::vector<double> exact_pressure() const {
+    constexpr double apart_m = 0.25;
+    std::vector<LayerStack::Receiver> round;
+    for (const auto& at : receivers_) {
+      for (const double a : {-apart_m, apart_m}) round.push_back({at.a + a, at.b});
+      for (const double b : {-apart_m, apart_m}) round.push_back({at.a, at.b + b});
+    }
+    const auto count = std::size_t(scene_.recording.samples());
+    const auto found = exact_stack().ricker(peak_hz, interval_s, count, round);
+    std::vector<double> all;
+    for (std::size_t r = 0; r < receivers_.size(); ++r) {
+      const auto& rock = rocks_[layer_at(receivers_[r].b)];
+      const double stiffness = rock.rho * (rock.vp * rock.vp - rock.vs * rock.vs);
+      double pressure = 0, before = 0;
+      for (std::size_t n = 0; n < count; ++n) {
+        const double divergence =
+            (found[4 * r + 1][0][n] - found[4 * r][0][n] + found[4 * r + 3][1][n] - found[4 * r + 2][1][n]) /
+            (2 * apart_m);
+        pressure -= stiffness * interval_s * (before + divergence) / 2;
+        before = divergence;
+        all.push_back(pressure);
+      }
+    }
+    return all;
+  }
   /// vx of all receivers, then vz.
   std::vector<double> exact_traces() const {
-    LayerStack exact{rocks_, faces_m_, free_surface_, source_b_, !force_, {}};
-    if (force_) exact.force = {0.5 * cosine_ + sine_, cosine_ - 0.5 * sine_};
     const auto count = std::size_t(scene_.recording.samples());
-    const auto found = exact.ricker(peak_hz, interval_s, count, receivers_);
+    const auto found = exact_stack().ricker(peak_hz, interval_s, count, receivers_);
     std::vector<double> all;
     for (const bool vertical : {false, true})
       for (const auto& motion : found)
@@ -98,6 +128,17 @@ class DrawnScene {
     scheme_.cells = one_of({10, 12, 16, 20, 24});
   }
 
+  LayerStack exact_stack() const {
+    LayerStack exact{rocks_, faces_m_, free_surface_, source_b_, !force_, {}};
+    if (force_) exact.force = {0.5 * cosine_ + sine_, cosine_ - 0.5 * sine_};
+    return exact;
+  }
+  std::size_t layer_at(double b) const {
+    std::size_t layer = 0;
+    for (std::size_t n = free_surface_ ? 1 : 0; n < faces_m_.size(); ++n) layer += b > faces_m_[n];
+    return layer;
+  }
+
   /// Place across the layers that is not within `away` of a face.
   double across(double low, double high, double away) {
     for (;;) {
@@ -113,9 +154,7 @@ class DrawnScene {
     near_ = chance(0.15);
     source_b_ = across(first, last + 250, near_ ? 8 : 30);
     // A force in a fluid has no closed form here.
-    std::size_t layer = 0;
-    for (std::size_t n = free_surface_ ? 1 : 0; n < faces_m_.size(); ++n) layer += source_b_ > faces_m_[n];
-    force_ = rocks_[layer].vs > 0 && chance(0.5);
+    force_ = rocks_[layer_at(source_b_)].vs > 0 && chance(0.5);
     const double levels[] = {across(first, last + 200, near_ ? 8 : 30),
                              across(first, last + 200, near_ ? 8 : 30)};
     for (const double b : levels)

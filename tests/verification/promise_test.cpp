@@ -128,6 +128,30 @@ TEST(Promise, HoldsForPartsOfMarmousi) {
   EXPECT_EQ(score.too_small, 0);
 }
 
+TEST(Promise, OfPressureHoldsAsThatOfVelocities) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  Score score;
+  for (const auto kind : {DrawnScene::Kind::any, DrawnScene::Kind::deep_water})
+    for (std::uint64_t n = 0; n < (all ? 15 : 1); ++n) {
+      const DrawnScene drawn(first_seed + n, kind);
+      const auto scene = drawn.scene_of_pressure();
+      score.add(std::to_string(int(kind)) + drawn.name(), expected_error(scene).promise->error,
+                relative_error(traces_of(scene), drawn.exact_pressure()));
+    }
+  EXPECT_GE(10 * score.within, 9 * score.scenes) << score.within << " of " << score.scenes;
+  EXPECT_EQ(score.too_small, 0);
+}
+
+TEST(Promise, IsTheLargerOfThoseOfVelocitiesAndOfPressure) {
+  const DrawnScene drawn(first_seed, DrawnScene::Kind::deep_water);
+  auto both = drawn.scene();
+  const double of_velocities = expected_error(both).promise->error,
+               of_pressure = expected_error(drawn.scene_of_pressure()).promise->error;
+  both.recording.components.push_back(Component::p);
+  EXPECT_NE(of_velocities, of_pressure);
+  EXPECT_EQ(expected_error(both).promise->error, std::max(of_velocities, of_pressure));
+}
+
 TEST(Promise, HoldsForScenesItWasNotFittedToOrSaysWhatItLeavesOut) {
   const bool all = std::getenv("SLIPWAVE_LONG");
   Score score;
@@ -138,10 +162,11 @@ TEST(Promise, HoldsForScenesItWasNotFittedToOrSaysWhatItLeavesOut) {
         relative_error(traces_of(unprepared.scene()), traces_of(unprepared.scene(all ? 4 : 2)));
     const int before = score.within;
     score.add(unprepared.name, expected.promise->error, found);
-    const auto left_out = std::find_if(
-        expected.not_covered.begin(), expected.not_covered.end(),
-        [](const std::string& sentence) { return sentence.find("fluid beside solid") != std::string::npos; });
-    EXPECT_TRUE(score.within > before || left_out != expected.not_covered.end()) << unprepared.name;
+    const auto left_out = std::find_if(expected.not_covered.begin(), expected.not_covered.end(),
+                                       [](const std::string& sentence) {
+                                         return sentence.find("body of another matter") != std::string::npos;
+                                       });
+    EXPECT_GT(score.within, before) << unprepared.name;
     EXPECT_EQ(left_out != expected.not_covered.end(),
               bool(unprepared.name.find("fluid") != std::string::npos));
   }
@@ -230,6 +255,57 @@ TEST(Promise, SaysWhichReceiversLieInCornersOfAStaircase) {
   EXPECT_EQ(told(without), "");
   EXPECT_LT(without.promise->error, 0.6 * with.promise->error);
   EXPECT_LT(floor.error(), 2 * without.promise->error);
+}
+
+TEST(Promise, CountsSofterRockBesideAnExplosion) {
+  // As far above an interface as a part of a cell: what comes straight up is wrong by tens of percent.
+  constexpr double h = 10, vs = 1754;
+  const Rock hard{3040, vs, 2226}, soft{2530, 1461, 2120};
+  const auto scene_at = [&](double above_m) {
+    Scene<2> scene;
+    const std::vector<Layer> layers = {{-1e5, hard.vp, hard.vs, hard.rho}, {130, soft.vp, soft.vs, soft.rho}};
+    scene.model.medium = layered_medium<2>(Grid<2>{{100, 50}, h, {0, 0}}, layers);
+    scene.survey.sources = {{{500, 130 - above_m}, Explosion{}, parse_wavelet("ricker:6"), 1e6}};
+    for (const double x : {-2., 64., 130., 200.}) scene.survey.receivers_m.push_back({500 + x, 46});
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.recording = {{Component::vx, Component::vz}, 0.7, 0.001};
+    scene.numerics.zone_cells = 30;
+    check(scene);
+    return scene;
+  };
+  for (const double above_m : {1., 5.}) {
+    const auto scene = scene_at(above_m);
+    const LayerStack stack{{hard, soft}, {above_m}, false, 0, true, {}};
+    std::vector<LayerStack::Receiver> places;
+    for (const auto& at : scene.survey.receivers_m) places.push_back({at[0] - 500, at[1] - 130 + above_m});
+    const auto motions = stack.ricker(6, 0.001, std::size_t(scene.recording.samples()), places);
+    std::vector<double> exact;
+    for (const std::size_t component : {0, 1})
+      for (const auto& motion : motions)
+        exact.insert(exact.end(), motion[component].begin(), motion[component].end());
+    const double found = relative_error(traces_of(scene), exact),
+                 promised = expected_error(scene).promise->error;
+    if (std::getenv("SLIPWAVE_SHOW"))
+      GTEST_LOG_(INFO) << above_m << " m: promised " << promised << ", found " << found;
+    EXPECT_GT(promised, found / 2) << above_m;
+    EXPECT_LT(promised, found * 2) << above_m;
+  }
+}
+
+TEST(Promise, KnowsAFittedInterfaceBelowRockThatGetsFasterWithDepth) {
+  const std::vector<Layer> layers = {parse_layer("0:1500:0:1000"), parse_layer("60:2000+0.6:1000+0.4:2000"),
+                                     parse_layer("210:2600:1300:2200:4")};
+  const auto fit = fit_layers<2>(Grid<2>{{80, 70}, 5, {0, 0}}, layers, {});
+  ASSERT_TRUE(fit.left_out.empty());
+  Scene<2> scene;
+  scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
+  scene.survey.sources = {{{200, 30}, Explosion{}, parse_wavelet("ricker:20"), 1e6}};
+  scene.survey.receivers_m = {{100, 20}, {300, 20}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {{Component::vx, Component::vz}, 0.5, 0.001};
+  const auto promise = *expected_error(scene).promise;
+  EXPECT_EQ(cause_named(promise, "means in the cells"), 0);
+  EXPECT_GT(cause_named(promise, "interface at 22"), 0);
 }
 
 TEST(Promise, FollowsReceiversNearTheSourceOfLongLines) {
