@@ -31,4 +31,20 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
                               const SymmetricTensor<2, double>& stress,
                               const SymmetricTensor<2, double>& prestress, const WaveHistory& history);
 
+/// Part of a single fracture.
+struct FracturePiece {
+  Point<2> normal{};
+  double length_m = 0;
+  double whole_m = 0;  // of the fracture, from tip to tip
+};
+
+/// What a metre of a single fracture sends out, and what of that is taken off for each metre that its jump is
+/// smeared over (S33a).
+struct SmearedMoment {
+  MomentSpectrum rate, off;
+};
+SmearedMoment moment_rate_of_single(const LinearCompliance& compliance, const FracturePiece& piece,
+                                    const UniformMedium& rock, const SymmetricTensor<2, double>& stress,
+                                    const WaveHistory& history);
+
 }  // namespace slipwave

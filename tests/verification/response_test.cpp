@@ -11,6 +11,7 @@
 #include "accuracy/expected_error.hpp"
 #include "accuracy/response_error.hpp"
 #include "response_scenes.hpp"
+#include "single_fracture_scenes.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -48,6 +49,22 @@ TEST(ResponsePromise, IsWithinAFactorOfTwoOfTheErrorInMostScenes) {
   // 53 of 60.
   EXPECT_GE(20 * within, 17 * scenes) << within << " of " << scenes;
   EXPECT_LE(too_small, scenes / 20);
+}
+
+TEST(ResponsePromise, OfSingleFracturesIsWithinAFactorOfTwoOfWhatBoundaryElementsSay) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  const int scenes = all ? 60 : 4;
+  int within = 0;
+  for (int n = 0; n < scenes; ++n) {
+    const SingleFractureScene drawn(std::uint64_t(all ? 100 : 300) + std::uint64_t(n), !all);
+    const double found = drawn.error(), stated = promised_of(drawn.scene());
+    const bool right = stated >= found / 2 && stated <= 2 * found;
+    within += right;
+    if (!right || std::getenv("SLIPWAVE_SHOW"))
+      GTEST_LOG_(INFO) << drawn.name() << ": promised " << 100 * stated << " %, found " << 100 * found
+                       << " %";
+  }
+  EXPECT_GE(10 * within, 9 * scenes) << within << " of " << scenes;
 }
 
 /// A cluster under a plane wave, in large cells.
