@@ -73,6 +73,12 @@ void add_jump(SymmetricTensor<2, Complex>& moment, const UniformMedium& rock, co
 
 }  // namespace
 
+double WaveHistory::largest() const {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
+
 WaveHistory history_of(const Wavelet& wavelet, bool of_line_source, std::vector<double> hz) {
   const double period = 1 / wavelet.nominal_hz(), whole = wavelet.duration_s() + periods_after * period;
   const auto count = fast_transform_length(

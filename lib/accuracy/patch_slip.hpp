@@ -17,6 +17,7 @@ struct WaveHistory {
   std::vector<double> hz;
   /// exp(-2 pi i f t) interval_s, by frequency and time.
   std::vector<std::vector<std::complex<double>>> phases;
+  double largest() const;
 };
 /// Of a wavelet, a plane wave's; of line sources its half derivative, of which waves in 2-D have the shape
 /// (in 1/s^(1/2)).

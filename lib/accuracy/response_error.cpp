@@ -98,6 +98,14 @@ struct Incoming {
   Tensor stress;         // per unit of the history, Pa
 };
 
+/// Where slip gathers: of planes along the rim of a cluster, or across it, which let no shear stress in.
+struct Rim {
+  double askew = 1;        // the square of the sine of twice their angle from it; 1: no slip gathers
+  double relaxes_s = 0;    // time of relaxation of the shear stress on them under pressure
+  double dry_share = 0;    // of the time, in tension
+  double shear_speed = 0;  // m/s
+};
+
 /// The planes of a patch under a wave.
 struct Planes {
   bool single = false;
@@ -105,6 +113,7 @@ struct Planes {
   double sheared = 1;   // the wave's largest shear stress over that on the planes
   double friction = 0;  // the largest
   double soft = 0;      // of springs, the share of a strain that they take
+  Rim rim = {};
 };
 
 /// From the source by a patch to a receiver.
@@ -219,6 +228,22 @@ Tensor stress_of(const UniformMedium& rock, WaveKind kind, const Point<2>& n, do
                                            : mu * (n[a] * t[b] + t[a] * n[b]) / rock.vs);
     }
   return stress;
+}
+
+/// Rims of boxes lie along the axes. `stress`: the largest of the wave.
+Rim rim_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress,
+           const Tensor& prestress) {
+  Rim rim;
+  for (const auto& system : set.systems) {
+    const double askew = std::pow(2 * system.normal[0] * system.normal[1], 2);
+    if (!system.slides() || askew >= rim.askew) continue;
+    Point<2> tau{};
+    const double wave = std::abs(resolve<2, double>(system.normal, stress, tau)),
+                 before = resolve<2, double>(system.normal, prestress, tau);
+    const double strength = system.friction * std::max(wave / 2 - before, 0.) + system.strength_pa;
+    rim = {askew, system.viscosity_s * strength / rock.mu(), wave > -before ? 0.5 : 0, rock.vs};
+  }
+  return rim;
 }
 
 Planes planes_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress) {
@@ -362,6 +387,11 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
     const auto leg_in = legs.size();
     legs.push_back(waves[in].leg);
     planes.push_back(planes_of(set, rock, waves[in].stress));
+    if (planes.back().slide) {
+      auto largest = waves[in].stress;
+      for (auto& value : largest.values) value *= history.largest();
+      planes.back().rim = rim_of(set, rock, largest, prestress);
+    }
     const double c_in = waves[in].leg.kind == WaveKind::p ? rock.vp : rock.vs;
     for (std::size_t r = 0; r < receivers_m.size(); ++r) {
       const Point<2> way_m = {receivers_m[r][0] - patch.middle_m[0], receivers_m[r][1] - patch.middle_m[1]};
@@ -495,6 +525,22 @@ double cell_error(const Planes& planes, const ResponseSetting& setting, double w
          planes.sheared * planes.sheared * std::pow(cells, cells_power);
 }
 
+/// Impedance of the rock beyond a rim to shear along it, over that of whole rock.
+Complex impedance_beyond(const Rim& rim, double relaxes_s, double omega) {
+  const Complex relaxed = Complex(0, omega * relaxes_s);
+  return std::sqrt(rim.askew + (1 - rim.askew) * relaxed / (1. + relaxed));
+}
+/// How much of a wave cells let into a cluster by its rim: they relax later by (S9).
+double rim_error(const Rim& rim, double rows, double omega, double h) {
+  if (!(rim.askew < 1)) return 0;
+  const double later_s = rows * h / (2 * rim.shear_speed);
+  const auto let_in = [&](double relaxes_s) {
+    return std::norm(impedance_beyond(rim, relaxes_s + later_s, omega) -
+                     impedance_beyond(rim, relaxes_s, omega));
+  };
+  return std::sqrt(rim.dry_share * let_in(0) + (1 - rim.dry_share) * let_in(rim.relaxes_s));
+}
+
 /// What is left of a wave whose source cells share as a spline says (S33a).
 double left_of_shared(const Contribution& of, double omega, double h) {
   double left = 1;
@@ -503,7 +549,18 @@ double left_of_shared(const Contribution& of, double omega, double h) {
 }
 
 /// Spectra of the motion of a receiver: as it is, and what changes it.
-enum Part : std::size_t { exact, on_way_in, p_waves, s_waves, dispersion, late, in_cells, shared, parts };
+enum Part : std::size_t {
+  exact,
+  on_way_in,
+  p_waves,
+  s_waves,
+  dispersion,
+  late,
+  in_cells,
+  shared,
+  at_rim,
+  parts
+};
 using Spectra = std::array<std::array<std::array<Complex, 2>, frequencies>, parts>;
 
 }  // namespace
@@ -543,6 +600,7 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   std::vector<Spectra> all(receivers_m.size());
   Sums sums;
   const double h = setting.cells.spacing_m;
+  const double of_rows = setting.correction == SlipCorrection::first ? of_row_first : of_row;
   for (const auto& of : contributions) {
     const auto& in = exponents[of.in];
     const auto& out = exponents[of.out];
@@ -561,7 +619,8 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
                                              std::exp(in[f] + out[f]) - 1.,
                                              late_error(planes[of.planes], setting, omega),
                                              cell_error(planes[of.planes], setting, wave_number),
-                                             single ? 1 - left_of_shared(of, omega, h) : 0.};
+                                             single ? 1 - left_of_shared(of, omega, h) : 0.,
+                                             rim_error(planes[of.planes].rim, of_rows, omega, h)};
       for (std::size_t part = 0; part < parts; ++part)
         for (const std::size_t c : {0, 1}) spectra[part][f][c] += wave * of.moves[c] * by[part];
       if (single)
@@ -585,8 +644,7 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   const double left = sums.contributions > 0 ? sums.energy / sums.contributions : 0;
   sums.sliding *= left;
   sums.edges *= left;
-  sums.late = energy(late), sums.cells = energy(in_cells) + energy(shared);
-  const double of_rows = setting.correction == SlipCorrection::first ? of_row_first : of_row;
+  sums.late = energy(late), sums.cells = energy(in_cells) + energy(shared) + energy(at_rim);
   if (sums.sliding > 0) sums.rows = sums.sliding * std::pow(of_rows * h / across_m, 2);
   return sums;
 }
