@@ -40,6 +40,9 @@ constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
 constexpr double usual_friction = 0.3, friction_power = 0.65, least_friction = 0.05;
 /// Where planes carry little of the shear stress of a wave errors of all of it count, up to so many times.
 constexpr double most_sheared = 2.5;
+/// Without a static stress what edges send back, however little, decides whether planes that have slid hold
+/// or go on: of their waves, for edges of one wavelength of P waves.
+constexpr double of_edges = 0.004;
 /// What (S9) leaves of a row of cells, over the rows that lie across the cluster.
 constexpr double of_row = 0.19, of_row_first = 0.64;
 /// Cells over which single fractures feel what they send out (S33a), fitted to boundary elements
@@ -235,8 +238,8 @@ Rim rim_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& s
            const Tensor& prestress) {
   Rim rim;
   for (const auto& system : set.systems) {
-    const double askew = std::pow(2 * system.normal[0] * system.normal[1], 2);
-    if (!system.slides() || askew >= rim.askew) continue;
+    const double askew = std::min(1., std::pow(2 * system.normal[0] * system.normal[1], 2));
+    if (!system.slides() || askew > rim.askew) continue;
     Point<2> tau{};
     const double wave = std::abs(resolve<2, double>(system.normal, stress, tau)),
                  before = resolve<2, double>(system.normal, prestress, tau);
@@ -278,6 +281,7 @@ struct FractureResponse::Shot {
   WaveHistory history;
   double patch_m = 0, nominal_hz = 0;
   double slowest = 0;   // S waves in fractured rock, m/s
+  double fastest = 0;   // P waves
   double across_m = 0;  // of the cluster
   double own_spacing_m = 0;
   struct Edge {
@@ -443,6 +447,7 @@ FractureResponse::Shot::Shot(const Scene<2>& scene, std::size_t shot)
     of_clusters += is_of_cluster(model, n);
     const double vs = double(model.medium.vs[n]);
     slowest = slowest > 0 ? std::min(slowest, vs) : vs;
+    fastest = std::max(fastest, double(model.medium.vp[n]));
   }
   patch_m = std::max({own_spacing_m, patch_wavelengths * slowest / nominal_hz,
                       own_spacing_m * std::sqrt(cells / most_patches)});
@@ -522,7 +527,7 @@ double cell_error(const Planes& planes, const ResponseSetting& setting, double w
   const double cells = wave_number * setting.cells.spacing_m;
   if (!planes.slide) return of_cells_springs * cells * cells;
   return of_cells * std::pow(std::max(planes.friction, least_friction) / usual_friction, friction_power) *
-         planes.sheared * planes.sheared * std::pow(cells, cells_power);
+         planes.sheared * std::pow(cells, cells_power);
 }
 
 /// Impedance of the rock beyond a rim to shear along it, over that of whole rock.
@@ -569,13 +574,14 @@ using Spectra = std::array<std::array<std::array<Complex, 2>, frequencies>, part
 double FractureResponse::Shot::at_edges(const Contribution& of, const ResponseSetting& setting) const {
   const auto& from = patches[of.patch].middle_m;
   const auto& to = receivers_m[of.receiver];
+  const double zone_m = setting.zone_cells * setting.cells.spacing_m;
   double square = 0;
+  if (!absorbing.empty() && planes[of.planes].rim.dry_share > 0)
+    square += std::pow(of_edges * fastest / nominal_hz / zone_m, 2);
   for (const auto& edge : absorbing) {
     const double along_m = std::abs(to[1 - edge.axis] - from[1 - edge.axis]),
                  away_m = std::abs(from[edge.axis] - edge.place_m) + std::abs(to[edge.axis] - edge.place_m);
-    square += std::pow(grazing_share(along_m, away_m / 2, of.speed / nominal_hz,
-                                     setting.zone_cells * setting.cells.spacing_m),
-                       2);
+    square += std::pow(grazing_share(along_m, away_m / 2, of.speed / nominal_hz, zone_m), 2);
   }
   return square;
 }
@@ -732,7 +738,7 @@ ResponseError FractureResponse::promised(const ResponseSetting& setting) const {
   add("the time step of slip", centred ? "a smaller --cfl" : "--correction centred, a smaller --cfl",
       sums.late);
   add("slip in cells of " + shown(h, 4) + " m", "", sums.cells + sums.rows);
-  add("absorbing edges along which the response grazes", "a larger --edge-width", sums.edges);
+  add("what absorbing edges send back", "a larger --edge-width", sums.edges);
   all = sums.dispersion + sums.late + sums.cells + sums.rows + sums.edges;
   error.error = saturated(all / sums.energy);
   std::stable_sort(error.causes.begin(), error.causes.end(),
