@@ -530,20 +530,21 @@ double cell_error(const Planes& planes, const ResponseSetting& setting, double w
          planes.sheared * std::pow(cells, cells_power);
 }
 
-/// Impedance of the rock beyond a rim to shear along it, over that of whole rock.
-Complex impedance_beyond(const Rim& rim, double relaxes_s, double omega) {
+/// What a rim sends back of shear along it (S33b).
+Complex sent_back(const Rim& rim, double relaxes_s, double omega) {
   const Complex relaxed = Complex(0, omega * relaxes_s);
-  return std::sqrt(rim.askew + (1 - rim.askew) * relaxed / (1. + relaxed));
+  const Complex impedance = std::sqrt(rim.askew + (1 - rim.askew) * relaxed / (1. + relaxed));
+  return (1. - impedance) / (1. + impedance);
 }
-/// How much of a wave cells let into a cluster by its rim: they relax later by (S9).
+/// How much of that cells let into a cluster by its rim: they relax later by (S9).
 double rim_error(const Rim& rim, double rows, double omega, double h) {
   if (!(rim.askew < 1)) return 0;
   const double later_s = rows * h / (2 * rim.shear_speed);
   const auto let_in = [&](double relaxes_s) {
-    return std::norm(impedance_beyond(rim, relaxes_s + later_s, omega) -
-                     impedance_beyond(rim, relaxes_s, omega));
+    const auto exact = sent_back(rim, relaxes_s, omega);
+    return std::norm((sent_back(rim, relaxes_s + later_s, omega) - exact) / exact);
   };
-  return std::sqrt(rim.dry_share * let_in(0) + (1 - rim.dry_share) * let_in(rim.relaxes_s));
+  return (1 - rim.askew) * std::sqrt(rim.dry_share * let_in(0) + (1 - rim.dry_share) * let_in(rim.relaxes_s));
 }
 
 /// What is left of a wave whose source cells share as a spline says (S33a).

@@ -101,6 +101,47 @@ TEST(ResponsePromise, FallsWithCellsAndStepsAndNamesWhatIsLeft) {
   EXPECT_NE(late.remedy.find("--correction centred"), std::string::npos) << late.remedy;
 }
 
+/// A plane S wave on planes along the top of a cluster that nothing holds: it comes back whole.
+struct MirroredWave {
+  static constexpr double top_m = 150, receiver_m = 112.5, middle_m = 675, vs = 2250;
+  Scene<2> scene;
+  explicit MirroredWave(double h) {
+    scene.model.medium =
+        uniform_medium(std::llround(2 * middle_m / h), std::llround(270 / h), h, {4500, vs, 2500});
+    scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+    for (auto i = std::llround(75 / h); i < std::llround(1275 / h); ++i)
+      for (auto k = std::llround(top_m / h); k < std::llround(240 / h); ++k) scene.model.fracture({i, k}) = 1;
+    scene.model.fracture_sets = {{"cluster", {{{0, 1}, 0, 0, 0}}}};
+    scene.survey.sources = {
+        {{middle_m, 0}, parse_mechanism<2>("plane-s:0"), parse_wavelet("ricker:30"), 0.01}};
+    scene.survey.receivers_m = {{middle_m, receiver_m}};
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.numerics.order = 7;
+    // Until P waves come from its ends.
+    scene.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
+  }
+  double error() const {
+    const auto found = response_of(scene);
+    std::vector<double> exact;
+    const auto& source = scene.survey.sources[0];
+    for (std::size_t n = 0; n < found[0].size(); ++n)
+      exact.push_back(source.amplitude * source.wavelet(double(n) * 0.001 - (2 * top_m - receiver_m) / vs));
+    return error_below({found[0]}, {exact}, 60, 0.001);
+  }
+};
+
+TEST(ResponsePromise, KnowsTheWavesThatCellsLetIntoAClusterAlongItsPlanes) {
+  const MirroredWave coarse(7.5), fine(3.75);
+  double before = 1;
+  for (const auto& wave : {coarse, fine}) {
+    const double found = wave.error(), stated = promised_of(wave.scene);
+    EXPECT_GT(stated, 0.5 * found) << found;
+    EXPECT_LT(stated, 2 * found) << found;
+    EXPECT_LT(found, before);
+    before = found;
+  }
+}
+
 TEST(ResponsePromise, OfAWantedErrorIsKeptByTheSettingThatIsChosen) {
   const auto scene = plane_wave_scene(10);
   constexpr double wanted = 0.08;
