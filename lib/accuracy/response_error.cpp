@@ -41,7 +41,7 @@ constexpr double usual_friction = 0.3, friction_power = 0.65, least_friction = 0
 /// Where planes carry little of the shear stress of a wave errors of all of it count, up to so many times.
 constexpr double most_sheared = 2.5;
 /// Without a static stress what edges send back, however little, decides whether planes that have slid hold
-/// or go on: of their waves, for edges of one wavelength of P waves.
+/// or continue: of their waves, for edges of one wavelength of P waves.
 constexpr double of_edges = 0.004;
 /// What (S9) leaves of a row of cells, over the rows that lie across the cluster.
 constexpr double of_row = 0.19, of_row_first = 0.64;
