@@ -17,6 +17,9 @@ constexpr double samples_per_period = 100;
 constexpr std::size_t most_samples = 4000;
 /// Periods after the wavelet.
 constexpr double periods_after = 3;
+/// How much more often waves that run along nearly open fractures, and back from their tips, feel what these
+/// send out (S33a); fitted to what boundary elements say (docs/slip.md).
+constexpr double there_and_back = 1.5;
 
 /// Slip of a system, rate by time, along across(normal).
 std::vector<double> slip_rates(const SlipSystem<2>& system, double mu, double normal_pa, double tau_pa,
@@ -48,7 +51,33 @@ std::vector<Complex> spectrum_of(const std::vector<double>& values, const WaveHi
   return spectrum;
 }
 
+/// Spectrum of the rate of the history.
+std::vector<Complex> rate_of(const WaveHistory& history) {
+  auto rate = spectrum_of(history.values, history);
+  for (std::size_t f = 0; f < rate.size(); ++f) rate[f] *= Complex(0, 2 * std::numbers::pi * history.hz[f]);
+  return rate;
+}
+
+/// Adds the moment of planes with that normal which open and, along (n_z, -n_x), slip.
+void add_jump(SymmetricTensor<2, Complex>& moment, const UniformMedium& rock, const Point<2>& n,
+              const Complex& opening, const Complex& slip) {
+  const double mu = rock.mu(), lambda = rock.lambda();
+  const Point<2> t = {n[1], -n[0]};
+  for (const int i : {0, 1})
+    for (int j = i; j < 2; ++j) {
+      const auto a = std::size_t(i), b = std::size_t(j);
+      moment(i, j) +=
+          opening * ((i == j ? lambda : 0) + 2 * mu * n[a] * n[b]) + mu * slip * (n[a] * t[b] + t[a] * n[b]);
+    }
+}
+
 }  // namespace
+
+double WaveHistory::largest() const {
+  double most = 0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
+}
 
 WaveHistory history_of(const Wavelet& wavelet, bool of_line_source, std::vector<double> hz) {
   const double period = 1 / wavelet.nominal_hz(), whole = wavelet.duration_s() + periods_after * period;
@@ -77,9 +106,7 @@ WaveHistory history_of(const Wavelet& wavelet, bool of_line_source, std::vector<
 MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress,
                               const Tensor& prestress, const WaveHistory& history) {
   const double mu = rock.mu(), lambda = rock.lambda();
-  std::vector<Complex> rate_of_wave = spectrum_of(history.values, history);
-  for (std::size_t f = 0; f < rate_of_wave.size(); ++f)
-    rate_of_wave[f] *= Complex(0, 2 * std::numbers::pi * history.hz[f]);
+  const auto rate_of_wave = rate_of(history);
   MomentSpectrum moment(history.hz.size());
   for (const auto& system : set.systems) {
     const auto& n = system.normal;
@@ -96,12 +123,37 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
           slip_rates(system, mu, normal, along, before, tau_before[0] * t[0] + tau_before[1] * t[1], history),
           history);
     for (std::size_t f = 0; f < moment.size(); ++f)
-      for (const int i : {0, 1})
-        for (int j = i; j < 2; ++j) {
-          const auto a = std::size_t(i), b = std::size_t(j);
-          moment[f](i, j) += soft_n * rate_of_wave[f] * ((i == j ? lambda : 0) + 2 * mu * n[a] * n[b]) +
-                             mu * (soft_t * rate_of_wave[f] + slip[f]) * (n[a] * t[b] + t[a] * n[b]);
-        }
+      add_jump(moment[f], rock, n, soft_n * rate_of_wave[f], soft_t * rate_of_wave[f] + slip[f]);
+  }
+  return moment;
+}
+
+SmearedMoment moment_rate_of_single(const LinearCompliance& compliance, const FracturePiece& piece,
+                                    const UniformMedium& rock, const Tensor& stress,
+                                    const WaveHistory& history) {
+  const auto& n = piece.normal;
+  Point<2> tau{};
+  const double across = resolve<2, double>(n, stress, tau), along = tau[0] * n[1] - tau[1] * n[0];
+  const double nu = rock.lambda() / (2 * (rock.lambda() + rock.mu()));
+  // What rock about a crack of that length resists it with at rest, on average.
+  const double at_rest = 4 * rock.mu() / (std::numbers::pi * (1 - nu) * piece.whole_m);
+  const auto rate_of_wave = rate_of(history);
+  SmearedMoment moment{MomentSpectrum(history.hz.size()), MomentSpectrum(history.hz.size())};
+  for (std::size_t f = 0; f < rate_of_wave.size(); ++f) {
+    const double omega = 2 * std::numbers::pi * history.hz[f];
+    const auto give = [&](double z, double speed) {
+      return z / (1. + z * Complex(at_rest, omega * rock.rho * speed / 2));
+    };
+    const Complex normal = give(compliance.normal_m_per_pa, rock.vp),
+                  tangential = give(compliance.tangential_m_per_pa, rock.vs);
+    const Complex opening = normal * across * rate_of_wave[f], slip = tangential * along * rate_of_wave[f];
+    const auto off = [&](double z, double speed) {
+      const double x = omega * z * rock.rho * speed / 2;
+      return omega * omega * rock.rho / 2 * (1 + there_and_back * x * x / (16 + x * x));
+    };
+    add_jump(moment.rate[f], rock, n, opening, slip);
+    add_jump(moment.off[f], rock, n, off(compliance.normal_m_per_pa, rock.vp) * normal * opening,
+             off(compliance.tangential_m_per_pa, rock.vs) * tangential * slip);
   }
   return moment;
 }

@@ -17,6 +17,7 @@ struct WaveHistory {
   std::vector<double> hz;
   /// exp(-2 pi i f t) interval_s, by frequency and time.
   std::vector<std::vector<std::complex<double>>> phases;
+  double largest() const;
 };
 /// Of a wavelet, a plane wave's; of line sources its half derivative, of which waves in 2-D have the shape
 /// (in 1/s^(1/2)).
@@ -30,5 +31,21 @@ using MomentSpectrum = std::vector<SymmetricTensor<2, std::complex<double>>>;
 MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& rock,
                               const SymmetricTensor<2, double>& stress,
                               const SymmetricTensor<2, double>& prestress, const WaveHistory& history);
+
+/// Part of a single fracture.
+struct FracturePiece {
+  Point<2> normal{};
+  double length_m = 0;
+  double whole_m = 0;  // of the fracture, from tip to tip
+};
+
+/// What a metre of a single fracture sends out, and what of that is taken off for each metre that its jump is
+/// smeared over (S33a).
+struct SmearedMoment {
+  MomentSpectrum rate, off;
+};
+SmearedMoment moment_rate_of_single(const LinearCompliance& compliance, const FracturePiece& piece,
+                                    const UniformMedium& rock, const SymmetricTensor<2, double>& stress,
+                                    const WaveHistory& history);
 
 }  // namespace slipwave

@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "model/single_fracture.hpp"
 
 namespace slipwave {
 namespace {
@@ -39,8 +40,14 @@ constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
 constexpr double usual_friction = 0.3, friction_power = 0.65, least_friction = 0.05;
 /// Where planes carry little of the shear stress of a wave errors of all of it count, up to so many times.
 constexpr double most_sheared = 2.5;
+/// Without a static stress what edges send back, however little, decides whether planes that have slid hold
+/// or continue: of their waves, for edges of one wavelength of P waves.
+constexpr double of_edges = 0.004;
 /// What (S9) leaves of a row of cells, over the rows that lie across the cluster.
 constexpr double of_row = 0.19, of_row_first = 0.64;
+/// Cells over which single fractures feel what they send out (S33a), fitted to boundary elements
+/// (docs/slip.md). The mean distance of two points drawn from the shares of (S30) is 0.57.
+constexpr double felt_over = 0.45;
 
 double dot(const Point<2>& a, const Point<2>& b) { return a[0] * b[0] + a[1] * b[1]; }
 Point<2> across(const Point<2>& n) { return {n[1], -n[0]}; }
@@ -49,13 +56,19 @@ std::array<Number, 2> times(const SymmetricTensor<2, Number>& tensor, const Poin
   return {tensor(0, 0) * n[0] + tensor(0, 1) * n[1], tensor(1, 0) * n[0] + tensor(1, 1) * n[1]};
 }
 
-/// Part of the cluster, taken as one source in its middle.
+/// Part of a cluster or of single fractures, taken as one source in its middle.
 struct Patch {
   Point<2> middle_m{};
-  double cells = 0;
+  double cells = 0;     // of a cluster
   double rows = 0;      // of fractured cells across the cluster, summed over the cells
   std::size_t set = 0;  // of the model
+  std::vector<FracturePiece> pieces = {};
 };
+using PatchKey = std::array<std::int64_t, 3>;
+PatchKey patch_at(std::size_t set, const Point<2>& point, double side_m) {
+  return {std::int64_t(set), std::int64_t(std::floor(point[0] / side_m)),
+          std::int64_t(std::floor(point[1] / side_m))};
+}
 
 /// Media of ways: those whose speeds differ by less than a tenth count as one.
 class Media {
@@ -88,12 +101,22 @@ struct Incoming {
   Tensor stress;         // per unit of the history, Pa
 };
 
+/// Where slip gathers: of planes along the rim of a cluster, or across it, which let no shear stress in.
+struct Rim {
+  double askew = 1;        // the square of the sine of twice their angle from it; 1: no slip gathers
+  double relaxes_s = 0;    // time of relaxation of the shear stress on them under pressure
+  double dry_share = 0;    // of the time, in tension
+  double shear_speed = 0;  // m/s
+};
+
 /// The planes of a patch under a wave.
 struct Planes {
+  bool single = false;
   bool slide = false;
   double sheared = 1;   // the wave's largest shear stress over that on the planes
   double friction = 0;  // the largest
   double soft = 0;      // of springs, the share of a strain that they take
+  Rim rim = {};
 };
 
 /// From the source by a patch to a receiver.
@@ -103,6 +126,7 @@ struct Contribution {
   double speed;                             // of the wave that goes out
   Point<2> moves;                           // unit vector
   std::array<Complex, frequencies> wave{};  // along it
+  std::array<Complex, frequencies> off{};   // what smearing takes of it, per metre
   Point<2> slowness;                        // by which its time changes with the place of the patch, s/m
   std::size_t planes;
 };
@@ -133,17 +157,47 @@ std::vector<std::int64_t> rows_across(const Model<2>& model) {
   return fewest;
 }
 
+/// Whether a cell is one of a cluster, not beside a single fracture.
+bool is_of_cluster(const Model<2>& model, std::size_t cell) {
+  const auto code = model.fracture[cell];
+  return code != 0 && model.fracture_sets[code - 1U].traces.empty();
+}
+
+/// Single fractures in pieces of at most a side.
+void add_pieces(const FractureSet<2>& set, std::size_t number, double side_m,
+                std::map<PatchKey, Patch>& found) {
+  for (const auto& trace : set.traces) {
+    const double whole_m = length_of(trace);
+    for (std::size_t n = 1; n < trace.size(); ++n) {
+      const auto &from = trace[n - 1], &to = trace[n];
+      const double length_m = std::hypot(to[0] - from[0], to[1] - from[1]);
+      const int parts = int(std::ceil(length_m / side_m));
+      const Point<2> normal = {(from[1] - to[1]) / length_m, (to[0] - from[0]) / length_m};
+      for (int part = 0; part < parts; ++part) {
+        const double at = (part + 0.5) / parts;
+        const Point<2> middle = {from[0] + at * (to[0] - from[0]), from[1] + at * (to[1] - from[1])};
+        auto& patch = found[patch_at(number, middle, side_m)];
+        // Until all pieces are known, sums over their lengths.
+        for (const std::size_t axis : {0, 1}) patch.middle_m[axis] += middle[axis] * length_m / parts;
+        patch.set = number;
+        patch.pieces.push_back({normal, length_m / parts, whole_m});
+      }
+    }
+  }
+}
+
 std::vector<Patch> patches_of(const Model<2>& model, double side_m) {
   const auto& grid = model.grid();
   const auto rows = rows_across(model);
-  std::map<std::array<std::int64_t, 3>, Patch> found;
+  std::map<PatchKey, Patch> found;
+  for (std::size_t n = 0; n < model.fracture_sets.size(); ++n)
+    add_pieces(model.fracture_sets[n], n, side_m, found);
   for (std::size_t n = 0; n < model.fracture.size(); ++n) {
-    if (model.fracture[n] == 0) continue;
+    if (!is_of_cluster(model, n)) continue;
     const auto at = grid.index(std::int64_t(n));
     const Point<2> middle = {grid.centre(0, at[0]), grid.depth(at)};
     const std::size_t set = model.fracture[n] - std::size_t{1};
-    auto& patch = found[{std::int64_t(set), std::int64_t(std::floor(middle[0] / side_m)),
-                         std::int64_t(std::floor(middle[1] / side_m))}];
+    auto& patch = found[patch_at(set, middle, side_m)];
     for (const std::size_t axis : {0, 1}) patch.middle_m[axis] += middle[axis];
     patch.cells += 1;
     patch.rows += double(rows[n]);
@@ -151,7 +205,9 @@ std::vector<Patch> patches_of(const Model<2>& model, double side_m) {
   }
   std::vector<Patch> patches;
   for (auto& [key, patch] : found) {
-    for (auto& place : patch.middle_m) place /= patch.cells;
+    double whole = patch.cells;
+    for (const auto& piece : patch.pieces) whole += piece.length_m;
+    for (auto& place : patch.middle_m) place /= whole;
     patches.push_back(patch);
   }
   return patches;
@@ -177,8 +233,25 @@ Tensor stress_of(const UniformMedium& rock, WaveKind kind, const Point<2>& n, do
   return stress;
 }
 
+/// Rims of boxes lie along the axes. `stress`: the largest of the wave.
+Rim rim_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress,
+           const Tensor& prestress) {
+  Rim rim;
+  for (const auto& system : set.systems) {
+    const double askew = std::min(1., std::pow(2 * system.normal[0] * system.normal[1], 2));
+    if (!system.slides() || askew > rim.askew) continue;
+    Point<2> tau{};
+    const double wave = std::abs(resolve<2, double>(system.normal, stress, tau)),
+                 before = resolve<2, double>(system.normal, prestress, tau);
+    const double strength = system.friction * std::max(wave / 2 - before, 0.) + system.strength_pa;
+    rim = {askew, system.viscosity_s * strength / rock.mu(), wave > -before ? 0.5 : 0, rock.vs};
+  }
+  return rim;
+}
+
 Planes planes_of(const FractureSet<2>& set, const UniformMedium& rock, const Tensor& stress) {
-  Planes planes{slides(set)};
+  Planes planes{!set.traces.empty(), slides(set)};
+  if (planes.single) return planes;
   const double most = std::hypot((stress(0, 0) - stress(1, 1)) / 2, stress(0, 1));
   double on_planes = 0;
   for (const auto& system : set.systems) {
@@ -208,6 +281,7 @@ struct FractureResponse::Shot {
   WaveHistory history;
   double patch_m = 0, nominal_hz = 0;
   double slowest = 0;   // S waves in fractured rock, m/s
+  double fastest = 0;   // P waves
   double across_m = 0;  // of the cluster
   double own_spacing_m = 0;
   struct Edge {
@@ -233,6 +307,9 @@ struct FractureResponse::Shot {
 
  private:
   void add_contributions(const Scene<2>& scene, std::size_t patch, const std::vector<Incoming>& waves);
+  /// Of all of the patch, under a wave of that stress per unit of its history.
+  SmearedMoment moment_of(const Patch& patch, const FractureSet<2>& set, const UniformMedium& rock,
+                          const Tensor& stress, const Tensor& prestress) const;
   std::vector<Incoming> incoming(const Scene<2>& scene, const Source<2>& source, const Patch& patch);
   std::optional<Leg> leg(const WayOfWave& way, WaveKind kind, const Point<2>& along);
   double at_edges(const Contribution& of, const ResponseSetting& setting) const;
@@ -281,6 +358,25 @@ std::vector<Incoming> FractureResponse::Shot::incoming(const Scene<2>& scene, co
   return waves;
 }
 
+SmearedMoment FractureResponse::Shot::moment_of(const Patch& patch, const FractureSet<2>& set,
+                                                const UniformMedium& rock, const Tensor& stress,
+                                                const Tensor& prestress) const {
+  SmearedMoment sum{MomentSpectrum(frequencies), MomentSpectrum(frequencies)};
+  const auto add = [](MomentSpectrum& to, const MomentSpectrum& from, double times_it) {
+    for (std::size_t f = 0; f < frequencies; ++f)
+      for (std::size_t c = 0; c < 3; ++c) to[f].values[c] += times_it * from[f].values[c];
+  };
+  for (const auto& piece : patch.pieces) {
+    const auto one = moment_rate_of_single(set.systems[0].compliance, piece, rock, stress, history);
+    add(sum.rate, one.rate, piece.length_m);
+    add(sum.off, one.off, piece.length_m);
+  }
+  if (patch.cells > 0)
+    add(sum.rate, moment_rate_of(set, rock, stress, prestress, history),
+        patch.cells * own_spacing_m * own_spacing_m);
+  return sum;
+}
+
 void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_t number,
                                                const std::vector<Incoming>& waves) {
   const auto& patch = patches[number];
@@ -291,10 +387,15 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
   for (std::size_t c = 0; c < scene.model.prestress_pa.size(); ++c)
     prestress.values[c] = double(scene.model.prestress_pa[c][cell]);
   for (std::size_t in = 0; in < waves.size(); ++in) {
-    const auto moment = moment_rate_of(set, rock, waves[in].stress, prestress, history);
+    const auto moment = moment_of(patch, set, rock, waves[in].stress, prestress);
     const auto leg_in = legs.size();
     legs.push_back(waves[in].leg);
     planes.push_back(planes_of(set, rock, waves[in].stress));
+    if (planes.back().slide) {
+      auto largest = waves[in].stress;
+      for (auto& value : largest.values) value *= history.largest();
+      planes.back().rim = rim_of(set, rock, largest, prestress);
+    }
     const double c_in = waves[in].leg.kind == WaveKind::p ? rock.vp : rock.vs;
     for (std::size_t r = 0; r < receivers_m.size(); ++r) {
       const Point<2> way_m = {receivers_m[r][0] - patch.middle_m[0], receivers_m[r][1] - patch.middle_m[1]};
@@ -312,15 +413,20 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
                          c,
                          kind == WaveKind::p ? n : across(n),
                          {},
+                         {},
                          {d[0] / c_in - n[0] / c, d[1] / c_in - n[1] / c},
                          planes.size() - 1};
         legs.push_back(*out);
         // Far field of a moment; factors that all share are left out.
-        const double size = patch.cells * std::pow(c, -2.5) / std::sqrt(length_m) / rock.rho;
+        const double size = std::pow(c, -2.5) / std::sqrt(length_m) / rock.rho;
         for (std::size_t f = 0; f < frequencies; ++f) {
-          const auto pull = times(moment[f], n);
-          one.wave[f] = size * std::sqrt(hz[f]) * (one.moves[0] * pull[0] + one.moves[1] * pull[1]) *
-                        std::polar(1., -2 * std::numbers::pi * hz[f] * (waves[in].arrives_s + out->time_s));
+          const auto sent = [&](const SymmetricTensor<2, Complex>& of) {
+            const auto pull = times(of, n);
+            return size * std::sqrt(hz[f]) * (one.moves[0] * pull[0] + one.moves[1] * pull[1]) *
+                   std::polar(1., -2 * std::numbers::pi * hz[f] * (waves[in].arrives_s + out->time_s));
+          };
+          one.wave[f] = sent(moment.rate[f]);
+          one.off[f] = sent(moment.off[f]);
         }
         contributions.push_back(one);
       }
@@ -334,17 +440,20 @@ FractureResponse::Shot::Shot(const Scene<2>& scene, std::size_t shot)
   const auto& source = scene.survey.sources[shot];
   const auto& model = scene.model;
   const auto& grid = model.grid();
-  double cells = 0;
+  double cells = 0, of_clusters = 0;
   for (std::size_t n = 0; n < model.fracture.size(); ++n) {
     if (model.fracture[n] == 0) continue;
     cells += 1;
+    of_clusters += is_of_cluster(model, n);
     const double vs = double(model.medium.vs[n]);
     slowest = slowest > 0 ? std::min(slowest, vs) : vs;
+    fastest = std::max(fastest, double(model.medium.vp[n]));
   }
   patch_m = std::max({own_spacing_m, patch_wavelengths * slowest / nominal_hz,
                       own_spacing_m * std::sqrt(cells / most_patches)});
   patches = patches_of(model, patch_m);
-  for (const auto& patch : patches) across_m += patch.rows / cells * own_spacing_m;
+  for (const auto& patch : patches)
+    if (patch.rows > 0) across_m += patch.rows / of_clusters * own_spacing_m;
   const auto all = scene.survey.receivers_of(shot + 1);
   const auto stride = std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   for (std::size_t n = stride / 2; n < all.size(); n += stride) receivers_m.push_back(all[n].point_m);
@@ -405,6 +514,7 @@ class Dispersion {
 
 /// The error of what planes send out by the time step, at an angular frequency (S32).
 double late_error(const Planes& planes, const ResponseSetting& setting, double omega) {
+  if (planes.single) return 0;
   const double angle = omega * setting.cells.time_step_s;
   const bool first = setting.correction == SlipCorrection::first;
   if (!planes.slide) return late_springs * std::sqrt(planes.soft) * (first ? angle : angle * angle);
@@ -413,14 +523,50 @@ double late_error(const Planes& planes, const ResponseSetting& setting, double o
 }
 /// The same by cells; `wave_number` is that of the slowest wave.
 double cell_error(const Planes& planes, const ResponseSetting& setting, double wave_number) {
+  if (planes.single) return 0;
   const double cells = wave_number * setting.cells.spacing_m;
   if (!planes.slide) return of_cells_springs * cells * cells;
   return of_cells * std::pow(std::max(planes.friction, least_friction) / usual_friction, friction_power) *
-         planes.sheared * planes.sheared * std::pow(cells, cells_power);
+         planes.sheared * std::pow(cells, cells_power);
+}
+
+/// What a rim sends back of shear along it (S33b).
+Complex sent_back(const Rim& rim, double relaxes_s, double omega) {
+  const Complex relaxed = Complex(0, omega * relaxes_s);
+  const Complex impedance = std::sqrt(rim.askew + (1 - rim.askew) * relaxed / (1. + relaxed));
+  return (1. - impedance) / (1. + impedance);
+}
+/// How much of that cells let into a cluster by its rim: they relax later by (S9).
+double rim_error(const Rim& rim, double rows, double omega, double h) {
+  if (!(rim.askew < 1)) return 0;
+  const double later_s = rows * h / (2 * rim.shear_speed);
+  const auto let_in = [&](double relaxes_s) {
+    const auto exact = sent_back(rim, relaxes_s, omega);
+    return std::norm((sent_back(rim, relaxes_s + later_s, omega) - exact) / exact);
+  };
+  return (1 - rim.askew) * std::sqrt(rim.dry_share * let_in(0) + (1 - rim.dry_share) * let_in(rim.relaxes_s));
+}
+
+/// What is left of a wave whose source cells share as a spline says (S33a).
+double left_of_shared(const Contribution& of, double omega, double h) {
+  double left = 1;
+  for (const double slowness : of.slowness) left *= std::pow(sinc(omega * slowness * h / 2), 3);
+  return left;
 }
 
 /// Spectra of the motion of a receiver: as it is, and what changes it.
-enum Part : std::size_t { exact, on_way_in, p_waves, s_waves, dispersion, late, in_cells, parts };
+enum Part : std::size_t {
+  exact,
+  on_way_in,
+  p_waves,
+  s_waves,
+  dispersion,
+  late,
+  in_cells,
+  shared,
+  at_rim,
+  parts
+};
 using Spectra = std::array<std::array<std::array<Complex, 2>, frequencies>, parts>;
 
 }  // namespace
@@ -429,13 +575,14 @@ using Spectra = std::array<std::array<std::array<Complex, 2>, frequencies>, part
 double FractureResponse::Shot::at_edges(const Contribution& of, const ResponseSetting& setting) const {
   const auto& from = patches[of.patch].middle_m;
   const auto& to = receivers_m[of.receiver];
+  const double zone_m = setting.zone_cells * setting.cells.spacing_m;
   double square = 0;
+  if (!absorbing.empty() && planes[of.planes].rim.dry_share > 0)
+    square += std::pow(of_edges * fastest / nominal_hz / zone_m, 2);
   for (const auto& edge : absorbing) {
     const double along_m = std::abs(to[1 - edge.axis] - from[1 - edge.axis]),
                  away_m = std::abs(from[edge.axis] - edge.place_m) + std::abs(to[edge.axis] - edge.place_m);
-    square += std::pow(grazing_share(along_m, away_m / 2, of.speed / nominal_hz,
-                                     setting.zone_cells * setting.cells.spacing_m),
-                       2);
+    square += std::pow(grazing_share(along_m, away_m / 2, of.speed / nominal_hz, zone_m), 2);
   }
   return square;
 }
@@ -459,10 +606,12 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   for (const auto& leg : legs) exponents.push_back(of_ways.of(leg));
   std::vector<Spectra> all(receivers_m.size());
   Sums sums;
+  const double h = setting.cells.spacing_m;
+  const double of_rows = setting.correction == SlipCorrection::first ? of_row_first : of_row;
   for (const auto& of : contributions) {
     const auto& in = exponents[of.in];
     const auto& out = exponents[of.out];
-    const bool p = legs[of.out].kind == WaveKind::p;
+    const bool p = legs[of.out].kind == WaveKind::p, single = planes[of.planes].single;
     auto& spectra = all[of.receiver];
     double size = 0;
     for (std::size_t f = 0; f < frequencies; ++f) {
@@ -476,9 +625,13 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
                                              p ? 0. : way_out,
                                              std::exp(in[f] + out[f]) - 1.,
                                              late_error(planes[of.planes], setting, omega),
-                                             cell_error(planes[of.planes], setting, wave_number)};
+                                             cell_error(planes[of.planes], setting, wave_number),
+                                             single ? 1 - left_of_shared(of, omega, h) : 0.,
+                                             rim_error(planes[of.planes].rim, of_rows, omega, h)};
       for (std::size_t part = 0; part < parts; ++part)
         for (const std::size_t c : {0, 1}) spectra[part][f][c] += wave * of.moves[c] * by[part];
+      if (single)
+        for (const std::size_t c : {0, 1}) spectra[in_cells][f][c] += of.off[f] * felt_over * h * of.moves[c];
       size += std::norm(wave);
     }
     sums.contributions += size;
@@ -498,9 +651,8 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   const double left = sums.contributions > 0 ? sums.energy / sums.contributions : 0;
   sums.sliding *= left;
   sums.edges *= left;
-  sums.late = energy(late), sums.cells = energy(in_cells);
-  const double of_rows = setting.correction == SlipCorrection::first ? of_row_first : of_row;
-  sums.rows = sums.sliding * std::pow(of_rows * setting.cells.spacing_m / across_m, 2);
+  sums.late = energy(late), sums.cells = energy(in_cells) + energy(shared) + energy(at_rim);
+  if (sums.sliding > 0) sums.rows = sums.sliding * std::pow(of_rows * h / across_m, 2);
   return sums;
 }
 
@@ -514,8 +666,6 @@ std::string why_not_at_all(const Scene<2>& scene) {
     return "the model has no fractures whose response could have an error";
   if (!scene.survey.any_receiver()) return "the survey has no receivers";
   for (const auto& set : sets) {
-    if (!set.traces.empty())
-      return "fractures '" + set.name + "' are single ones, whose waves are not followed";
     for (const auto& system : set.systems) {
       if (system.opens) return "fractures '" + set.name + "' open, whose error is not known";
       if (system.law == FrictionLaw::slip_weakening)
@@ -527,6 +677,9 @@ std::string why_not_at_all(const Scene<2>& scene) {
 
 std::vector<std::string> left_out_of(const Scene<2>& scene, std::size_t media) {
   std::vector<std::string> sentences;
+  std::size_t single = 0;
+  for (const auto& set : scene.model.fracture_sets) single += set.traces.size();
+  if (single > 1) sentences.emplace_back("waves that single fractures send to each other");
   if (media > 1 || scene.edges[1][0] == EdgeLaw::free)
     sentences.emplace_back("waves that come to fractures or leave them by reflection or conversion");
   if (anisotropic_cells(scene.model.medium) > 0)
@@ -586,7 +739,7 @@ ResponseError FractureResponse::promised(const ResponseSetting& setting) const {
   add("the time step of slip", centred ? "a smaller --cfl" : "--correction centred, a smaller --cfl",
       sums.late);
   add("slip in cells of " + shown(h, 4) + " m", "", sums.cells + sums.rows);
-  add("absorbing edges along which the response grazes", "a larger --edge-width", sums.edges);
+  add("what absorbing edges send back", "a larger --edge-width", sums.edges);
   all = sums.dispersion + sums.late + sums.cells + sums.rows + sums.edges;
   error.error = saturated(all / sums.energy);
   std::stable_sort(error.causes.begin(), error.causes.end(),

@@ -11,6 +11,7 @@
 #include "accuracy/expected_error.hpp"
 #include "accuracy/response_error.hpp"
 #include "response_scenes.hpp"
+#include "single_fracture_scenes.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -45,9 +46,24 @@ TEST(ResponsePromise, IsWithinAFactorOfTwoOfTheErrorInMostScenes) {
                        << " %";
   }
   RecordProperty("within", int(within));
-  // 53 of 60.
-  EXPECT_GE(20 * within, 17 * scenes) << within << " of " << scenes;
+  EXPECT_GE(10 * within, 9 * scenes) << within << " of " << scenes;
   EXPECT_LE(too_small, scenes / 20);
+}
+
+TEST(ResponsePromise, OfSingleFracturesIsWithinAFactorOfTwoOfWhatBoundaryElementsSay) {
+  const bool all = std::getenv("SLIPWAVE_LONG");
+  const int scenes = all ? 60 : 4;
+  int within = 0;
+  for (int n = 0; n < scenes; ++n) {
+    const SingleFractureScene drawn(std::uint64_t(all ? 100 : 300) + std::uint64_t(n), !all);
+    const double found = drawn.error(), stated = promised_of(drawn.scene());
+    const bool right = stated >= found / 2 && stated <= 2 * found;
+    within += right;
+    if (!right || std::getenv("SLIPWAVE_SHOW"))
+      GTEST_LOG_(INFO) << drawn.name() << ": promised " << 100 * stated << " %, found " << 100 * found
+                       << " %";
+  }
+  EXPECT_GE(10 * within, 9 * scenes) << within << " of " << scenes;
 }
 
 /// A cluster under a plane wave, in large cells.
@@ -82,6 +98,47 @@ TEST(ResponsePromise, FallsWithCellsAndStepsAndNamesWhatIsLeft) {
   const auto late = of(5, 0.9, second).causes.front();
   EXPECT_NE(late.name.find("time step of slip"), std::string::npos) << late.name;
   EXPECT_NE(late.remedy.find("--correction centred"), std::string::npos) << late.remedy;
+}
+
+/// A plane S wave on planes along the top of a cluster that nothing holds: it comes back whole.
+struct MirroredWave {
+  static constexpr double top_m = 150, receiver_m = 112.5, middle_m = 675, vs = 2250;
+  Scene<2> scene;
+  explicit MirroredWave(double h) {
+    scene.model.medium =
+        uniform_medium(std::llround(2 * middle_m / h), std::llround(270 / h), h, {4500, vs, 2500});
+    scene.model.fracture = Field<2, std::uint8_t>(scene.model.grid());
+    for (auto i = std::llround(75 / h); i < std::llround(1275 / h); ++i)
+      for (auto k = std::llround(top_m / h); k < std::llround(240 / h); ++k) scene.model.fracture({i, k}) = 1;
+    scene.model.fracture_sets = {{"cluster", {{{0, 1}, 0, 0, 0}}}};
+    scene.survey.sources = {
+        {{middle_m, 0}, parse_mechanism<2>("plane-s:0"), parse_wavelet("ricker:30"), 0.01}};
+    scene.survey.receivers_m = {{middle_m, receiver_m}};
+    scene.edges = edges_all(EdgeLaw::absorbing);
+    scene.numerics.order = 7;
+    // Until P waves come from its ends.
+    scene.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
+  }
+  double error() const {
+    const auto found = response_of(scene);
+    std::vector<double> exact;
+    const auto& source = scene.survey.sources[0];
+    for (std::size_t n = 0; n < found[0].size(); ++n)
+      exact.push_back(source.amplitude * source.wavelet(double(n) * 0.001 - (2 * top_m - receiver_m) / vs));
+    return error_below({found[0]}, {exact}, 60, 0.001);
+  }
+};
+
+TEST(ResponsePromise, KnowsTheWavesThatCellsLetIntoAClusterAlongItsPlanes) {
+  const MirroredWave coarse(7.5), fine(3.75);
+  double before = 1;
+  for (const auto& wave : {coarse, fine}) {
+    const double found = wave.error(), stated = promised_of(wave.scene);
+    EXPECT_GT(stated, 0.5 * found) << found;
+    EXPECT_LT(stated, 2 * found) << found;
+    EXPECT_LT(found, before);
+    before = found;
+  }
 }
 
 TEST(ResponsePromise, OfAWantedErrorIsKeptByTheSettingThatIsChosen) {
