@@ -64,7 +64,7 @@ class PartedFaces : public Effect<D, Real> {
     std::int64_t line, x;               // of the cell behind it
     bool inside;                        // not at the first row of a part of the model
     std::array<std::int64_t, 2> cells;  // before and behind it, in the fields
-    std::array<std::int32_t, 4> along;  // faces beside it at offsets_along; -1: one is missing
+    std::array<std::int32_t, 2> along;  // faces beside it at offsets_along; -1: one is missing
     std::array<Real, D> relaxation;     // of a pair in a step: dt/(C Z)
     std::array<double, D> compliance;   // C, m/Pa
   };
