@@ -26,6 +26,9 @@ namespace slipwave {
 /// Whether SLIPWAVE_LONG asks for the long form.
 bool long_form();
 
+/// All orders, or in the short form one low, the usual one and the highest.
+std::vector<int> orders_tried();
+
 /// The same law on all edges.
 EdgeLaws<2> all_edges(EdgeLaw law);
 
