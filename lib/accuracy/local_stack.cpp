@@ -214,21 +214,20 @@ class Follower {
  private:
   static constexpr std::int64_t reach = 6;
   /// The face at which rock changes at once by most of what these two differ by, where it hardly changes from
-  /// cell to cell on both sides: within layers with gradients, too.
+  /// cell to cell near it: within layers with gradients, too. A cut cell that was split changes twice.
   std::optional<std::int64_t> jump(std::int64_t i, std::int64_t first, std::int64_t end) const {
     if (upper_.matter != lower_.matter) return std::nullopt;
     const double whole = std::log(lower_.stiffness() / upper_.stiffness());
-    const auto change = [&](std::int64_t k) {
+    std::optional<std::int64_t> found;
+    for (auto k = first + 1; k < end; ++k) {
       const auto above = columns_.cell(i, k - 1), below = columns_.cell(i, k);
-      return above.matter == upper_.matter && below.matter == upper_.matter
-                 ? std::log(below.stiffness() / above.stiffness()) / whole
-                 : 1;
-    };
-    for (auto k = first + 2; k + 1 < end; ++k)
-      if (change(k) > 0.5 && change(k) < 1.5 && std::abs(change(k - 1)) < 0.05 &&
-          std::abs(change(k + 1)) < 0.05)
-        return k;
-    return std::nullopt;
+      if (above.matter != upper_.matter || below.matter != upper_.matter) continue;
+      const double change = std::log(below.stiffness() / above.stiffness()) / whole;
+      if (std::abs(change) < 0.05) continue;
+      if (found || change < 0.5 || change > 1.5) return std::nullopt;
+      found = k;
+    }
+    return found;
   }
   double share_of_upper(const Cell& cell) const {
     if (upper_.matter != lower_.matter) return cell.matter == upper_.matter ? 1 : 0;

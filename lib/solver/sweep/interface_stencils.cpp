@@ -223,7 +223,7 @@ void extend_across_fracture(const InterfaceStencil& stencil, int offset, const P
   const Real through = cells * own.stiffness / (1 + cells * own.stiffness);
   const Real welded =
       s_at + own.share_s * (pair.s(across) - s_at) + pair.scale * (own.swept - other.swept) / 2;
-  v_at += gain + through * own.share_v * (pair.v(across) - v_at - (gain - cells * other.v) / 2);
+  v_at += (1 - through) * gain + through * own.share_v * (pair.v(across) - v_at);
   // What the spring remembers of the last sweep comes late for a stiff one.
   const Real spring = (1 - through) * (1 - through);
   s_at = welded + spring * (image - welded);
