@@ -231,7 +231,11 @@ double WavesOfScene::of_reflections_too(const Discretisation& cells, double most
 
 ExpectedError expected_error(const Scene<2>& scene) {
   auto error = WavesOfScene(scene, has_finer_geometry(scene)).expected();
-  if (!scene.slips()) return error;
+  const auto& sets = scene.model.fracture_sets;
+  const bool parts = scene.with_slip && std::any_of(sets.begin(), sets.end(), [](const auto& set) {
+                       return set.on_faces && gives(set);
+                     });
+  if (!scene.slips() && !parts) return error;
   const FractureResponse response(scene);
   error.response_unknown = response.why_not();
   error.response_leaves_out = response.not_covered();
