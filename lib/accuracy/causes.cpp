@@ -113,6 +113,15 @@ double slowest_beside(const LayeredPlaces& places, std::size_t face) {
   return below > 0 ? std::min(speed, slowest_of(places.layers[below - 1])) : speed;
 }
 
+/// Beside an interface of solids fields are read at equal distances, which are unequal times: the error is
+/// that of the slower side, on whichever the source stands.
+double slower_behind(const LayeredPlaces& places, std::size_t face) {
+  const auto below = places.free_surface ? face : face + 1;
+  if (below == 0) return 1;
+  const auto side = places.source_layer() >= below ? below : below - 1;
+  return slowest_of(places.layers[side]) / slowest_beside(places, face);
+}
+
 std::string percent(double share) { return shown(100 * share, 2) + " %"; }
 
 /// Where an interface is, for messages.
@@ -502,6 +511,7 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
     slowest = std::sqrt(slowest * fluid.vp);
   const double per_wave = slowest / nominal_hz / h;
   double by = shift.share * h * std::pow(per_wave, -shift.power);
+  if (shift.power > 0 && interface.kind == Kind::inner) by *= slower_behind(stack.places, face);
   // Long stencils end at interfaces with less harm.
   if (shift.power > 0 && cells.order >= 7) by *= order_7_on_faces;
   if (shift.power > 0 && cells.order >= 9)
