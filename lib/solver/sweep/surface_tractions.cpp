@@ -71,9 +71,9 @@ class Sums {
   std::vector<SurfaceTerm<D>> terms_;
 };
 
-/// Shares of the terms of (E11b) over x = (vs/vp)^2: the normal one fitted to the speed of the discrete wave
-/// at vp/vs of 1.4 to 8, where all are less in soft rock so that no wave grows. In bent rows there is only
-/// the normal one.
+/// Shares of the terms of (E11b) and (E11c) over x = (vs/vp)^2: the normal one fitted to the speed of the
+/// discrete wave at vp/vs of 1.4 to 8, where all are less in soft rock so that no wave grows. In bent rows
+/// there is no tangential one.
 struct Shares {
   double normal, tangential, bend;
 };
@@ -130,8 +130,8 @@ PairSums<D> tangential_sums(const Domain<D>& domain, const Index<D>& at, int sid
   return sums;
 }
 
-/// The bend of a component of velocity: half a step of the difference, along the surface, of the slope that
-/// stresses have across it.
+/// The bend of a component of velocity (E11c): half a step of the difference, along the surface, of the slope
+/// that stresses have across it.
 template <int D>
 void add_bend(const Domain<D>& domain, const Index<D>& at, int side, int component, PairSums<D>& sums) {
   using Rows = FieldRows<D>;
@@ -166,6 +166,7 @@ std::array<double, std::size_t(D)> entering_per_normal_traction(const Domain<D>&
     return {normal.z, normal.x, normal.y};
 }
 
+/// N of the surface, whose z is 1.
 template <int D, class Real>
 RowVector<D, Real> surface_normal(const Domain<D>& domain, const Index<D>& at, int side) {
   RowVector<D, Real> normal{};

@@ -26,8 +26,8 @@ class SurfaceTractions {
   void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);
   /// Of a pair of the sweep (0 P, then S by axes), by number.
   const Real* of(int pair) const { return tractions_[std::size_t(pair)].data(); }
-  /// What the sweeps before have bent the velocity along the surface, to be added to the correction of the
-  /// pair's (FreeSurface).
+  /// What the sweeps before have bent the velocity along the surface, to be added to the correction of
+  /// the pair's (FreeSurface) (theory.md (E11c)).
   const Real* bend(int pair) const { return bends_[std::size_t(pair)].data(); }
 
  private:
