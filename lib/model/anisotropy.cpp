@@ -126,8 +126,7 @@ bool any_orthorhombic(const Medium<D>& medium) {
 
 template <int D>
 bool any_tilted_axes(const Medium<D>& medium) {
-  if (D == 2 ||
-      (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation)))
+  if (!medium.has(Property::tilt) && !medium.has(Property::azimuth) && !medium.has(Property::rotation))
     return false;
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (has_tilted_axis(medium, cell)) return true;

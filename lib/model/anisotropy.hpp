@@ -87,7 +87,7 @@ bool has_tilted_axis(const Medium<D>& medium, std::size_t cell) {
   return D == 3 && is_orthorhombic(medium, cell) &&
          medium.value(Property::azimuth, cell) + medium.value(Property::rotation, cell) != 0;
 }
-/// Whether any cell in space has such axes; in 2-D nothing asks.
+/// Whether any cell has such axes.
 template <int D>
 bool any_tilted_axes(const Medium<D>& medium);
 /// How many cells are anisotropic.

@@ -168,8 +168,8 @@ std::int64_t memory_of_a_shot_bytes(const Scene<D>& scene) {
   using solver::MaterialKind;
   auto kind = MaterialKind::fluid;
   if (scene.subdomain.anisotropic || anisotropic_cells(medium) > 0)
-    kind = any_orthorhombic(medium) || any_tilted_axes(medium) ? MaterialKind::orthorhombic
-                                                               : MaterialKind::anisotropic;
+    kind = any_orthorhombic(medium) || (D == 3 && any_tilted_axes(medium)) ? MaterialKind::orthorhombic
+                                                                           : MaterialKind::anisotropic;
   else if (scene.subdomain.shear || has_shear(medium))
     kind = MaterialKind::isotropic;
   return cells * value * (solver::FieldRows<D>::of(kind) + solver::material_rows_of<D>(kind));

@@ -380,8 +380,9 @@ void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
   std::array<Field<D>, 2> impedance;
   for (auto& z : impedance) z = Field<D>(domain.grid);
   const bool anisotropic = domain.subdomain.anisotropic || anisotropic_cells(medium) > 0;
-  const auto kind = any_orthorhombic(medium) || any_tilted_axes(medium) ? MaterialKind::orthorhombic
-                                                                        : MaterialKind::anisotropic;
+  const auto kind = any_orthorhombic(medium) || (D == 3 && any_tilted_axes(medium))
+                        ? MaterialKind::orthorhombic
+                        : MaterialKind::anisotropic;
   typename Domain<D>::Rows more;
   for (int row = row_zp_across; anisotropic && row < material_rows_of<D>(kind); ++row)
     more[std::size_t(row)] = Field<D>(domain.grid);

@@ -11,6 +11,7 @@ sw-layers --size 100x50 --step 5 --layer 0:2000:1000:2000 -o small.nc
 printf '0 50\n200 70\n' > sloping.txt
 sw-layers -q --size 200x100 --step 5 --layer 0:1500:0:1000 --layer @sloping.txt:3000:1500:2200 -o sloping.nc
 sw-layers -q --size 200x100 --step 5 --fit none --layer 0:2000:1000:2000 --layer @sloping.txt:3000:1500:2200 -o cut.nc
+sw-layers -q --size 200x100 --step 5 --layer '0:2000:1000:2000 epsilon=0.2 delta=0.1 tilt=30' -o dipping-beds.nc
 head -c 4000 m.nc > part.nc
 
 shot='--wavelet ricker:10 --time 0.1'
