@@ -8,6 +8,7 @@
 #include "accuracy/finer_model.hpp"
 #include "accuracy/straight_way.hpp"
 #include "model/anisotropy.hpp"
+#include "model/parted_faces.hpp"
 
 namespace slipwave {
 namespace {
@@ -231,11 +232,7 @@ double WavesOfScene::of_reflections_too(const Discretisation& cells, double most
 
 ExpectedError expected_error(const Scene<2>& scene) {
   auto error = WavesOfScene(scene, has_finer_geometry(scene)).expected();
-  const auto& sets = scene.model.fracture_sets;
-  const bool parts = scene.with_slip && std::any_of(sets.begin(), sets.end(), [](const auto& set) {
-                       return set.on_faces && gives(set);
-                     });
-  if (!scene.slips() && !parts) return error;
+  if (!scene.slips() && !(scene.with_slip && first_on_faces(scene.model.fracture_sets))) return error;
   const FractureResponse response(scene);
   error.response_unknown = response.why_not();
   error.response_leaves_out = response.not_covered();

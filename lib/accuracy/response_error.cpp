@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "model/parted_faces.hpp"
 #include "model/single_fracture.hpp"
 
 namespace slipwave {
@@ -662,9 +663,8 @@ namespace {
 std::string why_not_at_all(const Scene<2>& scene) {
   const auto& sets = scene.model.fracture_sets;
   const auto& marked = scene.model.fracture;
-  for (const auto& set : sets)
-    if (set.on_faces && gives(set))
-      return "fractures '" + set.name + "' lie on faces between cells, whose error is not known";
+  if (const auto* const set = first_on_faces(sets))
+    return "fractures '" + set->name + "' lie on faces between cells, whose error is not known";
   if (std::none_of(marked.begin(), marked.end(), [](auto code) { return code != 0; }))
     return "the model has no fractures whose response could have an error";
   if (!scene.survey.any_receiver()) return "the survey has no receivers";

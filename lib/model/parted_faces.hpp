@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "model/model.hpp"
@@ -29,6 +30,14 @@ struct FacesOfTrace {
 FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace);
 /// The same of a whole model; also throws where it lies along the edge of the model.
 FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace);
+
+/// The first set whose fractures part faces; null where none does.
+template <int D>
+const FractureSet<D>* first_on_faces(const std::vector<FractureSet<D>>& sets) {
+  const auto found =
+      std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.on_faces && gives(set); });
+  return found == sets.end() ? nullptr : &*found;
+}
 
 /// The faces that the fractures on faces of all sets part in the part of the model that the grid holds, by
 /// axis and cell; those at which rock ends on one side or both are left out and counted. Near tips they are

@@ -252,10 +252,8 @@ void check_monotone(const Scene<D>& scene) {
 /// What does not go with fractures that part faces.
 template <int D>
 void check_parted(const Scene<D>& scene) {
-  const auto& sets = scene.model.fracture_sets;
-  const auto found =
-      std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.on_faces && gives(set); });
-  if (!scene.with_slip || found == sets.end()) return;
+  const auto* const found = first_on_faces(scene.model.fracture_sets);
+  if (!scene.with_slip || !found) return;
   const auto refuse = [&](const std::string& what, const std::string& wanted) {
     throw Error("found " + what + " in a model whose fractures '" + found->name +
                     "' lie on faces, expected " + wanted + "; or leave them out by --without slip",

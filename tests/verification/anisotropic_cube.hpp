@@ -30,6 +30,20 @@ void add_angles(Medium<D>& medium, const std::vector<Material>& rocks) {
   add(Property::rotation, [](const Material& rock) { return rock.rotation; });
 }
 
+/// Leaves the first of these cells, in the order of the file, isotropic.
+inline void make_isotropic(Medium<3>& medium, std::size_t cells) {
+  for (const auto property : medium.properties())
+    for (std::size_t cell = 0; cell < cells && property >= Property::epsilon; ++cell)
+      medium[property][cell] = 0;
+}
+
+/// The traces of a force, shot from one place to another.
+inline Gather shot_between(Scene<3> scene, const Point<3>& from, const Point<3>& to, const char* force) {
+  scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
+  scene.survey.receivers_m = {to};
+  return shoot(scene, 1);
+}
+
 /// All of one rock, from the origin on.
 inline Medium<3> uniform_rock(const Index<3>& shape, double spacing_m, const Material& rock,
                               const Point<3>& origin_m = {}) {

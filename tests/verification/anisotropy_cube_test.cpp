@@ -157,10 +157,7 @@ TEST(AnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   // The first of them hold water and isotropic rock only.
   auto scene = blocks({shale, crossed, cracked}, {30, 24, 60});
   scene.survey.receivers_m = {{111, 81, 120}, {42, 55, 243}};
-  auto& medium = scene.model.medium;
-  for (const auto property : medium.properties())
-    for (std::size_t cell = 0; cell < std::size_t(30 * 24 * 40) && property >= Property::epsilon; ++cell)
-      medium[property][cell] = 0;
+  make_isotropic(scene.model.medium, std::size_t(30 * 24 * 40));
   const auto alone = samples_of(shoot(scene, 1));
   for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
 }
@@ -170,12 +167,8 @@ TEST(AnisotropyInSpace, DoesNotDependOnWhichWayItIsShot) {
   auto scene = blocks({shale, crossed, cracked}, {44, 40, 42});
   scene.recording.duration_s = 0.12;
   const Point<3> a = {63, 71, 92}, b = {151, 128, 163};
-  const auto shot = [&](const Point<3>& from, const Point<3>& to, const char* force) {
-    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
-    scene.survey.receivers_m = {to};
-    return shoot(scene, 1);
-  };
-  const auto there = shot(a, b, "force:0,1,0"), back = shot(b, a, "force:0,0,1");
+  const auto there = shot_between(scene, a, b, "force:0,1,0"),
+             back = shot_between(scene, b, a, "force:0,0,1");
   EXPECT_LT(relative_error(there.traces[2].samples, back.traces[1].samples), 0.03);
 }
 

@@ -3,10 +3,9 @@
 
 #include <random>
 
-#include "memory_archive.hpp"
+#include "continued.hpp"
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
-#include "solver/shot_simulation.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -104,17 +103,7 @@ TEST(Attenuation, IsTheSameOnSeveralRanks) {
 TEST(Attenuation, ContinuesFromACheckpoint) {
   auto scene = sea();
   attenuate(scene, 5);
-  ShotSimulation<2, float> whole(scene, 1, {}), begun(scene, 1, {}), continued(scene, 1, {});
-  whole.run_to(whole.steps());
-  begun.run_to(whole.steps() / 2 | 1);
-  std::vector<char> kept;
-  ToMemory to(kept);
-  begun.serialize(to);
-  FromMemory from(kept);
-  continued.serialize(from);
-  EXPECT_TRUE(from.all_used());
-  continued.run_to(continued.steps());
-  EXPECT_TRUE(samples_of(continued.take_gather()) == samples_of(whole.take_gather()));
+  expect_to_continue(scene);
 }
 
 /// Rock that attenuates strongly, in double precision, with steps that fit the samples.

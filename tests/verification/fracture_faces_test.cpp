@@ -3,11 +3,10 @@
 
 #include <limits>
 
-#include "memory_archive.hpp"
+#include "continued.hpp"
 #include "model/single_fracture.hpp"
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
-#include "solver/shot_simulation.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -61,20 +60,7 @@ TEST(FractureOnFaces, IsTheSameOnSeveralRanks) {
   EXPECT_FALSE(all_samples(shoot(whole, 1)) == alone);
 }
 
-TEST(FractureOnFaces, ContinuesFromACheckpoint) {
-  const auto scene = cracked();
-  ShotSimulation<2, float> whole(scene, 1, {}), begun(scene, 1, {}), continued(scene, 1, {});
-  whole.run_to(whole.steps());
-  begun.run_to(whole.steps() / 2 | 1);
-  std::vector<char> kept;
-  ToMemory to(kept);
-  begun.serialize(to);
-  FromMemory from(kept);
-  continued.serialize(from);
-  EXPECT_TRUE(from.all_used());
-  continued.run_to(continued.steps());
-  EXPECT_TRUE(samples_of(continued.take_gather()) == samples_of(whole.take_gather()));
-}
+TEST(FractureOnFaces, ContinuesFromACheckpoint) { expect_to_continue(cracked()); }
 
 TEST(FractureOnFaces, IsTheSameInSingleAndDoublePrecision) {
   auto scene = cracked();

@@ -193,10 +193,7 @@ TEST(TiltedSpace, GivesTheBitsOfOneProcessOnSeveral) {
   // The first of them hold water and isotropic rock only.
   auto scene = blocks(tilted_rocks, {30, 22, 54});
   scene.survey.receivers_m = {{111, 81, 120}, {42, 55, 223}};
-  auto& medium = scene.model.medium;
-  for (const auto property : medium.properties())
-    for (std::size_t cell = 0; cell < std::size_t(30 * 22 * 36) && property >= Property::epsilon; ++cell)
-      medium[property][cell] = 0;
+  make_isotropic(scene.model.medium, std::size_t(30 * 22 * 36));
   const auto alone = samples_of(shoot(scene, 1));
   EXPECT_TRUE(samples_of(shared_out(scene, 2)) == alone);
 }
@@ -205,13 +202,9 @@ TEST(TiltedSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
   auto scene = blocks(tilted_rocks, {34, 30, 32});
   scene.recording.duration_s = 0.08;
-  const auto shot = [&](const Point<3>& from, const Point<3>& to, const char* force) {
-    scene.survey.sources[0].position_m = from, scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
-    scene.survey.receivers_m = {to};
-    return shoot(scene, 1);
-  };
   const Point<3> a = {63, 71, 92}, b = {141, 118, 143};
-  const auto there = shot(a, b, "force:0,1,0"), back = shot(b, a, "force:0,0,1");
+  const auto there = shot_between(scene, a, b, "force:0,1,0"),
+             back = shot_between(scene, b, a, "force:0,0,1");
   EXPECT_LT(relative_error(there.traces[2].samples, back.traces[1].samples), 0.04);
 }
 
