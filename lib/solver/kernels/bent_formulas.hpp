@@ -64,6 +64,23 @@ template <int D, class Real>
     return {Real(1), horizontal[0], horizontal[pitch]};
 }
 
+/// N of a face from the halves of its horizontal components, as in BentAcross.
+template <int D, class Real>
+[[gnu::always_inline]] inline RowVector<D, Real> face_normal(const Real* half, long pitch) {
+  if constexpr (D == 2)
+    return {Real(1), half[0] + half[0]};
+  else
+    return {Real(1), half[0] + half[0], half[pitch] + half[pitch]};
+}
+/// N of the cell behind that face; `next` leads to the face behind the cell.
+template <int D, class Real>
+[[gnu::always_inline]] inline RowVector<D, Real> cell_normal(const Real* half, long pitch, long next) {
+  if constexpr (D == 2)
+    return {Real(1), half[0] + half[next]};
+  else
+    return {Real(1), half[0] + half[next], half[pitch] + half[pitch + next]};
+}
+
 /// The velocity at a cell from field row 0 of it, rows `pitch` apart.
 template <int D, class Real>
 [[gnu::always_inline]] inline RowVector<D, Real> row_velocity(const Real* field, long pitch) {
@@ -76,13 +93,13 @@ template <int D, class Real>
 /// The traction on the row at a cell times |N| (F3), T = s N.
 template <int D, class Real>
 [[gnu::always_inline]] inline RowVector<D, Real> row_traction(const Real* field, long pitch,
-                                                              const Real* horizontal, long normal_pitch) {
-  const Real nx = horizontal[0];
+                                                              RowVector<D, Real> normal) {
+  const Real nx = normal.x;
   if constexpr (D == 2) {
     const Real sxx = field[2 * pitch], szz = field[3 * pitch], sxz = field[4 * pitch];
     return {szz + nx * sxz, sxz + nx * sxx};
   } else {
-    const Real ny = horizontal[normal_pitch];
+    const Real ny = normal.y;
     const Real sxx = field[3 * pitch], syy = field[4 * pitch], szz = field[5 * pitch];
     const Real sxy = field[6 * pitch], sxz = field[7 * pitch], syz = field[8 * pitch];
     return {szz + nx * sxz + ny * syz, sxz + nx * sxx + ny * sxy, syz + nx * sxy + ny * syy};

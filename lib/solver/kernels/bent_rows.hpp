@@ -10,18 +10,21 @@
 namespace slipwave::solver {
 namespace {
 
-/// The outgoing waves of a pair (v, J s) of a cell; j points at its J.
+/// The outgoing waves of a pair (v, J s) of a cell; half points at half of J of its face before it along x.
 template <int Order, class Real>
 [[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, const Real* s, std::int64_t stride,
-                                                         const Real* j, std::int64_t j_stride, Real courant,
-                                                         Real z_lo, Real z_hi, Real& up, Real& down) {
+                                                         const Real* half, std::int64_t j_stride,
+                                                         Real courant, Real z_lo, Real z_hi, Real& up,
+                                                         Real& down) {
   Weights<Order, Real> w;
   Real v_even, v_odd, t_even, t_odd;
   weights(courant, w);
   even_odd(v, stride, w, v_even, v_odd);
   even_odd_of(
-      [=](long k) __attribute__((always_inline)) { return j[k * j_stride] * s[k * stride]; }, w, t_even,
-      t_odd);
+      [=](long k) __attribute__((always_inline)) {
+        return (half[k * j_stride] + half[k * j_stride + 1]) * s[k * stride];
+      },
+      w, t_even, t_odd);
   up = z_hi * (v_even + v_odd) - (t_even + t_odd);
   down = z_lo * (v_even - v_odd) + (t_even - t_odd);
 }
@@ -31,8 +34,8 @@ template <int Order, int Pairs, class Real>
 void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
                             const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
                             OutgoingWaves<Real> outgoing) {
-  const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
-  const Real* __restrict j = metric.j, * __restrict j_lo = metric.j_lo, * __restrict j_hi = metric.j_hi;
+  const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale, twice = 2 * sign;
+  const Real* __restrict half = metric.half_x, * __restrict half_lo = metric.half_lo, * __restrict half_hi = metric.half_hi;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
   const Real* __restrict v = pairs.v[0], * __restrict s = pairs.s[0], * __restrict w = pairs.v[1], * __restrict t = pairs.s[1];
   const Real* __restrict w2 = pairs.v[2], * __restrict t2 = pairs.s[2];
@@ -42,14 +45,14 @@ void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs
   Real* __restrict up_s2 = outgoing.up(2), * __restrict down_s2 = outgoing.down(2);
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real moved = size * b[i], lo = sign * j_lo[i], hi = sign * j_hi[i];
+    const Real moved = size * b[i], lo = twice * half_lo[i], hi = twice * half_hi[i];
     const Real p = zp[i], z = zs[i];
-    reconstruct_bent_pair<Order>(v + i, s + i, stride, j + i, j_stride, moved * p, lo * p, hi * p, up_p[i],
+    reconstruct_bent_pair<Order>(v + i, s + i, stride, half + i, j_stride, moved * p, lo * p, hi * p, up_p[i],
                                  down_p[i]);
-    reconstruct_bent_pair<Order>(w + i, t + i, stride, j + i, j_stride, moved * z, lo * z, hi * z, up_s[i],
+    reconstruct_bent_pair<Order>(w + i, t + i, stride, half + i, j_stride, moved * z, lo * z, hi * z, up_s[i],
                                  down_s[i]);
     if constexpr (Pairs == 3)
-      reconstruct_bent_pair<Order>(w2 + i, t2 + i, stride, j + i, j_stride, moved * z, lo * z, hi * z,
+      reconstruct_bent_pair<Order>(w2 + i, t2 + i, stride, half + i, j_stride, moved * z, lo * z, hi * z,
                                    up_s2[i], down_s2[i]);
   }
 }
@@ -58,7 +61,7 @@ void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs
 template <int Pairs, class Real>
 void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                       const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                      const Real* __restrict j_face, InterfaceStates<Real> faces) {
+                      const Real* __restrict half_face, InterfaceStates<Real> faces) {
   const Real* __restrict zp_lo = lo.zp, * __restrict zp_hi = hi.zp, * __restrict zs_lo = lo.zs, * __restrict zs_hi = hi.zs;
   const Real* __restrict up_p = below.up(0), * __restrict down_p = above.down(0), * __restrict up_s = below.up(1), * __restrict down_s = above.down(1);
   const Real* __restrict up_s2 = below.up(2), * __restrict down_s2 = above.down(2);
@@ -66,7 +69,8 @@ void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<R
   Real* __restrict v_s2 = faces.v(2), * __restrict s_s2 = faces.s(2);
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    const Real p_lo = zp_lo[i], p_hi = zp_hi[i], s_lo = zs_lo[i], s_hi = zs_hi[i], j = j_face[i];
+    const Real p_lo = zp_lo[i], p_hi = zp_hi[i], s_lo = zs_lo[i], s_hi = zs_hi[i],
+               j = half_face[i] + half_face[i];
     // Those of velocities; those of tractions are J times as large.
     const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none);
     const Real both = 1 / (sum_p * sum_s * j), share_p = both * sum_s, share_s = both * sum_p;
@@ -128,20 +132,19 @@ template <int D, class Real>
 /// The outgoing waves of one cell; pointers as in BentFields and BentAcross, at the cell.
 template <int Order, int D, class Real>
 [[gnu::always_inline]] inline void reconstruct_bent_at(const Real* field, std::int64_t pitch,
-                                                       std::int64_t stride, const Real* n_cell,
-                                                       const Real* n_face, const Real* over_face,
-                                                       std::int64_t of_metric, std::int64_t next,
-                                                       Real courant, Real sign, Real zp, Real zs, Real* out,
-                                                       std::int64_t out_pitch) {
+                                                       std::int64_t stride, const Real* half_n,
+                                                       const Real* over_face, std::int64_t of_metric,
+                                                       std::int64_t next, Real courant, Real sign, Real zp,
+                                                       Real zs, Real* out, std::int64_t out_pitch) {
   RowVector<D, Real> up, down;
   reconstruct_between<Order, D>(
       [=](long k) __attribute__((always_inline)) { return row_velocity<D>(field + k * stride, pitch); },
       [=](long k) __attribute__((always_inline)) {
-        return row_traction<D>(field + k * stride, pitch, n_cell + k * next, of_metric);
+        return row_traction<D>(field + k * stride, pitch, cell_normal<D>(half_n + k * next, of_metric, next));
       },
-      BentFace<D, Real>{row_normal<D>(n_face, of_metric), over_face[0]},
-      BentFace<D, Real>{row_normal<D>(n_face + next, of_metric), over_face[next]}, courant * zp, courant * zs,
-      sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0), up, down);
+      BentFace<D, Real>{face_normal<D>(half_n, of_metric), over_face[0]},
+      BentFace<D, Real>{face_normal<D>(half_n + next, of_metric), over_face[next]}, courant * zp,
+      courant * zs, sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0), up, down);
   put(up, out, 2 * out_pitch);
   put(down, out + out_pitch, 2 * out_pitch);
 }
@@ -153,14 +156,14 @@ void reconstruct_bent_across(std::int64_t n, Real scale, const BentFields<const 
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
   const Real* __restrict field = fields.first, * __restrict stretch = metric.stretch;
-  const Real* __restrict n_cell = metric.n_cell, * __restrict n_face = metric.n_face, * __restrict over_face = metric.over_face;
+  const Real* __restrict half_n = metric.half_n, * __restrict over_face = metric.over_face;
   const std::int64_t pitch = fields.pitch, stride = fields.stride;
   const std::int64_t of_metric = metric.pitch, next = metric.stride, out_pitch = outgoing.pitch;
   Real* __restrict out = outgoing.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    reconstruct_bent_at<Order, D>(field + i, pitch, stride, n_cell + i, n_face + i, over_face + i, of_metric,
-                                  next, size * b[i] * stretch[i], sign, zp[i], zs[i], out + i, out_pitch);
+    reconstruct_bent_at<Order, D>(field + i, pitch, stride, half_n + i, over_face + i, of_metric, next,
+                                  size * b[i] * stretch[i], sign, zp[i], zs[i], out + i, out_pitch);
 }
 
 /// Whether a cell is fluid, as a factor.
@@ -238,14 +241,14 @@ void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
   const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
   const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
   const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
-  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const Real* __restrict half_n = at.metric.half_n, * __restrict over_face = at.metric.over_face;
   const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
                      cells = at.fields_lo.pitch;
   const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
   Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
+    solve_bent_at<Fluid>(BentFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
                          take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
                          cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
                          seen_above + i, seen_pitch);
@@ -255,16 +258,15 @@ void solve_bent_across(std::int64_t n, Real sign, const BentSolve<Real>& at) {
 /// before and behind it; v_lo is what this cell sees.
 template <int D, class Real>
 [[gnu::always_inline]] inline void update_bent_at(Real scale, Real size, Real b, Real zp, Real zs,
-                                                  const Real* n_cell, std::int64_t of_metric,
-                                                  RowVector<D, Real> v_lo, RowVector<D, Real> v_hi,
-                                                  RowVector<D, Real> t_lo, RowVector<D, Real> t_hi, Real* f,
-                                                  std::int64_t p) {
+                                                  RowVector<D, Real> normal, RowVector<D, Real> v_lo,
+                                                  RowVector<D, Real> v_hi, RowVector<D, Real> t_lo,
+                                                  RowVector<D, Real> t_hi, Real* f, std::int64_t p) {
   Real moved, p_modulus, mu;
   update_coefficients<true>(scale, size, b, zp, zs, moved, p_modulus, mu);
   const Real lambda = p_modulus - 2 * mu;
   const auto d = v_hi - v_lo;
   const auto dt = moved * (t_hi - t_lo);
-  const Real nx = n_cell[0];
+  const Real nx = normal.x;
   if constexpr (D == 2) {
     f[0] += dt.x;
     f[p] += dt.z;
@@ -273,7 +275,7 @@ template <int D, class Real>
     f[3 * p] += lambda * along + p_modulus * d.z;
     f[4 * p] += mu * (nx * d.z + d.x);
   } else {
-    const Real ny = n_cell[of_metric];
+    const Real ny = normal.y;
     f[0] += dt.x;
     f[p] += dt.y;
     f[2 * p] += dt.z;
@@ -293,15 +295,15 @@ void update_bent_across(std::int64_t n, Real scale, const BentUpdate<Real>& of) 
   const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
   const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
   const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
-  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict half_done = of.metric.half_n;
   const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
-  const std::int64_t of_metric = of.metric.pitch;
+  const std::int64_t of_metric = of.metric.pitch, next = of.metric.stride;
   Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i)
-    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
-                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
-                      take<D>(t_hi + i, hi), f + i, p);
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
+                      cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
+                      take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
 }
 
 /// The solution at a face and the update of another row in one loop: the same bits as both loops.
@@ -311,26 +313,27 @@ void advance_bent_across(std::int64_t n, Real scale, const BentSolve<Real>& at, 
   const Real* __restrict p_lo = at.lo.zp, * __restrict p_hi = at.hi.zp, * __restrict s_lo = at.lo.zs, * __restrict s_hi = at.hi.zs;
   const Real* __restrict up = at.below.first, * __restrict down = at.above.first + at.above.pitch;
   const Real* __restrict cell_lo = at.fields_lo.first, * __restrict cell_hi = at.fields_hi.first;
-  const Real* __restrict n_face = at.metric.n_face, * __restrict over_face = at.metric.over_face;
+  const Real* __restrict half_n = at.metric.half_n, * __restrict over_face = at.metric.over_face;
   const std::int64_t up_pitch = 2 * at.below.pitch, down_pitch = 2 * at.above.pitch,
                      cells = at.fields_lo.pitch;
-  const std::int64_t of_metric = at.metric.pitch, face_pitch = at.faces.pitch, seen_pitch = at.seen_pitch;
+  const std::int64_t of_metric = at.metric.pitch, next = at.metric.stride, face_pitch = at.faces.pitch,
+                     seen_pitch = at.seen_pitch;
   Real* __restrict face = at.faces.first, * __restrict seen_above = at.seen_above;
   const Real* __restrict b = of.material.b, * __restrict zp = of.material.zp, * __restrict zs = of.material.zs;
   const Real* __restrict v_lo = of.v_lo, * __restrict v_hi = of.hi.first, * __restrict t_lo = of.lo.first + of.lo.pitch;
   const Real* __restrict t_hi = of.hi.first + of.hi.pitch;
-  const Real* __restrict over_j = of.metric.over_j, * __restrict n_cell = of.metric.n_cell;
+  const Real* __restrict over_j = of.metric.over_j, * __restrict half_done = of.metric.half_n;
   const std::int64_t v_pitch = of.v_lo_pitch, hi = 2 * of.hi.pitch, lo = 2 * of.lo.pitch, p = of.fields.pitch;
   Real* __restrict f = of.fields.first;
 #pragma omp simd
   for (std::int64_t i = 0; i < n; ++i) {
-    solve_bent_at<Fluid>(BentFace<D, Real>{row_normal<D>(n_face + i, of_metric), over_face[i]},
+    solve_bent_at<Fluid>(BentFace<D, Real>{face_normal<D>(half_n + i, of_metric), over_face[i]},
                          take<D>(up + i, up_pitch), take<D>(down + i, down_pitch), sign, cell_lo + i,
                          cell_hi + i, cells, p_lo[i], p_hi[i], s_lo[i], s_hi[i], face + i, face_pitch,
                          seen_above + i, seen_pitch);
-    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i], n_cell + i, of_metric,
-                      take<D>(v_lo + i, v_pitch), take<D>(v_hi + i, hi), take<D>(t_lo + i, lo),
-                      take<D>(t_hi + i, hi), f + i, p);
+    update_bent_at<D>(scale, size, over_j[i] * b[i], zp[i], zs[i],
+                      cell_normal<D>(half_done + i, of_metric, next), take<D>(v_lo + i, v_pitch),
+                      take<D>(v_hi + i, hi), take<D>(t_lo + i, lo), take<D>(t_hi + i, hi), f + i, p);
   }
 }
 

@@ -108,20 +108,22 @@ struct FusedRow {
   std::int64_t zp = 0, zs = 0, zs2 = 0;
 };
 
-/// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): J of its
-/// cells, neighbours a stride apart, and of the faces before and behind each cell; 1/J of the cells.
+/// The metric of a bent row of a fitted grid for a sweep along a horizontal axis (theory.md (F2)): half of J
+/// of the faces before and behind each cell, and of the faces before the cells along x, neighbours along the
+/// axis a stride apart; 1/J of the cells. J of a cell is that of its faces along x added: what is not stored
+/// need not be fetched.
 template <class Real>
 struct BentAlong {
-  const Real *j, *j_lo, *j_hi;
+  const Real *half_x, *half_lo, *half_hi;
   std::int64_t stride;
   const Real* over_j;
 };
-/// For the sweep along z (F3): J of the cells; the horizontal components of N, a pitch apart, of the cells
-/// and of the faces before them; a stride leads to the next row. What the loops would need roots and
-/// divisions for: |N|/J and 1/J of the cells, 1/|N| of the faces.
+/// For the sweep along z (F3): half of the horizontal components of N, a pitch apart, of the faces before the
+/// cells; a stride leads to the next row. N of a cell is the mean of its faces'. What the loops would need
+/// roots and divisions for: |N|/J and 1/J of the cells, 1/|N| of the faces.
 template <class Real>
 struct BentAcross {
-  const Real *j, *n_cell, *n_face;
+  const Real* half_n;
   std::int64_t pitch, stride;
   const Real *stretch = nullptr, *over_j = nullptr, *over_face = nullptr;
 };
@@ -171,7 +173,7 @@ struct BentKernels {
                             const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
                             OutgoingWaves<Real> outgoing);
   void (*solve_along)(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                      const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Real* j_face,
+                      const MaterialRows<Real>& lo, const MaterialRows<Real>& hi, const Real* half_face,
                       InterfaceStates<Real> faces);
   void (*update_along)(std::int64_t n, Real scale, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
                        const MaterialRows<Real>& material, const Real* over_j, const SweptRows<Real>& rows);

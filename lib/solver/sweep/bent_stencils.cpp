@@ -102,8 +102,10 @@ struct Motion {
 template <int D, class Real>
 Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real>& metric, int offset) {
   const Real* const cell = fields.first + offset * fields.stride;
-  return {row_velocity<D>(cell, fields.pitch),
-          row_traction<D>(cell, fields.pitch, metric.n_cell + offset * metric.stride, metric.pitch)};
+  return {
+      row_velocity<D>(cell, fields.pitch),
+      row_traction<D>(cell, fields.pitch,
+                      cell_normal<D>(metric.half_n + offset * metric.stride, metric.pitch, metric.stride))};
 }
 
 /// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
@@ -138,7 +140,7 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   const int mirrored = below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset;
   auto at = extended<D>(stencil, fields, metric, corrections, scale, mirrored);
   const int face = below ? -side.cells : side.cells + 1;
-  const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
+  const auto normal = face_normal<D>(metric.half_n + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
   const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
   if (side.p != Extension::interface) {
@@ -173,8 +175,8 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
   }
   const Real sign = scale < 0 ? -1 : 1;
   const Real courant = sign * scale * b * metric.stretch[0];
-  const BentCell<D, Real> cell = {row_normal<D>(metric.n_face, metric.pitch),
-                                  row_normal<D>(metric.n_face + metric.stride, metric.pitch),
+  const BentCell<D, Real> cell = {face_normal<D>(metric.half_n, metric.pitch),
+                                  face_normal<D>(metric.half_n + metric.stride, metric.pitch),
                                   courant * zp,
                                   courant * zs,
                                   sign * zp,
@@ -260,9 +262,8 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
     }
     correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
         *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
-        material.zs[i],
-        {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride, metric.stretch + i},
-        corrections, outgoing.at(i));
+        material.zs[i], {metric.half_n + i, metric.pitch, metric.stride, metric.stretch + i}, corrections,
+        outgoing.at(i));
   }
 }
 

@@ -137,7 +137,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         Index<D> line = at;
         line[0] = 0;
         const auto of = metric.across(line, at[0]);
-        slot.normal[std::size_t(axis)] = of.n_face[axis * of.pitch];
+        slot.normal[std::size_t(axis)] = 2 * of.half_n[axis * of.pitch];
       }
       for (const int side : {0, 1}) {
         Index<D> cell = at;

@@ -190,16 +190,17 @@ int reach_within(const Side& low, const Side& high, int reach) {
                               low.cells + high.cells, reach_up_to(to_void, most_reach_at_mirrors, reach));
 }
 
-/// The pair (v, s) of cells in a line, with `j` of a bent row (v, J s).
+/// The pair (v, s) of cells in a line, with half of J of the faces along x of a bent row (v, J s).
 template <class Real>
 struct PairOfLine {
-  const Real *v_, *s_, *j_;
+  const Real *v_, *s_, *half_j_;
   std::int64_t stride, j_stride;
   PairCorrections<Real> corrections;
   Real scale;
   Real v(std::int64_t offset) const { return v_[offset * stride]; }
   Real s(std::int64_t offset) const {
-    return j_ ? j_[offset * j_stride] * s_[offset * stride] : s_[offset * stride];
+    if (!half_j_) return s_[offset * stride];
+    return (half_j_[offset * j_stride] + half_j_[offset * j_stride + 1]) * s_[offset * stride];
   }
 };
 
@@ -278,7 +279,7 @@ void correct_cell(const InterfaceStencil& stencil, const PairOfLine<Real>& pair,
   for (int k = -reach; k <= reach; ++k) extend(stencil, k, pair, v_stencil[k + reach], s_stencil[k + reach]);
   const Real sign = scale < 0 ? -1 : 1;
   const Real courant = sign * scale * (impedance * b);
-  if (!pair.j_)
+  if (!pair.half_j_)
     return reconstruct_cell<Order>(v_stencil + reach, s_stencil + reach, 1, sign * impedance, courant, up,
                                    down);
   // Each face has an impedance of its own (F2).
@@ -410,10 +411,10 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
     else
       correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
           *cell,
-          {v + i, s + i, metric ? metric->j + i : nullptr, stride, metric ? metric->stride : 0, corrections,
-           scale},
-          impedance[i], material.b[i], scale, metric ? metric->j_lo[i] : 1, metric ? metric->j_hi[i] : 1,
-          up[i], down[i]);
+          {v + i, s + i, metric ? metric->half_x + i : nullptr, stride, metric ? metric->stride : 0,
+           corrections, scale},
+          impedance[i], material.b[i], scale, metric ? 2 * metric->half_lo[i] : 1,
+          metric ? 2 * metric->half_hi[i] : 1, up[i], down[i]);
   }
 }
 

@@ -41,8 +41,11 @@ template <int D, class Real>
 Metric<D, Real>::Metric(const Domain<D>& domain) : bent_(domain.bent_rows) {
   for (const double height : domain.row_heights) inverse_heights_.push_back(Real(1 / height));
   if (bent_.empty()) return;
-  layout_ = Layout<D>(domain.grid.shape, rows);
-  lines_a_row_ = layout_.lines() / domain.grid.shape[D - 1];
+  cells_ = domain.grid.shape;
+  auto with_last_faces = cells_;
+  ++with_last_faces[D - 1];
+  layout_ = Layout<D>(with_last_faces, rows_of_line);
+  lines_a_row_ = layout_.lines() / with_last_faces[D - 1];
   values_ = Buffer<Real>(layout_.total());
   find_fluid(domain);
   fill(domain);
@@ -52,40 +55,52 @@ Metric<D, Real>::Metric(const Domain<D>& domain) : bent_(domain.bent_rows) {
 template <int D, class Real>
 void Metric<D, Real>::find_fluid(const Domain<D>& domain) {
   const auto &z_p = domain.impedance(wave_p), &z_s = domain.impedance(wave_s);
-  const std::int64_t nx = layout_.shape()[0];
+  const std::int64_t nx = cells_[0];
   for (std::int64_t cell = 0; cell < domain.grid.size(); ++cell) {
     if (cell % nx == 0) fluid_.push_back(0);
     if (z_p[std::size_t(cell)] > 0 && z_s[std::size_t(cell)] == 0) fluid_.back() = 1;
   }
 }
 
+/// Half of what belongs to the face before a cell along an axis, or to that behind the last one.
+template <int D, class Real>
+void Metric<D, Real>::put_face(const Domain<D>& domain, const Index<D>& at, int axis) {
+  if (axis < D - 1) return put(at, row_face + axis, height_of_face(domain, at, axis) / 2);
+  double square = 1;
+  for (int other = 0; other < D - 1; ++other) {
+    const double slope = slope_of_face(domain, at, other);
+    square += slope * slope;
+    put(at, row_n_face + other, -slope / 2);
+  }
+  put(at, row_over_face, 1 / std::sqrt(square));
+}
+
 template <int D, class Real>
 void Metric<D, Real>::fill(const Domain<D>& domain) {
   // Padding and ghosts hold a regular grid.
   std::fill(values_.data(), values_.data() + values_.size(), Real(1));
-  parallel_for(layout_.lines(), 8, [&](std::int64_t begin, std::int64_t end, int) {
+  parallel_for(lines_a_row_ * cells_[D - 1], 8, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t line = begin; line < end; ++line) {
       Index<D> at = layout_.line_index(line);
-      for (at[0] = 0; at[0] < layout_.shape()[0]; ++at[0]) {
+      for (at[0] = 0; at[0] < cells_[0]; ++at[0]) {
         const auto beyond = [&](int axis) {
           Index<D> next = at;
           ++next[axis];
           return next;
         };
-        const double j = (height_of_face(domain, at, 0) + height_of_face(domain, beyond(0), 0)) / 2;
-        double of_face = 1, of_cell = 1;  // |N| squared
-        for (int axis = 0; axis < D - 1; ++axis) {
-          const double upper = slope_of_face(domain, at, axis);
-          const double own = (upper + slope_of_face(domain, beyond(D - 1), axis)) / 2;
-          of_face += upper * upper, of_cell += own * own;
-          put(at, row_face + axis, height_of_face(domain, at, axis));
-          put(at, row_n_face + axis, -upper);
-          put(at, row_n_cell + axis, -own);
+        for (int axis = 0; axis < D; ++axis) {
+          put_face(domain, at, axis);
+          if (at[axis] + 1 == cells_[axis]) put_face(domain, beyond(axis), axis);
         }
-        put(at, row_j, j);
+        const double j = (height_of_face(domain, at, 0) + height_of_face(domain, beyond(0), 0)) / 2;
+        double square = 1;  // of |N|
+        for (int axis = 0; axis < D - 1; ++axis) {
+          const double slope =
+              (slope_of_face(domain, at, axis) + slope_of_face(domain, beyond(D - 1), axis)) / 2;
+          square += slope * slope;
+        }
         put(at, row_over_j, 1 / j);
-        put(at, row_stretch, std::sqrt(of_cell) / j);
-        put(at, row_over_face, 1 / std::sqrt(of_face));
+        put(at, row_stretch, std::sqrt(square) / j);
       }
     }
   });
@@ -95,56 +110,55 @@ template <int D, class Real>
 void Metric<D, Real>::fill_ghosts(const Domain<D>& domain) {
   for (int axis = 0; axis < D; ++axis)
     for (const int side : {0, 1})
-      for (std::int64_t line = 0; line < layout_.lines(); ++line) {
+      for (std::int64_t line = 0; line < lines_a_row_ * cells_[D - 1]; ++line) {
         Index<D> at = layout_.line_index(line);
-        const std::int64_t edge = side ? layout_.shape()[axis] - 1 : 0;
+        const std::int64_t edge = side ? cells_[axis] - 1 : 0;
         if (axis > 0 && at[axis] != edge) continue;
-        // Along x one cell, on other axes all cells of the line.
-        const std::int64_t first = axis == 0 ? edge : 0, last = axis == 0 ? edge + 1 : layout_.shape()[0];
-        for (at[0] = first; at[0] < last; ++at[0]) fill_ghosts_beyond(domain, at, axis, side);
+        // Along x one cell, on other axes all cells of the line and the face behind the last.
+        const std::int64_t first = axis == 0 ? edge : 0, last = axis == 0 ? edge : cells_[0];
+        for (at[0] = first; at[0] <= last; ++at[0]) fill_ghosts_beyond(domain, at, axis, side);
       }
 }
 
-/// Beyond one cell of an edge: J as mirrored, N as what tractions there are mirrored with. The high face of
-/// the last cell belongs to the first ghost.
+/// Beyond one cell of an edge: J as mirrored, N as what tractions there are mirrored with. Those of cells are
+/// of two faces, so a face across the axis is what the cell leaves of the face before.
 template <int D, class Real>
 void Metric<D, Real>::fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side) {
   const EdgeLaw law = domain.edges[axis][side];
   const Real sign = axis == D - 1 && law == EdgeLaw::mirror ? Real(-1) : Real(1);
-  const std::int64_t cells = layout_.shape()[axis];
+  const std::int64_t cells = cells_[axis];
   for (std::int64_t j = 0; j < max_reach; ++j) {
     Index<D> from = at, ghost = at;
     const std::int64_t image = law == EdgeLaw::absorbing ? 0 : std::min(j, cells - 1);
     from[axis] = side ? cells - 1 - image : image;
     ghost[axis] = side ? cells + j : -1 - j;
-    for (int of = 0; of < rows; ++of)
-      *place(ghost, of) = (of >= row_n_face && of < row_over_j ? sign : Real(1)) * *place(from, of);
+    for (int of = 0; of < rows_of_line; ++of) {
+      const bool of_normal = of >= row_n_face && of < row_over_j;
+      const bool across = axis == D - 1 ? of_normal : of == row_face + axis;
+      if (!across) {
+        const bool last_face = side && j == 0 && axis == D - 1 && of == row_over_face;
+        if (!last_face) *place(ghost, of) = (of_normal ? sign : Real(1)) * *place(from, of);
+        continue;
+      }
+      Index<D> behind = from, known = ghost, wanted = ghost;
+      ++behind[axis];
+      (side ? wanted : known)[axis] += 1;
+      *place(wanted, of) = sign * (*place(from, of) + *place(behind, of)) - *place(known, of);
+    }
   }
-  if (!side) return;
-  Index<D> beyond = at;
-  ++beyond[axis];
-  if (axis < D - 1) return put(beyond, row_face + axis, height_of_face(domain, beyond, axis));
-  double of_face = 1;
-  for (int other = 0; other < D - 1; ++other) {
-    const double slope = slope_of_face(domain, beyond, other);
-    of_face += slope * slope;
-    put(beyond, row_n_face + other, -slope);
-  }
-  put(beyond, row_over_face, 1 / std::sqrt(of_face));
 }
 
 template <int D, class Real>
 BentAlong<Real> Metric<D, Real>::along(int axis, const Index<D>& line, std::int64_t x) const {
   const Real* const face = row(line, row_face + axis) + x;
   const std::int64_t stride = layout_.stride(axis);
-  return {row(line, row_j) + x, face, face + stride, stride, row(line, row_over_j) + x};
+  return {row(line, row_face) + x, face, face + stride, stride, row(line, row_over_j) + x};
 }
 
 template <int D, class Real>
 BentAcross<Real> Metric<D, Real>::across(const Index<D>& line, std::int64_t x) const {
-  return {row(line, row_j) + x,      row(line, row_n_cell) + x,   row(line, row_n_face) + x,
-          layout_.row_pitch(),       layout_.stride(D - 1),       row(line, row_stretch) + x,
-          row(line, row_over_j) + x, row(line, row_over_face) + x};
+  return {row(line, row_n_face) + x,  layout_.row_pitch(),       layout_.stride(D - 1),
+          row(line, row_stretch) + x, row(line, row_over_j) + x, row(line, row_over_face) + x};
 }
 
 template <int D, class Real>
@@ -152,7 +166,8 @@ Real Metric<D, Real>::volume(const Index<D>& at) const {
   if (!bent_row(at[D - 1])) return 1 / inverse_height(at[D - 1]);
   Index<D> line = at;
   line[0] = 0;
-  return row(line, row_j)[at[0]];
+  const Real* const half = row(line, row_face) + at[0];
+  return half[0] + half[1];
 }
 
 template class Metric<2, float>;

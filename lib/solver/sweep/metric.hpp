@@ -34,18 +34,18 @@ class Metric {
   BentAlong<Real> along(int axis, const Index<D>& line, std::int64_t x) const;
   BentAcross<Real> across(const Index<D>& line, std::int64_t x) const;
   /// All rows of the metric of a line.
-  static constexpr int rows_of_line = 3 * D + 1;
+  static constexpr int rows_of_line = 2 * D + 1;
   const Real* first_row(const Index<D>& line) const { return row(line, 0); }
   std::int64_t row_pitch() const { return layout_.row_pitch(); }
   /// J of a cell.
   Real volume(const Index<D>& at) const;
 
  private:
-  // Rows of a line: J, J of the face before the cell along each horizontal axis, N of the upper face, N; then
-  // 1/J, |N|/J, 1/|N| of the upper face.
-  static constexpr int row_j = 0, row_face = 1, row_n_face = D, row_n_cell = 2 * D - 1,
-                       row_over_j = 3 * D - 2, row_stretch = row_over_j + 1, row_over_face = row_stretch + 1,
-                       rows = row_over_face + 1;
+  // Rows of a line: half of J of the face before the cell along each horizontal axis and half of N of the
+  // upper face; then 1/J, |N|/J, 1/|N| of the upper face. The row behind the last one, a line more than the
+  // grid has, holds the lower faces of that one.
+  static constexpr int row_face = 0, row_n_face = D - 1, row_over_j = 2 * D - 2, row_stretch = row_over_j + 1,
+                       row_over_face = row_stretch + 1;
   const Real* row(const Index<D>& line, int of) const {
     return values_.data() + layout_.line(line) + of * layout_.row_pitch();
   }
@@ -56,11 +56,13 @@ class Metric {
   void fill(const Domain<D>& domain);
   void fill_ghosts(const Domain<D>& domain);
   void fill_ghosts_beyond(const Domain<D>& domain, const Index<D>& at, int axis, int side);
+  void put_face(const Domain<D>& domain, const Index<D>& at, int axis);
   Real* place(const Index<D>& at, int of) {
     return values_.data() + layout_.cell(at) + of * layout_.row_pitch();
   }
   void put(const Index<D>& at, int of, double value) { *place(at, of) = Real(value); }
 
+  Index<D> cells_{};  // of the grid
   std::int64_t lines_a_row_ = 1;
   std::vector<char> bent_;             // by row
   std::vector<Real> inverse_heights_;  // by row

@@ -622,7 +622,7 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     if (metric_.bent(line))
       return bent_kernels().solve_along(part.count(), here.at(-1), here, material,
                                         state_.material_from(at, part.first),
-                                        metric_.along(0, at, part.first).j_lo, faces.at(from));
+                                        metric_.along(0, at, part.first).half_lo, faces.at(from));
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
     const auto lo = run ? run->template rows<D>(0) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
@@ -691,7 +691,7 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
       return bent_kernels().solve_across[metric_.fluid_at_face(layout.line_number(line_hi))](
           columns.count(), scale < 0 ? -1 : 1, bent_face(at, row, x, ring));
     bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
-                               metric_.along(axis, line_hi, x).j_lo, faces);
+                               metric_.along(axis, line_hi, x).half_lo, faces);
     return;
   }
   const auto run = [&](const Index<D>& line, bool is_there) {
