@@ -58,9 +58,6 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
                      : "") +
                 ") and " + what);
   };
-  if (D == 3 && scene.attenuation && attenuates(model.medium, cell))
-    refuse("attenuates, in 3-D expected one of both; use --without attenuation" +
-           std::string(isotropic_instead));
   if (near_bent)
     refuse(
         "lies in rows that follow a horizon, or beside them, where rock must be isotropic; build the model "
