@@ -11,7 +11,7 @@
 namespace slipwave {
 
 /// What slip on planes askew to the axes of anisotropic rock takes off the stress of a cell (theory.md (S34),
-/// (S35)).
+/// (S34a)).
 template <int D, class Real>
 struct PlaneResponse;
 
@@ -61,7 +61,7 @@ struct PlaneResponse<3, Real> {
     const auto of = components(loss);
     return std::hypot(of[0] / share[0], of[1] / share[1]);
   }
-  /// What the rule of the end of a step takes off the traction tau_e = tau (S35): slip is along what it
+  /// What the rule of the end of a step takes off the traction tau_e = tau (S34a): slip is along what it
   /// leaves. Newton's method for a falling convex function, from below.
   Vector relaxed(const Vector& tau, Real strength, Real weighted_relaxation) const {
     const auto given = components(tau);

@@ -74,7 +74,7 @@ class SlipGroup {
   void choose_kernels(SlipCorrection correction);
   /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
   bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
-  /// Of all systems at a place, (S34), (S35). Returns the modulus of each that its relaxation counts.
+  /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
   std::vector<double> put_response(std::size_t place, const RockStiffness<D>& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// The law for all systems: one that covers those of each.
