@@ -170,7 +170,7 @@ TEST(AskewSlipInSpace, OnlyTakesEnergy) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(0, 1);
   const auto between = [&](double low, double high) { return low + (high - low) * uniform(engine); };
-  const int scenes = long_form() ? 12 : 3;
+  const int scenes = long_form() ? 6 : 3;
   for (int n = 0; n < scenes; ++n) {
     std::vector<std::array<double, 2>> dips;
     for (int k = 0; k <= n % 3; ++k) dips.push_back({between(0, 90), between(-180, 180)});
@@ -201,7 +201,7 @@ TEST(AskewSlipInSpace, OnlyTakesEnergy) {
       cube.shake(unsigned(n) + 4);
       const double first = cube.energy();
       double least = first, lost = 0;
-      const int steps = long_form() ? 4000 : 30;
+      const int steps = long_form() ? 2000 : 30;
       for (std::int64_t step = 0; step < steps; ++step) {
         cube.steps(1);
         const double before = cube.energy();
