@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "fracture/friction_policy.hpp"
+#include "fracture/plane_response.hpp"
 #include "grid/tensor.hpp"
 
 namespace slipwave {
@@ -46,9 +47,8 @@ class JointSlip {
     // Of laws with a state: slip so far, and h/mu.
     Real* slip_m = nullptr;
     Real slip_per_pa = 0;
-    // In 2-D, of planes askew to the axes of anisotropic rock: what slip that takes 1 off the traction of a
-    // system along (-n_z, n_x) takes off the stress (S34). Null: n tau + tau n.
-    const Stress<D, Real>* response = nullptr;
+    // Of planes askew to the axes of anisotropic rock, by system. Null: n tau + tau n.
+    const PlaneResponse<D, Real>* response = nullptr;
   };
 
   JointSlip(SlipCorrection correction, std::vector<System> systems)
@@ -70,7 +70,7 @@ class JointSlip {
       const bool exponential = correction_ == SlipCorrection::exponential;
       const auto on = resolved(n, cell, exponential ? total : before);
       const Real loss =
-          exponential ? slip::unloaded_loss(on.size, on.strength, cell.relaxation[n] * Real(0.5))
+          exponential ? half_loss(n, cell, on, on.strength)
                       : slip::explicit_half(on.size, on.strength, cell.relaxation[n], int(systems_.size()));
       take_off(n, on, loss, cell, total);
     }
@@ -108,16 +108,31 @@ class JointSlip {
   }
   void take_off(std::size_t n, const Resolved& on, Real loss, const Cell& cell, Stress<D, Real>& s) const {
     if (!(loss > 0)) return;
+    if constexpr (D == 3)
+      if (cell.response) {
+        change_by(n, cell, -loss, cell.response[n].loss_along(on.tau, on.size), s);
+        return note_slip(n, loss, cell);
+      }
     change_by(n, cell, -loss / on.size, on.tau, s);
     note_slip(n, loss, cell);
+  }
+  /// What half a step of slip of one system alone takes off its traction, by the exponential rule; in 3-D,
+  /// where planes lie askew, times the larger modulus over that along the traction.
+  Real half_loss(std::size_t n, const Cell& cell, const Resolved& on, Real strength) const {
+    const Real half = cell.relaxation[n] * Real(0.5);
+    if constexpr (D == 3)
+      if (cell.response && on.size > 0) {
+        const Real share = cell.response[n].share_along(on.tau, on.size);
+        return slip::unloaded_loss(on.size, strength, half * share) / share;
+      }
+    return slip::unloaded_loss(on.size, strength, half);
   }
   /// The second half of a step of slip of one system alone, by the exponential rule.
   void end_half(std::size_t n, const Cell& cell, Stress<D, Real>& s) const {
     const auto on = resolved(n, cell, s);
-    const Real half = cell.relaxation[n] * Real(0.5);
-    Real loss = slip::unloaded_loss(on.size, on.strength, half);
+    Real loss = half_loss(n, cell, on, on.strength);
     if constexpr (Law::has_state)
-      loss = slip::unloaded_loss(on.size, strength_at_end(n, cell, on, loss, half), half);
+      loss = half_loss(n, cell, on, strength_at_end(n, cell, on, loss, cell.relaxation[n] * Real(0.5)));
     take_off(n, on, loss, cell, s);
   }
   Real weighted(std::size_t n, const Cell& cell, Real strength) const {
@@ -134,7 +149,7 @@ class JointSlip {
     if constexpr (Law::has_state) {
       Strengths ends{};
       for (std::size_t n = 0; n < count; ++n)
-        ends[n] = strength_at_end(n, cell, resolved(n, cell, before), length<D, Real>(losses[n]),
+        ends[n] = strength_at_end(n, cell, resolved(n, cell, before), slip_size(n, cell, losses[n]),
                                   weighted(n, cell, strengths[n]));
       if (ends != strengths) {
         s = before;
@@ -142,7 +157,7 @@ class JointSlip {
       }
     }
     if (cell.response) losses = follow_normal_stress(before, cell, strengths, losses, s);
-    for (std::size_t n = 0; n < count; ++n) note_slip(n, length<D, Real>(losses[n]), cell);
+    for (std::size_t n = 0; n < count; ++n) note_slip(n, slip_size(n, cell, losses[n]), cell);
     take_off_rest(s, cell, strengths, losses);
   }
   /// The rounds at given strengths. Returns what each system took off.
@@ -158,19 +173,36 @@ class JointSlip {
         change_by(n, cell, 1, off[n], s);
         Traction<D, Real> tau;
         resolve<D, Real>(systems_[n].normal, s, tau);
-        const Real size = length<D, Real>(tau);
-        Real over;
-        const Real now = slip::relaxed(size, strengths[n], weighted(n, cell, strengths[n]), over);
-        const Real share = now < size ? 1 - now / size : Real(0);
+        const auto released = this->released(n, cell, tau, strengths[n]);
         for (std::size_t i = 0; i < D; ++i) {
-          moved = std::max(moved, std::abs(share * tau[i] - off[n][i]));
-          off[n][i] = share * tau[i];
+          moved = std::max(moved, std::abs(released[i] - off[n][i]));
+          off[n][i] = released[i];
         }
         change_by(n, cell, -1, off[n], s);
       }
       if (!(moved > std::numeric_limits<Real>::epsilon() * scale)) break;
     }
     return off;
+  }
+  /// What a system takes off this traction at a strength.
+  Traction<D, Real> released(std::size_t n, const Cell& cell, const Traction<D, Real>& tau,
+                             Real strength) const {
+    const Real relaxation = weighted(n, cell, strength);
+    if constexpr (D == 3)
+      if (cell.response) return cell.response[n].relaxed(tau, strength, relaxation);
+    const Real size = length<D, Real>(tau);
+    Real over;
+    const Real now = slip::relaxed(size, strength, relaxation, over);
+    const Real share = now < size ? 1 - now / size : Real(0);
+    Traction<D, Real> off;
+    for (std::size_t i = 0; i < D; ++i) off[i] = share * tau[i];
+    return off;
+  }
+  /// The size of the slip that took this off a traction, times the modulus.
+  Real slip_size(std::size_t n, const Cell& cell, const Traction<D, Real>& loss) const {
+    if constexpr (D == 3)
+      if (cell.response) return cell.response[n].slip_size(loss);
+    return length<D, Real>(loss);
   }
   /// Rounds that end early leave some planes with more than their slip carries: dry ones hold S to the bit.
   void take_off_rest(Stress<D, Real>& s, const Cell& cell, const Strengths& strengths,
@@ -181,22 +213,30 @@ class JointSlip {
       const Real size = length<D, Real>(tau);
       const Real carried =
           strengths[n] *
-          (1 + length<D, Real>(losses[n]) / std::max(weighted(n, cell, strengths[n]), slip::least<Real>));
+          (1 + slip_size(n, cell, losses[n]) / std::max(weighted(n, cell, strengths[n]), slip::least<Real>));
       if (!(cell.relaxation[n] > 0 && size > carried)) continue;
-      change_by(n, cell, -(size - carried) / size, tau, s);
-      note_slip(n, size - carried, cell);
+      const Real share = (size - carried) / size;
+      change_by(n, cell, -share, tau, s);
+      note_slip(n, D == 3 && cell.response ? share * slip_size(n, cell, tau) : size - carried, cell);
     }
   }
   /// s += factor times what a change of the traction of a system by slip is to the stress.
   void change_by(std::size_t n, const Cell& cell, Real factor, const Traction<D, Real>& change,
                  Stress<D, Real>& s) const {
     const auto& normal = systems_[n].normal;
-    if constexpr (D == 2)
-      if (cell.response) {
-        const Real along = factor * (change[1] * normal[0] - change[0] * normal[1]);
-        for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += along * cell.response[n].values[c];
-        return;
+    const auto add = [&](Real along, const Stress<D, Real>& response) {
+      for (std::size_t c = 0; c < s.values.size(); ++c) s.values[c] += along * response.values[c];
+    };
+    if (cell.response) {
+      const auto& of = cell.response[n];
+      if constexpr (D == 2) {
+        add(factor * (change[1] * normal[0] - change[0] * normal[1]), of.stress);
+      } else {
+        const auto parts = of.components(change);
+        for (std::size_t k = 0; k < parts.size(); ++k) add(factor * parts[k], of.stress[k]);
       }
+      return;
+    }
     add_shear<D, Real>(s, factor, change, normal);
   }
   /// Slip of planes that lie askew in their rock changes the normal stress on them: rounds are made again at
@@ -210,7 +250,7 @@ class JointSlip {
         auto on = resolved(n, cell, before);
         on.s_n = resolved(n, cell, s).s_n;
         on.strength = cell.open[n] ? Real(0) : Law::strength(systems_[n].law, on.s_n, slip_of(n, cell));
-        ends[n] = strength_at_end(n, cell, on, length<D, Real>(losses[n]), weighted(n, cell, on.strength));
+        ends[n] = strength_at_end(n, cell, on, slip_size(n, cell, losses[n]), weighted(n, cell, on.strength));
       }
       if (ends == strengths) break;
       s = before;

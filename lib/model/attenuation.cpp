@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/error.hpp"
+#include "model/bulk_part.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -37,15 +38,15 @@ constexpr double of_shear = D == 2 ? 1. : 4. / 3;
 /// The rock of a cell whose stress relaxes about axes of its own; nothing where it is isotropic.
 template <int D>
 std::optional<Material> rock_with_axis(const Medium<D>& medium, std::size_t cell) {
-  if constexpr (D == 2)
-    if (is_anisotropic(medium, cell) || is_tilted_mean(medium, cell)) return rock_of(medium, cell);
+  if (is_anisotropic(medium, cell) || (D == 2 && is_tilted_mean(medium, cell))) return rock_of(medium, cell);
   return {};
 }
 
-/// What of the P modulus relaxes by shear, over the density (Q5), (Q9); (m/s)^2.
+/// What of the P modulus relaxes by shear, over the density (Q5), (Q9), (Q11); (m/s)^2.
 template <int D>
 double shear_part(double vs, const std::optional<Material>& rock) {
   if (!rock) return of_shear<D> * vs * vs;
+  if (D == 3) return (1 - bulk_part(stiffness_in_space(*rock)).share) * rock->vp * rock->vp;
   const auto c = stiffness_of(*rock);
   return (c.c33 - c.c13 * std::sqrt(c.c33 / c.c11)) / (2 * rock->rho);
 }
@@ -55,6 +56,26 @@ void set_delta(Medium<2>& medium, std::size_t cell, const Material& rock, double
   const double p = bulk + shear, vs = medium.vs[cell], along = 1 + 2 * rock.epsilon;
   const auto left = material_of_stiffness({p * along, (bulk - shear) * std::sqrt(along), p, vs * vs}, 1);
   medium[is_tilted_mean(medium, cell) ? Property::cut_delta : Property::delta][cell] = float(left.delta);
+}
+
+/// The same of a rock in space (Q12) whose speeds in the medium have changed.
+void set_deltas(Medium<3>& medium, std::size_t cell, const Material& rock) {
+  const double p = std::pow(medium.vp[cell] / rock.vp, 2), s = std::pow(medium.vs[cell] / rock.vs, 2);
+  auto c = stiffness_in_space(rock);
+  // Sums below 0 have no delta (O2).
+  const auto left = [&](double mixed, double one, double other, double shear) {
+    return std::max((p - s) * std::sqrt(one * other) + s * mixed, -s * shear);
+  };
+  c.c12 = left(c.c12, c.c11, c.c22, c.c66), c.c13 = left(c.c13, c.c11, c.c33, c.c55);
+  c.c23 = left(c.c23, c.c22, c.c33, c.c44);
+  for (double* of : {&c.c11, &c.c22, &c.c33}) *of *= p;
+  for (double* of : {&c.c44, &c.c55, &c.c66}) *of *= s;
+  const auto now = material_of_stiffness_in_space(c, rock.rho);
+  medium[Property::delta][cell] = float(now.delta);
+  if (!medium.has(Property::delta1)) return;
+  const auto of = now.orthorhombic.value_or(Orthorhombic{0, now.delta, 0, 0});
+  medium[Property::delta1][cell] = float(rock.orthorhombic ? of.delta1 : now.delta);
+  medium[Property::delta3][cell] = float(rock.orthorhombic ? of.delta3 : 0);
 }
 
 /// Largest qp of a cell: shear loss alone (Q6).
@@ -236,8 +257,10 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
     };
     medium.vp[cell] = float(vp * factor(std::min(given.p, most)));
     medium.vs[cell] = float(vs * factor(given.s));
-    if constexpr (D == 2) {
-      if (!rock) continue;
+    if (!rock) continue;
+    if constexpr (D == 3) {
+      set_deltas(medium, cell, *rock);
+    } else {
       const double of_p = double(medium.vp[cell]), of_s = shear * std::pow(factor(given.s), 2);
       set_delta(medium, cell, *rock, of_p * of_p - of_s, of_s);
     }
@@ -302,8 +325,11 @@ Medium<D> StepwiseRelaxation<D>::medium() const {
     const double s = shear_part<D>(vs, rock);
     medium.vp[cell] = float(std::sqrt((vp * vp - s) * kept(shares.bulk) + s * kept(shares.shear)));
     medium.vs[cell] = float(vs * std::sqrt(kept(shares.shear)));
-    if constexpr (D == 2)
-      if (rock) set_delta(medium, cell, *rock, (vp * vp - s) * kept(shares.bulk), s * kept(shares.shear));
+    if (!rock) continue;
+    if constexpr (D == 3)
+      set_deltas(medium, cell, *rock);
+    else
+      set_delta(medium, cell, *rock, (vp * vp - s) * kept(shares.bulk), s * kept(shares.shear));
   }
   return medium;
 }
@@ -318,12 +344,15 @@ ComplexStiffness StepwiseRelaxation<D>::stiffness(std::size_t cell, double hz) c
   const auto of = shares(cell);
   const double vp = medium_->vp[cell], vs = medium_->vs[cell], rho = medium_->rho[cell];
   const auto rock = rock_with_axis(*medium_, cell);
-  // The bulk modulus of 3-D is that of plane strain less a third of the shear modulus.
-  const double s = shear_part<D>(vs, rock), along = rock ? 1 + 2 * rock->epsilon : 1;
+  // In a plane of symmetry (Q9) and (Q11) have the same moduli, from other parts.
+  const double s = shear_part<D>(vs, rock), apart = shear_part<2>(vs, rock),
+               along = rock ? 1 + 2 * rock->epsilon : 1;
   const auto relaxed_shear = mechanisms_.modulus(of.shear, hz);
   const auto bulk = (vp * vp - s) * mechanisms_.modulus(of.bulk, hz), shear = s * relaxed_shear,
              across = rho * (bulk + shear), of_s = rho * vs * vs * relaxed_shear;
-  return {across * along, rock ? rho * (bulk - shear) * std::sqrt(along) : across - 2. * of_s, across, of_s};
+  return {across * along,
+          rock ? (across - 2 * rho * apart * relaxed_shear) * std::sqrt(along) : across - 2. * of_s, across,
+          of_s};
 }
 
 RelaxingAxis relaxing_axis(const Material& rock) {

@@ -71,15 +71,15 @@ template <int D>
 std::int64_t attenuating_cells(const Medium<D>& medium);
 
 /// Turns speeds at the reference frequency into those of the unrelaxed medium, the highest of any frequency
-/// (Q4), in 2-D also delta of anisotropic rock (Q10). Where qp is larger than shear loss alone makes it, it
-/// becomes that (Q6); absent or infinite it may be. Returns a sentence on cells whose finite qp was lowered
-/// by more than 3 %, empty where there are none. Throws Error naming cell, value and remedy where qp or qs is
-/// below least_quality().
+/// (Q4), and the deltas of anisotropic rock (Q10), (Q12). Where qp is larger than shear loss alone makes it,
+/// it becomes that (Q6); absent or infinite it may be. Returns a sentence on cells whose finite qp was
+/// lowered by more than 3 %, empty where there are none. Throws Error naming cell, value and remedy where qp
+/// or qs is below least_quality().
 template <int D>
 std::string unrelax(Medium<D>& medium, const Attenuation& attenuation);
 
 /// What of the bulk and of the shear modulus of a cell relaxes (Q5). In 2-D the bulk modulus is that of plane
-/// strain, lambda + mu; of anisotropic rock they are the parts of (Q9).
+/// strain, lambda + mu; of anisotropic rock they are the parts of (Q9), in 3-D of (Q11).
 struct CellShares {
   RelaxedShares bulk{}, shear{};
 };
@@ -114,7 +114,7 @@ class StepwiseRelaxation {
   StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms, double interval_s);
   /// Its own shares; `isotropic`: of an interface's cell that the solver takes for its isotropic mean.
   CellShares shares(std::size_t cell, bool isotropic = false) const;
-  /// The stiffness of plane waves at a frequency.
+  /// The stiffness of plane waves at a frequency; in 3-D of those in the plane of the rock's axes 1 and 3.
   ComplexStiffness stiffness(std::size_t cell, double hz) const;
   /// The medium with its own speeds.
   Medium<D> medium() const;

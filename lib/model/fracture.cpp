@@ -36,8 +36,12 @@ double dip_of_normal(const Point<2>& normal) {
 
 template <int D>
 bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell) {
-  if (D == 3 || !is_anisotropic(medium, cell)) return false;
+  if (!is_anisotropic(medium, cell)) return false;
   if (has_tilted_axis(medium, cell)) return true;
+  // All other planes of 3-D meet two shear moduli.
+  if (D == 3)
+    return set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
+           !(std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9);
   for (const auto& trace : set.traces)
     for (std::size_t n = 1; n < trace.size(); ++n)
       if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1]) return true;

@@ -26,8 +26,9 @@ bool is_oblique(const Point<D>& normal) {
     oblique = std::max(oblique, std::abs(normal[axis] * normal[D - 1]));
   return oblique > 1e-9;
 }
-/// Whether, in 2-D, any planes of a set lie askew to the axes of symmetry of an anisotropic cell, or these to
-/// the grid.
+/// Whether slip on any planes of a set takes more off the stress of an anisotropic cell than off that of
+/// isotropic rock: in 2-D where planes lie askew to the axes of symmetry, or these to the grid; in 3-D all
+/// but those of one level family in rock that is alike in all horizontal directions.
 template <int D>
 bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell);
 

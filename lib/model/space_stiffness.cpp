@@ -151,11 +151,10 @@ double largest_turning(const SpaceStiffness& c, int axis) {
   return most < 1e-9 ? 0 : most;
 }
 
-double complementary(const SpaceStiffness& stiffness, const std::array<double, 6>& stress) {
-  // Cholesky's factor L of a positive matrix: the square of L^-1 s.
-  auto l = stiffness.voigt;
-  auto x = stress;
-  double sum = 0;
+namespace {
+
+/// Makes of a positive matrix Cholesky's factor L, and of x L^-1 x.
+void factor(std::array<std::array<double, 6>, 6>& l, std::array<double, 6>& x) {
   for (std::size_t i = 0; i < 6; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
       for (std::size_t k = 0; k < j; ++k) l[i][j] -= l[i][k] * l[j][k];
@@ -163,8 +162,40 @@ double complementary(const SpaceStiffness& stiffness, const std::array<double, 6
       if (j < i) x[i] -= l[i][j] * x[j];
     }
     x[i] /= l[i][i];
-    sum += x[i] * x[i];
   }
+}
+
+/// Voigt's pair of a component of SymmetricTensor<3>, and back.
+std::size_t exchanged(std::size_t component) { return component < 3 ? component : 8 - component; }
+
+}  // namespace
+
+std::array<double, 6> stress_of_strain(const SpaceStiffness& stiffness, const std::array<double, 6>& strain) {
+  std::array<double, 6> stress{};
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) stress[exchanged(i)] += stiffness.voigt[i][j] * strain[exchanged(j)];
+  return stress;
+}
+
+std::array<double, 6> strain_of_stress(const SpaceStiffness& stiffness, const std::array<double, 6>& stress) {
+  auto l = stiffness.voigt;
+  std::array<double, 6> x{}, strain{};
+  for (std::size_t i = 0; i < 6; ++i) x[i] = stress[exchanged(i)];
+  factor(l, x);
+  for (std::size_t i = 6; i-- > 0;) {
+    for (std::size_t k = i + 1; k < 6; ++k) x[i] -= l[k][i] * x[k];
+    x[i] /= l[i][i];
+    strain[exchanged(i)] = x[i];
+  }
+  return strain;
+}
+
+double complementary(const SpaceStiffness& stiffness, const std::array<double, 6>& stress) {
+  auto l = stiffness.voigt;
+  auto x = stress;
+  factor(l, x);
+  double sum = 0;
+  for (const double part : x) sum += part * part;
   return sum;
 }
 

@@ -49,6 +49,10 @@ double fastest_along_grid(const Material& material);
 /// How far waves turn along an axis, 0 to 2 (theory.md (V6)).
 double largest_turning(const SpaceStiffness& stiffness, int axis);
 
+/// Hooke's law. Stress and strain are as SymmetricTensor<3> has them, shear strains doubled.
+std::array<double, 6> stress_of_strain(const SpaceStiffness& stiffness, const std::array<double, 6>& strain);
+std::array<double, 6> strain_of_stress(const SpaceStiffness& stiffness, const std::array<double, 6>& stress);
+
 /// s:C^-1:s of a stress by Voigt's pairs: twice the elastic energy of a volume, Pa.
 double complementary(const SpaceStiffness& stiffness, const std::array<double, 6>& stress);
 

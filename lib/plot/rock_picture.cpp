@@ -106,10 +106,15 @@ void add_attenuation(const RockAt& rock, const Attenuation& attenuation, std::ve
   const Relaxing relaxing(rock, attenuation);
   const auto& mechanisms = attenuation.mechanisms;
   const bool s_too = rock.material.vs > 0 && std::isfinite(rock.qs) && rock.qs < double(elastic_quality);
-  if (rock.material.is_anisotropic())
-    all.push_back(curves_of(angles(), {"quality factor", ""}, s_too, {"P", "S"}, [&](double angle) {
-      return relaxing.waves(attenuation.reference_hz, (angle + rock.material.tilt) * degree).quality;
+  if (rock.material.is_anisotropic()) {
+    // In space of the plane in which both are alike, wherever it lies.
+    auto x = angles();
+    if (rock.in_space) x.name = "angle of the front from axis 3 of the rock, towards axis 1";
+    const double tilt = rock.in_space ? 0 : rock.material.tilt;
+    all.push_back(curves_of(x, {"quality factor", ""}, s_too, {"P", "S"}, [&](double angle) {
+      return relaxing.waves(attenuation.reference_hz, (angle + tilt) * degree).quality;
     }));
+  }
   const Axis frequency{rock.material.is_anisotropic() ? "frequency, along the axis of the rock" : "frequency",
                        "Hz", mechanisms.low_hz() / 2, 2 * mechanisms.high_hz()};
   all.push_back(curves_of(frequency, {"quality factor", ""}, s_too, {"P", "S"},

@@ -29,7 +29,8 @@ RockAt rock_at(const Model<D>& model, const Point<D>& point_m);
 /// Phase speeds of waves by the angle of their fronts from the vertical (theory.md (V3)), in space of all
 /// three in the planes of x and z and of y and z (O3); with `attenuation`,
 /// where the rock attenuates, the quality factors and the speeds by frequency of the mechanisms that sweeps
-/// would relax ((Q1)-(Q6)), along the axis of anisotropic rock, and its quality factors by angle (Q9).
+/// would relax ((Q1)-(Q6)), along the axis of anisotropic rock, and its quality factors by angle (Q9), in
+/// space in the plane of its axes 1 and 3.
 Picture draw_rock(const RockAt& rock, const std::optional<Attenuation>& attenuation, Page page);
 
 }  // namespace slipwave::plot

@@ -27,19 +27,16 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
   const auto any = [&](const auto& is) { return std::any_of(set.systems.begin(), set.systems.end(), is); };
   if (any([](const auto& system) { return system.opens; })) return "open, expected closed ones";
   if (!askew) return "";
-  const std::string alone = " of rock, expected along both or in isotropic rock";
-  if (gives(set)) return "are springs and lie askew to the axes" + alone;
+  const std::string askew_to_axes = D == 2 ? "lie askew to the axes of rock" : "",
+                    expected = D == 2 ? ", expected along both or in isotropic rock"
+                                      : ", expected one level family in rock of level beds with gamma2 = "
+                                        "gamma, or isotropic rock";
+  if (gives(set)) return "are springs" + (D == 2 ? " and " + askew_to_axes : "") + expected;
   if (set.systems.size() > 1 &&
       any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
-    return "cross, weaken with slip and lie askew to the axes" + alone;
+    return (D == 2 ? "cross, weaken with slip and " + askew_to_axes : "cross and weaken with slip") +
+           expected;
   return "";
-}
-
-/// Whether slip on the planes of a set, in 3-D, meets one shear modulus, c55.
-template <int D>
-bool slips_as_isotropic_rock(const Medium<D>& medium, std::size_t cell, const FractureSet<D>& set) {
-  return set.systems.size() == 1 && std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9 &&
-         !is_orthorhombic(medium, cell) && !has_tilted_axis(medium, cell);
 }
 
 template <int D>
@@ -58,9 +55,6 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
                      : "") +
                 ") and " + what);
   };
-  if (D == 3 && scene.attenuation && attenuates(model.medium, cell))
-    refuse("attenuates, in 3-D expected one of both; use --without attenuation" +
-           std::string(isotropic_instead));
   if (near_bent)
     refuse(
         "lies in rows that follow a horizon, or beside them, where rock must be isotropic; build the model "
@@ -68,11 +62,6 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
         "--fit none, or use --without anisotropy");
   if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
-  if (D == 3 && !slips_as_isotropic_rock(model.medium, cell, set))
-    refuse("its fracture set '" + set.name +
-           "' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma and level beds; "
-           "use --without slip" +
-           std::string(isotropic_instead));
   if (const auto fault = fault_of(set, lie_askew(set, model.medium, cell)); !fault.empty())
     refuse("the planes of its fracture set '" + set.name + "' " + fault + "; use --without " +
            (fault.starts_with("open") ? "opening" : "slip") + isotropic_instead);

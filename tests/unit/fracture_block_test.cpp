@@ -73,8 +73,9 @@ TEST(JointSlip, OfPlanesAskewInTheirRockHoldsTheStrengthUnderTheNormalStressItLe
     for (const double kappa : {0., 0.4, -0.4}) {
       const JointSlip<2, double, Coulomb> dry(correction, {{normal, {.friction = friction}}});
       // n tau + tau n with tau along (-n_z, n_x), and kappa n n.
-      Stress<2, double> response;
-      response.values = {-2 * 0.48 + kappa * 0.36, 2 * 0.48 + kappa * 0.64, 0.36 - 0.64 + kappa * 0.48};
+      PlaneResponse<2, double> response;
+      response.stress.values = {-2 * 0.48 + kappa * 0.36, 2 * 0.48 + kappa * 0.64,
+                                0.36 - 0.64 + kappa * 0.48};
       const double relaxation[] = {most_relaxation_pa};
       const bool shut[] = {false};
       Stress<2, double> s, plain;
@@ -88,6 +89,54 @@ TEST(JointSlip, OfPlanesAskewInTheirRockHoldsTheStrengthUnderTheNormalStressItLe
       if (kappa != 0) {
         EXPECT_GT(std::abs(s.values[0] - plain.values[0]), 1);
       }
+    }
+}
+
+TEST(JointSlip, OfPlanesAskewInSpaceSolvesTheImplicitRule) {
+  // Slip along what is left of the traction, g = (|tau|/S - 1) tau/(eta |tau|), takes another share of itself
+  // off the traction along each of two directions: tau_e - tau = dt M g.
+  const double strength = 300, shares[] = {1, 0.6};
+  PlaneResponse<3, double> response;
+  response.along = {{{0.6, 0.8, 0}, {-0.8, 0.6, 0}}};
+  response.share = {shares[0], shares[1]};
+  const Traction<3, double> normal{0, 0, 1};
+  for (std::size_t k = 0; k < 2; ++k) {
+    add_shear<3, double>(response.stress[k], 1, response.along[k], normal);
+    response.stress[k](0, 1) = 0.2;
+  }
+  const bool shut[] = {false};
+  const auto resolved = [&](const Stress<3, double>& s) {
+    Traction<3, double> tau;
+    resolve<3, double>(normal, s, tau);
+    return response.components(tau);
+  };
+  std::mt19937 random(5);
+  for (const double relaxation : {20., 400., 1e5, double(most_relaxation_pa)})
+    for (int trial = 0; trial < 20; ++trial) {
+      const JointSlip<3, double, Coulomb> joint(SlipCorrection::first, {{normal, {.cohesion_pa = strength}}});
+      Stress<3, double> s;
+      for (auto& value : s.values) value = std::uniform_real_distribution<>(-2000, 2000)(random);
+      const auto before = s;
+      joint.slip(s, s, {&relaxation, shut, nullptr, 0, &response});
+      const auto elastic = resolved(before), left = resolved(s);
+      const double size = std::hypot(left[0], left[1]), all = std::hypot(elastic[0], elastic[1]);
+      if (all < strength) {
+        EXPECT_EQ(s.values, before.values);
+        continue;
+      }
+      if (relaxation > 1e20) {
+        // Dry friction; slip still is along the traction.
+        EXPECT_NEAR(size, strength, 1e-9 * strength);
+        EXPECT_NEAR((elastic[0] - left[0]) / left[0] * shares[1], (elastic[1] - left[1]) / left[1],
+                    1e-9 * all / strength);
+        continue;
+      }
+      for (std::size_t k = 0; k < 2; ++k)
+        EXPECT_NEAR(elastic[k] - left[k], shares[k] * relaxation * (size / strength - 1) * left[k] / size,
+                    1e-9 * all)
+            << relaxation;
+      EXPECT_NEAR(s(0, 1) - before(0, 1), 0.2 * (left[0] - elastic[0]) + 0.2 * (left[1] - elastic[1]),
+                  1e-9 * all);
     }
 }
 

@@ -254,20 +254,32 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
   deep.model.fracture_sets = {{"level", {{{0, 0, 1}, 0.5, 0, 0}}}};
   EXPECT_EQ(told(), "");
   deep.model.fracture_sets = {{"upright", {{{1, 0, 0}, 0.5, 0, 0}}}};
-  EXPECT_EQ(
-      told(),
-      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0) and its fracture set "
-      "'upright' slips, expected in 3-D one system of level planes, in rock with gamma2 = gamma and level "
-      "beds; use --without slip or --without anisotropy");
-  deep.model.fracture_sets = {{"level", {{{0, 0, 1}, 0.5, 0, 0}}}};
   EXPECT_EQ(told(), "");
+  auto& system = deep.model.fracture_sets[0].systems[0];
+  system.compliance = {1e-12, 1e-12, 0, 0, 1};
+  const std::string of =
+      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0) and ";
+  const std::string expected =
+      ", expected one level family in rock of level beds with gamma2 = gamma, or isotropic rock; use "
+      "--without "
+      "slip or --without anisotropy";
+  EXPECT_EQ(told(), of + "the planes of its fracture set 'upright' are springs" + expected);
+  system.normal = {0, 0, 1};
+  EXPECT_EQ(told(), "");
+  auto& sets = deep.model.fracture_sets;
+  sets = {{"both", {{{1, 0, 0}, 0.5, 0, 0}, {{0, 0, 1}, 0.5, 0, 0}}}};
+  EXPECT_EQ(told(), "");
+  set_friction_law(sets[0].systems[1], "slip-weakening:0.1:0.01");
+  EXPECT_EQ(told(), of + "the planes of its fracture set 'both' cross and weaken with slip" + expected);
+  sets = {{"level", {{{0, 0, 1}, 0.5, 0, 0}}}};
   deep.model.medium[Property::tilt] = Field<3>(deep.model.grid(), 30);
   deep.model.medium[Property::azimuth] = Field<3>(deep.model.grid(), 40);
-  EXPECT_EQ(
-      told(),
-      "the cell at x=2.5 y=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1, gamma 0, tilt 30, azimuth 40) "
-      "and its fracture set 'level' slips, expected in 3-D one system of level planes, in rock with gamma2 = "
-      "gamma and level beds; use --without slip or --without anisotropy");
+  EXPECT_EQ(told(), "");
+  sets[0].systems[0].opens = true;
+  EXPECT_NE(
+      told().find("(epsilon 0.2, delta 0.1, gamma 0, tilt 30, azimuth 40) and the planes of its fracture "
+                  "set 'level' open, expected closed ones; use --without opening"),
+      std::string::npos);
   deep.with_slip = false;
   EXPECT_EQ(told(), "");
   deep.numerics.monotone = true;

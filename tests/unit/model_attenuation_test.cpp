@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "model/averaging.hpp"
+#include "model/bulk_part.hpp"
 #include "model/layers.hpp"
 #include "model/model.hpp"
 #include "model/relations.hpp"
@@ -177,6 +178,98 @@ TEST(StepwiseRelaxation, LeavesTheStiffnessOfAnisotropicRockAtRest) {
   EXPECT_NEAR(bulk + shear, rest.c33.real() * along, 1e-6 * mean);
   EXPECT_NEAR(bulk - shear, rest.c13.real(), 1e-6 * mean);
   EXPECT_NEAR(of.c55 * (1 - sum(shares.shear)), rest.c55.real(), 1e-6 * mean);
+}
+
+/// The speed of none of its axes is another's.
+const Material cracked =
+    material_of_stiffness_in_space({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
+                                    2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
+                                   2300);
+
+TEST(BulkPart, IsTheLargestThatLeavesAPositiveRest) {
+  const Material isotropic{3000, 1600, 2300}, shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15};
+  const auto of_isotropic = bulk_part(stiffness_in_space(isotropic));
+  EXPECT_NEAR(of_isotropic.share, 1 - 4. / 3 * std::pow(1600. / 3000, 2), 1e-12);
+  for (const double weight : of_isotropic.weights) EXPECT_NEAR(weight, 1. / 3, 1e-12);
+  for (const auto& rock : {isotropic, shale, cracked}) {
+    const auto c = stiffness_in_space(rock);
+    const auto part = bulk_part(c);
+    // The rest takes nothing from the strain that belongs to the weights, and is positive.
+    std::array<SpaceVector, 3> rest{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      double none = 0;
+      for (std::size_t b = 0; b < 3; ++b) {
+        rest[a][b] =
+            c.normal(int(a), int(b)) / std::sqrt(c.normal(int(a), int(a)) * c.normal(int(b), int(b))) -
+            part.share;
+        none += rest[a][b] * part.weights[b];
+      }
+      EXPECT_NEAR(none, 0, 1e-12);
+      EXPECT_GT(rest[a][a], 0.1);
+    }
+    EXPECT_GT(rest[0][0] * rest[1][1] - rest[0][1] * rest[1][0], 0.01);
+    // The tensors of turned axes are those of the axes, turned.
+    auto turned = rock;
+    turned.tilt = 90;  // axis 1 along z, axis 3 along -x
+    const auto upright = bulk_tensors(rock), lying = bulk_tensors(turned);
+    EXPECT_FALSE(upright.are_turned());
+    EXPECT_FALSE(lying.are_turned());
+    for (const auto& [one, other] : {std::pair{0, 2}, {1, 1}, {2, 0}}) {
+      EXPECT_NEAR(lying.stress[std::size_t(one)], upright.stress[std::size_t(other)], 1e-12);
+      EXPECT_NEAR(lying.weights[std::size_t(one)], upright.weights[std::size_t(other)], 1e-12);
+    }
+    turned.tilt = 30, turned.azimuth = 40, turned.rotation = 50;
+    const auto any = bulk_tensors(turned);
+    EXPECT_EQ(any.are_turned(), rock.is_anisotropic());
+    double one = 0;
+    for (std::size_t n = 0; n < 6; ++n) one += any.weights[n] * any.stress[n];
+    EXPECT_NEAR(one, 1, 1e-12);
+  }
+}
+
+TEST(UnrelaxedMedium, HasTheStiffnessOfOrthorhombicRockAtTheReferenceFrequency) {
+  const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
+  const Material shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15};
+  for (const auto& rock : {shale, cracked}) {
+    Medium<3> medium(Grid<3>{{1, 1, 1}, 5, {0, 0, 0}});
+    medium[Property::epsilon1] = Field<3>(medium.grid());
+    complete_anisotropy(medium);
+    put(medium, 0, rock);
+    medium[Property::qp] = Field<3>(medium.grid(), 60), medium[Property::qs] = Field<3>(medium.grid(), 30);
+    EXPECT_EQ(unrelax(medium, attenuation), "");
+    // A rock that is alike in all horizontal directions stays so.
+    EXPECT_EQ(is_orthorhombic(medium, 0), rock.orthorhombic.has_value());
+    const auto p = attenuation.mechanisms.modulus(attenuation.mechanisms.shares(60), 13),
+               s = attenuation.mechanisms.modulus(attenuation.mechanisms.shares(30), 13);
+    const auto speed = [](std::complex<double> modulus) { return 1 / (1. / std::sqrt(modulus)).real(); };
+    const auto given = stiffness_in_space(rock), now = stiffness_in_space(material_of(medium, 0));
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        if (a == b) {
+          EXPECT_NEAR(speed(now.normal(a, a) * p), std::sqrt(given.normal(a, a)), 1e-6 * speed(now.c11));
+          continue;
+        }
+        EXPECT_NEAR(speed(now.shear(a, b) * s), std::sqrt(given.shear(a, b)), 1e-6 * speed(now.c11));
+        const double root = std::sqrt(now.normal(a, a) * now.normal(b, b));
+        const auto mixed = root * p - (root - now.normal(a, b)) * s;
+        EXPECT_NEAR(mixed.real(), given.normal(a, b), 2e-3 * given.normal(a, b)) << a << b;
+      }
+    // Of a stepwise medium what is left at rest is the same.
+    const StepwiseRelaxation<3> always(medium, attenuation.mechanisms, 0),
+        by_steps(medium, attenuation.mechanisms, 0.003);
+    const auto stepped = stiffness_in_space(material_of(by_steps.medium(), 0));
+    EXPECT_LT(stepped.c33, now.c33);
+    const auto at_rest = [](const StepwiseRelaxation<3>& relaxation, const OrthorhombicStiffness& c, int a,
+                            int b) {
+      const auto shares = relaxation.shares(0);
+      const auto left = [](const RelaxedShares& of) { return 1 - of[0] - of[1] - of[2]; };
+      const double kappa = bulk_part(c).share, root = std::sqrt(c.normal(a, a) * c.normal(b, b));
+      return kappa * root * left(shares.bulk) + (c.normal(a, b) - kappa * root) * left(shares.shear);
+    };
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b)
+        EXPECT_NEAR(at_rest(by_steps, stepped, a, b), at_rest(always, now, a, b), 1e-6 * now.c11) << a << b;
+  }
 }
 
 TEST(QualityRules, FollowTheirSources) {

@@ -55,10 +55,31 @@ inline Medium<3> uniform_rock(const Index<3>& shape, double spacing_m, const Mat
   return medium;
 }
 
-/// Error of all traces of a force along y, slowest waves of so many cells at the peak of the wavelet,
-/// receivers about 1.4 of them away in all directions. Planes of symmetry across y stand at x = 0 and z = 0,
-/// in rock that is tilted along y at x = 0 alone, else nowhere.
-inline double error_of_a_force(const Material& rock, int cells) {
+/// A force along y, slowest waves of so many cells at the peak of the wavelet, receivers about 1.4 of them
+/// away in all directions. Planes of symmetry across y stand at x = 0 and z = 0, in rock that is tilted along
+/// y at x = 0 alone, else nowhere.
+struct ForceInSpace {
+  Scene<3> scene;
+  double peak_hz, sources;  // planes of symmetry hold several sources
+
+  /// Error of all traces against velocities [component][sample] by receiver and number of samples, per N.
+  template <class Exact>
+  double error(const Exact& exact) const {
+    const auto gather = shoot(scene, 1);
+    const auto& receivers = scene.survey.receivers_m;
+    std::vector<double> found, wanted;
+    for (std::size_t at = 0; at < receivers.size(); ++at) {
+      const auto of = exact(receivers[at], std::size_t(gather.axis.count));
+      for (std::size_t component = 0; component < 3; ++component) {
+        const auto& samples = gather.traces[component * receivers.size() + at].samples;
+        for (const double sample : samples) found.push_back(sample / sources);
+        for (const double value : of[component]) wanted.push_back(1e9 * value);
+      }
+    }
+    return relative_error(found, wanted);
+  }
+};
+inline ForceInSpace force_in_space(const Material& rock, int cells) {
   const std::int64_t n = (34 * cells + 23) / 24;
   constexpr double h = 5;
   const double peak_hz = slowest_speeds_in_space(rock).s / (cells * h), share = cells / 24.;
@@ -78,21 +99,18 @@ inline double error_of_a_force(const Material& rock, int cells) {
                         edges, {0, 0, 0}, "force:0,1,0", ("ricker:" + std::to_string(peak_hz)).c_str(),
                         receivers, {Component::vx, Component::vy, Component::vz}, 3.2 / peak_hz, 0.001);
   scene.numerics.order = 7;
-  check(scene);
-  const auto gather = shoot(scene, 1);
+  return {std::move(scene), peak_hz, !tilted ? 4. : mirrored ? 2. : 1.};
+}
+
+/// The error of its traces against sums over plane waves.
+inline double error_of_a_force(const Material& rock, int cells, int order = 7) {
+  auto force = force_in_space(rock, cells);
+  force.scene.numerics.order = order;
+  check(force.scene);
   const AnisotropicSpace space(rock);
-  std::vector<double> found, wanted;
-  // Planes of symmetry hold several sources.
-  const double sources = !tilted ? 4 : mirrored ? 2 : 1;
-  for (std::size_t at = 0; at < receivers.size(); ++at) {
-    const auto exact = space.velocity(receivers[at], 1, {peak_hz}, 0.001, std::size_t(gather.axis.count));
-    for (std::size_t component = 0; component < 3; ++component) {
-      const auto& samples = gather.traces[component * receivers.size() + at].samples;
-      for (const double sample : samples) found.push_back(sample / sources);
-      for (const double value : exact[component]) wanted.push_back(1e9 * value);
-    }
-  }
-  return relative_error(found, wanted);
+  return force.error([&](const Point<3>& at, std::size_t count) {
+    return space.velocity(at, 1, {force.peak_hz}, 0.001, count);
+  });
 }
 
 /// A slice in the plane of two axes, one cell thick between mirrors, and what it is in 2-D: `flat` below

@@ -21,6 +21,11 @@ class AnisotropicSpace {
   /// Stiffness by Voigt's indices, Pa.
   AnisotropicSpace(const std::array<std::array<double, 6>, 6>& stiffness, double rho)
       : c_(stiffness), rho_(rho) {}
+  /// About axes that are turned as those of a rock.
+  AnisotropicSpace(const std::array<std::array<double, 6>, 6>& upright, const Material& angles)
+      : c_(upright), rho_(angles.rho) {
+    turn(angles);
+  }
   explicit AnisotropicSpace(const Material& material) : rho_(material.rho) {
     const auto c = stiffness_in_space(material);
     for (std::size_t i = 0; i < 3; ++i)

@@ -127,9 +127,8 @@ TEST(AttenuatingAnisotropy, RelaxesIsotropicCellsAsIsotropicMediaDo) {
   for (auto* values : {&stress, &memory})
     std::generate(values->begin(), values->end(), [&] { return random(engine); });
   std::generate(shares.begin(), shares.end(), [&] { return 0.1F * std::abs(random(engine)); });
-  std::vector<float> axes(axis_values * cells, 0.F);
-  for (std::size_t n = 0; n < axes.size(); ++n)
-    axes[n] = n / relaxation_block % axis_values % 2 == 0 ? 1.F : 0.F;
+  std::vector<float> axes(axis_values(2, Relaxing::turned) * cells, 0.F);
+  for (std::size_t n = 0; n < axes.size(); ++n) axes[n] = n / relaxation_block % 2 == 0 ? 1.F : 0.F;
   auto other_stress = stress, other_memory = memory;
   RelaxationRows<float> rows{stress.data(), cells, memory.data(), shares.data(), nullptr, {0.1F, 0.3F, 0.5F}};
   relaxation_kernel<float>(2, Relaxing::all, mechanisms)(cells, rows);

@@ -9,8 +9,9 @@
 namespace slipwave::solver {
 
 /// Expects a shot that continues from a state kept half way, at an odd step, to record the same bits.
-inline void expect_to_continue(const Scene<2>& scene) {
-  ShotSimulation<2, float> whole(scene, 1, {}), begun(scene, 1, {}), continued(scene, 1, {});
+template <int D>
+void expect_to_continue(const Scene<D>& scene) {
+  ShotSimulation<D, float> whole(scene, 1, {}), begun(scene, 1, {}), continued(scene, 1, {});
   whole.run_to(whole.steps());
   begun.run_to(whole.steps() / 2 | 1);
   std::vector<char> kept;

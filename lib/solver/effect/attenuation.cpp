@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/bulk_part.hpp"
 #include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
 
@@ -35,11 +36,11 @@ RelaxingStress<D, Real>::RelaxingStress(const Layout<D>& layout, const Domain<D>
       mechanisms_(scene.attenuation->mechanisms.count()),
       parts_(relaxing_parts(D, what_relaxes(domain))),
       moduli_(parts_ > 1 ? 2 : 1),
-      relax_(relaxation_kernel<Real>(D, what_relaxes(domain), mechanisms_)) {
+      what_(what_relaxes(domain)) {
   find_segments(domain, scene.model.medium);
-  fill_shares(domain, scene.model.medium, relaxation_by_steps(scene, dt_s));
-  if constexpr (D == 2)
-    if (what_relaxes(domain) == Relaxing::turned) fill_axes(domain, scene.model.medium);
+  const auto relaxation = relaxation_by_steps(scene, dt_s);
+  fill_shares(domain, scene.model.medium, relaxation);
+  if (axes_stored_ > 0) fill_axes(domain, D == 2 ? scene.model.medium : relaxation.medium());
 }
 
 template <int D, class Real>
@@ -74,14 +75,33 @@ void RelaxingStress<D, Real>::find_segments(const Domain<D>& domain, const Mediu
         here += attenuates(medium, model_cell(domain, line, x));
       cells_ += here;
       if (here == 0) continue;
-      if (segments_.size() > starts_.back() && segments_.back().last == first)
+      const auto what = what_relaxes_in(domain, medium, line, first);
+      if (segments_.size() > starts_.back() && segments_.back().last == first &&
+          segments_.back().what == what)
         segments_.back().last += block;
       else
-        segments_.push_back({first, first + block, stored_});
+        segments_.push_back({first, first + block, stored_, axes_stored_, what,
+                             relaxation_kernel<Real>(D, what, mechanisms_)});
       stored_ += block;
+      axes_stored_ += axis_values(D, what) * block;
     }
   }
   starts_.push_back(segments_.size());
+}
+
+template <int D, class Real>
+Relaxing RelaxingStress<D, Real>::what_relaxes_in(const Domain<D>& domain, const Medium<D>& medium,
+                                                  std::int64_t line, std::int64_t first) const {
+  auto what = what_;
+  if constexpr (D == 3)
+    for (auto x = first; x < std::min(first + relaxation_block, layout_.shape()[0]); ++x) {
+      const auto cell = model_cell(domain, line, x);
+      if (what_ != Relaxing::all || !attenuates(medium, cell) || !is_anisotropic(medium, cell)) continue;
+      if (has_tilted_axis(medium, cell) && bulk_tensors(material_of(medium, cell)).are_turned())
+        return Relaxing::turned;
+      what = Relaxing::upright;
+    }
+  return what;
 }
 
 template <int D, class Real>
@@ -113,17 +133,27 @@ void RelaxingStress<D, Real>::fill_shares(const Domain<D>& domain, const Medium<
 
 template <int D, class Real>
 void RelaxingStress<D, Real>::fill_axes(const Domain<D>& domain, const Medium<D>& medium) {
-  axes_ = Buffer<Real>(stored_ * axis_values);
+  axes_ = Buffer<Real>(axes_stored_);
   for (std::int64_t line = 0; line < layout_.lines(); ++line)
     for (const auto& segment : segments(line))
-      for (auto x = segment.first; x < segment.last; ++x) {
-        RelaxingAxis axis;
-        if (x < layout_.shape()[0] && !is_taken_for_isotropic(domain, medium, line, x))
-          axis = relaxing_axis(rock_of(medium, model_cell(domain, line, x)));
-        const auto place = segment.place + (x - segment.first), lane = place % relaxation_block;
-        Real* to = axes_.data() + (place - lane) * axis_values + lane;
-        for (const double value : {axis.even, axis.odd, axis.cosine, axis.sine})
-          *to = Real(value), to += relaxation_block;
+      for (auto x = segment.first; x < segment.last && axis_values(D, segment.what) > 0; ++x) {
+        const bool in_grid = x < layout_.shape()[0];
+        const auto place = x - segment.first, lane = place % relaxation_block;
+        Real* to = axes_.data() + segment.axes + (place - lane) * axis_values(D, segment.what) + lane;
+        const auto put = [&](double value) { *to = Real(value), to += relaxation_block; };
+        if constexpr (D == 2) {
+          RelaxingAxis axis;
+          if (in_grid && !is_taken_for_isotropic(domain, medium, line, x))
+            axis = relaxing_axis(rock_of(medium, model_cell(domain, line, x)));
+          for (const double value : {axis.even, axis.odd, axis.cosine, axis.sine}) put(value);
+        } else {
+          BulkTensors tensors;
+          const auto cell = model_cell(domain, line, in_grid ? x : layout_.shape()[0] - 1);
+          if (is_anisotropic(medium, cell)) tensors = bulk_tensors(material_of(medium, cell));
+          const std::ptrdiff_t components = axis_values(D, segment.what) / 2;
+          for (const auto* tensor : {&tensors.weights, &tensors.stress})
+            std::for_each(tensor->begin(), tensor->begin() + components, put);
+        }
       }
 }
 
@@ -145,8 +175,9 @@ void RelaxingStress<D, Real>::apply_between(const StepTime& time, const RowField
     const auto place = segment.place + (first - segment.first);
     rows.memory = memory_.data() + place * mechanisms_ * parts_;
     rows.shares = shares_.data() + place * mechanisms_ * moduli_;
-    if (axes_.size() > 0) rows.axes = axes_.data() + place * axis_values;
-    relax_(last - first, rows);
+    if (axes_.size() > 0)
+      rows.axes = axes_.data() + segment.axes + (first - segment.first) * axis_values(D, segment.what);
+    segment.relax(last - first, rows);
   }
   if (!injected) return;
   for (const auto* source : sources_) source->add_stress_before(time.step, fields, columns, 1);

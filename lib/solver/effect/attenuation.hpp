@@ -45,10 +45,12 @@ class RelaxingStress : public Effect<D, Real> {
   }
 
  private:
-  /// Neighbouring cells of a row, whole blocks of them, from column `first` on; `place` cells are stored
-  /// before them.
+  /// Neighbouring cells of a row, whole blocks of them that relax alike, from column `first` on; `place`
+  /// cells are stored before them, and `axes` numbers of axes.
   struct Segment {
-    std::int64_t first, last, place;
+    std::int64_t first, last, place, axes;
+    Relaxing what;
+    RelaxationKernel<Real> relax;
   };
   std::span<const Segment> segments(std::int64_t line) const {
     return {segments_.data() + starts_[std::size_t(line)],
@@ -56,7 +58,11 @@ class RelaxingStress : public Effect<D, Real> {
   }
   void find_segments(const Domain<D>& domain, const Medium<D>& medium);
   void fill_shares(const Domain<D>& domain, const Medium<D>& medium, const StepwiseRelaxation<D>& relaxation);
+  /// Of the medium that sweeps advance.
   void fill_axes(const Domain<D>& domain, const Medium<D>& medium);
+  /// How the cells of a block relax, of which some attenuate.
+  Relaxing what_relaxes_in(const Domain<D>& domain, const Medium<D>& medium, std::int64_t line,
+                           std::int64_t first) const;
   Index<D> place_of(std::int64_t line, std::int64_t x) const;
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
   /// Whether the solver takes a tilted mean for an isotropic one (Domain::tilted()).
@@ -66,13 +72,13 @@ class RelaxingStress : public Effect<D, Real> {
   const Layout<D>& layout_;
   std::vector<const PointSource<D, Real>*> sources_;
   int every_, mechanisms_, parts_, moduli_;
-  std::int64_t cells_ = 0, stored_ = 0;
+  Relaxing what_;
+  std::int64_t cells_ = 0, stored_ = 0, axes_stored_ = 0;
   std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
   Buffer<Real> memory_, shares_;     // [block][mechanism, part][cell], [block][modulus, mechanism][cell]
-  Buffer<Real> axes_;                // [block][value of RelaxingAxis][cell]; empty where all is isotropic
+  Buffer<Real> axes_;                // [block][axis_values()][cell] of segments that have any; else empty
   RelaxationRows<Real> rows_{};      // what all cells have in common
-  RelaxationKernel<Real> relax_;
 };
 
 }  // namespace slipwave::solver

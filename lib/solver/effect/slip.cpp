@@ -66,11 +66,10 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
     const auto at = place + std::size_t(i);
     const double mu = groups_[group].shear_modulus(at), lambda = groups_[group].lambda(at);
     if (!(mu > 0)) continue;
-    if constexpr (D == 2)
-      if (const auto* const stiffness = groups_[group].stiffness(at)) {
-        record_askew(group, at, *stiffness, i, before, after, pitch, act);
-        continue;
-      }
+    if (const auto* const stiffness = groups_[group].stiffness(at)) {
+      record_askew(group, at, *stiffness, i, before, after, pitch, act);
+      continue;
+    }
     auto& entry = diary_[group][at];
     const auto prestress = groups_[group].prestress(at);
     double square = 0, mean = 0, of_prestress = 0;
@@ -103,15 +102,16 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
 
 /// The same of one cell in which planes lie askew to the axes of anisotropic rock; they do not open.
 template <int D, class Real>
-void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const PlaneStiffness& stiffness,
+void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const RockStiffness<D>& stiffness,
                                  std::int64_t i, const Real* before, const Real* after, std::int64_t pitch,
                                  SlipAct act) {
   constexpr std::int64_t piece = 64;
   const bool centred = correction_ == SlipCorrection::centred;
   auto& entry = diary_[group][at];
   const auto prestress = groups_[group].prestress(at);
-  std::array<double, 3> off{}, mean{}, in_step{};
-  for (std::size_t c = 0; c < 3; ++c) {
+  constexpr std::size_t components = SymmetricTensor<D, Real>::components;
+  std::array<double, components> off{}, mean{}, in_step{};
+  for (std::size_t c = 0; c < components; ++c) {
     const double was = double(before[std::int64_t(c) * piece + i]),
                  is = double(after[std::int64_t(c) * pitch + i]);
     auto& ahead = entry.taken_ahead.values[c];
@@ -119,14 +119,16 @@ void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const PlaneS
     in_step[c] = centred && act == SlipAct::slip ? ahead + off[c] : off[c];
     if (centred && act == SlipAct::begin) ahead = off[c];
   }
-  // Strains xx, zz and twice xz.
+  // Shear strains are doubled.
   const auto strain = strain_of_stress(stiffness, off), slip = strain_of_stress(stiffness, in_step);
-  for (std::size_t c = 0; c < 3; ++c) {
+  for (std::size_t c = 0; c < components; ++c) {
     entry.out_of_waves += strain[c] * mean[c];
     entry.heat += strain[c] * (mean[c] + double(prestress.values[c]));
   }
   if (act == SlipAct::open || (centred && act == SlipAct::begin)) return;
-  const double size = std::sqrt(2 * (slip[0] * slip[0] + slip[1] * slip[1]) + slip[2] * slip[2]);
+  double along_axes = 0, shear = 0;
+  for (std::size_t c = 0; c < components; ++c) (c < D ? along_axes : shear) += slip[c] * slip[c];
+  const double size = std::sqrt(2 * along_axes + shear);
   if (act == SlipAct::slip) entry.in_step = entry.ahead + size;
   entry.ahead = act == SlipAct::slip ? 0 : size;
   entry.slip += size;

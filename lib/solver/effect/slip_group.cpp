@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "model/fracture.hpp"
 #include "model/plane_strain.hpp"
@@ -60,20 +61,65 @@ double traction_along(const Point<2>& n, const std::array<double, 3>& stress) {
   return n[0] * n[1] * (stress[1] - stress[0]) + (n[0] * n[0] - n[1] * n[1]) * stress[2];
 }
 
+/// Fills in the response of planes with that normal, and returns the modulus that relaxation counts.
+template <class Real>
+double respond(PlaneResponse<2, Real>& response, const Point<2>& normal, const PlaneStiffness& c) {
+  const auto stress = stress_of_slip(normal, c);
+  const double modulus = traction_along(normal, stress);
+  for (std::size_t k = 0; k < stress.size(); ++k) response.stress.values[k] = Real(stress[k] / modulus);
+  return modulus;
+}
+template <class Real>
+double respond(PlaneResponse<3, Real>& response, const Point<3>& n, const SpaceStiffness& c) {
+  // What slip along either tangent takes off the stress, and off the traction along both.
+  auto along = tangents_of<3>(n);
+  const auto stress_along = [&](const Point<3>& t) {
+    return stress_of_strain(c, {n[0] * t[0], n[1] * t[1], n[2] * t[2], n[0] * t[1] + n[1] * t[0],
+                                n[0] * t[2] + n[2] * t[0], n[1] * t[2] + n[2] * t[1]});
+  };
+  const auto traction = [&](const std::array<double, 6>& s, const Point<3>& t) {
+    Point<3> of;
+    resolve<3, double>(n, {s}, of);
+    return of[0] * t[0] + of[1] * t[1] + of[2] * t[2];
+  };
+  const auto one = stress_along(along[0]), other = stress_along(along[1]);
+  const double a = traction(one, along[0]), b = traction(other, along[1]), mixed = traction(one, along[1]);
+  // Turned so that neither takes anything off the traction along the other.
+  const double angle = std::atan2(2 * mixed, a - b) / 2, cosine = std::cos(angle), sine = std::sin(angle);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double before = along[0][i];
+    along[0][i] = cosine * before + sine * along[1][i], along[1][i] = cosine * along[1][i] - sine * before;
+  }
+  const double larger = traction(stress_along(along[0]), along[0]);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto stress = stress_along(along[k]);
+    const double modulus = traction(stress, along[k]);
+    response.share[k] = Real(modulus / larger);
+    for (std::size_t i = 0; i < 3; ++i) response.along[k][i] = Real(along[k][i]);
+    for (std::size_t m = 0; m < 6; ++m) response.stress[k].values[m] = Real(stress[m] / modulus);
+  }
+  return larger;
+}
+
+/// Of the rock of a cell as it lies in the grid.
+RockStiffness<2> rock_stiffness(const Medium<2>& medium, std::size_t cell) {
+  return plane_stiffness_of(medium, cell);
+}
+RockStiffness<3> rock_stiffness(const Medium<3>& medium, std::size_t cell) {
+  return space_stiffness_of(material_of(medium, cell));
+}
+
 }  // namespace
 
 template <int D, class Real>
-void SlipGroup<D, Real>::put_response(std::size_t place, const PlaneStiffness& stiffness) {
-  if constexpr (D == 2) {
-    stiffness_[place] = stiffness;
-    for (std::size_t n = 0; n < set_->systems.size(); ++n) {
-      const auto normal = unit_normal<D>(set_->systems[n].normal);
-      const auto stress = stress_of_slip(normal, stiffness);
-      const double modulus = traction_along(normal, stress);
-      auto& response = responses_[place * set_->systems.size() + n];
-      for (std::size_t c = 0; c < stress.size(); ++c) response.values[c] = Real(stress[c] / modulus);
-    }
-  }
+std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const RockStiffness<D>& stiffness) {
+  if (!stiffness_.empty()) stiffness_[place] = stiffness;
+  const auto& systems = set_->systems;
+  std::vector<double> moduli;
+  for (std::size_t n = 0; n < systems.size(); ++n)
+    moduli.push_back(
+        respond(responses_[place * systems.size() + n], unit_normal<D>(systems[n].normal), stiffness));
+  return moduli;
 }
 
 template <int D, class Real>
@@ -99,20 +145,17 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   const bool askew = lie_askew_anywhere(domain, scene, layout);
   if (askew) {
     responses_.assign(count_ * systems.size(), {});
-    stiffness_.assign(count_, {});
+    if (D == 2 || scene.slip_diary) stiffness_.assign(count_, {});
   }
   if (!model.prestress_pa.empty()) prestress_.assign(count_ * Tensor::components, 0);
   places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
     const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
     double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
-    if (askew) put_response(place, plane_stiffness_of(model.medium, cell));
+    const auto moduli =
+        askew ? put_response(place, rock_stiffness(model.medium, cell)) : std::vector<double>{};
     for (std::size_t n = 0; n < systems.size(); ++n) {
-      if constexpr (D == 2)
-        if (askew) {
-          const auto normal = unit_normal<D>(systems[n].normal);
-          mu = traction_along(normal, stress_of_slip(normal, stiffness_[place]));
-        }
+      if (askew) mu = moduli[n];
       if (systems[n].slides())
         relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
     }
@@ -340,7 +383,7 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
        {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
     values += row->size();
   return std::int64_t(values * sizeof(Real) + responses_.size() * sizeof(responses_[0]) +
-                      stiffness_.size() * sizeof(PlaneStiffness)) +
+                      stiffness_.size() * sizeof(RockStiffness<D>)) +
          places_.memory_bytes();
 }
 

@@ -9,6 +9,7 @@
 #include "fracture/joint_slip.hpp"
 #include "fracture/slip_weakening.hpp"
 #include "model/anisotropy.hpp"
+#include "model/space_stiffness.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/fracture_cells.hpp"
 #include "solver/kernels/slip_kernels.hpp"
@@ -18,6 +19,10 @@ namespace slipwave::solver {
 /// The acts of slip on cells: planes open or close, slip to the end of a step, take the explicit half of the
 /// next step.
 enum class SlipAct { open, slip, begin };
+
+/// All stiffnesses of a rock.
+template <int D>
+using RockStiffness = std::conditional_t<D == 2, PlaneStiffness, SpaceStiffness>;
 
 /// The cells of one fracture set: their places, constants and state. Cells of a row form segments of whole
 /// vectors; cells of other sets or none among them have c = 0 and do not slip.
@@ -53,8 +58,9 @@ class SlipGroup {
   Real shear_modulus(std::size_t place) const { return mu_.empty() ? Real(0) : mu_[place]; }
   /// lambda of a cell, Pa, where planes open; else 0.
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
-  /// Stiffness of a cell in whose anisotropic rock planes of this set may lie askew; null where none do.
-  const PlaneStiffness* stiffness(std::size_t place) const {
+  /// Stiffness of a cell in whose anisotropic rock planes of this set may lie askew; null where none do. In
+  /// 3-D only where a diary is written.
+  const RockStiffness<D>* stiffness(std::size_t place) const {
     return stiffness_.empty() ? nullptr : &stiffness_[place];
   }
   std::int64_t memory_bytes() const;
@@ -68,7 +74,8 @@ class SlipGroup {
   void choose_kernels(SlipCorrection correction);
   /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
   bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
-  void put_response(std::size_t place, const PlaneStiffness& stiffness);
+  /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
+  std::vector<double> put_response(std::size_t place, const RockStiffness<D>& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// The law for all systems: one that covers those of each.
   FrictionLaw law() const;
@@ -104,9 +111,9 @@ class SlipGroup {
   std::vector<Real> retained_;                 // rows that kernels retain from step to step
   std::vector<std::vector<Real>> slips_m_;     // [system][cell], where the law has a state; else empty
   std::vector<Real> slip_per_pa_;              // h/mu, where the law has a state
-  // Where planes lie askew in anisotropic rock, of 2-D: [cell][system] (S34), and by cell.
-  std::vector<SymmetricTensor<D, Real>> responses_;
-  std::vector<PlaneStiffness> stiffness_;
+  // Where planes lie askew in anisotropic rock: [cell][system], and by cell.
+  std::vector<PlaneResponse<D, Real>> responses_;
+  std::vector<RockStiffness<D>> stiffness_;
 };
 
 }  // namespace slipwave::solver

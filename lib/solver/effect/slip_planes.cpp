@@ -10,25 +10,6 @@
 namespace slipwave::solver {
 namespace {
 
-/// Unit vectors along planes with this normal, at right angles to each other.
-template <int D>
-std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& n) {
-  if constexpr (D == 2) {
-    return {{{-n[1], n[0]}}};
-  } else {
-    // The axis that lies flattest in the planes, less its component along n; then their product.
-    std::size_t axis = 0;
-    for (std::size_t i = 1; i < 3; ++i)
-      if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
-    Point<3> a{}, b{};
-    const double size = std::sqrt(1 - n[axis] * n[axis]);
-    for (std::size_t i = 0; i < 3; ++i) a[i] = ((i == axis) - n[axis] * n[i]) / size;
-    for (std::size_t i = 0; i < 3; ++i)
-      b[i] = n[(i + 1) % 3] * a[(i + 2) % 3] - n[(i + 2) % 3] * a[(i + 1) % 3];
-    return {{a, b}};
-  }
-}
-
 /// Weights of the components of a stress in s_n.
 template <int D, class Real>
 void put_normal(const Point<D>& n, Real* weights) {
@@ -48,6 +29,24 @@ void put_shear(const Point<D>& n, const Point<D>& m, Real* weights) {
 }
 
 }  // namespace
+
+template <int D>
+std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& n) {
+  if constexpr (D == 2) {
+    return {{{-n[1], n[0]}}};
+  } else {
+    // The axis that lies flattest in the planes, less its component along n; then their product.
+    std::size_t axis = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+      if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
+    Point<3> a{}, b{};
+    const double size = std::sqrt(1 - n[axis] * n[axis]);
+    for (std::size_t i = 0; i < 3; ++i) a[i] = ((i == axis) - n[axis] * n[i]) / size;
+    for (std::size_t i = 0; i < 3; ++i)
+      b[i] = n[(i + 1) % 3] * a[(i + 2) % 3] - n[(i + 2) % 3] * a[(i + 1) % 3];
+    return {{a, b}};
+  }
+}
 
 template <int D, class Real>
 FrictionConstants<Real> constants_of(const SlipSystem<D>& system, double unit) {
@@ -83,6 +82,8 @@ CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, d
   return of;
 }
 
+template std::array<Point<2>, 1> tangents_of<2>(const Point<2>&);
+template std::array<Point<3>, 2> tangents_of<3>(const Point<3>&);
 template CellCompliance compliance_of<2>(const SlipSystem<2>&, bool, double, double);
 template CellCompliance compliance_of<3>(const SlipSystem<3>&, bool, double, double);
 template FrictionConstants<float> constants_of<2, float>(const SlipSystem<2>&, double);

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "model/model.hpp"
 #include "solver/kernels/slip_kernels.hpp"
 
 namespace slipwave::solver {
+
+/// Unit vectors along planes with this normal, at right angles to each other.
+template <int D>
+std::array<Point<D>, std::size_t(D - 1)> tangents_of(const Point<D>& normal);
 
 /// Constants of a system's friction law; stress is `unit` times Pa.
 template <int D, class Real>

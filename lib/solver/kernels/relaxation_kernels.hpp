@@ -19,15 +19,20 @@ struct RelaxationRows {
   Real* memory;        // block after block: of mechanism l and part c in row l * parts + c of the block
   const Real* shares;  // the same: c_l times what of the bulk modulus mechanism l relaxes, then of the shear
                        // modulus
-  const Real* axes;    // the same, of Relaxing::turned: the four numbers of RelaxingAxis
+  const Real* axes;    // the same, of Relaxing::upright and turned: axis_values() numbers
   Real decays[most_mechanisms];  // c_l = 1 - exp(-rate_l time)
 };
 
 /// What relaxes: the pressure where it is all that is stored, the mean of the normal stresses, or all
-/// stresses; in 2-D those about the axes of anisotropic rock, too (theory.md (Q9)).
-enum class Relaxing { pressure, mean, all, turned };
-/// Numbers of a RelaxingAxis.
-inline constexpr int axis_values = 4;
+/// stresses; or those about the axes of anisotropic rock, in 2-D (theory.md (Q9)), and in 3-D where they lie
+/// along the grid or anywhere (Q11). In 3-D it may change from block to block.
+enum class Relaxing { pressure, mean, all, upright, turned };
+/// What is known of the axes of a cell: in 2-D the numbers of a RelaxingAxis, in 3-D the components of both
+/// tensors of BulkTensors, the diagonal ones alone where axes lie along the grid.
+constexpr int axis_values(int dimensions, Relaxing what) {
+  if (dimensions == 2) return what == Relaxing::turned ? 4 : 0;
+  return what == Relaxing::turned ? 12 : what == Relaxing::upright ? 6 : 0;
+}
 /// Parts of the stress that relax.
 constexpr int relaxing_parts(int dimensions, Relaxing what) {
   return what == Relaxing::pressure || what == Relaxing::mean ? 1 : dimensions == 2 ? 3 : 6;

@@ -116,13 +116,66 @@ template <int Mechanisms, class Real>
     stress += block;
     memory += block * Mechanisms * parts;
     bulk += block * 2 * Mechanisms;
-    axes += axis_values * block;
+    axes += axis_values(2, Relaxing::turned) * block;
+  }
+}
+
+/// In 3-D in anisotropic rock: all of the stress relaxes as the shear modulus does, and its bulk part by what
+/// the shares of the bulk differ from those of shear. The memory is of the stress itself.
+template <Relaxing What, int Mechanisms, class Real>
+[[gnu::noinline]] void relax_in_space(std::int64_t n, const RelaxationRows<Real>& rows) {
+  constexpr std::int64_t block = relaxation_block;
+  constexpr int parts = relaxing_parts(3, What), values = axis_values(3, What), of_tensor = values / 2;
+  const std::int64_t pitch = rows.pitch;
+  Real decays[Mechanisms];
+  for (int l = 0; l < Mechanisms; ++l) decays[l] = rows.decays[l];
+  Real* __restrict stress = rows.stress;
+  Real* __restrict memory = rows.memory;
+  const Real* __restrict bulk = rows.shares;
+  const Real* __restrict axes = rows.axes;
+  for (std::int64_t first = 0; first < n; first += block) {
+    const Real* const shear = bulk + Mechanisms * block;
+#pragma omp simd
+    for (std::int64_t i = 0; i < block; ++i) {
+      const auto at_once = [&](int part) __attribute__((always_inline)) {
+        Real sum = stress[part * pitch + i];
+#pragma GCC unroll 5
+        for (int l = 0; l < Mechanisms; ++l) sum += memory[(l * parts + part) * block + i];
+        return sum;
+      };
+      const Real e0 = at_once(0), e1 = at_once(1), e2 = at_once(2), e3 = at_once(3), e4 = at_once(4),
+                 e5 = at_once(5);
+      Real size = axes[i] * e0 + axes[block + i] * e1 + axes[2 * block + i] * e2;
+      if constexpr (What == Relaxing::turned)
+        size += axes[3 * block + i] * e3 + axes[4 * block + i] * e4 + axes[5 * block + i] * e5;
+      const auto relax_part = [&](int part, Real of_part) __attribute__((always_inline)) {
+        const Real even = part < of_tensor ? axes[(of_tensor + part) * block + i] * size : Real(0);
+        Real lost = 0;
+#pragma GCC unroll 5
+        for (int l = 0; l < Mechanisms; ++l) {
+          Real& relaxed = memory[(l * parts + part) * block + i];
+          Real change = shear[l * block + i] * of_part - decays[l] * relaxed;
+          if (part < of_tensor) change += (bulk[l * block + i] - shear[l * block + i]) * even;
+          relaxed += change;
+          lost += change;
+        }
+        stress[part * pitch + i] -= lost;
+      };
+      relax_part(0, e0), relax_part(1, e1), relax_part(2, e2);
+      relax_part(3, e3), relax_part(4, e4), relax_part(5, e5);
+    }
+    stress += block;
+    memory += block * Mechanisms * parts;
+    bulk += block * 2 * Mechanisms;
+    axes += values * block;
   }
 }
 
 template <int D, Relaxing What, int Mechanisms, class Real>
 constexpr RelaxationKernel<Real> loop() {
-  if constexpr (What == Relaxing::turned)
+  if constexpr (D == 3 && (What == Relaxing::upright || What == Relaxing::turned))
+    return relax_in_space<What, Mechanisms, Real>;
+  else if constexpr (What == Relaxing::turned)
     return relax_turned<Mechanisms, Real>;
   else
     return relax<D, What, Mechanisms, Real>;
@@ -146,7 +199,9 @@ template <int D, class Real>
 RelaxationKernel<Real> of_what(Relaxing what, int mechanisms) {
   if (what == Relaxing::pressure) return of_count<D, Relaxing::pressure, Real>(mechanisms);
   if (what == Relaxing::mean) return of_count<D, Relaxing::mean, Real>(mechanisms);
-  if (D == 2 && what == Relaxing::turned) return of_count<D, Relaxing::turned, Real>(mechanisms);
+  if (what == Relaxing::turned) return of_count<D, Relaxing::turned, Real>(mechanisms);
+  if constexpr (D == 3)
+    if (what == Relaxing::upright) return of_count<D, Relaxing::upright, Real>(mechanisms);
   return of_count<D, Relaxing::all, Real>(mechanisms);
 }
 
