@@ -299,6 +299,8 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set, const Re
       ++count.left;
   }
   if (count.marked == 0) {
+    if (!model.fracture_sets.empty() && count.left == 0)
+      throw Error("the region holds less than half of any cell that no earlier set fills more of");
     if (model.fracture_sets.empty()) model.fracture = {};
     throw Error("none of the " + std::to_string(count.left) +
                 " cells in the region is solid, at least one must be");

@@ -93,6 +93,17 @@ TEST_F(ModelFile, BringsBackStaticStressAndPlanesThatOpen) {
   expect_equal(read_model<2>(path_), model);
 }
 
+TEST_F(ModelFile, BringsBackSharesOfCellsThatEdgesCut) {
+  auto model = water_over_rock(grid_of(7, 5, 12.5), 0);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = model.fracture({2, 2}) = 1;
+  model.fracture_sets = {{"one", {{{1, 0}, 0.2, 0, 0}}}};
+  model.fracture_share = Field<2>(model.grid(), 1);
+  model.fracture_share({2, 2}) = 0.375;
+  write_model(model, path_);
+  EXPECT_TRUE(same(read_model<2>(path_).fracture_share, model.fracture_share));
+}
+
 TEST_F(ModelFile, BringsBackFrictionLaws) {
   auto model = water_over_rock(grid_of(4, 3, 10), 1);
   model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
