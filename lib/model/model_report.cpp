@@ -99,6 +99,7 @@ void report_compliance(Report& report, const LinearCompliance& of) {
 
 struct CellsOfSet {
   std::int64_t all = 0, cut = 0;
+  double shares = 0;  // sum over all
 };
 
 template <int D>
@@ -106,7 +107,10 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
   Report of_set;
   of_set.text("name", set.name);
   of_set.count("cells", cells.all);
-  if (cells.cut > 0) of_set.count("cut by its edge", cells.cut);
+  if (cells.cut > 0) {
+    of_set.count("cut by its edge", cells.cut);
+    of_set.number("as whole cells", std::round(cells.shares * 10) / 10, "");
+  }
   if constexpr (D == 2) {
     double length_m = 0;
     for (const auto& trace : set.traces) length_m += length_of(trace);
@@ -197,6 +201,7 @@ Report report_of(const Model<D>& model) {
     if (code >= cells.size()) continue;
     ++cells[code].all;
     cells[code].cut += is_cut(model, cell);
+    cells[code].shares += fracture_share_of(model, cell);
   }
   std::vector<Report> sets;
   for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) {

@@ -200,10 +200,13 @@ TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWithWhereEdgesCutCells) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<float> uniform(0.002F, 1.2F);
   for (auto& share : shares) share = std::min(uniform(engine), 1.F);
+  std::size_t number = 0;
   for (const auto& law : laws())
     for (const auto correction : {SlipCorrection::centred, SlipCorrection::first, SlipCorrection::second,
                                   SlipCorrection::exponential}) {
       rotation.next();
+      // In the short form each law with one correction.
+      if (!long_form() && number++ % 5 != 0) continue;
       SCOPED_TRACE("friction " + std::to_string(law.friction) + ", viscosity " +
                    std::to_string(law.viscosity_s) + ", " + rotation.shown());
       auto setup = fractured<double>(rock(cells(), cells()), cluster_named("everywhere, so every edge"),

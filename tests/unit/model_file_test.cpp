@@ -38,6 +38,7 @@ void expect_equal(const Model<D>& found, const Model<D>& expected) {
   EXPECT_TRUE(same(found.medium.vs, expected.medium.vs));
   EXPECT_TRUE(same(found.medium.rho, expected.medium.rho));
   EXPECT_TRUE(same(found.fracture, expected.fracture));
+  EXPECT_TRUE(same(found.fracture_share, expected.fracture_share));
   ASSERT_EQ(found.fracture_sets.size(), expected.fracture_sets.size());
   for (std::size_t k = 0; k < found.fracture_sets.size(); ++k) {
     EXPECT_EQ(found.fracture_sets[k].name, expected.fracture_sets[k].name);
@@ -101,7 +102,7 @@ TEST_F(ModelFile, BringsBackSharesOfCellsThatEdgesCut) {
   model.fracture_share = Field<2>(model.grid(), 1);
   model.fracture_share({2, 2}) = 0.375;
   write_model(model, path_);
-  EXPECT_TRUE(same(read_model<2>(path_).fracture_share, model.fracture_share));
+  expect_equal(read_model<2>(path_), model);
 }
 
 TEST_F(ModelFile, BringsBackFrictionLaws) {

@@ -78,13 +78,14 @@ void SlipGroup<D, Real>::put_response(std::size_t place, const PlaneStiffness& s
   }
 }
 
-/// Where planes give way as springs, or lie askew in their rock, the part is loaded as the cell is.
+/// Where planes open, give way as springs or lie askew in their rock the part is loaded as the cell is.
 template <int D, class Real>
 double SlipGroup<D, Real>::put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda,
                                     double mu) {
   const double share = fracture_share_of(model, cell);
   const auto edge = edge_normal(model, cell);
-  const double held = gives(*set_) || !responses_.empty() ? 0 : held_share_of_all(edge, lambda, mu);
+  const bool as_loaded = gives(*set_) || opens() || !responses_.empty();
+  const double held = as_loaded ? 0 : held_share_of_all(edge, lambda, mu);
   cut_->put(place, share, held, edge, lambda, mu);
   return share + (1 - share) * held;
 }
