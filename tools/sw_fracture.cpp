@@ -75,9 +75,7 @@ void declare_laws(cli::Options& options, Settings& settings) {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
-  options.add(
-      "box", settings.box, "X0:X1,Z0:Z1",
-      "region to fracture: a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1.");
+  options.add("box", settings.box, "X0:X1,Z0:Z1", "region to fracture: a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1");
   options.add("polygon", settings.polygon, "FILE", "or in a polygon, one line \"X Z\" per vertex");
   options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
               "or in an ellipse around X,Z with half axes A, which dips by DIP, and B; in 3-D "
