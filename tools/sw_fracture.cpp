@@ -75,8 +75,7 @@ void declare_laws(cli::Options& options, Settings& settings) {
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.model, "M");
-  options.add("box", settings.box, "X0:X1,Z0:Z1",
-              "region to fracture: cells with centres in a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1");
+  options.add("box", settings.box, "X0:X1,Z0:Z1", "region to fracture: a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1");
   options.add("polygon", settings.polygon, "FILE", "or in a polygon, one line \"X Z\" per vertex");
   options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
               "or in an ellipse around X,Z with half axes A, which dips by DIP, and B; in 3-D "
@@ -447,11 +446,14 @@ FractureCount put_set(const Settings& settings, Model<D>& model, const std::vect
   });
   FractureSet<D> set{settings.name, systems};
   if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
-  const auto count = add_fractures<D>(model, set, region.contains);
+  const auto count = add_fractures<D>(model, set, region);
   if (!settings.prestress.empty()) set_prestress(model, model.fracture_sets.size(), prestress);
   put_viscosity(settings, model, context);
   context.note(std::to_string(count.marked) + " cells of set '" + set.name + "', " +
-               std::to_string(count.taken) + " of them from earlier sets");
+               std::to_string(count.taken) + " of them from earlier sets" +
+               (count.cut > 0 ? "; its edge cuts " + std::to_string(count.cut) +
+                                    " of them, in which planes slip in a share of the cell"
+                              : ""));
   return count;
 }
 

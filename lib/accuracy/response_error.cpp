@@ -15,6 +15,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "model/cluster_edge.hpp"
 #include "model/parted_faces.hpp"
 #include "model/single_fracture.hpp"
 
@@ -199,8 +200,9 @@ std::vector<Patch> patches_of(const Model<2>& model, double side_m) {
     const Point<2> middle = {grid.centre(0, at[0]), grid.depth(at)};
     const std::size_t set = model.fracture[n] - std::size_t{1};
     auto& patch = found[patch_at(set, middle, side_m)];
-    for (const std::size_t axis : {0, 1}) patch.middle_m[axis] += middle[axis];
-    patch.cells += 1;
+    const double share = fracture_share_of(model, n);
+    for (const std::size_t axis : {0, 1}) patch.middle_m[axis] += share * middle[axis];
+    patch.cells += share;
     patch.rows += double(rows[n]);
     patch.set = set;
   }

@@ -82,10 +82,11 @@ class Digest {
   }
   template <int D>
   void add(const Model<D>& model) {
-    const auto& [medium, fracture, sets, prestress_pa, title, source, history] = model;
+    const auto& [medium, fracture, sets, share, prestress_pa, title, source, history] = model;
     add(medium);
     add(fracture);
     add(sets);
+    if (!share.empty()) add(share);
     add(prestress_pa);
     add(title), add(source), add(history);
   }

@@ -43,6 +43,12 @@ inline CellCompliance compliance_in(const LinearCompliance& of, double lambda, d
           of.normal_dashpot_pa_s_m * of.spacing_m, of.tangential_dashpot_pa_s_m * of.spacing_m};
 }
 
+/// The same of planes in a share of the cell, which carry the traction of all of it (S38).
+inline CellCompliance in_share(const CellCompliance& of, double share) {
+  return {of.normal * share, of.tangential * share, of.normal_damping / share,
+          of.tangential_damping / share};
+}
+
 namespace slip {
 
 /// Softer planes than this, times the stiffness of the rock, count as free.

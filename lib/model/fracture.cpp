@@ -10,6 +10,7 @@
 #include "base/parse.hpp"
 #include "grid/tensor.hpp"
 #include "model/anisotropy.hpp"
+#include "model/cluster_edge.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -207,10 +208,10 @@ void check_room_for_set(const Model<D>& model) {
   }
 }
 
+namespace {
+
 template <int D>
-FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
-                            const std::function<bool(const Point<D>&)>& inside) {
-  check_room_for_set(model);
+void check_not_parallel(const FractureSet<D>& set) {
   for (std::size_t i = 0; i < set.systems.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       double product = 0;
@@ -221,6 +222,57 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
       }
     }
   }
+}
+
+template <int D>
+Box<D> box_of(const Grid<D>& grid, const Index<D>& at) {
+  Box<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const bool depth = axis + 1 == D;
+    const double centre = depth ? grid.depth(at) : grid.centre(int(axis), at[axis]);
+    const double half = (depth ? grid.height(at) : grid.spacing_m) / 2;
+    box.low_m[axis] = centre - half, box.high_m[axis] = centre + half;
+  }
+  return box;
+}
+
+/// Shares nearer to 0 or 1 than this are that.
+constexpr double least_share = 1e-3;
+
+template <int D>
+void put_share(Model<D>& model, std::size_t cell, double share) {
+  if (model.fracture_share.empty()) {
+    if (share >= 1) return;
+    model.fracture_share = Field<D>(model.grid());
+    std::fill(model.fracture_share.begin(), model.fracture_share.end(), 1.F);
+  }
+  model.fracture_share[cell] = float(share);
+}
+
+/// Gives a cell to a set that fills a share of it, or to the one that has it and fills more.
+template <int D>
+void share_cell(Model<D>& model, std::size_t cell, std::uint8_t code, double share, FractureCount& count) {
+  const std::size_t had = model.fracture[cell];
+  const bool of_cluster = had != 0 && model.fracture_sets[had - 1].traces.empty();
+  const double before = of_cluster ? fracture_share_of(model, cell) : 0;
+  if (had != 0 && share < 0.5 && (share < before || !of_cluster)) {
+    if (of_cluster) put_share(model, cell, std::min(before + share, 1.));
+    return;
+  }
+  count.taken += had != 0;
+  count.marked += 1;
+  model.fracture[cell] = code;
+  put_share(model, cell, std::min(before + share, 1.));
+  count.cut += is_cut(model, cell);
+}
+
+}  // namespace
+
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
+                            const std::function<bool(const Point<D>&)>& inside) {
+  check_room_for_set(model);
+  check_not_parallel(set);
   FractureCount count;
   const auto cells = find_solid_cells(model, inside, count);
   if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(model.grid());
@@ -228,6 +280,34 @@ FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
   for (const auto cell : cells) {
     count.taken += model.fracture[cell] != 0;
     model.fracture[cell] = code;
+    put_share(model, cell, 1);
+  }
+  model.fracture_sets.push_back(set);
+  return count;
+}
+
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set, const RegionIn<D>& region) {
+  check_room_for_set(model);
+  check_not_parallel(set);
+  const auto& grid = model.grid();
+  if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
+  const auto code = std::uint8_t(model.fracture_sets.size() + 1);
+  FractureCount count;
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const double share = share_within(region, box_of(grid, grid.index(n)));
+    if (share < least_share) continue;
+    if (model.medium.is_solid(std::size_t(n)))
+      share_cell(model, std::size_t(n), code, share > 1 - least_share ? 1 : share, count);
+    else
+      ++count.left;
+  }
+  if (count.marked == 0) {
+    if (!model.fracture_sets.empty() && count.left == 0)
+      throw Error("the region holds less than half of any cell that no earlier set fills more of");
+    if (model.fracture_sets.empty()) model.fracture = {};
+    throw Error("none of the " + std::to_string(count.left) +
+                " cells in the region is solid, at least one must be");
   }
   model.fracture_sets.push_back(set);
   return count;
@@ -255,5 +335,7 @@ template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&,
                                         const std::function<bool(const Point<2>&)>&);
 template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&,
                                         const std::function<bool(const Point<3>&)>&);
+template FractureCount add_fractures<2>(Model<2>&, const FractureSet<2>&, const RegionIn<2>&);
+template FractureCount add_fractures<3>(Model<3>&, const FractureSet<3>&, const RegionIn<3>&);
 
 }  // namespace slipwave

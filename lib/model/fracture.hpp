@@ -7,6 +7,7 @@
 #include <string>
 
 #include "model/model.hpp"
+#include "model/region.hpp"
 
 namespace slipwave {
 
@@ -91,6 +92,7 @@ void remove_effect(Model<D>& model, ModelEffect effect);
 /// How many cells a region of fractures took and did not take.
 struct FractureCount {
   std::int64_t marked = 0;  // solid cells, now of the new set
+  std::int64_t cut = 0;     // of them those that the edge of the region cuts
   std::int64_t left = 0;    // fluid and void cells in the region, left intact
   std::int64_t taken = 0;   // marked cells that belonged to an earlier set
 };
@@ -112,5 +114,12 @@ void check_room_for_set(const Model<D>& model);
 template <int D>
 FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set,
                             const std::function<bool(const Point<D>&)>& inside);
+
+/// The same of the cells that lie in a region or are cut by its edge: these get the share of their volume
+/// that is inside, in Model::fracture_share, of fitted grids of the box about their centre. A share within
+/// 0.001 of 0 or 1 counts as that. Where an earlier set has part of a cell its share is added, and the set
+/// that fills more of the cell gets it, the later one where it fills half.
+template <int D>
+FractureCount add_fractures(Model<D>& model, const FractureSet<D>& set, const RegionIn<D>& region);
 
 }  // namespace slipwave

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/parse.hpp"
@@ -45,6 +47,44 @@ struct Frame {
     for (std::size_t n = 0; n < D; ++n) local[n] /= size_m[n];
     if constexpr (D == 2) return std::hypot(local[0], local[1]) <= 1;
     if constexpr (D == 3) return std::hypot(local[0], local[1], local[2]) <= 1;
+  }
+  /// From where to where, along an axis of space, the line through a point is in the slab: low > high where
+  /// it is not.
+  std::array<double, 2> slab_chord(const Point<D>& at, std::size_t axis) const {
+    const auto local = seen(at);
+    double low = -std::numeric_limits<double>::infinity(), high = -low;
+    for (std::size_t n = 0; n < D; ++n) {
+      const double slope = axes[n][axis], half = size_m[n] / 2;
+      if (std::abs(slope) < 1e-12) {
+        if (std::abs(local[n]) > half) return {1, 0};
+        continue;
+      }
+      const double middle = -local[n] / slope, reach = half / std::abs(slope);
+      low = std::max(low, middle - reach), high = std::min(high, middle + reach);
+    }
+    return {at[axis] + low, at[axis] + high};
+  }
+  /// The same of the ellipse.
+  std::array<double, 2> ellipse_chord(const Point<D>& at, std::size_t axis) const {
+    const auto local = seen(at);
+    double a = 0, b = 0, c = -1;  // a t^2 + 2 b t + c = 0
+    for (std::size_t n = 0; n < D; ++n) {
+      const double place = local[n] / size_m[n], slope = axes[n][axis] / size_m[n];
+      a += slope * slope, b += place * slope, c += place * place;
+    }
+    const double square = b * b - a * c;
+    if (!(square > 0)) return {1, 0};
+    return {at[axis] - (b + std::sqrt(square)) / a, at[axis] - (b - std::sqrt(square)) / a};
+  }
+  /// Corners of the slab in 2-D, one after the other along its edge.
+  std::array<Point<D>, 4> corners() const {
+    std::array<Point<D>, 4> all{};
+    for (std::size_t n = 0; n < 4; ++n) {
+      const double along = n == 1 || n == 2 ? 0.5 : -0.5, across = n >= 2 ? 0.5 : -0.5;
+      for (std::size_t i = 0; i < D; ++i)
+        all[n][i] = centre[i] + along * size_m[0] * axes[0][i] + across * size_m[1] * axes[1][i];
+    }
+    return all;
   }
   Box<D> slab_bounds() const {
     Point<D> half{};

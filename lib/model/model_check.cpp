@@ -248,6 +248,20 @@ void check_set(const FractureSet<D>& set, std::size_t number) {
   check_single(set, name);
 }
 
+template <int D>
+void check_shares(const Model<D>& model) {
+  if (model.fracture_share.empty()) return;
+  if (!(model.fracture_share.grid() == model.grid()))
+    throw Error("fracture_share and vp have different grids: " + shown(model.fracture_share.grid()) + ", " +
+                shown(model.grid()));
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    const auto share = double(model.fracture_share[cell]);
+    if (model.fracture[cell] != 0 && !(share > 0 && share <= 1))
+      refuse(model.grid(), cell, "fracture_share",
+             "is " + shown(share) + ", expected the share of the cell that slips, above 0 and at most 1");
+  }
+}
+
 }  // namespace
 
 template <int D>
@@ -278,6 +292,7 @@ void check(const Model<D>& model, const MediumLimits& limits) {
                  "; only solid cells can be fractured");
     }
   }
+  check_shares(model);
   check_prestress(model);
 }
 

@@ -424,6 +424,7 @@ Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
     model.fracture = Field<D, std::uint8_t>(grid);
     std::copy(codes.begin(), codes.end(), model.fracture.begin());
     model.fracture_sets = read_fracture_sets<D>(file);
+    if (file.has_variable("fracture_share")) model.fracture_share = read_field(file, grid, "fracture_share");
     model.prestress_pa = read_prestress(file, grid);
   }
   model.title = file.text_attribute("", "title").value_or("");
@@ -467,6 +468,10 @@ void write_model(const Model<D>& model, OutputFile& out) {
     define_property(file, model.medium[property], row.name, row.long_name, row.units);
   }
   if (fractured) define_sets(file, model.grid(), model.fracture_sets);
+  const bool any_cut = fractured && !model.fracture_share.empty();
+  if (any_cut)
+    define_property(file, model.fracture_share, "fracture_share",
+                    "share of the cell in which the planes of its fracture set slip", "1");
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c) {
     const auto& name = stress_names<D>()[c];
     define_property(file, model.prestress_pa[c], prestress_variable(name),
@@ -475,6 +480,7 @@ void write_model(const Model<D>& model, OutputFile& out) {
   put_grid(file, model.grid());
   for (const Property property : properties) file.put(row_of(property).name, model.medium[property].data());
   if (fractured) put_sets(file, model);
+  if (any_cut) file.put("fracture_share", model.fracture_share.data());
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c)
     file.put(prestress_variable(stress_names<D>()[c]), model.prestress_pa[c].data());
   file.close();

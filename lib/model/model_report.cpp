@@ -8,6 +8,7 @@
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/anisotropy.hpp"
+#include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
@@ -96,11 +97,20 @@ void report_compliance(Report& report, const LinearCompliance& of) {
   }
 }
 
+struct CellsOfSet {
+  std::int64_t all = 0, cut = 0;
+  double shares = 0;  // sum over all
+};
+
 template <int D>
-Report report_of_set(const FractureSet<D>& set, std::int64_t cells) {
+Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
   Report of_set;
   of_set.text("name", set.name);
-  of_set.count("cells", cells);
+  of_set.count("cells", cells.all);
+  if (cells.cut > 0) {
+    of_set.count("cut by its edge", cells.cut);
+    of_set.number("as whole cells", std::round(cells.shares * 10) / 10, "");
+  }
   if constexpr (D == 2) {
     double length_m = 0;
     for (const auto& trace : set.traces) length_m += length_of(trace);
@@ -185,9 +195,13 @@ Report report_of(const Model<D>& model) {
   of_model.count("void cells", nothing);
   const double slowest = slowest_speed(medium);
   if (std::isfinite(slowest)) of_model.number("slowest wave", slowest, "m/s");
-  std::vector<std::int64_t> cells(model.fracture_sets.size() + 1, 0);
-  for (const auto code : model.fracture) {
-    if (code < cells.size()) ++cells[code];
+  std::vector<CellsOfSet> cells(model.fracture_sets.size() + 1);
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    const std::size_t code = model.fracture[cell];
+    if (code >= cells.size()) continue;
+    ++cells[code].all;
+    cells[code].cut += is_cut(model, cell);
+    cells[code].shares += fracture_share_of(model, cell);
   }
   std::vector<Report> sets;
   for (std::size_t k = 0; k < model.fracture_sets.size(); ++k) {

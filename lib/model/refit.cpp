@@ -136,6 +136,7 @@ class Refit {
     // Where interfaces lie in old cells is not known.
     drop_tilted_means(to_.medium);
     if (!from.fracture.empty()) to_.fracture = Field<D, std::uint8_t>(grid);
+    if (!from.fracture_share.empty()) to_.fracture_share = Field<D>(grid);
     to_.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
     scalars_ = from.medium.properties();
     std::erase_if(scalars_, [](Property property) { return row_of(property).mean == Mean::elastic; });
@@ -184,6 +185,7 @@ class Refit {
     put(to_.medium, cell, mean.mean());
     for (std::size_t n = 0; n < means.size(); ++n) to_.medium[scalars_[n]][cell] = float(means[n].mean());
     if (!from_.fracture.empty()) to_.fracture[cell] = from_.fracture[source];
+    if (!from_.fracture_share.empty()) to_.fracture_share[cell] = from_.fracture_share[source];
     for (std::size_t c = 0; c < from_.prestress_pa.size(); ++c)
       to_.prestress_pa[c][cell] = from_.prestress_pa[c][source];
   }

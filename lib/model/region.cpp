@@ -31,11 +31,121 @@ Frame<D> parse_frame(std::string_view text, const std::string& expected) {
   });
 }
 
+/// Length over which two intervals overlap.
+double overlap(double low_a, double high_a, double low_b, double high_b) {
+  return std::max(0., std::min(high_a, high_b) - std::max(low_a, low_b));
+}
+
+template <int D>
+double volume_of(const Box<D>& box) {
+  double volume = 1;
+  for (std::size_t axis = 0; axis < D; ++axis) volume *= box.high_m[axis] - box.low_m[axis];
+  return volume;
+}
+
+/// Area of what a rectangle leaves of a polygon that does not cross itself, by cutting it along one side
+/// after the other (Sutherland & Hodgman 1974); edges that then lie on sides forth and back add nothing.
+double area_within(std::vector<Point<2>> polygon, const Box<2>& cell) {
+  std::vector<Point<2>> left;
+  for (const std::size_t axis : {0, 1})
+    for (const double sign : {1., -1.}) {
+      const double limit = sign > 0 ? cell.low_m[axis] : cell.high_m[axis];
+      left.clear();
+      for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const auto &from = polygon[j], &to = polygon[i];
+        const double before = sign * (from[axis] - limit), after = sign * (to[axis] - limit);
+        if ((before < 0) != (after < 0)) {
+          const double way = before / (before - after);
+          Point<2> crossing = {from[0] + way * (to[0] - from[0]), from[1] + way * (to[1] - from[1])};
+          crossing[axis] = limit;
+          left.push_back(crossing);
+        }
+        if (after >= 0) left.push_back(to);
+      }
+      polygon.swap(left);
+      if (polygon.empty()) return 0;
+    }
+  double twice = 0;
+  const auto& origin = polygon.front();  // so that little is lost in rounding
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
+    twice += (polygon[j][0] - origin[0]) * (polygon[i][1] - origin[1]) -
+             (polygon[i][0] - origin[0]) * (polygon[j][1] - origin[1]);
+  return std::abs(twice) / 2;
+}
+
+bool part_on_sides(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
+  const auto side = [](const Point<2>& p, const Point<2>& q, const Point<2>& r) {
+    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
+  };
+  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
+}
+
+bool crosses_itself(const std::vector<Point<2>>& vertices) {
+  const auto n = vertices.size();
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = i + 2; j < n; ++j)
+      if (part_on_sides(vertices[i], vertices[i + 1], vertices[j], vertices[(j + 1) % n])) return true;
+  return false;
+}
+
+/// Calls with(point) at the middles of `parts` parts of a box along each axis but the last, and of so many
+/// along the last one.
+template <int D, class With>
+void each_middle(const Box<D>& cell, std::int64_t parts, std::int64_t of_last, const With& with) {
+  Grid<D> grid;
+  grid.shape.fill(parts);
+  grid.shape[D - 1] = of_last;
+  for (std::int64_t n = 0; n < grid.size(); ++n) {
+    const auto at = grid.index(n);
+    Point<D> point{};
+    for (std::size_t axis = 0; axis < D; ++axis)
+      point[axis] = cell.low_m[axis] + (cell.high_m[axis] - cell.low_m[axis]) * (double(at[axis]) + 0.5) /
+                                           double(grid.shape[axis]);
+    with(point);
+  }
+}
+
+/// By lines along the last axis, of whose chords the length within the box is known.
+template <int D, class Chord>
+double share_of_chords(const Box<D>& cell, const Chord& chord) {
+  constexpr std::int64_t lines = D == 2 ? 32 : 12;
+  constexpr std::size_t last = D - 1;
+  double sum = 0, count = 0;
+  each_middle(cell, lines, 1, [&](const Point<D>& point) {
+    const auto [low, high] = chord(point, last);
+    sum += overlap(low, high, cell.low_m[last], cell.high_m[last]);
+    count += 1;
+  });
+  return sum / (count * (cell.high_m[last] - cell.low_m[last]));
+}
+
 }  // namespace
 
 template <int D>
+double share_within(const RegionIn<D>& region, const Box<D>& cell) {
+  for (std::size_t axis = 0; axis < D; ++axis)
+    if (cell.high_m[axis] <= region.bounds.low_m[axis] || cell.low_m[axis] >= region.bounds.high_m[axis])
+      return 0;
+  if (region.share) return std::clamp(region.share(cell), 0., 1.);
+  constexpr std::int64_t parts = D == 2 ? 16 : 6;
+  double inside = 0, count = 0;
+  each_middle(cell, parts, parts, [&](const Point<D>& point) {
+    inside += region.contains(point) ? 1 : 0;
+    count += 1;
+  });
+  return inside / count;
+}
+
+template <int D>
 RegionIn<D> region_of_box(const Box<D>& box) {
-  return {box, [box](const Point<D>& at) { return box.contains(at); }};
+  return {box, [box](const Point<D>& at) { return box.contains(at); },
+          [box](const Box<D>& cell) {
+            double share = 1;
+            for (std::size_t axis = 0; axis < D; ++axis)
+              share *= overlap(box.low_m[axis], box.high_m[axis], cell.low_m[axis], cell.high_m[axis]) /
+                       (cell.high_m[axis] - cell.low_m[axis]);
+            return share;
+          }};
 }
 
 Region region_of_polygon(std::vector<Point<2>> vertices) {
@@ -49,7 +159,11 @@ Region region_of_polygon(std::vector<Point<2>> vertices) {
       bounds.high_m[axis] = std::max(bounds.high_m[axis], vertex[axis]);
     }
   }
-  return {bounds, [vertices = std::move(vertices)](const Point<2>& at) {
+  std::function<double(const Box<2>&)> share;
+  if (!crosses_itself(vertices))
+    share = [vertices](const Box<2>& cell) { return area_within(vertices, cell) / volume_of(cell); };
+  return {bounds,
+          [vertices = std::move(vertices)](const Point<2>& at) {
             bool inside = false;
             for (std::size_t i = 0, j = vertices.size() - 1; i < vertices.size(); j = i++) {
               const auto &a = vertices[i], &b = vertices[j];
@@ -57,7 +171,8 @@ Region region_of_polygon(std::vector<Point<2>> vertices) {
               if (at[0] < a[0] + (b[0] - a[0]) * (at[1] - a[1]) / (b[1] - a[1])) inside = !inside;
             }
             return inside;
-          }};
+          },
+          std::move(share)};
 }
 
 Region read_polygon(const std::string& path) {
@@ -70,16 +185,29 @@ template <int D>
 RegionIn<D> parse_ellipse(std::string_view text) {
   const auto frame =
       parse_frame<D>(text, D == 2 ? "an ellipse X,Z:A,B[:DIP]" : "an ellipsoid X,Y,Z:A,B,C[:DIP[:AZIMUTH]]");
-  return {frame.ellipse_bounds(), [frame](const Point<D>& at) { return frame.in_ellipse(at); }};
+  const auto chord = [frame](const Point<D>& at, std::size_t axis) { return frame.ellipse_chord(at, axis); };
+  return {frame.ellipse_bounds(), [frame](const Point<D>& at) { return frame.in_ellipse(at); },
+          [chord](const Box<D>& cell) { return share_of_chords(cell, chord); }};
 }
 
 template <int D>
 RegionIn<D> parse_slab(std::string_view text) {
   const auto frame = parse_frame<D>(text, D == 2 ? "a slab X,Z:LENGTH,THICKNESS[:DIP]"
                                                  : "a slab X,Y,Z:LENGTH,WIDTH,THICKNESS[:DIP[:AZIMUTH]]");
-  return {frame.slab_bounds(), [frame](const Point<D>& at) { return frame.in_slab(at); }};
+  const auto contains = [frame](const Point<D>& at) { return frame.in_slab(at); };
+  if constexpr (D == 2) {
+    const auto corners = frame.corners();
+    return {frame.slab_bounds(), contains, [corners](const Box<2>& cell) {
+              return area_within({corners.begin(), corners.end()}, cell) / volume_of(cell);
+            }};
+  }
+  const auto chord = [frame](const Point<D>& at, std::size_t axis) { return frame.slab_chord(at, axis); };
+  return {frame.slab_bounds(), contains,
+          [chord](const Box<D>& cell) { return share_of_chords(cell, chord); }};
 }
 
+template double share_within(const RegionIn<2>&, const Box<2>&);
+template double share_within(const RegionIn<3>&, const Box<3>&);
 template RegionIn<2> region_of_box(const Box<2>&);
 template RegionIn<3> region_of_box(const Box<3>&);
 template RegionIn<2> parse_ellipse<2>(std::string_view);

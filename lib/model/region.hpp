@@ -16,9 +16,16 @@ template <int D>
 struct RegionIn {
   Box<D> bounds;
   std::function<bool(const Point<D>&)> contains;
+  /// Share of the volume of a box that lies in it, from 0 to 1; absent: share_within() samples it.
+  std::function<double(const Box<D>& cell)> share = {};
 };
 /// Of the x-z plane.
 using Region = RegionIn<2>;
+
+/// Share of the volume of a box that lies in a region: of boxes, polygons that do not cross themselves and
+/// slabs in 2-D to rounding, else within 0.01.
+template <int D>
+double share_within(const RegionIn<D>& region, const Box<D>& cell);
 
 template <int D = 2>
 RegionIn<D> region_of_box(const Box<D>& box);

@@ -107,6 +107,7 @@ struct Regridding {
     // Where interfaces lie in old cells is not known.
     drop_tilted_means(model.medium);
     if (!from.fracture.empty()) model.fracture = Field<D, std::uint8_t>(grid);
+    if (!from.fracture_share.empty()) model.fracture_share = Field<D>(grid);
     model.prestress_pa.assign(from.prestress_pa.size(), Field<D>(grid));
   }
 
@@ -121,6 +122,7 @@ struct Regridding {
       const auto source = std::size_t(from.grid().flat(nearest)), cell = std::size_t(n);
       fill(cell, at, source);
       if (!from.fracture.empty()) model.fracture[cell] = from.fracture[source];
+      if (!from.fracture_share.empty()) model.fracture_share[cell] = from.fracture_share[source];
       for (std::size_t c = 0; c < from.prestress_pa.size(); ++c)
         model.prestress_pa[c][cell] = from.prestress_pa[c][source];
     }
@@ -241,6 +243,7 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
       for (auto& vertex : trace) vertex[D - 1] -= double(first[D - 1]) * from.spacing_m;
   result.medium = Medium<D>(grid, model.medium);
   if (!model.fracture.empty()) result.fracture = Field<D, std::uint8_t>(grid);
+  if (!model.fracture_share.empty()) result.fracture_share = Field<D>(grid);
   result.prestress_pa.assign(model.prestress_pa.size(), Field<D>(grid));
   const auto properties = model.medium.properties();
   for (std::int64_t n = 0; n < grid.size(); ++n) {
@@ -249,6 +252,7 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
     const auto source = std::size_t(from.flat(at)), cell = std::size_t(n);
     for (const Property property : properties) result.medium[property][cell] = model.medium[property][source];
     if (!model.fracture.empty()) result.fracture[cell] = model.fracture[source];
+    if (!model.fracture_share.empty()) result.fracture_share[cell] = model.fracture_share[source];
     for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
       result.prestress_pa[c][cell] = model.prestress_pa[c][source];
   }

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/error.hpp"
+#include "grid/tensor.hpp"
 #include "model/frame.hpp"
 #include "model/noise.hpp"
 #include "model/region.hpp"
@@ -28,7 +30,30 @@ class Slabs {
   }
   bool contain(const Point<D>& at) const {
     const auto& near = strips_[strip(at[0])];
-    return std::any_of(near.begin(), near.end(), [&](std::size_t n) { return slabs_[n].in_slab(at); });
+    return contain(near, at);
+  }
+  /// Whether any of these does.
+  bool contain(const std::vector<std::size_t>& some, const Point<D>& at) const {
+    return std::any_of(some.begin(), some.end(), [&](std::size_t n) { return slabs_[n].in_slab(at); });
+  }
+  /// Those that may reach into a box.
+  std::vector<std::size_t> beside(const Box<D>& box) const {
+    Point<D> middle{}, half{};
+    for (std::size_t axis = 0; axis < D; ++axis) {
+      middle[axis] = (box.low_m[axis] + box.high_m[axis]) / 2;
+      half[axis] = (box.high_m[axis] - box.low_m[axis]) / 2;
+    }
+    const double reach = length<D, double>(half);
+    std::vector<std::size_t> found;
+    for (std::size_t k = strip(box.low_m[0]); k <= strip(box.high_m[0]); ++k)
+      for (const auto n : strips_[k]) {
+        const auto local = slabs_[n].seen(middle);
+        bool near = true;
+        for (std::size_t axis = 0; axis < D; ++axis)
+          near = near && std::abs(local[axis]) <= slabs_[n].size_m[axis] / 2 + reach;
+        if (near && std::find(found.begin(), found.end(), n) == found.end()) found.push_back(n);
+      }
+    return found;
   }
 
  private:
@@ -72,8 +97,15 @@ RegionIn<D> scattered_in(const RegionIn<D>& region, const Scatter& scatter) {
     size_m.back() = scatter.thickness_m * uniform(scatter.seed, n + D + 1, 0.5, 1.5);
     slabs.emplace_back(centre, size_m, scatter.dip_deg, scatter.azimuth_deg);
   }
-  return {region.bounds, [whole = region.contains, slabs = Slabs<D>(std::move(slabs), region.bounds)](
-                             const Point<D>& at) { return whole(at) && slabs.contain(at); }};
+  const Slabs<D> all(std::move(slabs), region.bounds);
+  // Only cells that a slab may reach into are sampled, for those alone.
+  const auto share = [whole = region.contains, all](const Box<D>& cell) {
+    const auto near = all.beside(cell);
+    const auto contains = [&](const Point<D>& at) { return whole(at) && all.contain(near, at); };
+    return near.empty() ? 0. : share_within<D>({cell, contains}, cell);
+  };
+  return {region.bounds,
+          [whole = region.contains, all](const Point<D>& at) { return whole(at) && all.contain(at); }, share};
 }
 
 template RegionIn<2> scattered_in(const RegionIn<2>&, const Scatter&);

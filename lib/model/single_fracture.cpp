@@ -115,6 +115,7 @@ FractureCount mark(Model<2>& model, std::size_t code) {
     if (of_cell > code) continue;
     count.taken += of_cell != 0 && of_cell != code && model.fracture_sets[of_cell - 1U].traces.empty();
     of_cell = std::uint8_t(code);
+    if (!model.fracture_share.empty()) model.fracture_share[crossed.cell] = 1;
     ++count.marked;
   }
   return count;

@@ -143,6 +143,7 @@ Scene<D> cut_to(Scene<D> whole, const Subdomain& part) {
   for (const Property property : model.medium.properties())
     model.medium[property] = rows_of(model.medium[property], held);
   model.fracture = rows_of(model.fracture, held);
+  model.fracture_share = rows_of(model.fracture_share, held);
   for (auto& component : model.prestress_pa) component = rows_of(component, held);
   return whole;
 }

@@ -20,6 +20,7 @@ struct Contents {
   std::vector<std::string> dimensions = {"z", "x"};  // of the properties
   std::vector<float> vp, vs, rho;
   std::vector<std::uint8_t> fracture;  // none: not in the file
+  std::vector<float> share;            // the same
   std::vector<int> slip_set = {0};
   std::vector<double> normal = {0, 1}, friction = {0.1}, viscosity = {1}, strength = {0};
   std::string units = "m s-1", left_out;
@@ -65,6 +66,8 @@ void write(const std::string& path, const Contents& model) {
     define("slip_normal", Type::f64, {"slip_system", "axis"});
     for (const std::string name : {"slip_friction", "slip_viscosity", "slip_strength"})
       define(name, Type::f64, {"slip_system"});
+    if (!model.share.empty()) define("fracture_share", Type::f32, {"z", "x"});
+    if (!model.share.empty()) put("fracture_share", model.share);
     put("fracture", model.fracture);
     if (model.left_out != "fracture_name") file.put_text("fracture_name", {"cracks"});
     put("slip_set", model.slip_set);
@@ -153,6 +156,7 @@ void write_bad_models(const std::string& directory) {
   write(directory + "/tall.nc", Contents(2, 70000));
 
   fractured("code", [](Contents& model) { model.fracture[cell] = 2; });
+  fractured("share", [](Contents& model) { model.share.assign(model.vp.size(), 1.5F); });
   fractured("wet", [](Contents& model) { model.vs[cell] = 0; });
   fractured("no-set", [](Contents& model) { model.slip_set = {1}; });
   fractured("no-system", [](Contents& model) { model.slip_set = {-1}; });

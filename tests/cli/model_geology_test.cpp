@@ -82,7 +82,7 @@ TEST_F(ModelGeology, OfFracturesFillsEllipsesAndSlabs) {
   done("sw-layers --size 1000x1000 --step 5 --layer 0:3000:1500:2200 -o m.nc");
   const std::string rest = " --dip 30 --friction 0.1 --viscosity 1 | sw-info -";
   // pi 200 m 100 m are 2513 cells of 25 m2; 400 m x 50 m are 800.
-  EXPECT_TRUE(has(done("sw-fracture m.nc --ellipse 500,500:200,100:20" + rest), "cells 251"));
+  EXPECT_TRUE(has(done("sw-fracture m.nc --ellipse 500,500:200,100:20" + rest), "as whole cells 251"));
   EXPECT_TRUE(has(done("sw-fracture m.nc --slab 500,500:400,50" + rest), "cells 800"));
 }
 
@@ -94,9 +94,10 @@ TEST_F(ModelGeology, OfFracturesScattersTheSameSlabsForASeed) {
   done(line + "--seed 3 -o c.nc; ! cmp -s a.nc c.nc");
   // 25 slabs of 60 m x 6 m on average have 9000 m2 where none overlap, 360 cells.
   const auto json = done("sw-info --json a.nc");
-  const auto at = json.find("\"cells\":", json.find("fractures-1"));
+  const std::string name = "\"as_whole_cells\": {\"value\": ";
+  const auto at = json.find(name, json.find("fractures-1"));
   ASSERT_NE(at, std::string::npos) << json;
-  const int cells = std::atoi(json.c_str() + at + 8);
+  const int cells = std::atoi(json.c_str() + at + name.size());
   EXPECT_TRUE(cells > 200 && cells < 450) << json;
 }
 

@@ -60,6 +60,7 @@ Lab<Real>::Lab(const Setup& setup)
   auto& model = scene_.model;
   model.medium = setup.medium;
   model.fracture = setup.fracture;
+  model.fracture_share = setup.fracture_share;
   model.fracture_sets = setup.fracture_sets;
   model.prestress_pa = setup.prestress_pa;
   scene_.numerics.correction = setup.correction;

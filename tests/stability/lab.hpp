@@ -62,6 +62,7 @@ class Lab {
     double amplitude = 1;  // velocities up to half of it, m/s; stresses such as belong to them
     std::vector<FractureSet<2>> fracture_sets;
     Field<2, std::uint8_t> fracture;
+    Field<2> fracture_share;
     SlipCorrection correction = SlipCorrection::second;
     std::vector<Field<2>> prestress_pa;  // as in a Model
     /// In place of random values, before `amplitude` is put on them.

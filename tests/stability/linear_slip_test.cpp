@@ -43,12 +43,17 @@ class Springs : public ::testing::TestWithParam<Kind> {
   }
 
   template <class Real>
-  void expect_bounded(const Cluster& cluster, const Spring& spring, const Law& law) {
+  void expect_bounded(const Cluster& cluster, const Spring& spring, const Law& law, bool cut = false) {
     rotation_.next();
     const auto medium = medium_named(cluster.medium, cells());
     const double dt_s = rotation_.cfl() * medium.grid().spacing_m / fastest_speed(medium);
     auto given = fractured<Real>(medium, cluster, set_with(spring, law, dt_s));
     given.correction = corrections()[number_++ % 3];
+    if (cut) {
+      given.fracture_share = Field<2>(medium.grid());
+      for (std::size_t cell = 0; cell < given.fracture_share.size(); ++cell)
+        given.fracture_share[cell] = float(1 + cell * 7 % 13) / 13;
+    }
     rotation_.into(given);
     SCOPED_TRACE(std::string(cluster.name) + " in " + cluster.medium + ", compliances " +
                  std::to_string(spring.normal) + ", " + std::to_string(spring.tangential) + ", dashpots " +
@@ -89,6 +94,13 @@ TEST_P(Springs, NeverAddEnergyHoweverStiffOrSoft) {
             else
               expect_bounded<float>(cluster, spring, law);
           }
+}
+
+TEST_P(Springs, NeverAddEnergyWhereEdgesCutCells) {
+  const Law law = GetParam().slides ? Law{0.1, 1e3} : Law{0, 0};
+  for (const double soft : {1e-6, 1., 30., 1e9})
+    expect_bounded<double>(cluster_named("everywhere, so every edge"),
+                           {2 * soft, soft, GetParam().damped ? 1. : 0.}, law, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Springs,

@@ -2,6 +2,7 @@
 // stress that the scene was built with it is another sum that falls, see slip_prestress_test.cpp.
 #include <cmath>
 #include <limits>
+#include <random>
 #include <tuple>
 
 #include "slip_cases.hpp"
@@ -189,6 +190,52 @@ TEST_P(CentredSlip, LetsNothingGrowInThousandsOfSteps) {
     setup.correction = SlipCorrection::centred;
     expect_bounded<double>(setup, long_form() ? 20000 : 500);
   }
+}
+
+/// Any share in any cell, with edges in all directions: harder than what edges of regions leave.
+Field<2> any_shares() {
+  Field<2> shares(rock(cells(), cells()).grid());
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<float> uniform(0.002F, 1.2F);
+  for (auto& share : shares) share = std::min(uniform(engine), 1.F);
+  return shares;
+}
+
+TEST_P(CentredSlip, LetsNothingGrowInThousandsOfStepsWhereEdgesCutCells) {
+  const ThreadLimit one_thread(1);
+  for (const Law& law : {Law{0.7, 0}, Law{0.3, 1e3}}) {
+    SCOPED_TRACE("friction " + std::to_string(law.friction));
+    auto setup = fractured<double>(rock(cells(), cells()), cluster_named("everywhere, so every edge"),
+                                   set_of(GetParam(), law));
+    setup.order = 11;
+    setup.cfl = 1;
+    setup.edges = all_edges(EdgeLaw::rigid);
+    setup.fracture_share = any_shares();
+    setup.correction = SlipCorrection::centred;
+    expect_bounded<double>(setup, long_form() ? 20000 : 100);
+  }
+}
+
+TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWithWhereEdgesCutCells) {
+  const ThreadLimit one_thread(1);
+  Rotation rotation;
+  const auto shares = any_shares();
+  std::size_t number = 0;
+  for (const auto& law : laws())
+    for (const auto correction : {SlipCorrection::centred, SlipCorrection::first, SlipCorrection::second,
+                                  SlipCorrection::exponential}) {
+      rotation.next();
+      // In the short form each law with one correction.
+      if (!long_form() && number++ % 5 != 0) continue;
+      SCOPED_TRACE("friction " + std::to_string(law.friction) + ", viscosity " +
+                   std::to_string(law.viscosity_s) + ", " + rotation.shown());
+      auto setup = fractured<double>(rock(cells(), cells()), cluster_named("everywhere, so every edge"),
+                                     set_of(GetParam(), law));
+      setup.fracture_share = shares;
+      setup.correction = correction;
+      rotation.into(setup);
+      expect_bounded<double>(setup, long_form() ? 3000 : 60);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Planes, CentredSlip, ::testing::ValuesIn(kinds_of_planes()),

@@ -53,6 +53,7 @@ TEST(Identity, TellsEverythingThatMattersByName) {
       {"another model", [](auto& s) { s.model.fracture_sets[0].systems[0].viscosity_s = 1; }},
       {"another model", [](auto& s) { s.model.fracture_sets[0].systems[0].strength_pa = 1; }},
       {"another model", [](auto& s) { s.model.fracture_sets[0].systems[0].opens = true; }},
+      {"another model", [](auto& s) { s.model.fracture_share = Field<2>(s.model.grid(), 0.5); }},
       {"another model", [](auto& s) { s.model.prestress_pa.resize(1); }},
       {"another model", [](auto& s) { s.model.history = "sw-layers"; }},
       {"another source or wavelet", [](auto& s) { s.survey.sources[0].position_m[0] += 1; }},

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "base/parse.hpp"
@@ -110,6 +111,40 @@ TEST(Fractures, OfALaterSetWin) {
   EXPECT_EQ(model.fracture({1, 0}), 2);
   EXPECT_EQ(model.fracture({2, 0}), 1);
   EXPECT_EQ(model.fracture_sets.size(), 2u);
+}
+
+TEST(Fractures, OfARegionThatCutsCellsHaveAShareOfThem) {
+  auto model = water_over_rock(grid_of(10, 10, 10), 0);
+  const FractureSet<2> set{"set", {{{0, 1}, 0.1, 1, 0}}};
+  const auto count = add_fractures<2>(model, set, region_of_box<2>({{20, 33}, {60, 75}}));
+  EXPECT_EQ(count.marked, 4 * 5);
+  EXPECT_EQ(count.cut, 4 * 2);
+  EXPECT_FLOAT_EQ(model.fracture_share({2, 3}), 0.7F);
+  EXPECT_EQ(model.fracture_share({2, 4}), 1);
+  EXPECT_FLOAT_EQ(model.fracture_share({5, 7}), 0.5F);
+  EXPECT_EQ(model.fracture({6, 4}), 0);
+  EXPECT_EQ(model.fracture_share({6, 4}), 1);
+  EXPECT_NO_THROW(check(model));
+  model.fracture_share({2, 4}) = 0;
+  EXPECT_THROW(check(model), Error);
+}
+
+TEST(Fractures, OfARegionWithItsEdgesOnFacesHaveWholeCells) {
+  auto model = water_over_rock(grid_of(10, 10, 0.1), 0);
+  add_fractures<2>(model, {"set", {{{0, 1}, 0.1, 1, 0}}}, region_of_box<2>({{0.3, 0.1}, {0.7, 0.9}}));
+  EXPECT_TRUE(model.fracture_share.empty());
+  EXPECT_EQ(std::count(model.fracture.begin(), model.fracture.end(), 1), 32);
+}
+
+TEST(Fractures, OfTwoSetsInACellSlipInTheSharesOfBoth) {
+  auto model = water_over_rock(grid_of(10, 10, 10), 0);
+  const FractureSet<2> set{"set", {{{0, 1}, 0.1, 1, 0}}};
+  add_fractures<2>(model, set, region_of_box<2>({{0, 0}, {100, 34}}));
+  const auto below = add_fractures<2>(model, set, region_of_box<2>({{0, 34}, {100, 78}}));
+  EXPECT_EQ(below.taken, 10);  // 0.6 of them, 0.4 before
+  EXPECT_EQ(model.fracture({3, 3}), 2);
+  EXPECT_FLOAT_EQ(model.fracture_share({3, 3}), 1);
+  EXPECT_THROW(add_fractures<2>(model, set, region_of_box<2>({{0, 78}, {100, 80}})), Error);
 }
 
 TEST(Fractures, RefuseARegionWithoutRockAndChangeNothing) {

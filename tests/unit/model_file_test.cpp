@@ -38,6 +38,7 @@ void expect_equal(const Model<D>& found, const Model<D>& expected) {
   EXPECT_TRUE(same(found.medium.vs, expected.medium.vs));
   EXPECT_TRUE(same(found.medium.rho, expected.medium.rho));
   EXPECT_TRUE(same(found.fracture, expected.fracture));
+  EXPECT_TRUE(same(found.fracture_share, expected.fracture_share));
   ASSERT_EQ(found.fracture_sets.size(), expected.fracture_sets.size());
   for (std::size_t k = 0; k < found.fracture_sets.size(); ++k) {
     EXPECT_EQ(found.fracture_sets[k].name, expected.fracture_sets[k].name);
@@ -89,6 +90,17 @@ TEST_F(ModelFile, BringsBackStaticStressAndPlanesThatOpen) {
     model.prestress_pa.emplace_back(model.grid());
     model.prestress_pa.back()({1, 2}) = value;
   }
+  write_model(model, path_);
+  expect_equal(read_model<2>(path_), model);
+}
+
+TEST_F(ModelFile, BringsBackSharesOfCellsThatEdgesCut) {
+  auto model = water_over_rock(grid_of(7, 5, 12.5), 0);
+  model.fracture = Field<2, std::uint8_t>(model.grid(), 0);
+  model.fracture({1, 2}) = model.fracture({2, 2}) = 1;
+  model.fracture_sets = {{"one", {{{1, 0}, 0.2, 0, 0}}}};
+  model.fracture_share = Field<2>(model.grid(), 1);
+  model.fracture_share({2, 2}) = 0.375;
   write_model(model, path_);
   expect_equal(read_model<2>(path_), model);
 }

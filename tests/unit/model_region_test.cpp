@@ -56,6 +56,62 @@ TEST(Region, OfASlabHasItsAreaAndItsDip) {
   EXPECT_FALSE(slab.contains({300 + x, 200 + z}));
 }
 
+/// Sum over the cells of a grid over bounds of the shares that lie in a region, times their volume.
+template <int D>
+double volume_by_shares(const RegionIn<D>& region, double step_m) {
+  Grid<D> cells;
+  cells.spacing_m = step_m;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    cells.origin_m[axis] = region.bounds.low_m[axis] - 0.3 * step_m;
+    cells.shape[axis] = std::int64_t((region.bounds.high_m[axis] - cells.origin_m[axis]) / step_m) + 1;
+  }
+  double volume = 0;
+  for (std::int64_t n = 0; n < cells.size(); ++n) {
+    const auto at = cells.index(n);
+    Box<D> cell;
+    for (int axis = 0; axis < D; ++axis) {
+      const auto a = std::size_t(axis);
+      cell.low_m[a] = cells.centre(axis, at[a]) - step_m / 2, cell.high_m[a] = cell.low_m[a] + step_m;
+    }
+    volume += share_within(region, cell) * std::pow(step_m, D);
+  }
+  return volume;
+}
+
+TEST(SharesOfCells, AddUpToTheAreaOfARegion) {
+  EXPECT_NEAR(volume_by_shares(region_of_box({{3.1, 7.7}, {61.4, 23.2}}), 5), 58.3 * 15.5, 1e-9);
+  EXPECT_NEAR(volume_by_shares(parse_slab("300,200:160,40:-20"), 7), 160 * 40, 1e-8);
+  EXPECT_NEAR(volume_by_shares(parse_slab("300,200:160,0.5:33"), 10), 80, 1e-8);  // thinner than a cell
+  const auto notched = region_of_polygon({{0, 0}, {10, 0}, {10, 10}, {5, 5}, {0, 10}});
+  EXPECT_NEAR(volume_by_shares(notched, 3), 75, 1e-10);
+  EXPECT_NEAR(volume_by_shares(parse_ellipse("300,200:80,20:30"), 10) / (pi * 80 * 20), 1, 1e-3);
+  // Edges that cross each other are sampled: two triangles by the even-odd rule.
+  const auto hourglass = region_of_polygon({{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+  EXPECT_NEAR(volume_by_shares(hourglass, 3), 50, 1);
+}
+
+TEST(SharesOfCells, AddUpToTheVolumeOfARegionInSpace) {
+  const auto box = region_of_box<3>({{3.1, 7.7, 1.2}, {61.4, 23.2, 9.9}});
+  EXPECT_NEAR(volume_by_shares(box, 5), 58.3 * 15.5 * 8.7, 1e-9);
+  EXPECT_NEAR(volume_by_shares(parse_slab<3>("300,200,100:60,40,17:30:25"), 6) / (60 * 40 * 17), 1, 2e-3);
+  EXPECT_NEAR(
+      volume_by_shares(parse_ellipse<3>("300,200,100:40,20,15:30:25"), 6) / (4 * pi / 3 * 40 * 20 * 15), 1,
+      2e-3);
+}
+
+TEST(SharesOfCells, OfASlabAreThoseOfItsPoints) {
+  const auto slab = parse_slab("5,5:20,6:40");
+  for (const double x : {-4., 1.5, 6.})
+    for (const double z : {-1., 2., 6.5}) {
+      const Box<2> cell{{x, z}, {x + 4, z + 4}};
+      double inside = 0;
+      constexpr int n = 200;
+      for (int i = 0; i < n * n; ++i)
+        inside += slab.contains({x + 4 * (i % n + 0.5) / n, z + 4 * (i / n + 0.5) / n});
+      EXPECT_NEAR(share_within(slab, cell), inside / (n * n), 0.005) << x << ' ' << z;
+    }
+}
+
 TEST(Scatter, IsTheSameForASeedAndAnotherForTheNext) {
   const auto a = scattered_in(square, {30, 7, 100, 10, 40}),
              again = scattered_in(square, {30, 7, 100, 10, 40}),

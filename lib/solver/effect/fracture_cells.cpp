@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
+#include "model/cluster_edge.hpp"
+
 namespace slipwave::solver {
 
 template <int D>
 FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
-                                std::size_t set)
-    : set_(set) {
+                                std::size_t set, CellKind kind)
+    : set_(set), kind_(kind) {
   std::vector<std::pair<std::int64_t, std::int64_t>> blocks;  // line, block of columns
   constexpr auto block = Layout<D>::block;
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
-    if (model.fracture[cell] != set_ + 1) continue;
+    if (!belongs(model, cell)) continue;
     const auto at = domain.computed_cell(model.grid().index(std::int64_t(cell)));
     const std::pair in{layout.line_number(at), at[0] / block};
     if (blocks.empty() || blocks.back() != in) blocks.push_back(in);
@@ -34,6 +36,12 @@ FractureCells<D>::FractureCells(const Layout<D>& layout, const Domain<D>& domain
 }
 
 template <int D>
+bool FractureCells<D>::belongs(const Model<D>& model, std::size_t cell) const {
+  return model.fracture[cell] == set_ + 1 &&
+         (kind_ == CellKind::all || is_cut(model, cell) == (kind_ == CellKind::cut));
+}
+
+template <int D>
 void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model,
                             const std::function<void(std::size_t, std::size_t)>& with) const {
   for (std::int64_t line = 0; line < layout.lines(); ++line)
@@ -43,7 +51,7 @@ void FractureCells<D>::each(const Layout<D>& layout, const Domain<D>& domain, co
         at[0] = x;
         const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
         const bool inside = domain.computed_cell(domain.model_cell(at)) == at;
-        if (!inside || model.fracture[cell] != set_ + 1) continue;
+        if (!inside || !belongs(model, cell)) continue;
         with(segment.place + std::size_t(x - segment.first), cell);
       }
 }

@@ -10,13 +10,17 @@
 
 namespace slipwave::solver {
 
+/// Which cells of a fracture set: all, those that are in it whole, those that its edge cuts.
+enum class CellKind { all, whole, cut };
+
 /// Where the cells of one fracture set are stored: those of a row form segments of whole vectors, in which
 /// cells of other sets or none may stand among them.
 template <int D>
 class FractureCells {
  public:
   /// Of set number `set` (0-based) of the model.
-  FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model, std::size_t set);
+  FractureCells(const Layout<D>& layout, const Domain<D>& domain, const Model<D>& model, std::size_t set,
+                CellKind kind = CellKind::all);
 
   /// Neighbouring cells of a row, from column `first` on; the first of them is number `place`.
   struct Segment {
@@ -40,7 +44,10 @@ class FractureCells {
             const std::function<void(std::size_t place, std::size_t in_model)>& with) const;
 
  private:
+  bool belongs(const Model<D>& model, std::size_t cell) const;
+
   std::size_t set_;
+  CellKind kind_;
   std::vector<Segment> segments_;
   std::vector<std::size_t> starts_;  // of each line, and the end
   std::size_t stored_ = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "model/anisotropy.hpp"
+#include "model/cluster_edge.hpp"
 #include "model/single_fracture.hpp"
 #include "solver/effect/slip_planes.hpp"
 
@@ -96,6 +97,34 @@ void solve(std::array<double, N * N> a, std::array<double, N>& b) {
   }
 }
 
+/// The same of a cell that the edge of the set cuts, as its mean: the stress s' in the part that has planes
+/// is that of the cell less what the rest holds of their strain, s' + (1 - share) Q(Z s') = s (S38). In
+/// anisotropic rock, and below friction, the part has the stress of the cell.
+template <int D>
+Tensor<D> strain_of_part(const FractureSet<D>& set, const Model<D>& model, std::size_t cell,
+                         const Tensor<D>& stress) {
+  const auto rock = stiffness_of(model.medium, cell);
+  const double share = fracture_share_of(model, cell);
+  const auto scaled = [share](Tensor<D> strain) {
+    for (double& value : strain.values) value *= share;
+    return strain;
+  };
+  if (slides(set) || rock.c11 != rock.c33) return scaled(strain_of_planes<D>(set, stress, rock));
+  const auto edge = edge_normal(model, cell);
+  constexpr std::size_t n = std::size_t(Tensor<D>::components);
+  std::array<double, n * n> of_part{};
+  for (std::size_t k = 0; k < n; ++k) {
+    Tensor<D> unit;
+    unit.values[k] = 1;
+    const auto held = held_strain<D, double>(strain_of_planes<D>(set, unit, rock), edge, rock.c13 / rock.c33);
+    for (std::size_t c = 0; c < n; ++c)
+      of_part[c * n + k] = unit.values[c] + (1 - share) * 2 * rock.c55 * held.values[c];
+  }
+  Tensor<D> inside = stress;
+  solve<n>(of_part, inside.values);
+  return scaled(strain_of_planes<D>(set, inside, rock));
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -109,23 +138,30 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
   for (std::size_t number = 0; number < model_.fracture_sets.size(); ++number) {
     const auto& set = model_.fracture_sets[number];
     if (!gives(set) || set.on_faces) continue;
-    Group group{FractureCells<D>(state.layout, domain, model_, number), &set, {}, {}, {}, {}, {}};
-    if (group.places.cells() == 0) continue;
-    const auto any = [&](const auto& has) {
-      return std::any_of(set.systems.begin(), set.systems.end(), has);
-    };
-    group.of = {D, set.systems.size() == 1 && set.traces.empty(),
-                any([](const auto& s) { return s.compliance.damped(); }),
-                any([](const auto& s) { return s.slides(); })};
-    group.planes = planes_of<D, Real>(set.systems, unit);
-    group.kernels = linear_slip_kernels<Real>(group.of);
-    group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
-    group.coefficients.assign(group.places.stored() * std::size_t(group.of.coefficient_rows()), 0);
-    !set.traces.empty()   ? add_single(group)
-    : group.of.one_family ? add_family(group, dt_s)
-                          : add_crossing(group);
-    groups_.push_back(std::move(group));
+    for (const auto kind : {CellKind::whole, CellKind::cut})
+      if (kind == CellKind::whole || (!model_.fracture_share.empty() && set.traces.empty()))
+        add(set, FractureCells<D>(state.layout, domain, model_, number, kind), kind, dt_s);
   }
+}
+
+template <int D, class Real>
+void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells, CellKind kind, double dt_s) {
+  if (cells.cells() == 0) return;
+  Group group{std::move(cells), &set, {}, {}, {}, {}, {}};
+  const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
+  group.of = {D, set.systems.size() == 1 && set.traces.empty(),
+              any([](const auto& s) { return s.compliance.damped(); }),
+              any([](const auto& s) { return s.slides(); })};
+  // The rest of a cell holds springs of its part in all directions.
+  if (kind == CellKind::cut && !group.of.damped && !group.of.slides) group.of.one_family = false;
+  group.planes = planes_of<D, Real>(set.systems, unit_);
+  group.kernels = linear_slip_kernels<Real>(group.of);
+  group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
+  group.coefficients.assign(group.places.stored() * std::size_t(group.of.coefficient_rows()), 0);
+  !set.traces.empty()   ? add_single(group)
+  : group.of.one_family ? add_family(group, dt_s)
+                        : add_crossing(group);
+  groups_.push_back(std::move(group));
 }
 
 template <int D, class Real>
@@ -134,7 +170,8 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
     const auto rock = stiffness_of(model_.medium, cell);
     const auto& system = group.set->systems[0];
     const double modulus = modulus_across<D>(system.normal, rock), mu = rock.c55;
-    const auto of = compliance_in_rock(system, group.of.slides, rock);
+    const auto of =
+        in_share(compliance_in_rock(system, group.of.slides, rock), fracture_share_of(model_, cell));
     const auto normal = slip::spring_step(modulus, of.normal, of.normal_damping, dt_s);
     const auto tangential = slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s);
     std::size_t at = place;
@@ -179,7 +216,8 @@ void LinearSlip<D, Real>::add_crossing(Group& group) const {
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
     const auto rock = stiffness_of(model_.medium, cell);
     const auto strain_of = [&](const Tensor<D>& stress) {
-      return strain_of_planes<D>(*group.set, stress, rock);
+      return is_cut(model_, cell) ? strain_of_part<D>(*group.set, model_, cell, stress)
+                                  : strain_of_planes<D>(*group.set, stress, rock);
     };
     each_entry<D>(rock, strain_of, [&](std::size_t c, std::size_t k, double of_welded, double taken) {
       group.coefficients[(c * n + k) * group.places.stored() + place] = Real(of_welded);
@@ -307,7 +345,8 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
   double energy = 0;
   if (group.of.one_family) {
     const auto& system = group.set->systems[0];
-    const auto of = compliance_in_rock(system, group.of.slides, rock);
+    const auto of =
+        in_share(compliance_in_rock(system, group.of.slides, rock), fracture_share_of(model_, cell));
     for (std::size_t k = 0; k < D; ++k) {
       const double modulus = k == 0 ? modulus_across<D>(system.normal, rock) : rock.c55;
       const double compliance = k == 0 ? of.normal : of.tangential;

@@ -13,12 +13,15 @@ Slip<D, Real>::Slip(State<D, Real>& state, const Domain<D>& domain, const Scene<
     : state_(state), domain_(domain), dt_s_(dt_s), unit_(unit), correction_(scene.numerics.correction) {
   for (std::size_t set = 0; set < scene.model.fracture_sets.size(); ++set) {
     if (!slides(scene.model.fracture_sets[set])) continue;
-    SlipGroup<D, Real> group(state.layout, domain, scene, set, dt_s, unit);
-    if (group.cells() == 0) continue;
-    if (scene.slip_diary) diary_.emplace_back(std::size_t(group.stored_cells()));
-    group.rest();
-    opens_ |= group.opens();
-    groups_.push_back(std::move(group));
+    for (const auto kind : {CellKind::whole, CellKind::cut}) {
+      if (kind == CellKind::cut && scene.model.fracture_share.empty()) continue;
+      SlipGroup<D, Real> group(state.layout, domain, scene, {set, kind}, dt_s, unit);
+      if (group.cells() == 0) continue;
+      if (scene.slip_diary) diary_.emplace_back(std::size_t(group.stored_cells()));
+      group.rest();
+      opens_ |= group.opens();
+      groups_.push_back(std::move(group));
+    }
   }
 }
 

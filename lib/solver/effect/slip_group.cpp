@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
 #include "model/plane_strain.hpp"
 #include "solver/effect/slip_planes.hpp"
@@ -16,10 +17,10 @@ constexpr std::size_t lanes = std::size_t(Layout<2>::block);
 /// mu of a cell whose planes both give way and slide: what slip takes off the traction (S23).
 template <int D>
 double shear_modulus_above_springs(const std::vector<SlipSystem<D>>& systems, double lambda, double mu,
-                                   double dt_s) {
+                                   double share, double dt_s) {
   double follows = 0;
   for (const auto& system : systems) {
-    const auto of = compliance_of<D>(system, true, lambda, mu);
+    const auto of = in_share(compliance_of<D>(system, true, lambda, mu), share);
     follows += slip::spring_step(mu, of.tangential, of.tangential_damping, dt_s).follows;
   }
   return slip::modulus_above_springs(mu, follows);
@@ -29,11 +30,12 @@ double shear_modulus_above_springs(const std::vector<SlipSystem<D>>& systems, do
 
 template <int D, class Real>
 SlipGroup<D, Real>::SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene,
-                              std::size_t set, double dt_s, double unit)
-    : set_(&scene.model.fracture_sets[set]),
+                              const CellsOfSet& of, double dt_s, double unit)
+    : set_(&scene.model.fracture_sets[of.set]),
       unit_(unit),
-      places_(layout, domain, scene.model, set),
+      places_(layout, domain, scene.model, of.set, of.kind),
       count_(places_.stored()) {
+  if (of.kind == CellKind::cut) cut_.emplace(count_);
   planes_ = planes_of<D, Real>(set_->systems, unit);
   fill(domain, scene, layout, dt_s);
   choose_kernels(scene.numerics.correction);
@@ -122,6 +124,27 @@ std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const Ro
   return moduli;
 }
 
+/// Where planes open, give way as springs or lie askew in their rock the part is loaded as the cell is.
+template <int D, class Real>
+double SlipGroup<D, Real>::put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda,
+                                    double mu) {
+  const double share = fracture_share_of(model, cell);
+  const auto edge = edge_normal(model, cell);
+  const bool as_loaded = gives(*set_) || opens() || !responses_.empty();
+  const double held = as_loaded ? 0 : held_share_of_all(edge, lambda, mu);
+  cut_->put(place, share, held, edge, lambda, mu);
+  return share + (1 - share) * held;
+}
+
+template <int D, class Real>
+double SlipGroup<D, Real>::held_share_of_all(const Point<D>& edge, double lambda, double mu) const {
+  const auto& systems = set_->systems;
+  const bool alike = systems.size() == 1 || (D == 2 && systems.size() == 2 &&
+                                             at_right_angles<D>(systems[0].normal, systems[1].normal));
+  if (alike) return held_share<D>(unit_normal<D>(systems[0].normal), edge, lambda, mu);
+  return D == 2 ? (lambda + mu) / (lambda + 2 * mu) : 1;
+}
+
 template <int D, class Real>
 void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout,
                               double dt_s) {
@@ -151,13 +174,14 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
   places_.each(layout, domain, model, [&](std::size_t place, std::size_t cell) {
     const double rho = model.medium.rho[cell], vp = model.medium.vp[cell], vs = model.medium.vs[cell];
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
-    double mu = shear_modulus_above_springs(systems, lambda, rock_mu, dt_s);
+    double mu = shear_modulus_above_springs(systems, lambda, rock_mu, fracture_share_of(model, cell), dt_s);
+    const double of_part = cut_ ? put_edge(model, place, cell, lambda, rock_mu) : 1;
     const auto moduli =
         askew ? put_response(place, rock_stiffness(model.medium, cell)) : std::vector<double>{};
     for (std::size_t n = 0; n < systems.size(); ++n) {
       if (askew) mu = moduli[n];
       if (systems[n].slides())
-        relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * mu, dt_s));
+        relaxation_[n][place] = Real(slip::relaxation_pa(systems[n].viscosity_s, unit_ * of_part * mu, dt_s));
     }
     if (opens()) {
       lambda_[place] = Real(lambda);
@@ -165,7 +189,9 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     }
     if (!mu_.empty()) mu_[place] = Real(mu);
     if (!slip_per_pa_.empty())
-      slip_per_pa_[place] = Real(std::min(domain.grid.spacing_m / (unit_ * mu), most_per_distance));
+      slip_per_pa_[place] =
+          Real(std::min(fracture_share_of(model, cell) / of_part * domain.grid.spacing_m / (unit_ * mu),
+                        most_per_distance));
     for (std::size_t c = 0; c < model.prestress_pa.size(); ++c)
       prestress_[c * count_ + place] = Real(unit_ * model.prestress_pa[c][cell]);
   });
@@ -260,6 +286,7 @@ std::vector<std::vector<Real>*> SlipGroup<D, Real>::memory() {
   for (auto& gaps : gaps_) all.push_back(&gaps);
   for (auto& slips : slips_m_)
     if (!slips.empty()) all.push_back(&slips);
+  if (cut_) all.push_back(&cut_->memory());
   return all;
 }
 
@@ -295,6 +322,18 @@ SlipRows<Real> SlipGroup<D, Real>::rows(Real* stress, std::int64_t pitch, std::s
 template <int D, class Real>
 void SlipGroup<D, Real>::act(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
                              std::int64_t n) {
+  if (!cut_) return act_on(act, stress, pitch, place, n);
+  // Planes of a part that open leave no more traction than those of the whole cell would.
+  const bool as_whole = act == SlipAct::open;
+  cut_->apply(stress, pitch, place, n, as_whole,
+              [&](Real* part, std::int64_t part_pitch, std::size_t first, std::int64_t count) {
+                act_on(act, part, part_pitch, first, count);
+              });
+}
+
+template <int D, class Real>
+void SlipGroup<D, Real>::act_on(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place,
+                                std::int64_t n) {
   if (act == SlipAct::open) {
     if (open_) open(stress, pitch, place, n);
   } else if (kernels_.slip) {
@@ -384,7 +423,7 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
     values += row->size();
   return std::int64_t(values * sizeof(Real) + responses_.size() * sizeof(responses_[0]) +
                       stiffness_.size() * sizeof(RockStiffness<D>)) +
-         places_.memory_bytes();
+         places_.memory_bytes() + (cut_ ? cut_->memory_bytes() : 0);
 }
 
 template class SlipGroup<2, float>;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <variant>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "model/space_stiffness.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/fracture_cells.hpp"
+#include "solver/effect/held_slip.hpp"
 #include "solver/kernels/slip_kernels.hpp"
 
 namespace slipwave::solver {
@@ -24,13 +26,20 @@ enum class SlipAct { open, slip, begin };
 template <int D>
 using RockStiffness = std::conditional_t<D == 2, PlaneStiffness, SpaceStiffness>;
 
-/// The cells of one fracture set: their places, constants and state. Cells of a row form segments of whole
-/// vectors; cells of other sets or none among them have c = 0 and do not slip.
+/// Cells of one fracture set (0-based) of the model.
+struct CellsOfSet {
+  std::size_t set;
+  CellKind kind;
+};
+
+/// The cells of one fracture set, whole ones or those that its edge cuts: their places, constants and state.
+/// Cells of a row form segments of whole vectors; cells of other sets or none among them have c = 0 and do
+/// not slip.
 template <int D, class Real>
 class SlipGroup {
  public:
-  /// Of set number `set` (0-based) of the scene's model. Stress is `unit` times Pa, gaps `unit` times strain.
-  SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, std::size_t set,
+  /// Stress is `unit` times Pa, gaps `unit` times strain.
+  SlipGroup(const Layout<D>& layout, const Domain<D>& domain, const Scene<D>& scene, const CellsOfSet& of,
             double dt_s, double unit);
 
   using Segment = typename FractureCells<D>::Segment;
@@ -72,6 +81,11 @@ class SlipGroup {
  private:
   void fill(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout, double dt_s);
   void choose_kernels(SlipCorrection correction);
+  /// What an edge that cuts a cell makes of its slip: mu of the part in place of that of the rock.
+  double put_edge(const Model<D>& model, std::size_t place, std::size_t cell, double lambda, double mu);
+  /// What of a held slip acts on the planes, for all systems (S39).
+  double held_share_of_all(const Point<D>& edge, double lambda, double mu) const;
+  void act_on(SlipAct act, Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
   bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
   /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
@@ -114,6 +128,7 @@ class SlipGroup {
   // Where planes lie askew in anisotropic rock: [cell][system], and by cell.
   std::vector<PlaneResponse<D, Real>> responses_;
   std::vector<RockStiffness<D>> stiffness_;
+  std::optional<HeldSlip<D, Real>> cut_;  // of cells that the edge cuts
 };
 
 }  // namespace slipwave::solver
