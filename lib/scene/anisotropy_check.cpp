@@ -95,7 +95,7 @@ void check_anisotropy(const Scene<D>& scene) {
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
     const bool near_bent =
-        grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
+        D == 3 && grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
   }

@@ -137,7 +137,7 @@ void TiltedCells<3, Real>::add_endings(const Domain<3>& domain, int axis, int re
       ends = ends || found;
       ending.stencils[pair] =
           found ? *found
-                : InterfaceStencil{x, whole, whole, Extension::none, Extension::none, 0, 0, 0, 0, whole};
+                : whole_stencil(x, reach);
       ending.reach = std::min(ending.reach, int(ending.stencils[pair].reach));
     }
     if (ends) endings_[std::size_t(axis)].push_back(ending);
