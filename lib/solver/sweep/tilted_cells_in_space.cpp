@@ -126,7 +126,6 @@ template <class Real>
 void TiltedCells<3, Real>::add_endings(const Domain<3>& domain, int axis, int reach,
                                        const std::array<InterfaceStencils, 3>& stencils) {
   const auto nx = domain.grid.shape[0];
-  const auto whole = std::int8_t(reach);
   for (std::size_t n = 0; n < cells_.size(); ++n) {
     const auto row = domain.tilted()[n].cell / nx;
     const auto x = cells_[n].x;
