@@ -28,7 +28,10 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
   if (any([](const auto& system) { return system.opens; })) return "open, expected closed ones";
   if (!askew) return "";
   const std::string alone = " of rock, expected along both or in isotropic rock";
-  if (gives(set)) return "are springs and lie askew to the axes" + alone;
+  if (gives(set) && set.on_faces) return "are springs on faces and lie askew to the axes" + alone;
+  if (gives(set) &&
+      any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
+    return "are springs that slide or have dashpots and lie askew to the axes" + alone;
   if (set.systems.size() > 1 &&
       any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
     return "cross, weaken with slip and lie askew to the axes" + alone;
