@@ -43,7 +43,8 @@ Medium<D> fitted_medium(const Grid<D>& regular, const std::vector<Below>& layers
   const auto fit = fit_grid(regular, horizons, all);
   for (const auto& why : fit.left_out) throw std::logic_error(why);
   Medium<D> medium{Field<D>(fit.grid), Field<D>(fit.grid), Field<D>(fit.grid)};
-  if (std::any_of(layers.begin(), layers.end(), [](const Below& of) { return of.epsilon != 0 || of.delta != 0; }))
+  if (std::any_of(layers.begin(), layers.end(),
+                  [](const Below& of) { return of.epsilon != 0 || of.delta != 0; }))
     for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
       medium[property] = Field<D>(fit.grid);
   for (std::int64_t n = 0; n < fit.grid.size(); ++n) {

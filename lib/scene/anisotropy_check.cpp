@@ -29,8 +29,7 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
   if (!askew) return "";
   const std::string alone = " of rock, expected along both or in isotropic rock";
   if (gives(set) && set.on_faces) return "are springs on faces and lie askew to the axes" + alone;
-  if (gives(set) &&
-      any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
+  if (gives(set) && any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
     return "are springs that slide or have dashpots and lie askew to the axes" + alone;
   if (set.systems.size() > 1 &&
       any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
@@ -97,8 +96,8 @@ void check_anisotropy(const Scene<D>& scene) {
           ErrorKind::usage);
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-    const bool near_bent =
-        D == 3 && grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
+    const bool near_bent = D == 3 && grid.rows &&
+                           near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
   }

@@ -5,9 +5,9 @@
 namespace slipwave {
 
 /// Throws an Error on the first cell whose anisotropy can not be computed together with what else happens
-/// there (theory.md 1.10): one that rows of a fitted grid bend round, or whose planes open, or are springs
-/// and lie askew to the axes; in 3-D one that attenuates, is tilted, or slips on others than level planes,
-/// and any under a plane wave.
+/// there (theory.md 1.10): one whose planes open, or lie askew to the axes and are springs that slide, have
+/// dashpots or lie on faces; in 3-D one that rows of a fitted grid bend round, that attenuates, or slips on
+/// others than level planes, and any under a plane wave.
 template <int D>
 void check_anisotropy(const Scene<D>& scene);
 

@@ -1,5 +1,5 @@
-// Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and springs
-// never rises above that of the beginning (docs/theory.md (S25), (S35)).
+// Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and
+// springs never rises above that of the beginning (docs/theory.md (S25), (S38)).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,8 +44,11 @@ void expect_no_growth(const Run& run, int cells, int steps) {
   std::uniform_real_distribution<double> uniform(0, 1);
   const std::function<double()> random = [&] { return uniform(engine); };
   Lab<double>::Setup setup;
-  setup.medium = rocks(cells, run.number % 3 == 0 ? 1 : run.number % 3 == 1 ? 6 : cells, run.tilts,
-                       run.number % 4 == 0, random);
+  setup.medium = rocks(cells,
+                       run.number % 3 == 0   ? 1
+                       : run.number % 3 == 1 ? 6
+                                             : cells,
+                       run.tilts, run.number % 4 == 0, random);
   FractureSet<2> set{"springs", {}};
   for (int family = 0; family < run.families; ++family) {
     set.systems.push_back(system_of(360 * random(), {0, 0}));

@@ -11,7 +11,8 @@ namespace {
 constexpr double h = 5;
 const Below water{nullptr, 1500, 0, 1000}, air{nullptr, 340, 0, 1.2};
 
-/// Gives solid cells of a medium epsilon, delta and, where it `tilts`, a tilt, by blocks of cells; speeds stay.
+/// Gives solid cells of a medium epsilon, delta and, where it `tilts`, a tilt, by blocks of cells; speeds
+/// stay.
 void make_anisotropic(Medium<2>& medium, unsigned seed, int block, bool tilts) {
   const auto& grid = medium.grid();
   std::mt19937 engine(seed);
@@ -21,7 +22,8 @@ void make_anisotropic(Medium<2>& medium, unsigned seed, int block, bool tilts) {
   const auto across = (grid.shape[0] + block - 1) / block, down = (grid.shape[1] + block - 1) / block;
   std::vector<std::array<double, 3>> drawn(std::size_t(across * down));
   for (auto& one : drawn)
-    one = {-0.4 + 1.4 * uniform(engine), -0.4 + 1.4 * uniform(engine), tilts ? 180 * uniform(engine) - 90 : 0};
+    one = {-0.4 + 1.4 * uniform(engine), -0.4 + 1.4 * uniform(engine),
+           tilts ? 180 * uniform(engine) - 90 : 0};
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
     const auto cell = std::size_t(n);
@@ -50,16 +52,19 @@ std::vector<Kind> kinds(int nx, int nz) {
   const auto plane = [&](double degrees, double at) {
     return dipping(at, std::tan(degrees * std::numbers::pi / 180), middle);
   };
-  const auto curve = [=](double x, double) { return depth + h * std::sin(2 * std::numbers::pi * x / (20 * h)); };
+  const auto curve = [=](double x, double) {
+    return depth + h * std::sin(2 * std::numbers::pi * x / (20 * h));
+  };
   const auto rock = [](auto top, double vp, double vs, double rho) { return Below{top, vp, vs, rho}; };
-  return {{"WaterDip15", {water, rock(plane(15, depth), 4500, 2250, 2500)}, false},
-          {"WaterDip45", {water, rock(plane(45, depth), 3000, 1600, 2200)}, false},
-          {"AirDip30", {air, rock(plane(30, depth), 5900, 3200, 7800)}, false},
-          {"SoftOverHardDip30", {{nullptr, 2500, 1200, 2000}, rock(plane(30, depth), 4500, 2250, 2500)}, false},
-          {"MudOverHardDip45", {{nullptr, 1800, 400, 1800}, rock(plane(45, depth), 6000, 3500, 2800)}, false},
-          {"CurvedFloor", {water, rock(curve, 4500, 2250, 2500)}, false},
-          {"SurfaceDip30", {rock(plane(30, depth - nz / 4 * h), 3000, 1600, 2200)}, true},
-          {"SurfaceDip45", {rock(plane(45, depth - nz / 4 * h), 4500, 2250, 2500)}, true}};
+  return {
+      {"WaterDip15", {water, rock(plane(15, depth), 4500, 2250, 2500)}, false},
+      {"WaterDip45", {water, rock(plane(45, depth), 3000, 1600, 2200)}, false},
+      {"AirDip30", {air, rock(plane(30, depth), 5900, 3200, 7800)}, false},
+      {"SoftOverHardDip30", {{nullptr, 2500, 1200, 2000}, rock(plane(30, depth), 4500, 2250, 2500)}, false},
+      {"MudOverHardDip45", {{nullptr, 1800, 400, 1800}, rock(plane(45, depth), 6000, 3500, 2800)}, false},
+      {"CurvedFloor", {water, rock(curve, 4500, 2250, 2500)}, false},
+      {"SurfaceDip30", {rock(plane(30, depth - nz / 4 * h), 3000, 1600, 2200)}, true},
+      {"SurfaceDip45", {rock(plane(45, depth - nz / 4 * h), 4500, 2250, 2500)}, true}};
 }
 
 class FittedAnisotropy : public ::testing::TestWithParam<int> {

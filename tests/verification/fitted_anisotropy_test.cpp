@@ -39,17 +39,18 @@ struct DippingRocks {
       slowest = std::min(slowest, speeds.s > 0 ? speeds.s : speeds.p);
     }
     constexpr double left = 800, right = 1000;
-    const double room = 330 + right * sine() / cosine();
+    const double slope = sine() / cosine(), room = 330 + right * slope;
     const auto nx = std::int64_t(std::ceil((left + right) * fitted_peak_hz * cells / slowest));
     const double h = (left + right) / double(nx);
     const auto rows = std::int64_t(room / h);
     const double depth = (double(rows) + 0.37) * h;
     std::vector<Below> all;
     for (const auto& layer : layers)
-      all.push_back({dipping(depth, sine() / cosine(), left), layer.vp, layer.vs, layer.rho, layer.epsilon,
-                     layer.delta, layer.tilt});
+      all.push_back({dipping(depth, slope, left), layer.vp, layer.vs, layer.rho, layer.epsilon, layer.delta,
+                     layer.tilt});
     Scene<2> scene;
-    scene.model.medium = fitted_medium<2>(Grid<2>{{nx, 2 * rows}, h, {0, 0}}, all, surface);
+    scene.model.medium = fitted_medium<2>(
+        Grid<2>{{nx, 2 * rows + std::int64_t(0.4 * right * slope / h)}, h, {0, 0}}, all, surface);
     const auto place = [&](double a, double b) -> Point<2> {
       return {left + a * cosine() - b * sine(), depth + a * sine() + b * cosine()};
     };
@@ -100,37 +101,40 @@ struct DippingRocks {
 struct Case {
   const char* name;
   DippingRocks rocks;
-  double bound;  // of all traces with 24 cells of the slowest wave, percent
-  double least_order = 2;  // from 16 to 24 cells
-  bool in_short_form = true;
+  double bound;  // of all traces with 24 cells of the slowest wave at the peak, percent
 };
 void PrintTo(const Case& of, std::ostream* out) { *out << of.name; }
 
 const std::vector<AnisotropicStack::Receiver> under_surface = {{-150, 150}, {0, 60}, {150, 100}, {300, 150}};
 
 const Case cases[] = {
-    {"FreeSurfaceOfShaleDip15", {{shale}, 15, true, "explosion", 200, under_surface}, 1},
-    {"FreeSurfaceOfShaleDip30", {{shale}, 30, true, "explosion", 200, under_surface}, 1, 2, false},
-    {"FreeSurfaceOfDippingBedsDip15", {{dipping_shale}, 15, true, "explosion", 200, under_surface}, 1, 2, false},
-    {"FreeSurfaceOfPlainRockDip15", {{plain}, 15, true, "explosion", 200, under_surface}, 1, 2, false},
-    {"WaterOverShaleDip15", {{sea, shale}}, 2.2, 2, false},
-    {"WaterOverPlainRockDip15", {{sea, plain}}, 2.2, 2, false},
-    {"WaterOverDippingBedsDip15", {{sea, dipping_shale}}, 2.2, 2, false},
-    {"ShaleOverSandstoneDip15", {{shale, sandstone}, 15, false, "force:0,1"}, 1, 2, false},
-    {"TwoDippingRocksDip15", {{dipping_shale, crossed}, 15, false, "force:0,1"}, 1, 1, false},
+    {"SurfaceOfShaleDip15", {{shale}, 15, true, "explosion", 200, under_surface}, 0.4},
+    {"SurfaceOfShaleDip30", {{shale}, 30, true, "explosion", 200, under_surface}, 0.5},
+    {"SurfaceOfDippingBedsDip15", {{dipping_shale}, 15, true, "explosion", 200, under_surface}, 0.4},
+    {"SurfaceOfPlainRockDip15", {{plain}, 15, true, "explosion", 200, under_surface}, 0.4},
+    {"WaterOverShaleDip15", {{sea, shale}}, 0.5},
+    {"WaterOverPlainRockDip15", {{sea, plain}}, 0.5},
+    {"WaterOverDippingBedsDip15", {{sea, dipping_shale}}, 0.5},
+    {"ShaleOverSandstoneDip15", {{shale, sandstone}, 15, false, "force:0,1"}, 0.4},
+    {"TwoDippingRocksDip15", {{dipping_shale, crossed}, 15, false, "force:0,1"}, 0.4},
 };
 
 class FittedAnisotropy : public testing::TestWithParam<Case> {};
 
 TEST_P(FittedAnisotropy, IsThatOfTiltedRockBelowLevelLayers) {
   const auto& of = GetParam();
-  if (!of.in_short_form && !std::getenv("SLIPWAVE_LONG")) GTEST_SKIP() << "in the long form";
+  const bool long_form = std::getenv("SLIPWAVE_LONG");
+  if (!long_form && std::string(of.name) != "SurfaceOfShaleDip15") GTEST_SKIP() << "in the long form";
   const auto wanted = of.rocks.exact();
-  const double coarse = 100 * of.rocks.error(16, wanted), fine = 100 * of.rocks.error(24, wanted);
+  const double coarse = 100 * of.rocks.error(16, wanted);
+  EXPECT_LT(coarse, of.rocks.surface ? 1 : 2.2);
+  if (!long_form) return;
+  const double fine = 100 * of.rocks.error(24, wanted);
   const double order = std::log(coarse / fine) / std::log(1.5);
-  if (std::getenv("SLIPWAVE_SHOW")) std::printf("%-30s %6.2f %6.2f order %.2f\n", of.name, coarse, fine, order);
+  if (std::getenv("SLIPWAVE_SHOW"))
+    std::printf("%-30s %6.2f %6.2f order %.2f\n", of.name, coarse, fine, order);
   EXPECT_LT(fine, of.bound);
-  EXPECT_GT(order, of.least_order);
+  EXPECT_GT(order, 2);
 }
 
 INSTANTIATE_TEST_SUITE_P(Dips, FittedAnisotropy, testing::ValuesIn(cases),

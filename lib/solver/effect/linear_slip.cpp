@@ -39,8 +39,7 @@ Rock rock_in_grid(const Medium<D>& medium, std::size_t cell) {
 template <int D>
 Tensor<D> stress_of(const Tensor<D>& strain, const Rock& of) {
   if constexpr (D == 2)
-    if (of.turned)
-      return {stress_of_strain(*of.turned, {strain(0, 0), strain(1, 1), 2 * strain(0, 1)})};
+    if (of.turned) return {stress_of_strain(*of.turned, {strain(0, 0), strain(1, 1), 2 * strain(0, 1)})};
   const Stiffness& rock = of.upright;
   Tensor<D> stress;
   double trace = 0;

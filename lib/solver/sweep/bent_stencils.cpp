@@ -136,8 +136,8 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                     scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
   if constexpr (D == 2)
     if (weld) {
-      at.t = at.t + (2 * scale) * tractions_through<Real>(
-                                      *weld, of([&](int c) { return corrections.traction(c); }));
+      at.t = at.t +
+             (2 * scale) * tractions_through<Real>(*weld, of([&](int c) { return corrections.traction(c); }));
       return;
     }
   at.t = at.t + scale * scaled(normal, 2 - 2 * Real(side.share_p), solid * (2 - 2 * Real(side.share_s)),
@@ -160,9 +160,8 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
   const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
-  const auto* const weld = anisotropic && anisotropic->welds[below ? 0 : 1].holds
-                               ? &anisotropic->welds[below ? 0 : 1]
-                               : nullptr;
+  const auto* const weld =
+      anisotropic && anisotropic->welds[below ? 0 : 1].holds ? &anisotropic->welds[below ? 0 : 1] : nullptr;
   if (side.p != Extension::interface) {
     at = {
         scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
@@ -190,7 +189,7 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   return at;
 }
 
-/// The outgoing waves of an anisotropic cell (F11), from velocities and tractions at the places of its
+/// The outgoing waves of an anisotropic cell (F12), from velocities and tractions at the places of its
 /// stencil.
 template <int Order, class Real>
 void reconstruct_anisotropic(const BentWaves<Real>& waves,
@@ -213,7 +212,7 @@ void reconstruct_anisotropic(const BentWaves<Real>& waves,
     reconstruct_cell<Order>(v + reach, s + reach, 1, sign * z, sign * scale * (z * b), up[wave], down[wave]);
   }
   const auto resolve = [&](std::size_t side, const Real* sizes, Real* along, Real* across) {
-    const Real nx = metric.n_face[side ? metric.stride : 0];
+    const Real nx = normal_of_face(metric, side ? metric.stride : 0);
     resolve_on_face<Real>(waves.faces[side], sizes[0], sizes[1], nx, 1 / root_of(1 + nx * nx), *along,
                           *across);
   };
@@ -315,7 +314,8 @@ void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metr
     if (!domain.anisotropic()) return;
     anisotropic_of_.assign(cells_.size(), -1);
     for (std::int64_t line = 0; line + 1 < std::int64_t(starts_.size()); ++line)
-      for (auto n = std::size_t(starts_[std::size_t(line)]), end = std::size_t(starts_[std::size_t(line) + 1]);
+      for (auto n = std::size_t(starts_[std::size_t(line)]),
+                end = std::size_t(starts_[std::size_t(line) + 1]);
            n < end; ++n) {
         const auto& cell = cells_[n];
         if (cell.reach == not_carried) continue;
@@ -324,12 +324,11 @@ void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metr
         AnisotropicStencil<Real> found;
         found.own_waves = domain.is_tilted(at);
         if (found.own_waves) {
-          const auto waves = waves_across_rows(plane_stiffness_at(domain, at), double(of.j[0]),
-                                               double(of.n_cell[0]),
-                                               {double(of.n_face[0]), double(of.n_face[of.stride])});
+          const auto waves = waves_across_rows(plane_stiffness_at(domain, at), of);
           for (const std::size_t side : {0, 1}) {
             const auto& face = waves.faces[side];
-            found.waves.faces[side] = {Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
+            found.waves.faces[side] = {
+                Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
             found.waves.courant_z[side] = Real(waves.courant_z[side]);
           }
         }
@@ -342,7 +341,7 @@ void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metr
           beyond[1] = near[1] + (side ? 1 : -1);
           if (!domain.is_tilted(near) && !domain.is_tilted(beyond)) continue;
           const auto face = side ? beyond[1] - line : near[1] - line;
-          const double nx = double(of.n_face[face * of.stride]);
+          const double nx = double(normal_of_face(of, face * of.stride));
           const auto impedance = [&](const Index<2>& cell_at) {
             return root_of(acoustic_tensor(plane_stiffness_at(domain, cell_at), nx, 1));
           };

@@ -31,7 +31,7 @@ struct BentStencil {
 };
 
 /// What replaces the laws of P and of S where a cell or its neighbour beyond an interface is anisotropic, in
-/// 2-D (theory.md (F12)).
+/// 2-D (theory.md (F13)).
 template <class Real>
 struct AnisotropicStencil {
   /// Of the velocities z and x, (Z_l + Z_r)^-1 Z_r for the cell as l.

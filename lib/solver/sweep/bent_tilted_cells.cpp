@@ -81,9 +81,7 @@ void BentTiltedCells<Real>::add_cell(const State<2, Real>& state, const Domain<2
   const auto along = waves_along(tilted, 0);
   motion_along_[0].push_back(Real(along.cosine)), motion_along_[1].push_back(Real(along.sine));
   const auto of = metric.across({0, at[1]}, at[0]);
-  const auto across = waves_across_rows(plane_stiffness_at(domain, at), double(of.j[0]),
-                                        double(of.n_cell[0]),
-                                        {double(of.n_face[0]), double(of.n_face[of.stride])});
+  const auto across = waves_across_rows(plane_stiffness_at(domain, at), of);
   for (const std::size_t side : {0, 1}) {
     const auto& face = across.faces[side];
     std::size_t n = 0;
@@ -135,7 +133,7 @@ void BentTiltedCells<Real>::add_faces(const Domain<2>& domain, const Metric<2, R
       const std::array<Index<2>, 2> cells{before, behind};
       const auto listed = [&](const Index<2>& at) { return inside(at) && domain.is_tilted(at); };
       if (!listed(before) && !listed(behind)) continue;
-      const double nx = axis == 0 ? 0 : double(metric.across({0, row}, x).n_face[0]);
+      const double nx = axis == 0 ? 0 : double(normal_of_face(metric.across({0, row}, x), 0));
       const auto impedance = [&](const Index<2>& at) {
         const auto stiffness = plane_stiffness_at(domain, at);
         if (axis == 1) return impedance_across_rows(stiffness, nx);
@@ -154,9 +152,8 @@ void BentTiltedCells<Real>::add_faces(const Domain<2>& domain, const Metric<2, R
         std::size_t n = 0;
         for (const double value : {z.zz, z.zx, z.xx}) faces.z[side][n++].push_back(Real(value));
       }
-      faces.by_lower.push_back(listed(behind) && !(inside(before) && domain.impedance(wave_s)(before) > 0)
-                                   ? Real(1)
-                                   : Real(0));
+      faces.by_lower.push_back(
+          listed(behind) && !(inside(before) && domain.impedance(wave_s)(before) > 0) ? Real(1) : Real(0));
     }
     faces.first.push_back(std::int64_t(faces.x.size()));
   }
@@ -177,17 +174,18 @@ void BentTiltedCells<Real>::reconstruct_along(std::int64_t row, const IndexRange
     for (std::int64_t i = 0; i < n; ++i) {
       const auto cell = std::size_t(first + i);
       const auto face = [&](Real j) {
-        return typename BentWaves<Real>::Face{motion_along_[0][cell], motion_along_[1][cell],
-                                              {j * z_along_[0][cell], j * z_along_[1][cell]}};
+        return typename BentWaves<Real>::Face{
+            motion_along_[0][cell], motion_along_[1][cell], {j * z_along_[0][cell], j * z_along_[1][cell]}};
       };
-      const auto before = face(from.metric.j_lo[to + i]), behind = face(from.metric.j_hi[to + i]);
+      const auto before = face(height_of_face(from.metric, to + i, 0)),
+                 behind = face(height_of_face(from.metric, to + i, 1));
       for (const std::size_t wave : {0, 1})
         pairs.of[wave][i] = wave_pair<Real>(before, behind, z_along_[wave][cell], wave, sign);
     }
     for (int k = -reach_; k <= reach_; ++k) {
       const auto at = to + k;
       pairs.combine(n, k + reach_, [&](std::int64_t i, Real& v, Real& w, Real& s, Real& t) {
-        const Real j = from.metric.j[at + i];
+        const Real j = height_of_cell(from.metric, at + i);
         v = from.pairs[0].v[at + i], w = from.pairs[1].v[at + i];
         s = j * from.pairs[0].s[at + i], t = j * from.pairs[1].s[at + i];
       });
@@ -239,9 +237,10 @@ void BentTiltedCells<Real>::reconstruct_ending(std::size_t n, const Along& from,
       s_of[k] = along * s[0][k] + across * s[1][k];
     }
     const Real courant = sign * scale * (z * from.b[at]);
-    reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * metric.j_hi[at], courant, of_up, other);
-    reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * metric.j_lo[at], courant, other,
-                            of_down);
+    reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * height_of_face(metric, at, 1), courant,
+                            of_up, other);
+    reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * height_of_face(metric, at, 0), courant,
+                            other, of_down);
     up[0] += along * of_up, up[1] += across * of_up;
     down[0] += along * of_down, down[1] += across * of_down;
   }
@@ -274,24 +273,22 @@ void BentTiltedCells<Real>::reconstruct_across(std::int64_t row, const IndexRang
     }
     for (int k = -reach_; k <= reach_; ++k) {
       const Real* const field = fields.first + to + k * fields.stride;
-      const Real* const nx = metric.n_cell + to + k * metric.stride;
       pairs.combine(n, k + reach_, [&](std::int64_t i, Real& v, Real& w, Real& s, Real& t) {
         const auto velocity = row_velocity<2>(field + i, fields.pitch);
-        const auto traction = row_traction<2>(field + i, fields.pitch, nx + i, metric.pitch);
+        const Real nx = normal_of_cell(metric, to + i + k * metric.stride);
+        const auto traction = row_traction<2>(field + i, fields.pitch, &nx, 1);
         v = velocity.z, w = velocity.x, s = traction.z, t = traction.x;
       });
     }
     for (const std::size_t wave : {0, 1})
       kernels.reconstruct(n, at_once, pairs.v[wave][reach_], pairs.s[wave][reach_],
                           courant_z_[wave].data() + first, b + to, scale, up[wave], down[wave]);
-    const Real* const n_face = metric.n_face + to;
-    const Real* const over_face = metric.over_face + to;
     const auto resolve = [&](const Real(&waves)[2][at_once], std::size_t side, Real* along, Real* across) {
       for (std::int64_t i = 0; i < n; ++i) {
         const auto& of = face[side][i];
-        const auto next = side * std::size_t(metric.stride) + std::size_t(i);
-        resolve_on_face<Real>(of, waves[0][i], waves[1][i], n_face[next], over_face[next], along[i],
-                              across[i]);
+        const auto next = to + i + std::int64_t(side) * metric.stride;
+        resolve_on_face<Real>(of, waves[0][i], waves[1][i], normal_of_face(metric, next),
+                              metric.over_face[next], along[i], across[i]);
       }
     };
     resolve(up, 1, outgoing.up(0) + to, outgoing.up(1) + to);
@@ -335,8 +332,8 @@ void BentTiltedCells<Real>::solve_along(std::int64_t row, const IndexRange& colu
     const auto i = along_.x[std::size_t(first)] - columns.first;
     // Impedances are J times as large as those that are kept: so are tractions, but not velocities.
     for (std::int64_t k = 0; k < last - first; ++k) over[k] = 1 / j_face[i + k];
-    solve(along_, first, last - first, below.up(0) + i, below.up(1) + i, above.down(0) + i,
-          above.down(1) + i, over, {faces.v(0) + i, faces.v(1) + i, faces.s(0) + i, faces.s(1) + i});
+    solve(along_, first, last - first, below.up(0) + i, below.up(1) + i, above.down(0) + i, above.down(1) + i,
+          over, {faces.v(0) + i, faces.v(1) + i, faces.s(0) + i, faces.s(1) + i});
     first = last;
   }
 }
@@ -353,7 +350,7 @@ void BentTiltedCells<Real>::solve_across(std::int64_t row, const IndexRange& col
     solve(across_, first, last - first, at.below.up(0) + i, at.below.up(1) + i, at.above.down(0) + i,
           at.above.down(1) + i, nullptr, {v, w, t, u});
     for (std::int64_t k = 0; k < last - first; ++k) {
-      const Real nx = at.metric.n_face[i + k], over = at.metric.over_face[i + k];
+      const Real nx = normal_of_face(at.metric, i + k), over = at.metric.over_face[i + k];
       // A fluid slides along the face (F7).
       const auto seen_by = [&](const MaterialRows<Real>& material, const BentFields<const Real>& fields) {
         if (!(material.zp[i + k] > 0) || material.zs[i + k] > 0) return w[k];
@@ -399,7 +396,7 @@ void BentTiltedCells<Real>::add_stress_across(std::int64_t row, const IndexRange
   for (auto n = cells.first; n < cells.last; ++n) {
     const auto cell = std::size_t(n);
     const auto i = cells_.x[cell] - columns.first;
-    const Real moved = size * of.metric.over_j[i], nx = of.metric.n_cell[i];
+    const Real moved = size * of.metric.over_j[i], nx = normal_of_cell(of.metric, i);
     const Real dz = moved * (of.hi.v(0)[i] - of.v_lo[i]),
                dx = moved * (of.hi.v(1)[i] - of.v_lo[of.v_lo_pitch + i]);
     const Real xx = nx * dx, zz = dz, xz = nx * dz + dx;

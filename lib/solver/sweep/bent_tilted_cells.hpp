@@ -84,8 +84,8 @@ class BentTiltedCells {
 
   int reach_ = 0;
   Places cells_;
-  std::array<Values, 2> motion_along_;            // of the faster wave along x: its components along x, and z
-  std::array<Values, 2> z_along_;                 // impedances of both waves
+  std::array<Values, 2> motion_along_;  // of the faster wave along x: its components along x, and z
+  std::array<Values, 2> z_along_;       // impedances of both waves
   std::array<std::array<Values, 4>, 2> of_faces_;  // across the rows: BentWaves::Face, before and behind
   std::array<Values, 2> courant_z_;
   std::array<Values, 6> more_;        // C11, C13, C15, C33, C35, C55 times dt/h, less those of the loops

@@ -1,14 +1,15 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "solver/sweep/domain.hpp"
 
 namespace slipwave::solver {
 
 /// Both waves of an anisotropic cell in a sweep in 2-D, where the face behind it has another direction or
-/// another size than that before it (theory.md (F11)). Components are along the axis of the sweep and across
-/// it.
+/// another size than that before it (theory.md (F11), (F12)). Components are along the axis of the sweep and
+/// across it.
 template <class Real>
 struct BentWaves {
   /// At a face: the motion of the faster wave, and the impedances of both, times the size of the face.
@@ -18,14 +19,40 @@ struct BentWaves {
     Real along_of(std::size_t wave) const { return wave == 0 ? along : -across; }
     Real across_of(std::size_t wave) const { return wave == 0 ? across : along; }
   };
-  std::array<Face, 2> faces;     // before the cell and behind it
-  std::array<Real, 2> courant_z; // times dt/(rho h) the Courant numbers of both waves
+  std::array<Face, 2> faces;      // before the cell and behind it
+  std::array<Real, 2> courant_z;  // times dt/(rho h) the Courant numbers of both waves
 };
+
+/// The metric of bent rows in 2-D as these cells read it: N_x of the cell, or of the face before the cell,
+/// `at` values further; J of the cell, or of the face before (0) and behind (1) it.
+template <class Real>
+Real normal_of_cell(const BentAcross<Real>& metric, std::int64_t at) {
+  return metric.n_cell[at];
+}
+template <class Real>
+Real normal_of_face(const BentAcross<Real>& metric, std::int64_t at) {
+  return metric.n_face[at];
+}
+template <class Real>
+Real height_of_cell(const BentAlong<Real>& metric, std::int64_t at) {
+  return metric.j[at];
+}
+template <class Real>
+Real height_of_face(const BentAlong<Real>& metric, std::int64_t at, int side) {
+  return side ? metric.j_hi[at] : metric.j_lo[at];
+}
 
 /// Across the rows, of a stiffness times the density, with the volume J of the cell and the horizontal
 /// components of N: of the cell and of the faces before and behind it.
 BentWaves<double> waves_across_rows(const PlaneStiffness& stiffness, double j, double nx,
                                     const std::array<double, 2>& nx_of_faces);
+/// Of the cell at which the metric begins.
+template <class Real>
+BentWaves<double> waves_across_rows(const PlaneStiffness& stiffness, const BentAcross<Real>& metric) {
+  return waves_across_rows(
+      stiffness, 1 / double(metric.over_j[0]), double(normal_of_cell(metric, 0)),
+      {double(normal_of_face(metric, 0)), double(normal_of_face(metric, metric.stride))});
+}
 
 /// A wave of such a cell as one pair (v, s) of numbers whose outgoing waves (E6), (E7), with the impedance
 /// courant_z, are those of the wave: up through the face behind the cell, down through that before it. Both
@@ -44,11 +71,11 @@ template <class Real>
   const Real along_lo = before.along_of(wave), across_lo = before.across_of(wave), z_lo = before.z[wave];
   const Real along_hi = behind.along_of(wave), across_hi = behind.across_of(wave), z_hi = behind.z[wave];
   const Real half = Real(0.5), over = half / courant_z, turned = sign * over;
-  return {{over * (z_hi * along_hi + z_lo * along_lo), over * (z_hi * across_hi + z_lo * across_lo),
-           turned * (along_lo - along_hi), turned * (across_lo - across_hi)},
-          {sign * half * (z_lo * along_lo - z_hi * along_hi),
-           sign * half * (z_lo * across_lo - z_hi * across_hi), half * (along_lo + along_hi),
-           half * (across_lo + across_hi)}};
+  return {
+      {over * (z_hi * along_hi + z_lo * along_lo), over * (z_hi * across_hi + z_lo * across_lo),
+       turned * (along_lo - along_hi), turned * (across_lo - across_hi)},
+      {sign * half * (z_lo * along_lo - z_hi * along_hi), sign * half * (z_lo * across_lo - z_hi * across_hi),
+       half * (along_lo + along_hi), half * (across_lo + across_hi)}};
 }
 
 /// What two waves of these sizes carry through a face of a bent row, along its normal and across it as

@@ -53,8 +53,8 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return terms;
 }
 
-/// The same of an anisotropic cell in 2-D: the tensor of N times what it bends is the traction of motion along
-/// the rows.
+/// The same of an anisotropic cell in 2-D: the tensor of N times what it bends is the traction of motion
+/// along the rows.
 std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, const Index<2>& at, int side,
                                                    int row) {
   const auto [normal, height] = end_of_rows(domain, at, side);
@@ -67,7 +67,8 @@ std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, cons
   for (const int of : {0, 1}) {
     const double t_z = of == 0 ? c.c13 + nx * c.c15 : c.c35 + nx * c.c55,
                  t_x = of == 0 ? c.c15 + nx * c.c11 : c.c55 + nx * c.c15;
-    const double share = over * (row == 0 ? tensor.zz * t_x - tensor.zx * t_z : tensor.xx * t_z - tensor.zx * t_x);
+    const double share =
+        over * (row == 0 ? tensor.zz * t_x - tensor.zx * t_z : tensor.xx * t_z - tensor.zx * t_x);
     if (share != 0 && !add_difference(domain, at, 0, of, share, terms)) return {};
   }
   return terms;

@@ -57,14 +57,14 @@ class InterfaceCorrections {
     Matrix z;
   };
   /// Of a face in bent rows in 2-D beside anisotropic rock: what the differences along x of the velocities z
-  /// and x of its two sides make of the corrections of z and x (theory.md (F13)).
+  /// and x of its two sides make of the corrections of z and x (theory.md (F14)).
   struct Bent {
     using Matrix = std::array<std::array<Real, 4>, 2>;  // [z, x][z before, x before, z behind, x behind]
     Matrix velocity, traction;
   };
   struct Slot {
     std::int64_t row, column;
-    std::int32_t bent = none;                             // its place in bent_
+    std::int32_t bent = none;                     // its place in bent_
     std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
     std::array<Side, 2> sides;
   };

@@ -418,8 +418,7 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
 }
 
 template void extended_pair(const InterfaceStencil&, int, std::int64_t, const float*, const float*,
-                            const PairCorrections<float>&, float, float*, float*, const float*,
-                            std::int64_t);
+                            const PairCorrections<float>&, float, float*, float*, const float*, std::int64_t);
 template void extended_pair(const InterfaceStencil&, int, std::int64_t, const double*, const double*,
                             const PairCorrections<double>&, double, double*, double*, const double*,
                             std::int64_t);

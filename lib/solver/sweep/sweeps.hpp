@@ -249,7 +249,7 @@ class Sweeps {
     return {corrections_.velocity(pair), corrections_.traction(pair), parted};
   }
   BentStencils<D, Real> bent_stencils_;
-  BentTiltedCells<Real> bent_tilted_cells_;  // in 2-D
+  BentTiltedCells<Real> bent_tilted_cells_;                           // in 2-D
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]

@@ -134,9 +134,7 @@ void TiltedCells<3, Real>::add_endings(const Domain<3>& domain, int axis, int re
     for (std::size_t pair = 0; pair < 3; ++pair) {
       const auto* found = stencils[pair].find(row, x);
       ends = ends || found;
-      ending.stencils[pair] =
-          found ? *found
-                : whole_stencil(x, reach);
+      ending.stencils[pair] = found ? *found : whole_stencil(x, reach);
       ending.reach = std::min(ending.reach, int(ending.stencils[pair].reach));
     }
     if (ends) endings_[std::size_t(axis)].push_back(ending);
