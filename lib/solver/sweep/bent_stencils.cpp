@@ -119,7 +119,7 @@ RowVector<2, Real> tractions_through(const typename AnisotropicStencil<Real>::We
 }
 
 /// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
-template <int D, class Real>
+template <bool Anisotropic, int D, class Real>
 void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                     const RowVector<D, Real>& normal, const InterfaceCorrections<D, Real>& corrections,
                     int ghost, Real scale, const typename AnisotropicStencil<Real>::Weld* weld,
@@ -134,7 +134,7 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
   const Real solid = stencil.solid ? 1 : 0;
   at.v = at.v + Real(2 * ghost + 1) *
                     scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
-  if constexpr (D == 2)
+  if constexpr (Anisotropic)
     if (weld) {
       at.t = at.t +
              (2 * scale) * tractions_through<Real>(*weld, of([&](int c) { return corrections.traction(c); }));
@@ -144,8 +144,8 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                                of([&](int c) { return corrections.traction(c); }));
 }
 
-/// At a stencil offset, extended beyond the ends of the stencil.
-template <int D, class Real>
+/// At a stencil offset, extended beyond the ends of the stencil. `Anisotropic`: beside anisotropic rock.
+template <bool Anisotropic, int D, class Real>
 Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real>& fields,
                          const BentAcross<Real>& metric, const InterfaceCorrections<D, Real>& corrections,
                          Real scale, const AnisotropicStencil<Real>* anisotropic, int offset) {
@@ -155,13 +155,14 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   if (side.p == Extension::constant) return load<D>(fields, metric, below ? -side.cells : side.cells);
   // The mirror image lies nearer to the cell with each fold, so this ends.
   const int mirrored = below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset;
-  auto at = extended<D>(stencil, fields, metric, corrections, scale, anisotropic, mirrored);
+  auto at = extended<Anisotropic, D>(stencil, fields, metric, corrections, scale, anisotropic, mirrored);
   const int face = below ? -side.cells : side.cells + 1;
   const auto normal = row_normal<D>(metric.n_face + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
   const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
-  const auto* const weld =
-      anisotropic && anisotropic->welds[below ? 0 : 1].holds ? &anisotropic->welds[below ? 0 : 1] : nullptr;
+  const typename AnisotropicStencil<Real>::Weld* weld = nullptr;
+  if constexpr (Anisotropic)
+    if (const auto& of = anisotropic->welds[below ? 0 : 1]; of.holds) weld = &of;
   if (side.p != Extension::interface) {
     at = {
         scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
@@ -172,20 +173,22 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
                 below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
     // A fluid has no traction along the face.
     const Real solid = stencil.solid ? 1 : 0;
-    const Real beyond_is_solid = side.share_s > 0 ? (weld ? Real(1) : solid) : Real(0);
+    Real beyond_is_solid = side.share_s > 0 ? solid : 0;
+    if constexpr (Anisotropic)
+      if (weld && side.share_s > 0) beyond_is_solid = 1;
     at.t = scaled(normal, Real(1), solid, at.t);
     across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
     const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
-    if (!weld)
+    if (!Anisotropic || !weld)
       at = {at.v + scaled(normal, p, s, across.v - at.v),
             at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
-    if constexpr (D == 2)
+    if constexpr (Anisotropic)
       if (weld)
         at = {at.v + Real(2) * through<Real>(*weld, across.v - at.v),
               at.t + Real(2) * tractions_through<Real>(*weld, across.t - at.t)};
   }
   if (side.slot >= 0)
-    add_correction(stencil, side, normal, corrections, ghost, below ? scale : -scale, weld, at);
+    add_correction<Anisotropic>(stencil, side, normal, corrections, ghost, below ? scale : -scale, weld, at);
   return at;
 }
 
@@ -220,7 +223,7 @@ void reconstruct_anisotropic(const BentWaves<Real>& waves,
   resolve(0, down, outgoing.down(0), outgoing.down(1));
 }
 
-template <int Order, int D, class Real>
+template <int Order, bool Anisotropic, int D, class Real>
 void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
                   Real zp, Real zs, const BentAcross<Real>& metric,
                   const InterfaceCorrections<D, Real>& corrections,
@@ -229,10 +232,11 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
   std::array<Motion<D, Real>, 2 * reach + 1> at;
   for (int k = -reach; k <= reach; ++k) {
     const int position = k + reach;
-    at[std::size_t(position)] = extended<D>(stencil, fields, metric, corrections, scale, anisotropic, k);
+    at[std::size_t(position)] =
+        extended<Anisotropic, D>(stencil, fields, metric, corrections, scale, anisotropic, k);
   }
-  if constexpr (D == 2)
-    if (anisotropic && anisotropic->own_waves)
+  if constexpr (Anisotropic)
+    if (anisotropic->own_waves)
       return reconstruct_anisotropic<Order>(anisotropic->waves, at, scale, b, metric, outgoing);
   const Real sign = scale < 0 ? -1 : 1;
   const Real courant = sign * scale * b * metric.stretch[0];
@@ -255,9 +259,9 @@ template <int D, class Real>
 using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
                          const BentAcross<Real>&, const InterfaceCorrections<D, Real>&,
                          const AnisotropicStencil<Real>*, OutgoingWaves<Real>);
-template <int D, class Real, int... N>
+template <bool Anisotropic, int D, class Real, int... N>
 constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
-  return {correct_cell<orders[N], D, Real>...};
+  return {correct_cell<orders[N], Anisotropic, D, Real>...};
 }
 
 }  // namespace
@@ -367,7 +371,9 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
                                     const BentAcross<Real>& metric,
                                     const InterfaceCorrections<D, Real>& corrections,
                                     OutgoingWaves<Real> outgoing) const {
-  static constexpr auto correct_as = correctors<D, Real>(std::make_integer_sequence<int, order_count>());
+  constexpr auto all_orders = std::make_integer_sequence<int, order_count>();
+  static constexpr auto correct_as = correctors<false, D, Real>(all_orders),
+                        correct_anisotropic_as = correctors<D == 2, D, Real>(all_orders);
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
                                [](const BentStencil& stencil, std::int64_t x) { return stencil.x < x; });
@@ -377,13 +383,18 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
       for (int c = 0; c < D; ++c) outgoing.up(c)[i] = outgoing.down(c)[i] = 0;
       continue;
     }
-    const std::int32_t place =
-        anisotropic_of_.empty() ? -1 : anisotropic_of_[std::size_t(cell - cells_.begin())];
-    correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
-        *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
-        material.zs[i],
-        {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride, metric.stretch + i},
-        corrections, place < 0 ? nullptr : &anisotropic_[std::size_t(place)], outgoing.at(i));
+    const auto within = std::size_t(std::min<int>(cell->reach, reach_of(order)));
+    const BentFields<const Real> own_fields{fields.first + i, fields.pitch, fields.stride};
+    const BentAcross<Real> own_metric{metric.j + i, metric.n_cell + i, metric.n_face + i,
+                                      metric.pitch, metric.stride,     metric.stretch + i};
+    const auto place = anisotropic_of_.empty() ? -1 : anisotropic_of_[std::size_t(cell - cells_.begin())];
+    if (place >= 0)
+      correct_anisotropic_as[within](*cell, scale, own_fields, material.b[i], material.zp[i], material.zs[i],
+                                     own_metric, corrections, &anisotropic_[std::size_t(place)],
+                                     outgoing.at(i));
+    else
+      correct_as[within](*cell, scale, own_fields, material.b[i], material.zp[i], material.zs[i], own_metric,
+                         corrections, nullptr, outgoing.at(i));
   }
 }
 
