@@ -384,17 +384,12 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
       continue;
     }
     const auto within = std::size_t(std::min<int>(cell->reach, reach_of(order)));
-    const BentFields<const Real> own_fields{fields.first + i, fields.pitch, fields.stride};
-    const BentAcross<Real> own_metric{metric.j + i, metric.n_cell + i, metric.n_face + i,
-                                      metric.pitch, metric.stride,     metric.stretch + i};
     const auto place = anisotropic_of_.empty() ? -1 : anisotropic_of_[std::size_t(cell - cells_.begin())];
-    if (place >= 0)
-      correct_anisotropic_as[within](*cell, scale, own_fields, material.b[i], material.zp[i], material.zs[i],
-                                     own_metric, corrections, &anisotropic_[std::size_t(place)],
-                                     outgoing.at(i));
-    else
-      correct_as[within](*cell, scale, own_fields, material.b[i], material.zp[i], material.zs[i], own_metric,
-                         corrections, nullptr, outgoing.at(i));
+    (place < 0 ? correct_as : correct_anisotropic_as)[within](
+        *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
+        material.zs[i],
+        {metric.j + i, metric.n_cell + i, metric.n_face + i, metric.pitch, metric.stride, metric.stretch + i},
+        corrections, place < 0 ? nullptr : &anisotropic_[std::size_t(place)], outgoing.at(i));
   }
 }
 

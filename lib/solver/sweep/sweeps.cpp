@@ -272,8 +272,9 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
     if constexpr (D == 2)
-      bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b, scale,
-                                            outgoing);
+      if (!bent_tilted_cells_.empty())
+        bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b,
+                                              scale, outgoing);
     bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
@@ -288,6 +289,7 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
                                  outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
   if constexpr (D == 2) {
+    if (bent_tilted_cells_.empty()) return;
     typename BentTiltedCells<Real>::Along all{{}, metric, material.b};
     for (int p = 0; p < D; ++p) all.pairs[std::size_t(p)] = {pairs.v[p], pairs.s[p], corrections_of(axis, p)};
     bent_tilted_cells_.reconstruct_along(number, columns, *kernels_[false], all, scale, outgoing);
@@ -345,14 +347,17 @@ void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRan
   if (axis == z_axis) {
     const auto of = bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
     bent_kernels().update_across(columns.count(), scale, of);
-    if constexpr (D == 2) bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
+    if constexpr (D == 2)
+      if (!bent_tilted_cells_.empty())
+        bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
     return;
   }
   bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
                               state_.material_from(line, columns.first),
                               metric_.along(axis, line, columns.first).over_j, rows);
   if constexpr (D == 2)
-    bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
+    if (!bent_tilted_cells_.empty())
+      bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
 }
 
 /// Advances these columns by advance(), and lets effects filter what that adds.
@@ -651,7 +656,8 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
       bent_kernels().solve_along(part.count(), here.at(-1), here, material,
                                  state_.material_from(at, part.first), j_face, faces.at(from));
       if constexpr (D == 2)
-        bent_tilted_cells_.solve_along(line, part, here.at(-1), here, j_face, faces.at(from));
+        if (!bent_tilted_cells_.empty())
+          bent_tilted_cells_.solve_along(line, part, here.at(-1), here, j_face, faces.at(from));
       return;
     }
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
@@ -723,7 +729,8 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
       const Real sign = scale < 0 ? -1 : 1;
       const auto face = bent_face(at, row, x, ring);
       bent_kernels().solve_across[fluid](columns.count(), sign, face);
-      if constexpr (D == 2) bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
+      if constexpr (D == 2)
+        if (!bent_tilted_cells_.empty()) bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
       return;
     }
     bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
@@ -819,8 +826,9 @@ bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t ro
                               ring.faces(done, x), ring.faces(done + 1, x));
   bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
   if constexpr (D == 2) {
-    bent_tilted_cells_.solve_across(row, columns, face, scale < 0 ? -1 : 1, fluid);
-    bent_tilted_cells_.add_stress_across(done, columns, std::abs(scale), of);
+    if (!bent_tilted_cells_.empty())
+      bent_tilted_cells_.solve_across(row, columns, face, scale < 0 ? -1 : 1, fluid);
+    if (!bent_tilted_cells_.empty()) bent_tilted_cells_.add_stress_across(done, columns, std::abs(scale), of);
   }
   work.prefetch().prefetch(prefetched_by_bent + 2);
   return true;
