@@ -157,7 +157,7 @@ TEST(FittedAnisotropy, OfNextToNoneIsIsotropicRock) {
   auto scene = fitted_sea();
   scene.with_slip = false;
   scene.numerics.double_precision = true;
-  scene.recording.duration_s = 0.12;
+  scene.recording.duration_s = 0.1;
   for (const int order : {5, 7}) {
     scene.numerics.order = order;
     auto anisotropic = scene;
@@ -167,16 +167,18 @@ TEST(FittedAnisotropy, OfNextToNoneIsIsotropicRock) {
 }
 
 TEST(FittedAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
-  for (const double tilt : {0., 25.})
-    for (const bool hills : {false, true}) {
-      SCOPED_TRACE("tilt " + std::to_string(tilt) + (hills ? " hills" : " sea"));
-      auto scene = hills ? fitted_hills() : fitted_sea();
-      make_anisotropic(scene, 0.15, 0.05, tilt);
-      scene.numerics.double_precision = hills;
-      scene.numerics.order = hills ? 7 : 5;
-      scene.numerics.time_order = hills && tilt != 0 ? 4 : 2;
-      expect_same(scene);
-    }
+  for (const bool hills : {false, true}) {
+    SCOPED_TRACE(hills ? "hills" : "sea");
+    auto scene = hills ? fitted_hills(120, 70) : fitted_sea(120, 80);
+    scene.survey.sources[0].position_m[0] = 303;
+    scene.survey.receivers_m = {{330, 150}, {462.5, 261.3}, {440, 313}, {40, 172}};
+    make_anisotropic(scene, 0.15, 0.05, hills ? 25 : 0);
+    scene.numerics.double_precision = hills;
+    scene.numerics.order = hills ? 7 : 5;
+    scene.numerics.time_order = hills ? 4 : 2;
+    scene.recording.duration_s = 0.04;
+    expect_same(scene);
+  }
 }
 
 TEST(FittedAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
@@ -184,11 +186,11 @@ TEST(FittedAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
   make_anisotropic(scene, 0.15, 0.05, 25);
   scene.survey.sources[0].position_m[0] = 203;
   scene.survey.receivers_m = {{330, 130}, {262.5, 261.3}, {240, 333}, {40, 162}, {300, 301}, {33, 901}};
-  scene.recording.duration_s = 0.2;
+  scene.recording.duration_s = 0.12;
   check(scene);
   const auto alone = all_samples(shoot(scene, 1));
   ASSERT_GT(*std::max_element(alone.begin(), alone.end()), 0);
-  for (const int ranks : {2, 4}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
+  for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
 }
 
 }  // namespace
