@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <memory>
 #include <stdexcept>
@@ -16,6 +17,7 @@ namespace slipwave {
 struct Below {
   std::function<double(double x_m, double y_m)> depth_m;
   double vp = 0, vs = 0, rho = 0;
+  double epsilon = 0, delta = 0, tilt = 0;
 };
 
 /// A medium on a grid whose rows follow the tops of its layers, all but the first, whose top is that of the
@@ -41,6 +43,10 @@ Medium<D> fitted_medium(const Grid<D>& regular, const std::vector<Below>& layers
   const auto fit = fit_grid(regular, horizons, all);
   for (const auto& why : fit.left_out) throw std::logic_error(why);
   Medium<D> medium{Field<D>(fit.grid), Field<D>(fit.grid), Field<D>(fit.grid)};
+  if (std::any_of(layers.begin(), layers.end(),
+                  [](const Below& of) { return of.epsilon != 0 || of.delta != 0; }))
+    for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
+      medium[property] = Field<D>(fit.grid);
   for (std::int64_t n = 0; n < fit.grid.size(); ++n) {
     const auto row = fit.grid.index(n)[D - 1];
     std::size_t layer = 0;
@@ -50,6 +56,10 @@ Medium<D> fitted_medium(const Grid<D>& regular, const std::vector<Below>& layers
     medium.vp[cell] = float(layers[layer].vp);
     medium.vs[cell] = float(layers[layer].vs);
     medium.rho[cell] = float(layers[layer].rho);
+    if (!medium.has(Property::epsilon)) continue;
+    medium[Property::epsilon][cell] = float(layers[layer].epsilon);
+    medium[Property::delta][cell] = float(layers[layer].delta);
+    medium[Property::tilt][cell] = float(layers[layer].tilt);
   }
   return medium;
 }

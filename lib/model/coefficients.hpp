@@ -128,8 +128,17 @@ double fastest_across_cells(const Medium<D>& medium) {
     fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
   };
   FastestOfTilted<D> of_tilted;
-  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
-    see(cell, has_tilted_axis(medium, cell) ? of_tilted(medium, cell) : double(medium.vp[cell]));
+  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
+    const auto of_model = row + grid.first[D - 1];
+    // Across rows that are not level waves go in any direction.
+    const bool dips = D == 2 && medium.has(Property::epsilon) &&
+                      !(grid.rows->row_is_level(of_model) && grid.rows->row_is_level(of_model + 1));
+    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
+      see(cell, has_tilted_axis(medium, cell) || (dips && is_anisotropic(medium, cell))
+                    ? of_tilted(medium, cell)
+                    : double(medium.vp[cell]));
+  }
   for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }

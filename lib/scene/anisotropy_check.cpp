@@ -31,7 +31,12 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
                     expected = D == 2 ? ", expected along both or in isotropic rock"
                                       : ", expected one level family in rock of level beds with gamma2 = "
                                         "gamma, or isotropic rock";
-  if (gives(set)) return "are springs" + (D == 2 ? " and " + askew_to_axes : "") + expected;
+  if (gives(set)) {
+    if (D == 3) return "are springs" + expected;
+    if (set.on_faces) return "are springs on faces and " + askew_to_axes + expected;
+    if (any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
+      return "are springs that slide or have dashpots and " + askew_to_axes + expected;
+  }
   if (set.systems.size() > 1 &&
       any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
     return (D == 2 ? "cross, weaken with slip and " + askew_to_axes : "cross and weaken with slip") +
@@ -83,8 +88,8 @@ void check_anisotropy(const Scene<D>& scene) {
           ErrorKind::usage);
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-    const bool near_bent =
-        grid.rows && near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
+    const bool near_bent = D == 3 && grid.rows &&
+                           near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
   }

@@ -229,15 +229,18 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropy) {
   EXPECT_EQ(told(cracked), "");
   auto& system = cracked.model.fracture_sets[0].systems[0];
   system.compliance = {1e-12, 1e-12, 0, 0, 1};
-  EXPECT_EQ(
-      told(cracked),
-      "the cell at x=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1) and the planes of its fracture set "
-      "'oblique' are springs and lie askew to the axes of rock, expected along both or in isotropic rock; "
-      "use --without slip or --without anisotropy");
+  EXPECT_EQ(told(cracked),
+            "the cell at x=2.5 z=2.5 is anisotropic (epsilon 0.2, delta 0.1) and the planes of its fracture "
+            "set 'oblique' are springs that slide or have dashpots and lie askew to the axes of rock, "
+            "expected along both or in isotropic rock; use --without slip or --without anisotropy");
+  system.law = FrictionLaw::none;
+  EXPECT_EQ(told(cracked), "");
+  system.compliance = {1e-12, 1e-12, 1e3, 1e3, 1};
+  EXPECT_NE(told(cracked).find("slide or have dashpots and lie askew"), std::string::npos);
   system.normal = {0, 1};
   EXPECT_EQ(told(cracked), "");
   cracked.model.medium[Property::tilt] = Field<2>(cracked.model.grid(), 20);
-  EXPECT_NE(told(cracked).find("are springs and lie askew"), std::string::npos);
+  EXPECT_NE(told(cracked).find("slide or have dashpots and lie askew"), std::string::npos);
   system.opens = true;
   EXPECT_NE(told(cracked).find("open, expected closed ones; use --without opening"), std::string::npos);
   cracked.with_slip = false;

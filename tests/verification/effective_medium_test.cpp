@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <numbers>
 
 #include "anisotropic_stack.hpp"
@@ -150,6 +151,28 @@ TEST(EffectiveMedium, OfPlanesThatDipIsTiltedRockAndSoAreTheirSprings) {
   auto among = scene_with(5);
   add_fractures<2>(among.model, {"planes", both}, everywhere);
   EXPECT_LT(error_of(among, stiffness_with(both)), 0.1);
+}
+
+TEST(EffectiveMedium, OfTiltedRockIsThatOfSpringsAskewInIt) {
+  // Rock of dipping planes, and springs at other angles in it: compliances of all add up.
+  const auto dipping = planes(normal_of_dip(30), 0.2, 0.35), askew = planes(normal_of_dip(-10), 0.1, 0.15),
+             steep = planes(normal_of_dip(70), 0.1, 0.1);
+  const auto error_in = [&](double h, const std::vector<SlipSystem<2>>& springs) {
+    auto scene = scene_with(h);
+    make_effective(scene.model, {dipping}, everywhere);
+    add_fractures<2>(scene.model, {"planes", springs}, everywhere);
+    auto all = springs;
+    all.push_back(dipping);
+    return error_of(scene, stiffness_with(all));
+  };
+  for (const auto& springs : {std::vector{askew}, std::vector{askew, steep}}) {
+    const double coarse = error_in(5, springs);
+    EXPECT_LT(coarse, 0.08) << springs.size();
+    if (!std::getenv("SLIPWAVE_LONG")) continue;
+    const double fine = error_in(2.5, springs);
+    EXPECT_LT(fine, 0.02) << springs.size();
+    EXPECT_GT(observed_order(coarse, fine), 1.5) << springs.size();
+  }
 }
 
 TEST(EffectiveMedium, IsWhatSpringsConvergeToWithSecondOrder) {

@@ -79,6 +79,23 @@ TEST(TiltedRock, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
 
 TEST(TiltedRock, ConvergesAsIsotropicRockDoes) { EXPECT_GT(order_below_surface(dipping), 1.9); }
 
+TEST(TiltedRock, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
+  Stack stack;
+  stack.layers = {dipping}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 400;
+  stack.receivers = {{150, 0}, {300, 0}}, stack.cells = 12, stack.duration_s = 0.25;
+  auto scene = stack.scene();
+  scene.recording.components = {Component::exx, Component::ezz};
+  const auto gather = shoot(scene, 1);
+  const auto c = plane_stiffness_of(dipping);
+  // (V7)
+  const double a = (c.c13 * c.c55 - c.c15 * c.c35) / (c.c33 * c.c55 - c.c35 * c.c35);
+  for (std::size_t n = 0; n < 2; ++n) {
+    auto wanted = gather.traces[n].samples;
+    for (auto& value : wanted) value *= -a;
+    EXPECT_LT(relative_error(gather.traces[2 + n].samples, wanted), 1e-4);
+  }
+}
+
 TEST(TiltedRock, LeavesThroughAPml) {
   // Nothing grows in thousands of steps under a wave as long as the model, of rocks whose waves turn, too.
   for (const auto& rock : {dipping, steep}) {

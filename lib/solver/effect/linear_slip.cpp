@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
+#include "model/plane_strain.hpp"
 #include "model/single_fracture.hpp"
 #include "solver/effect/slip_planes.hpp"
 
@@ -22,9 +24,24 @@ CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_fricti
 template <int D>
 using Tensor = SymmetricTensor<D, double>;
 
+/// The rock of a cell: about its axis and, where that is tilted, as it lies in the grid.
+struct Rock {
+  Stiffness upright;
+  std::optional<PlaneStiffness> turned;
+};
+template <int D>
+Rock rock_in_grid(const Medium<D>& medium, std::size_t cell) {
+  Rock rock{stiffness_of(medium, cell), {}};
+  if (D == 2 && has_tilted_axis(medium, cell)) rock.turned = plane_stiffness_of(medium, cell);
+  return rock;
+}
+
 /// Stress that belongs to a strain. In 3-D rock is isotropic.
 template <int D>
-Tensor<D> stress_of(const Tensor<D>& strain, const Stiffness& rock) {
+Tensor<D> stress_of(const Tensor<D>& strain, const Rock& of) {
+  if constexpr (D == 2)
+    if (of.turned) return {stress_of_strain(*of.turned, {strain(0, 0), strain(1, 1), 2 * strain(0, 1)})};
+  const Stiffness& rock = of.upright;
   Tensor<D> stress;
   double trace = 0;
   for (int i = 0; i < D; ++i) trace += strain(i, i);
@@ -38,7 +55,13 @@ Tensor<D> stress_of(const Tensor<D>& strain, const Stiffness& rock) {
 
 /// Strain that belongs to a stress.
 template <int D>
-Tensor<D> strain_of(const Tensor<D>& stress, const Stiffness& rock) {
+Tensor<D> strain_of(const Tensor<D>& stress, const Rock& of) {
+  if constexpr (D == 2)
+    if (of.turned) {
+      const auto strain = strain_of_stress(*of.turned, {stress(0, 0), stress(1, 1), stress(0, 1)});
+      return {{strain[0], strain[1], strain[2] / 2}};
+    }
+  const Stiffness& rock = of.upright;
   Tensor<D> strain;
   for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] = stress.values[c] / (2 * rock.c55);
   if constexpr (D == 2) {
@@ -57,6 +80,15 @@ Tensor<D> strain_of(const Tensor<D>& stress, const Stiffness& rock) {
 template <int D>
 double modulus_across(const Point<D>& normal, const Stiffness& rock) {
   return std::abs(normal[D - 1]) > 0.5 ? rock.c33 : rock.c11;
+}
+
+/// Whether planes of a set may lie askew in the rock of some cell of the model, of any process: then strains
+/// across them and along them are not independent.
+bool may_lie_askew(const FractureSet<2>& set, const Domain<2>& domain, const Scene<2>& scene) {
+  if (!domain.anisotropic()) return false;
+  return scene.subdomain.tilted || any_tilted_axes(scene.model.medium) ||
+         std::any_of(set.systems.begin(), set.systems.end(),
+                     [](const auto& system) { return is_oblique<2>(system.normal); });
 }
 
 /// Strain of the planes of all families under a stress, dashpots at rest.
@@ -140,12 +172,13 @@ LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, 
     if (!gives(set) || set.on_faces) continue;
     for (const auto kind : {CellKind::whole, CellKind::cut})
       if (kind == CellKind::whole || (!model_.fracture_share.empty() && set.traces.empty()))
-        add(set, FractureCells<D>(state.layout, domain, model_, number, kind), kind, dt_s);
+        add(set, scene, FractureCells<D>(state.layout, domain, model_, number, kind), kind, dt_s);
   }
 }
 
 template <int D, class Real>
-void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells, CellKind kind, double dt_s) {
+void LinearSlip<D, Real>::add(const FractureSet<D>& set, const Scene<D>& scene, FractureCells<D> cells,
+                              CellKind kind, double dt_s) {
   if (cells.cells() == 0) return;
   Group group{std::move(cells), &set, {}, {}, {}, {}, {}};
   const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
@@ -154,6 +187,8 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, FractureCells<D> cells,
               any([](const auto& s) { return s.slides(); })};
   // The rest of a cell holds springs of its part in all directions.
   if (kind == CellKind::cut && !group.of.damped && !group.of.slides) group.of.one_family = false;
+  if constexpr (D == 2)
+    if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene)) group.of.one_family = false;
   group.planes = planes_of<D, Real>(set.systems, unit_);
   group.kernels = linear_slip_kernels<Real>(group.of);
   group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
@@ -191,7 +226,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
 /// of welded planes it is G (1 + G)^-1 (S22). Hands out each entry of both: its component, that of the
 /// stress, and the entries of the latter and of G.
 template <int D, class StrainOf, class Put>
-static void each_entry(const Stiffness& rock, const StrainOf& strain_of, const Put& put) {
+static void each_entry(const Rock& rock, const StrainOf& strain_of, const Put& put) {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   std::array<double, n * n> taken{}, with_rock{};
   for (std::size_t k = 0; k < n; ++k) {
@@ -214,10 +249,10 @@ template <int D, class Real>
 void LinearSlip<D, Real>::add_crossing(Group& group) const {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-    const auto rock = stiffness_of(model_.medium, cell);
+    const auto rock = rock_in_grid(model_.medium, cell);
     const auto strain_of = [&](const Tensor<D>& stress) {
       return is_cut(model_, cell) ? strain_of_part<D>(*group.set, model_, cell, stress)
-                                  : strain_of_planes<D>(*group.set, stress, rock);
+                                  : strain_of_planes<D>(*group.set, stress, rock.upright);
     };
     each_entry<D>(rock, strain_of, [&](std::size_t c, std::size_t k, double of_welded, double taken) {
       group.coefficients[(c * n + k) * group.places.stored() + place] = Real(of_welded);
@@ -239,7 +274,7 @@ void LinearSlip<D, Real>::add_single(Group& group) const {
         for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
       }
     group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-      const auto rock = stiffness_of(model_.medium, cell);
+      const auto rock = rock_in_grid(model_.medium, cell);
       const auto& of = cells[cell];
       const auto strain_of = [&](const Tensor<D>& stress) {
         Tensor<D> strain;
@@ -338,7 +373,8 @@ std::vector<EffectShare> LinearSlip<D, Real>::shares() const {
 /// of several, which have no dashpots, strain is compliance times stress.
 template <int D, class Real>
 double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place, std::size_t cell) const {
-  const auto rock = stiffness_of(model_.medium, cell);
+  const auto of_cell = rock_in_grid(model_.medium, cell);
+  const auto& rock = of_cell.upright;
   const auto taken = [&](std::size_t row) {
     return double(group.memory[row * group.places.stored() + place]) / unit_;
   };
@@ -356,7 +392,7 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
   }
   Tensor<D> off;
   for (std::size_t c = 0; c < off.values.size(); ++c) off.values[c] = taken(c);
-  const auto strain = strain_of<D>(off, rock);
+  const auto strain = strain_of<D>(off, of_cell);
   auto at = domain_.computed_cell(model_.grid().index(std::int64_t(cell)));
   const auto x = at[0];
   at[0] = 0;

@@ -108,11 +108,24 @@ Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real
                       cell_normal<D>(metric.half_n + offset * metric.stride, metric.pitch, metric.stride))};
 }
 
+/// In 2-D; in 3-D there is none.
+template <class Real>
+RowVector<2, Real> through(const typename AnisotropicStencil<Real>::Weld& weld, const RowVector<2, Real>& v) {
+  return {weld.zz * v.z + weld.zx * v.x, weld.xz * v.z + weld.xx * v.x};
+}
+/// Of tractions: the vector less what the transposed matrix makes of it.
+template <class Real>
+RowVector<2, Real> tractions_through(const typename AnisotropicStencil<Real>::Weld& weld,
+                                     const RowVector<2, Real>& t) {
+  return {t.z - (weld.zz * t.z + weld.xz * t.x), t.x - (weld.zx * t.z + weld.xx * t.x)};
+}
+
 /// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
-template <int D, class Real>
+template <bool Anisotropic, int D, class Real>
 void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                     const RowVector<D, Real>& normal, const InterfaceCorrections<D, Real>& corrections,
-                    int ghost, Real scale, Motion<D, Real>& at) {
+                    int ghost, Real scale, const typename AnisotropicStencil<Real>::Weld* weld,
+                    Motion<D, Real>& at) {
   const auto of = [&](auto&& component) {
     RowVector<D, Real> vector;
     vector.z = component(0)[side.slot], vector.x = component(1)[side.slot];
@@ -123,26 +136,35 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
   const Real solid = stencil.solid ? 1 : 0;
   at.v = at.v + Real(2 * ghost + 1) *
                     scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
+  if constexpr (Anisotropic)
+    if (weld) {
+      at.t = at.t +
+             (2 * scale) * tractions_through<Real>(*weld, of([&](int c) { return corrections.traction(c); }));
+      return;
+    }
   at.t = at.t + scale * scaled(normal, 2 - 2 * Real(side.share_p), solid * (2 - 2 * Real(side.share_s)),
                                of([&](int c) { return corrections.traction(c); }));
 }
 
-/// At a stencil offset, extended beyond the ends of the stencil.
-template <int D, class Real>
+/// At a stencil offset, extended beyond the ends of the stencil. `Anisotropic`: beside anisotropic rock.
+template <bool Anisotropic, int D, class Real>
 Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real>& fields,
                          const BentAcross<Real>& metric, const InterfaceCorrections<D, Real>& corrections,
-                         Real scale, int offset) {
+                         Real scale, const AnisotropicStencil<Real>* anisotropic, int offset) {
   const bool below = offset < -stencil.low.cells;
   if (!below && offset <= stencil.high.cells) return load<D>(fields, metric, offset);
   const auto& side = below ? stencil.low : stencil.high;
   if (side.p == Extension::constant) return load<D>(fields, metric, below ? -side.cells : side.cells);
   // The mirror image lies nearer to the cell with each fold, so this ends.
   const int mirrored = below ? -2 * side.cells - 1 - offset : 2 * side.cells + 1 - offset;
-  auto at = extended<D>(stencil, fields, metric, corrections, scale, mirrored);
+  auto at = extended<Anisotropic, D>(stencil, fields, metric, corrections, scale, anisotropic, mirrored);
   const int face = below ? -side.cells : side.cells + 1;
   const auto normal = face_normal<D>(metric.half_n + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
   const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
+  const typename AnisotropicStencil<Real>::Weld* weld = nullptr;
+  if constexpr (Anisotropic)
+    if (const auto& of = anisotropic->welds[below ? 0 : 1]; of.holds) weld = &of;
   if (side.p != Extension::interface) {
     at = {
         scaled(normal, sign(side.p, Extension::motionless), sign(side.s, Extension::motionless), at.v),
@@ -152,27 +174,72 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
         load<D>(fields, metric,
                 below ? std::max(offset, face - side.beyond) : std::min(offset, face + side.beyond - 1));
     // A fluid has no traction along the face.
-    const Real solid = stencil.solid ? 1 : 0, beyond_is_solid = side.share_s > 0 ? solid : 0;
+    const Real solid = stencil.solid ? 1 : 0;
+    Real beyond_is_solid = side.share_s > 0 ? solid : 0;
+    if constexpr (Anisotropic)
+      if (weld && side.share_s > 0) beyond_is_solid = 1;
     at.t = scaled(normal, Real(1), solid, at.t);
     across.t = scaled(normal, Real(1), beyond_is_solid, across.t);
     const Real p = 2 * Real(side.share_p), s = 2 * Real(side.share_s);
-    at = {at.v + scaled(normal, p, s, across.v - at.v),
-          at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
+    if (!Anisotropic || !weld)
+      at = {at.v + scaled(normal, p, s, across.v - at.v),
+            at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
+    if constexpr (Anisotropic)
+      if (weld)
+        at = {at.v + Real(2) * through<Real>(*weld, across.v - at.v),
+              at.t + Real(2) * tractions_through<Real>(*weld, across.t - at.t)};
   }
-  if (side.slot >= 0) add_correction(stencil, side, normal, corrections, ghost, below ? scale : -scale, at);
+  if (side.slot >= 0)
+    add_correction<Anisotropic>(stencil, side, normal, corrections, ghost, below ? scale : -scale, weld, at);
   return at;
 }
 
-template <int Order, int D, class Real>
+/// The outgoing waves of an anisotropic cell (F12), from velocities and tractions at the places of its
+/// stencil.
+template <int Order, class Real>
+void reconstruct_anisotropic(const BentWaves<Real>& waves,
+                             const std::array<Motion<2, Real>, std::size_t(Order)>& at, Real scale, Real b,
+                             const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
+  constexpr int reach = reach_of(Order);
+  const Real sign = scale < 0 ? -1 : 1;
+  Real up[2], down[2];
+  for (const std::size_t wave : {0, 1}) {
+    const Real z = waves.courant_z[wave];
+    const auto pair = wave_pair<Real>(waves.faces[0], waves.faces[1], z, wave, sign);
+    Real v[Order], s[Order];
+    for (std::size_t k = 0; k < std::size_t(Order); ++k) {
+      const auto sum = [&](const typename WavePair<Real>::Sum& by) {
+        return by.v_along * at[k].v.z + by.v_across * at[k].v.x + by.t_along * at[k].t.z +
+               by.t_across * at[k].t.x;
+      };
+      v[k] = sum(pair.v), s[k] = sum(pair.s);
+    }
+    reconstruct_cell<Order>(v + reach, s + reach, 1, sign * z, sign * scale * (z * b), up[wave], down[wave]);
+  }
+  const auto resolve = [&](std::size_t side, const Real* sizes, Real* along, Real* across) {
+    const Real nx = normal_of_face(metric, side ? metric.stride : 0);
+    resolve_on_face<Real>(waves.faces[side], sizes[0], sizes[1], nx, 1 / root_of(1 + nx * nx), *along,
+                          *across);
+  };
+  resolve(1, up, outgoing.up(0), outgoing.up(1));
+  resolve(0, down, outgoing.down(0), outgoing.down(1));
+}
+
+template <int Order, bool Anisotropic, int D, class Real>
 void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
                   Real zp, Real zs, const BentAcross<Real>& metric,
-                  const InterfaceCorrections<D, Real>& corrections, OutgoingWaves<Real> outgoing) {
+                  const InterfaceCorrections<D, Real>& corrections,
+                  const AnisotropicStencil<Real>* anisotropic, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   std::array<Motion<D, Real>, 2 * reach + 1> at;
   for (int k = -reach; k <= reach; ++k) {
     const int position = k + reach;
-    at[std::size_t(position)] = extended<D>(stencil, fields, metric, corrections, scale, k);
+    at[std::size_t(position)] =
+        extended<Anisotropic, D>(stencil, fields, metric, corrections, scale, anisotropic, k);
   }
+  if constexpr (Anisotropic)
+    if (anisotropic->own_waves)
+      return reconstruct_anisotropic<Order>(anisotropic->waves, at, scale, b, metric, outgoing);
   const Real sign = scale < 0 ? -1 : 1;
   const Real courant = sign * scale * b * metric.stretch[0];
   const BentCell<D, Real> cell = {face_normal<D>(metric.half_n, metric.pitch),
@@ -192,17 +259,19 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
 
 template <int D, class Real>
 using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
-                         const BentAcross<Real>&, const InterfaceCorrections<D, Real>&, OutgoingWaves<Real>);
-template <int D, class Real, int... N>
+                         const BentAcross<Real>&, const InterfaceCorrections<D, Real>&,
+                         const AnisotropicStencil<Real>*, OutgoingWaves<Real>);
+template <bool Anisotropic, int D, class Real, int... N>
 constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
-  return {correct_cell<orders[N], D, Real>...};
+  return {correct_cell<orders[N], Anisotropic, D, Real>...};
 }
 
 }  // namespace
 
 template <int D, class Real>
 BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
-                                    const InterfaceCorrections<D, Real>& corrections) {
+                                    const InterfaceCorrections<D, Real>& corrections,
+                                    const Metric<D, Real>& metric) {
   if (domain.bent_rows.empty()) return;
   const auto& grid = domain.grid;
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -242,6 +311,60 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
     }
     starts_.push_back(std::int64_t(cells_.size()));
   }
+  find_anisotropic(domain, metric);
+}
+
+template <int D, class Real>
+void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric) {
+  if constexpr (D == 2) {
+    if (!domain.anisotropic()) return;
+    anisotropic_of_.assign(cells_.size(), -1);
+    for (std::int64_t line = 0; line + 1 < std::int64_t(starts_.size()); ++line)
+      for (auto n = std::size_t(starts_[std::size_t(line)]),
+                end = std::size_t(starts_[std::size_t(line) + 1]);
+           n < end; ++n) {
+        const auto& cell = cells_[n];
+        if (cell.reach == not_carried) continue;
+        const Index<2> at{cell.x, line};
+        const auto of = metric.across({0, line}, at[0]);
+        AnisotropicStencil<Real> found;
+        found.own_waves = domain.is_tilted(at);
+        if (found.own_waves) {
+          const auto waves = waves_across_rows(plane_stiffness_at(domain, at), of);
+          for (const std::size_t side : {0, 1}) {
+            const auto& face = waves.faces[side];
+            found.waves.faces[side] = {
+                Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
+            found.waves.courant_z[side] = Real(waves.courant_z[side]);
+          }
+        }
+        bool welded = false;
+        for (const std::size_t side : {0, 1}) {
+          const auto& end_of = side ? cell.high : cell.low;
+          if (end_of.p != Extension::interface) continue;
+          Index<2> near = at, beyond = at;
+          near[1] += side ? end_of.cells : -end_of.cells;
+          beyond[1] = near[1] + (side ? 1 : -1);
+          if (!domain.is_tilted(near) && !domain.is_tilted(beyond)) continue;
+          const auto face = side ? beyond[1] - line : near[1] - line;
+          const double nx = double(normal_of_face(of, face * of.stride));
+          const auto impedance = [&](const Index<2>& cell_at) {
+            return root_of(acoustic_tensor(plane_stiffness_at(domain, cell_at), nx, 1));
+          };
+          const auto own = impedance(near), other = impedance(beyond);
+          const double zz = own.zz + other.zz, zx = own.zx + other.zx, xx = own.xx + other.xx,
+                       over = 1 / (zz * xx - zx * zx);
+          found.welds[side] = {true, Real(over * (xx * other.zz - zx * other.zx)),
+                               Real(over * (xx * other.zx - zx * other.xx)),
+                               Real(over * (zz * other.zx - zx * other.zz)),
+                               Real(over * (zz * other.xx - zx * other.zx))};
+          welded = true;
+        }
+        if (!found.own_waves && !welded) continue;
+        anisotropic_of_[n] = std::int32_t(anisotropic_.size());
+        anisotropic_.push_back(found);
+      }
+  }
 }
 
 template <int D, class Real>
@@ -250,7 +373,9 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
                                     const BentAcross<Real>& metric,
                                     const InterfaceCorrections<D, Real>& corrections,
                                     OutgoingWaves<Real> outgoing) const {
-  static constexpr auto correct_as = correctors<D, Real>(std::make_integer_sequence<int, order_count>());
+  constexpr auto all_orders = std::make_integer_sequence<int, order_count>();
+  static constexpr auto correct_as = correctors<false, D, Real>(all_orders),
+                        correct_anisotropic_as = correctors<D == 2, D, Real>(all_orders);
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
                                [](const BentStencil& stencil, std::int64_t x) { return stencil.x < x; });
@@ -260,10 +385,12 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
       for (int c = 0; c < D; ++c) outgoing.up(c)[i] = outgoing.down(c)[i] = 0;
       continue;
     }
-    correct_as[std::size_t(std::min<int>(cell->reach, reach_of(order)))](
+    const auto within = std::size_t(std::min<int>(cell->reach, reach_of(order)));
+    const auto place = anisotropic_of_.empty() ? -1 : anisotropic_of_[std::size_t(cell - cells_.begin())];
+    (place < 0 ? correct_as : correct_anisotropic_as)[within](
         *cell, scale, {fields.first + i, fields.pitch, fields.stride}, material.b[i], material.zp[i],
         material.zs[i], {metric.half_n + i, metric.pitch, metric.stride, metric.stretch + i}, corrections,
-        outgoing.at(i));
+        place < 0 ? nullptr : &anisotropic_[std::size_t(place)], outgoing.at(i));
   }
 }
 

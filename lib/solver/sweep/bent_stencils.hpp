@@ -5,9 +5,11 @@
 
 #include "grid/field.hpp"
 #include "solver/kernels/kernels.hpp"
+#include "solver/sweep/bent_waves.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/metric.hpp"
 
 namespace slipwave::solver {
 
@@ -28,12 +30,27 @@ struct BentStencil {
   Side low, high;
 };
 
+/// What replaces the laws of P and of S where a cell or its neighbour beyond an interface is anisotropic, in
+/// 2-D (theory.md (F13)).
+template <class Real>
+struct AnisotropicStencil {
+  /// Of the velocities z and x, (Z_l + Z_r)^-1 Z_r for the cell as l.
+  struct Weld {
+    bool holds = false;
+    Real zz = 0, zx = 0, xz = 0, xx = 0;
+  };
+  std::array<Weld, 2> welds;
+  bool own_waves = false;
+  BentWaves<Real> waves;
+};
+
 /// Such cells of all bent rows, for sweeps along z.
 template <int D, class Real>
 class BentStencils {
  public:
   BentStencils() = default;
-  BentStencils(const Domain<D>& domain, int reach, const InterfaceCorrections<D, Real>& corrections);
+  BentStencils(const Domain<D>& domain, int reach, const InterfaceCorrections<D, Real>& corrections,
+               const Metric<D, Real>& metric);
 
   std::size_t size() const { return cells_.size(); }
   /// Overwrites the outgoing waves of the listed cells of these columns of a row. All pointers begin with the
@@ -44,8 +61,13 @@ class BentStencils {
                OutgoingWaves<Real> outgoing) const;
 
  private:
+  void find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric);
+
   std::vector<BentStencil> cells_;    // by line, then x
   std::vector<std::int64_t> starts_;  // of each line in cells_, and the end
+  /// Of cells that have one, by their place in cells_; empty where nothing is anisotropic.
+  std::vector<std::int32_t> anisotropic_of_;
+  std::vector<AnisotropicStencil<Real>> anisotropic_;
 };
 
 }  // namespace slipwave::solver

@@ -172,11 +172,12 @@ bool contrast_is_too_strong(const Domain<2>& domain, const Index<2>& at) {
   return false;
 }
 
-/// Rock continues beyond the edges of the model as it is.
+/// Rock continues beyond the edges of the model as it is. In bent rows upright rock is no simpler.
 void add_tilted_rock(const Domain<2>& domain, const Medium<2>& medium, std::vector<TiltedMedium>& found) {
   for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
-    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
-    if (has_tilted_axis(medium, cell))
+    const auto at = domain.grid.index(n);
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+    if (has_tilted_axis(medium, cell) || (domain.bent(at[1]) && is_anisotropic(medium, cell)))
       found.push_back({n, double(medium.rho[cell]), plane_stiffness_of(medium, cell)});
   }
   std::sort(found.begin(), found.end(),
@@ -193,7 +194,8 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
       continue;
     found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
   }
-  if (medium.has(Property::tilt)) add_tilted_rock(domain, medium, found);
+  if (medium.has(Property::tilt) || (domain.anisotropic() && !domain.bent_rows.empty()))
+    add_tilted_rock(domain, medium, found);
   return found;
 }
 
@@ -424,6 +426,33 @@ TiltedWaves waves_along(const TiltedMedium& medium, int axis) {
           z[0] * cosine * cosine + z[1] * sine * sine,
           (z[0] - z[1]) * cosine * sine,
           z[0] * sine * sine + z[1] * cosine * cosine};
+}
+
+PlaneTensor acoustic_tensor(const PlaneStiffness& c, double nx, double nz) {
+  return {c.c55 * nx * nx + 2 * c.c35 * nx * nz + c.c33 * nz * nz,
+          c.c15 * nx * nx + (c.c13 + c.c55) * nx * nz + c.c35 * nz * nz,
+          c.c11 * nx * nx + 2 * c.c15 * nx * nz + c.c55 * nz * nz};
+}
+
+PlaneTensor root_of(const PlaneTensor& of) {
+  const double root = std::sqrt(std::max(of.zz * of.xx - of.zx * of.zx, 0.));
+  const double trace = std::sqrt(of.zz + of.xx + 2 * root);
+  if (trace == 0) return {};
+  return {(of.zz + root) / trace, of.zx / trace, (of.xx + root) / trace};
+}
+
+PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell) {
+  if (const auto* const of = domain.tilted_at(cell)) {
+    const auto& c = of->stiffness;
+    return {c.c11 * of->rho, c.c13 * of->rho, c.c15 * of->rho,
+            c.c33 * of->rho, c.c35 * of->rho, c.c55 * of->rho};
+  }
+  if (domain.anisotropic()) {
+    const auto c = stiffness_at(domain, cell);
+    return {c.c11, c.c13, 0, c.c33, 0, c.c55};
+  }
+  const double zp = domain.impedance(wave_p)(cell), zs = domain.impedance(wave_s)(cell);
+  return {zp * zp, zp * zp - 2 * zs * zs, 0, zp * zp, 0, zs * zs};
 }
 
 template <int D>

@@ -46,6 +46,16 @@ struct TiltedWaves {
 };
 TiltedWaves waves_along(const TiltedMedium& medium, int axis);
 
+/// A symmetric tensor of components along z and x, the order of the pairs of a sweep along z.
+struct PlaneTensor {
+  double zz = 0, zx = 0, xx = 0;
+};
+/// The acoustic tensor N.C.N of a face with this vector, of any length.
+PlaneTensor acoustic_tensor(const PlaneStiffness& stiffness, double nx, double nz);
+/// The root of one that is not negative: the impedances of the waves across that face, where the stiffness is
+/// times the density (theory.md (T3)).
+PlaneTensor root_of(const PlaneTensor& tensor);
+
 /// What strains along an edge leave of strains across it where no traction acts there: strain across =
 /// -normal times strain along, shear strain = -shear times that. lambda/(lambda + 2 mu) and 0 in isotropic
 /// media (theory.md (V4), (V8)).
@@ -93,8 +103,8 @@ class Domain {
   }
   /// Of the edge across an axis, to motion along another.
   EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis, int along) const;
-  /// Tilted means and cells of rock whose axis is tilted, by cell. Tilted means of zones are isotropic, and
-  /// those in bent rows and beside them.
+  /// Tilted means and cells of rock whose axis is tilted, by cell; in bent rows in 2-D all anisotropic cells.
+  /// Tilted means of zones are isotropic, and those in bent rows and beside them.
   const std::vector<TiltedCell<D>>& tilted() const { return tilted_; }
   bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
   /// Null where a cell is none.
@@ -201,6 +211,9 @@ auto stiffness_at(const Domain<D>& domain, const Index<D>& cell) {
                                  domain.coupling(cell, 0, 2),
                                  domain.coupling(cell, 1, 2)};
 }
+
+/// That in the plane of x and z of any cell in 2-D, times the density.
+PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell);
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
 /// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep

@@ -53,6 +53,27 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return terms;
 }
 
+/// The same of an anisotropic cell in 2-D: the tensor of N times what it bends is the traction of motion
+/// along the rows.
+std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, const Index<2>& at, int side,
+                                                   int row) {
+  const auto [normal, height] = end_of_rows(domain, at, side);
+  if (thin(domain, 0)) return {};
+  const auto c = plane_stiffness_at(domain, at);
+  const double nx = normal.x, outward = side ? -1 : 1;
+  const auto tensor = acoustic_tensor(c, nx, 1);
+  const double over = outward * height / (tensor.zz * tensor.xx - tensor.zx * tensor.zx);
+  std::vector<SurfaceTerm<2>> terms;
+  for (const int of : {0, 1}) {
+    const double t_z = of == 0 ? c.c13 + nx * c.c15 : c.c35 + nx * c.c55,
+                 t_x = of == 0 ? c.c15 + nx * c.c11 : c.c55 + nx * c.c15;
+    const double share =
+        over * (row == 0 ? tensor.zz * t_x - tensor.zx * t_z : tensor.xx * t_z - tensor.zx * t_x);
+    if (share != 0 && !add_difference(domain, at, 0, of, share, terms)) return {};
+  }
+  return terms;
+}
+
 /// Adds what motion along one axis of the edge bends of a velocity in rock whose axes are turned; false where
 /// there is no difference.
 bool add_tilted(const Domain<3>& domain, const TiltedMediumInSpace& medium, const Index<3>& at, int axis,
@@ -139,6 +160,8 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
+  if constexpr (D == 2)
+    if (bent && domain.is_tilted(at)) return anisotropic_bent_slope(domain, at, side, row);
   if (bent) return bent_slope(domain, at, side, row);
   const double height = domain.height(at[D - 1]);
   std::vector<SurfaceTerm<D>> terms;
@@ -201,13 +224,21 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       if (pair == 0 && !terms.empty() && domain.bent(at[D - 1])) {
         const auto [normal, rows_height] = end_of_rows(domain, at, side);
         BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
+        if constexpr (D == 2)
+          if (domain.is_tilted(at)) {
+            const auto tensor = acoustic_tensor(plane_stiffness_at(domain, at), normal.x, 1);
+            const double factor = outward_ / rows_height;
+            end.anisotropic = true;
+            end.zz = Real(factor * tensor.zz), end.zx = Real(factor * tensor.zx);
+            end.xx = Real(factor * tensor.xx);
+          }
         end.factor = Real(dot(normal, normal) * outward_ / rows_height);
         end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
         if constexpr (D == 3) end.normal.y = Real(normal.y);
         bent_ends_.push_back(end);
       }
       ++pair;
-      if (pair == D && !terms.empty() && domain.is_tilted(at))
+      if (pair == D && !terms.empty() && domain.is_tilted(at) && !domain.bent(at[D - 1]))
         tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward_ / height)});
     };
     add(FieldRows<D>::velocity(axis), p_row<D>(kind, axis));
@@ -312,7 +343,11 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
     bend.z = velocity_corrections_[0][n], bend.x = velocity_corrections_[1][n];
     if constexpr (D == 3) bend.y = velocity_corrections_[2][n];
     const Real b = material[end->b], zp = material[end->zp], zs = material[end->zs];
-    const auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
+    auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
+    if (end->anisotropic) {
+      t.z = b * (end->zz * bend.z + end->zx * bend.x);
+      t.x = b * (end->zx * bend.z + end->xx * bend.x);
+    }
     traction_corrections_[0][n] = t.z - end->normal.x * t.x;
     traction_corrections_[1][n] = t.x;
     if constexpr (D == 3) {

@@ -131,7 +131,7 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
       Index<D> at = plane.index(n);
       at[z] = row;
       if (!corrected(domain, at)) continue;
-      Slot slot{row, D == 2 ? at[0] : at[1] * padded_nx_ + at[0], {}, {}};
+      Slot slot{row, D == 2 ? at[0] : at[1] * padded_nx_ + at[0], none, {}, {}};
       const bool bent = metric.bent_row(row) && metric.bent_row(row - 1);
       for (int axis = 0; axis < z && bent; ++axis) {
         Index<D> line = at;
@@ -154,12 +154,93 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
         if (!bent && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
       }
+      if constexpr (D == 2) {
+        const Index<2> above{at[0], row - 1};
+        if (bent_face(domain, row) && (domain.is_tilted(at) || domain.is_tilted(above)))
+          slot.bent = add_bent(state, domain, metric, at, bent ? double(slot.normal[0]) : 0);
+      }
       slots_.push_back(slot);
     }
     first_.push_back(slots_.size());
   }
   for (auto* lists : {&velocities_, &tractions_})
     for (auto& list : *lists) list.assign(slots_.size(), 0);
+}
+
+/// Of a face of bent rows in 2-D: the sums of update_slot() with impedances and tensors of the vector N.
+template <int D, class Real>
+std::int32_t InterfaceCorrections<D, Real>::add_bent(const State<D, Real>& state, const Domain<D>& domain,
+                                                     const Metric<D, Real>& metric, const Index<D>& below,
+                                                     double nx) {
+  if constexpr (D == 2) {
+    using Square = std::array<std::array<double, 2>, 2>;  // of components z, x
+    const auto times = [](const Square& a, const Square& b) {
+      Square product{};
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j) product[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j];
+      return product;
+    };
+    const auto inverse = [](const PlaneTensor& of) -> Square {
+      const double over = 1 / (of.zz * of.xx - of.zx * of.zx);
+      return {{{over * of.xx, -over * of.zx}, {-over * of.zx, over * of.zz}}};
+    };
+    PlaneTensor sum;
+    std::array<Square, 2> load{}, bend{};
+    bool beside_void = false;
+    Bent found{};
+    for (const std::size_t side : {0, 1}) {
+      Index<2> cell = below;
+      cell[1] += std::int64_t(side) - 1;
+      if (domain.impedance(wave_p)(cell) == 0) {
+        beside_void = true;
+        continue;
+      }
+      const auto c = plane_stiffness_at(domain, cell);
+      // N . C : (e_x (x) dv), times the density.
+      load[side] = {{{c.c35 + nx * c.c55, c.c13 + nx * c.c15}, {c.c55 + nx * c.c15, c.c15 + nx * c.c11}}};
+      const auto z = root_of(acoustic_tensor(c, nx, 1));
+      sum = {sum.zz + z.zz, sum.zx + z.zx, sum.xx + z.xx};
+      // (T3): Z over the tensor is the density times the inverse of Z; of a fluid along the normal alone.
+      const double along = z.zz + z.xx, square = 1 + nx * nx;
+      const Square of_fluid = {{{1 / (along * square), nx / (along * square)},
+                                {nx / (along * square), nx * nx / (along * square)}}};
+      bend[side] = times(domain.impedance(wave_s)(cell) > 0 ? inverse(z) : of_fluid, load[side]);
+    }
+    const auto share = inverse(sum);
+    for (const std::size_t side : {0, 1}) {
+      Index<2> cell = below;
+      cell[1] += std::int64_t(side) - 1;
+      const double sign = side ? -1 : 1, j = double(metric.volume(cell)),
+                   b = double(state.material.data()[state.material_layout.cell(cell)]);
+      const auto velocity = times(share, bend[side]);
+      const double part = beside_void ? 1 : traction_share;
+      for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t k = 0; k < 2; ++k) {
+          found.velocity[i][2 * side + k] = Real(-sign * j * velocity[i][k]);
+          found.traction[i][2 * side + k] = Real(-sign / 2 * part * b * load[side][i][k]);
+        }
+    }
+    bent_.push_back(found);
+  }
+  return std::int32_t(bent_.size()) - 1;
+}
+
+template <int D, class Real>
+void InterfaceCorrections<D, Real>::update_bent_slot(const State<D, Real>& state, std::size_t n) {
+  const Slot& slot = slots_[n];
+  const Bent& of = bent_[std::size_t(slot.bent)];
+  std::array<Real, 4> along{};
+  for (const std::size_t side : {0, 1}) {
+    const auto difference =
+        differences_along<D>(slot.sides[side].cells, state.fields.data(), state.layout.row_pitch())[0];
+    along[2 * side] = difference.z, along[2 * side + 1] = difference.x;
+  }
+  for (const std::size_t i : {0, 1}) {
+    Real velocity = 0, traction = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      velocity += of.velocity[i][k] * along[k], traction += of.traction[i][k] * along[k];
+    velocities_[i][n] = velocity, tractions_[i][n] = traction;
+  }
 }
 
 /// The place of what is known of such a cell.
@@ -222,6 +303,7 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   const Slot& slot = slots_[n];
   if (D == 3 && (slot.sides[0].tilted != none || slot.sides[1].tilted != none))
     return update_tilted_slot(state, n);
+  if (slot.bent != none) return update_bent_slot(state, n);
   const Vector normal = row_normal<D>(slot.normal.data(), 1);
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();

@@ -56,20 +56,31 @@ class InterfaceCorrections {
     std::array<Matrix, 2> motion;  // by the axis along the face: what motion along it puts on it
     Matrix z;
   };
+  /// Of a face in bent rows in 2-D beside anisotropic rock: what the differences along x of the velocities z
+  /// and x of its two sides make of the corrections of z and x (theory.md (F14)).
+  struct Bent {
+    using Matrix = std::array<std::array<Real, 4>, 2>;  // [z, x][z before, x before, z behind, x behind]
+    Matrix velocity, traction;
+  };
   struct Slot {
     std::int64_t row, column;
+    std::int32_t bent = none;                     // its place in bent_
     std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
     std::array<Side, 2> sides;
   };
   std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
   std::int32_t add_tilted(const Domain<D>& domain, const Index<D>& cell);
+  std::int32_t add_bent(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric,
+                        const Index<D>& below, double nx);
+  void update_bent_slot(const State<D, Real>& state, std::size_t slot);
   static TiltedInSpace tilted_in_space(const TiltedMediumInSpace& medium);
   void update_tilted_slot(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
   int zs_y_row_ = row_zs, coupling_y_row_ = row_coupling;  // of the plane of y and z
   std::vector<Slot> slots_;                                // by row, then column
+  std::vector<Bent> bent_;
   std::vector<Tilted> tilted_;
   std::vector<TiltedInSpace> tilted_in_space_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end

@@ -386,8 +386,8 @@ const InterfaceStencil* InterfaceStencils::find(std::int64_t line, std::int64_t 
 template <class Real>
 void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
                    const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
-                   Real* s_at) {
-  const PairOfLine<Real> pair{v, s, nullptr, stride, 0, corrections, scale};
+                   Real* s_at, const Real* half_j, std::int64_t j_stride) {
+  const PairOfLine<Real> pair{v, s, half_j, stride, j_stride, corrections, scale};
   for (int k = -reach; k <= reach; ++k) extend(stencil, k, pair, v_at[k + reach], s_at[k + reach]);
 }
 
@@ -419,9 +419,10 @@ void InterfaceStencils::correct_line(int order, std::int64_t line, const IndexRa
 }
 
 template void extended_pair(const InterfaceStencil&, int, std::int64_t, const float*, const float*,
-                            const PairCorrections<float>&, float, float*, float*);
+                            const PairCorrections<float>&, float, float*, float*, const float*, std::int64_t);
 template void extended_pair(const InterfaceStencil&, int, std::int64_t, const double*, const double*,
-                            const PairCorrections<double>&, double, double*, double*);
+                            const PairCorrections<double>&, double, double*, double*, const double*,
+                            std::int64_t);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
                                               const CorrectedAt<2>&, const SlotBefore<2>&,
                                               const TiltedFace<2>&, const PartedLine<2>&);

@@ -69,6 +69,12 @@ struct InterfaceStencil {
   std::int32_t slot_low = -1, slot_high = -1;  // of InterfaceCorrections, -1: none
 };
 constexpr std::int8_t not_carried = -1;
+/// One of which no end is within reach.
+constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
+  constexpr auto on = Extension::none;
+  const auto cells = std::int8_t(reach);
+  return {x, cells, cells, on, on, 0, 0, 0, 0, cells};
+}
 
 /// Whether the free surface of this side (0 low, 1 high) is corrected in line with a cell (FreeSurface).
 template <int D>
@@ -94,11 +100,12 @@ struct PairCorrections {
 };
 
 /// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
-/// stencil says ((E10), (E11)); `v` and `s` point at the cell.
+/// stencil says ((E10), (E11)); `v` and `s` point at the cell, and so does `j`, of a bent row, where the pair
+/// is (v, J s).
 template <class Real>
 void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
                    const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
-                   Real* s_at);
+                   Real* s_at, const Real* half_j = nullptr, std::int64_t j_stride = 0);
 
 /// Whether of these neighbours, both solid, one is a tilted mean (TiltedCells); empty: none is anywhere.
 template <int D>

@@ -22,6 +22,18 @@ constexpr int prefetched_by_bent = 3;
 
 namespace {
 
+/// Whether the axes of a cell's rock, or of its mean, do not lie along the grid.
+template <int D>
+bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
+  const auto* const tilted = domain.tilted_at(at);
+  if constexpr (D == 2) {
+    // Upright rock is among those of bent rows.
+    return tilted && !(domain.bent(at[1]) && tilted->stiffness.c15 == 0 && tilted->stiffness.c35 == 0);
+  } else {
+    return tilted;
+  }
+}
+
 /// Faces that fractures part for a pair of sweeps along an axis.
 template <int D>
 PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reach) {
@@ -62,7 +74,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       couples_all_(domain.any_tilted_in_space()),
       metric_(domain),
       corrections_(state, domain, metric_),
-      bent_stencils_(domain, reach_, corrections_) {
+      bent_stencils_(domain, reach_, corrections_, metric_) {
   for (int axis = 0; axis < D; ++axis) {
     pairs_[axis] = make_pairs(axis);
     changed_[axis] = rows_changed(axis);
@@ -76,7 +88,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
   if (!domain.tilted().empty())
     tilted = [&](const Index<D>& at, const Index<D>& beside) {
       const auto& s_waves = domain.impedance(wave_s);
-      return (domain.is_tilted(at) || domain.is_tilted(beside)) && s_waves(at) > 0 && s_waves(beside) > 0;
+      return (couples_pairs(domain, at) || couples_pairs(domain, beside)) && s_waves(at) > 0 &&
+             s_waves(beside) > 0;
     };
   // Each reads all cells.
   if (domain.splits_shear()) distinct_pairs_ = D;
@@ -96,9 +109,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
                             slot_before, tilted, parted_along(domain, axis, pair, reach_));
     }
   });
-  if constexpr (D == 2)
+  if constexpr (D == 2) {
     tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
-  else
+    bent_tilted_cells_ = BentTiltedCells<Real>(state, domain, metric_, reach_, stencils_[0]);
+  } else
     tilted_cells_ = TiltedCells<D, Real>(domain, reach_, stencils_);
   find_plain_lines();
 }
@@ -257,6 +271,10 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
+    if constexpr (D == 2)
+      if (!bent_tilted_cells_.empty())
+        bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b,
+                                              scale, outgoing);
     bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
@@ -270,6 +288,12 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   for (int p = 0; p < D; ++p)
     stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
                                  outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
+  if constexpr (D == 2) {
+    if (bent_tilted_cells_.empty()) return;
+    typename BentTiltedCells<Real>::Along all{{}, metric, material.b};
+    for (int p = 0; p < D; ++p) all.pairs[std::size_t(p)] = {pairs.v[p], pairs.s[p], corrections_of(axis, p)};
+    bent_tilted_cells_.reconstruct_along(number, columns, *kernels_[false], all, scale, outgoing);
+  }
 }
 
 template <int D, class Real>
@@ -319,13 +343,21 @@ template <int D, class Real>
 void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                                   std::int64_t pitch, Real scale, const Flux& flux,
                                   const SweptRows<Real>& rows) const {
-  if (axis == z_axis)
-    bent_kernels().update_across(columns.count(), scale,
-                                 bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi));
-  else
-    bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
-                                state_.material_from(line, columns.first),
-                                metric_.along(axis, line, columns.first).over_j, rows);
+  const auto number = state_.layout.line_number(line);
+  if (axis == z_axis) {
+    const auto of = bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
+    bent_kernels().update_across(columns.count(), scale, of);
+    if constexpr (D == 2)
+      if (!bent_tilted_cells_.empty())
+        bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
+    return;
+  }
+  bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
+                              state_.material_from(line, columns.first),
+                              metric_.along(axis, line, columns.first).over_j, rows);
+  if constexpr (D == 2)
+    if (!bent_tilted_cells_.empty())
+      bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
 }
 
 /// Advances these columns by advance(), and lets effects filter what that adds.
@@ -619,10 +651,15 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
     const auto from = part.first - cells.first;
     const auto here = outgoing.at(from);
     const auto material = state_.material_from(at, part.first - 1, 0);
-    if (metric_.bent(line))
-      return bent_kernels().solve_along(part.count(), here.at(-1), here, material,
-                                        state_.material_from(at, part.first),
-                                        metric_.along(0, at, part.first).half_lo, faces.at(from));
+    if (metric_.bent(line)) {
+      const Real* const half_face = metric_.along(0, at, part.first).half_lo;
+      bent_kernels().solve_along(part.count(), here.at(-1), here, material,
+                                 state_.material_from(at, part.first), half_face, faces.at(from));
+      if constexpr (D == 2)
+        if (!bent_tilted_cells_.empty())
+          bent_tilted_cells_.solve_along(line, part, here.at(-1), here, half_face, faces.at(from));
+      return;
+    }
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
     const auto lo = run ? run->template rows<D>(0) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
@@ -687,9 +724,15 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   const auto material_lo = state_.material_from(line_lo, x, axis),
              material_hi = state_.material_from(line_hi, x, axis);
   if ((has_lo && metric_.bent_row(line_lo[z_axis])) || (has_hi && metric_.bent_row(line_hi[z_axis]))) {
-    if (axis == z_axis)
-      return bent_kernels().solve_across[metric_.fluid_at_face(layout.line_number(line_hi))](
-          columns.count(), scale < 0 ? -1 : 1, bent_face(at, row, x, ring));
+    if (axis == z_axis) {
+      const bool fluid = metric_.fluid_at_face(layout.line_number(line_hi));
+      const Real sign = scale < 0 ? -1 : 1;
+      const auto face = bent_face(at, row, x, ring);
+      bent_kernels().solve_across[fluid](columns.count(), sign, face);
+      if constexpr (D == 2)
+        if (!bent_tilted_cells_.empty()) bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
+      return;
+    }
     bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
                                metric_.along(axis, line_hi, x).half_lo, faces);
     return;
@@ -777,10 +820,16 @@ bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t ro
   Index<D> here = at, advanced = at;
   here[axis] = row, advanced[axis] = done;
   if (filters(axis, advanced, columns)) return false;
-  bent_kernels().advance_across[metric_.fluid_at_face(state_.layout.line_number(here))](
-      columns.count(), scale, bent_face(at, row, x, ring),
-      bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(), ring.faces(done, x),
-                  ring.faces(done + 1, x)));
+  const bool fluid = metric_.fluid_at_face(state_.layout.line_number(here));
+  const auto face = bent_face(at, row, x, ring);
+  const auto of = bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(),
+                              ring.faces(done, x), ring.faces(done + 1, x));
+  bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
+  if constexpr (D == 2) {
+    if (!bent_tilted_cells_.empty())
+      bent_tilted_cells_.solve_across(row, columns, face, scale < 0 ? -1 : 1, fluid);
+    if (!bent_tilted_cells_.empty()) bent_tilted_cells_.add_stress_across(done, columns, std::abs(scale), of);
+  }
   work.prefetch().prefetch(prefetched_by_bent + 2);
   return true;
 }

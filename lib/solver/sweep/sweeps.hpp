@@ -6,6 +6,7 @@
 #include "scene/edges.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/bent_stencils.hpp"
+#include "solver/sweep/bent_tilted_cells.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
@@ -104,7 +105,7 @@ class Sweeps {
   /// What it holds of each cell: stencils beside interfaces and the metric.
   std::int64_t memory_bytes() const {
     return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes() +
-           tilted_cells_.memory_bytes();
+           tilted_cells_.memory_bytes() + bent_tilted_cells_.memory_bytes();
   }
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
@@ -248,6 +249,7 @@ class Sweeps {
     return {corrections_.velocity(pair), corrections_.traction(pair), parted};
   }
   BentStencils<D, Real> bent_stencils_;
+  BentTiltedCells<Real> bent_tilted_cells_;                           // in 2-D
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]

@@ -63,6 +63,7 @@ TiltedCells<D, Real>::TiltedCells(
     auto& of = of_axis_[std::size_t(axis)];
     of.first_cells.assign(std::size_t(shape[D - 1]) + 1, 0);
     for (const auto& tilted : domain.tilted()) {
+      if (domain.bent(domain.grid.index(tilted.cell)[D - 1])) continue;
       add_cell(state, domain, axis, tilted, reach, stencils[std::size_t(axis)]);
       of.first_cells[std::size_t(domain.grid.index(tilted.cell)[D - 1]) + 1] = std::int64_t(of.x.size());
     }
@@ -98,11 +99,8 @@ void TiltedCells<D, Real>::add_cell(const State<D, Real>& state, const Domain<D>
   bool ends = false;
   for (const Wave wave : {wave_p, wave_s}) {
     const auto* found = stencils[wave].find(at[D - 1], at[0]);
-    const auto whole = std::int8_t(reach);
     ends = ends || found;
-    ending.stencils[wave] =
-        found ? *found : InterfaceStencil{of.x.back(), whole, whole, Extension::none, Extension::none, 0, 0,
-                                          0,           0,     whole};
+    ending.stencils[wave] = found ? *found : whole_stencil(of.x.back(), reach);
     ending.reach = std::min(ending.reach, int(ending.stencils[wave].reach));
     ending.courant[wave] = Real(waves.z[wave] / tilted.rho * step);
   }

@@ -126,7 +126,6 @@ template <class Real>
 void TiltedCells<3, Real>::add_endings(const Domain<3>& domain, int axis, int reach,
                                        const std::array<InterfaceStencils, 3>& stencils) {
   const auto nx = domain.grid.shape[0];
-  const auto whole = std::int8_t(reach);
   for (std::size_t n = 0; n < cells_.size(); ++n) {
     const auto row = domain.tilted()[n].cell / nx;
     const auto x = cells_[n].x;
@@ -135,9 +134,7 @@ void TiltedCells<3, Real>::add_endings(const Domain<3>& domain, int axis, int re
     for (std::size_t pair = 0; pair < 3; ++pair) {
       const auto* found = stencils[pair].find(row, x);
       ends = ends || found;
-      ending.stencils[pair] =
-          found ? *found
-                : InterfaceStencil{x, whole, whole, Extension::none, Extension::none, 0, 0, 0, 0, whole};
+      ending.stencils[pair] = found ? *found : whole_stencil(x, reach);
       ending.reach = std::min(ending.reach, int(ending.stencils[pair].reach));
     }
     if (ends) endings_[std::size_t(axis)].push_back(ending);

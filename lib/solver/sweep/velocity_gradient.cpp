@@ -45,17 +45,23 @@ Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, doub
 }
 
 /// The same in an anisotropic rock, in 2-D: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
-Point<2> forced_change(const Point<2>& n, const Point<2>& g, std::size_t k, const Stiffness& c) {
+Point<2> forced_change(const Point<2>& n, const Point<2>& g, std::size_t k, const PlaneStiffness& c) {
   const auto of = [&](const Point<2>& a, std::size_t column) {
-    return column == 0 ? Point<2>{c.c11 * n[0] * a[0] + c.c55 * n[1] * a[1],
-                                  c.c13 * n[1] * a[0] + c.c55 * n[0] * a[1]}
-                       : Point<2>{c.c13 * n[0] * a[1] + c.c55 * n[1] * a[0],
-                                  c.c33 * n[1] * a[1] + c.c55 * n[0] * a[0]};
+    const double crossed = n[0] * a[1] + n[1] * a[0], mixed = c.c15 * n[0] * a[0] + c.c35 * n[1] * a[1];
+    return column == 0 ? Point<2>{c.c11 * n[0] * a[0] + c.c55 * n[1] * a[1] + c.c15 * crossed,
+                                  c.c13 * n[1] * a[0] + c.c55 * n[0] * a[1] + mixed}
+                       : Point<2>{c.c13 * n[0] * a[1] + c.c55 * n[1] * a[0] + mixed,
+                                  c.c33 * n[1] * a[1] + c.c55 * n[0] * a[0] + c.c35 * crossed};
   };
   const auto one = of(n, 0), other = of(n, 1), load = of(g, k);
   const double determinant = one[0] * other[1] - one[1] * other[0];
   return {-(load[0] * other[1] - load[1] * other[0]) / determinant,
           -(one[0] * load[1] - one[1] * load[0]) / determinant};
+}
+
+Point<2> forced_change_in_rock(const Domain<2>& domain, const Index<2>& cell, const Point<2>& n,
+                               const Point<2>& g, std::size_t k) {
+  return forced_change(n, g, k, plane_stiffness_at(domain, cell));
 }
 
 /// The same in an orthorhombic rock, in 3-D; stiffnesses over density.
@@ -100,6 +106,12 @@ Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, cons
   const auto load = of(g);
   const auto change = solved<double>(of(n), {load[0][k], load[1][k], load[2][k]});
   return {-change[0], -change[1], -change[2]};
+}
+
+Point<3> forced_change_in_rock(const Domain<3>& domain, const Index<3>& cell, const Point<3>& n,
+                               const Point<3>& g, std::size_t k) {
+  if (const auto* const tilted = domain.tilted_medium(cell)) return forced_change(n, g, k, tilted->stiffness);
+  return forced_change(n, g, k, stiffness_at(domain, cell));
 }
 
 template <int D, class Add>
@@ -220,13 +232,10 @@ void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Fac
     for (int moved = 0; along != face.axis && moved < D; ++moved) {
       const auto& normal = gradients[std::size_t(face.axis)];
       const auto& tangent = gradients[std::size_t(along)];
-      double change = domain_.anisotropic() ? forced_change(normal, tangent, std::size_t(moved),
-                                                            stiffness_at(domain_, cell))[std::size_t(row)]
-                                            : forced_change<D>(normal, tangent, std::size_t(moved), lambda,
-                                                               mu)[std::size_t(row)];
-      if constexpr (D == 3)
-        if (const auto* const tilted = domain_.tilted_medium(cell))
-          change = forced_change(normal, tangent, std::size_t(moved), tilted->stiffness)[std::size_t(row)];
+      double change =
+          domain_.anisotropic()
+              ? forced_change_in_rock(domain_, cell, normal, tangent, std::size_t(moved))[std::size_t(row)]
+              : forced_change<D>(normal, tangent, std::size_t(moved), lambda, mu)[std::size_t(row)];
       if (change == 0) continue;
       change *= face.side ? -factor : factor;
       if (values == Values::one_sided)

@@ -1,0 +1,95 @@
+// Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and
+// springs never rises above that of the beginning (docs/theory.md (S25), (S38)).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "lab.hpp"
+#include "media.hpp"
+#include "slip_cases.hpp"
+
+namespace slipwave {
+namespace {
+
+constexpr double usual_mu = 1e10;
+
+/// Blocks of any anisotropic rock; where it `tilts`, about any axis.
+Medium<2> rocks(int cells, int block, bool tilts, bool alike, const std::function<double()>& random) {
+  Medium<2> medium = rock(cells, cells);
+  for (const auto property : {Property::epsilon, Property::delta, Property::tilt})
+    medium[property] = Field<2>(medium.grid());
+  std::vector<Material> drawn;
+  auto first = random_anisotropic(random);
+  for (int n = 0; n < cells * cells; ++n) {
+    auto any = alike ? first : random_anisotropic(random);
+    any.tilt = tilts ? 180 * random() - 90 : 0;
+    drawn.push_back(any);
+  }
+  for (int cell = 0; cell < cells * cells; ++cell)
+    put(medium, std::size_t(cell), drawn[std::size_t(cell / cells / block * cells + cell % cells / block)]);
+  return medium;
+}
+
+/// What a run had, for a failure.
+struct Run {
+  int number;
+  bool tilts;
+  int families;
+  double softness;
+};
+void expect_no_growth(const Run& run, int cells, int steps) {
+  std::mt19937 engine(unsigned(run.number) + 1);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const std::function<double()> random = [&] { return uniform(engine); };
+  Lab<double>::Setup setup;
+  setup.medium = rocks(cells,
+                       run.number % 3 == 0   ? 1
+                       : run.number % 3 == 1 ? 6
+                                             : cells,
+                       run.tilts, run.number % 4 == 0, random);
+  FractureSet<2> set{"springs", {}};
+  for (int family = 0; family < run.families; ++family) {
+    set.systems.push_back(system_of(360 * random(), {0, 0}));
+    auto& system = set.systems.back();
+    system.law = FrictionLaw::none;
+    const double z = run.softness / usual_mu;
+    system.compliance = {run.number % 5 == 0 ? 0 : z * random(), z * random(), 0, 0, 1};
+  }
+  setup.fracture_sets = {set};
+  setup.fracture = Field<2, std::uint8_t>(setup.medium.grid());
+  for (std::size_t cell = 0; cell < std::size_t(cells * cells); ++cell)
+    setup.fracture[cell] = run.number % 2 == 0 || random() < 0.5;
+  const auto edge = run.number % 3 == 2 ? EdgeLaw::free : EdgeLaw::rigid;
+  setup.edges = all_edges(edge);
+  const int all[] = {5, 3, 7, 9, 11, 1};
+  setup.order = all[run.number % 6];
+  setup.cfl = run.number % 7 == 6 ? 0.6 : 1;
+  setup.correction = run.number % 2 ? SlipCorrection::second : corrections()[std::size_t(run.number) / 2 % 3];
+  SCOPED_TRACE("run " + std::to_string(run.number) + (run.tilts ? " tilted" : " upright") + ", softness " +
+               std::to_string(run.softness) + ", order " + std::to_string(setup.order));
+  Lab<double> lab(setup);
+  const double begin = lab.energy();
+  ASSERT_GT(begin, 0);
+  for (int n = 0; n < steps; ++n) {
+    lab.step();
+    if (n > 50 && n % 10) continue;
+    const double now = lab.energy();
+    ASSERT_TRUE(now <= begin * (1 + rounding<double>())) << "step " << n << ": " << now << " of " << begin;
+  }
+}
+
+TEST(AskewSprings, NeverAddEnergyHoweverStiffOrSoft) {
+  const ThreadLimit one_thread(1);
+  const int cells = long_form() ? 30 : 14, steps = long_form() ? 10000 : 120;
+  int number = 0;
+  for (int round = 0; round < (long_form() ? 8 : 2); ++round)
+    for (const bool tilts : {true, false})
+      for (const int families : {1, 2})
+        for (const double softness : {1e-3, 1., 30., 1e4, 1e9})
+          expect_no_growth({number++, tilts, families, softness}, cells, steps);
+}
+
+}  // namespace
+}  // namespace slipwave
