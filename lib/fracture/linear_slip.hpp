@@ -45,8 +45,7 @@ inline CellCompliance compliance_in(const LinearCompliance& of, double lambda, d
 
 /// The same of planes in a share of the cell, which carry the traction of all of it (S38).
 inline CellCompliance in_share(const CellCompliance& of, double share) {
-  return {of.normal * share, of.tangential * share, of.normal_damping / share,
-          of.tangential_damping / share};
+  return {of.normal * share, of.tangential * share, of.normal_damping / share, of.tangential_damping / share};
 }
 
 namespace slip {

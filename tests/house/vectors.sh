@@ -15,7 +15,7 @@ if [ -z "$object" ]; then
 fi
 objdump=objdump
 case $(od -An -tu1 -j18 -N1 "$object") in
-  *62) levels='generic=128 x86_64_v2=128 x86_64_v3=256 x86_64_v4=512' ;;
+  *62) levels='generic=128 x86_64_v3=256 x86_64_v4=512' ;;
   *183)
     levels='generic=128'
     if [ "$(uname -m)" != aarch64 ]; then objdump=aarch64-linux-gnu-objdump; fi

@@ -188,7 +188,8 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, const Scene<D>& scene, 
   // The rest of a cell holds springs of its part in all directions.
   if (kind == CellKind::cut && !group.of.damped && !group.of.slides) group.of.one_family = false;
   if constexpr (D == 2)
-    if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene)) group.of.one_family = false;
+    if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene))
+      group.of.one_family = false;
   group.planes = planes_of<D, Real>(set.systems, unit_);
   group.kernels = linear_slip_kernels<Real>(group.of);
   group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);

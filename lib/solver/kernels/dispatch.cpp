@@ -8,8 +8,6 @@
 namespace slipwave::solver {
 
 #if defined(__x86_64__)
-const KernelTables<float>& kernels_x86_64_v2(float);
-const KernelTables<double>& kernels_x86_64_v2(double);
 const KernelTables<float>& kernels_x86_64_v3(float);
 const KernelTables<double>& kernels_x86_64_v3(double);
 const KernelTables<float>& kernels_x86_64_v4(float);
@@ -20,13 +18,13 @@ const KernelTables<double>& kernels_generic(double);
 
 const char* instruction_set() {
 #if defined(__x86_64__)
-  const bool v2 = __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt");
+  // Before AVX2 vectors are those of every such processor: the generic kernels serve as well.
   const bool v3 =
-      v2 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
+      __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
   const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
                   __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
                   __builtin_cpu_supports("avx512vl");
-  return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : v2 ? "x86-64-v2" : "generic";
+  return v4 ? "x86-64-v4" : v3 ? "x86-64-v3" : "generic";
 #else
   return "generic";
 #endif
@@ -40,7 +38,6 @@ const KernelTables<Real>& best_tables() {
   const char* level = instruction_set();
   if (!std::strcmp(level, "x86-64-v4")) return kernels_x86_64_v4(Real());
   if (!std::strcmp(level, "x86-64-v3")) return kernels_x86_64_v3(Real());
-  if (!std::strcmp(level, "x86-64-v2")) return kernels_x86_64_v2(Real());
 #endif
   return kernels_generic(Real());
 }

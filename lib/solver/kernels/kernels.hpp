@@ -245,7 +245,7 @@ const PmlKernels<Real>& pml_kernels();
 template <class Real>
 InterpolationKernel<Real> interpolation_kernel();
 
-/// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3", "x86-64-v2" or "generic".
+/// The instruction set `kernels` chose: "x86-64-v4", "x86-64-v3" or "generic".
 const char* instruction_set();
 
 extern template const Kernels<float>& kernels<float>(int, bool);
