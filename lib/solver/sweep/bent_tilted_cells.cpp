@@ -276,7 +276,7 @@ void BentTiltedCells<Real>::reconstruct_across(std::int64_t row, const IndexRang
       pairs.combine(n, k + reach_, [&](std::int64_t i, Real& v, Real& w, Real& s, Real& t) {
         const auto velocity = row_velocity<2>(field + i, fields.pitch);
         const Real nx = normal_of_cell(metric, to + i + k * metric.stride);
-        const auto traction = row_traction<2>(field + i, fields.pitch, &nx, 1);
+        const auto traction = row_traction<2>(field + i, fields.pitch, RowVector<2, Real>{1, nx});
         v = velocity.z, w = velocity.x, s = traction.z, t = traction.x;
       });
     }
