@@ -100,8 +100,8 @@ struct PairCorrections {
 };
 
 /// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its
-/// stencil says ((E10), (E11)); `v` and `s` point at the cell, and so does `half_j` (BentAlong) of a bent row,
-/// where the pair is (v, J s).
+/// stencil says ((E10), (E11)); `v` and `s` point at the cell, and so does `half_j` (BentAlong) of a bent
+/// row, where the pair is (v, J s).
 template <class Real>
 void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stride, const Real* v,
                    const Real* s, const PairCorrections<Real>& corrections, Real scale, Real* v_at,
