@@ -1,5 +1,5 @@
 // Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and
-// springs never rises above that of the beginning (docs/theory.md (S25), (S38)).
+// springs never rises above that of the beginning (docs/theory.md (S25), (S40)).
 #include <gtest/gtest.h>
 
 #include <algorithm>
