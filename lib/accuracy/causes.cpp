@@ -42,6 +42,9 @@ constexpr double drag_of_stairs = 1.5, drag_of_surface_stairs = 0.3;
 constexpr double share_of_offset = 0.6;
 /// By how much near fields are worse at order 3.
 constexpr double near_of_order_3 = 5;
+/// Cells per wavelength from which cells that are anisotropic about the normal of an interface err less than
+/// means that are not: their error falls with the square of cells.
+constexpr double cells_of_tilted_means = 7.7;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
 constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
@@ -203,7 +206,7 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
   const double cubed = per_wave / std::pow(away, 3), shorter = std::clamp(0.9 / courant, 1., 10.);
   switch (kind) {
     case NearField::of_explosion_in_rock:
-      return (cells.order >= 7 ? 1.1 : 1.8) * cubed / away * std::sqrt(shorter) *
+      return (cells.order >= 7 ? 0.8 : 1.3) * cubed / away * std::sqrt(shorter) *
              (cells.time_order < 4 ? 1 : 1 + 1.5 * std::exp(-6 * std::max(0., 1.9 - courant)));
     case NearField::of_explosion_in_fluid:
       return cubed * (1.05 / away + 0.021 * per_wave * std::max(0., 0.9 - courant));
@@ -523,6 +526,7 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
       interface.steepest_deg < 14 && !interface.is_curved() &&
       std::tan(radians(interface.steepest_deg)) * per_wave > 2)
     by *= std::min(1., 10 / per_wave);
+  if (interface.tilted) by *= std::min(1., cells_of_tilted_means / per_wave);
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
   const double offset = share_of_offset * offset_m(face, cells),

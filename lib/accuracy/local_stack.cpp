@@ -11,6 +11,7 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "grid/locate.hpp"
+#include "model/tilted_mean.hpp"
 
 namespace slipwave {
 namespace {
@@ -384,7 +385,8 @@ class Tracker {
         receivers_(scene.survey.receivers_of(shot + 1)),
         column_(columns_.at(source_.position_m[0])),
         tops_(tops_in_history(scene.model.history)),
-        interpolated_(is_interpolated(scene.model.history)) {
+        interpolated_(is_interpolated(scene.model.history)),
+        tilted_(tilted_means(scene.model.medium) > 0) {
     stack_.maker = maker_of(scene.model.history);
     low_ = high_ = column_;
     for (const auto& receiver : receivers_) {
@@ -477,6 +479,7 @@ class Tracker {
     describe(columns_, line, interface, fitted());
     if (interface.representation == Representation::averaged && interpolated_)
       interface.representation = Representation::gradual;
+    interface.tilted = interface.representation == Representation::averaged && tilted_;
     interface.depth_m = columns_.depth(column_, line.row(column_));
     interface.true_depth_m = interface.depth_m;
     if (interface.representation == Representation::on_faces && interface.kind != LocalInterface::Kind::inner)
@@ -594,7 +597,7 @@ class Tracker {
   std::vector<Receiver<2>> receivers_;
   std::int64_t column_, low_ = 0, high_ = 0;
   std::vector<double> tops_;
-  bool interpolated_;
+  bool interpolated_, tilted_;
   std::vector<Segment> segments_;
   std::vector<Followed> lines_;
   LocalStack stack_;

@@ -25,6 +25,7 @@ struct LocalInterface {
   enum class Kind { surface, fluid_solid, inner };
   Kind kind = Kind::inner;
   Representation representation = Representation::on_faces;
+  bool tilted = false;     // averaged: cells that it cuts are anisotropic about its normal (theory.md 1.11)
   bool sea_floor = false;  // of the first layer, a fluid, and a solid
   double depth_m = 0;      // below the source
   double dip_deg = 0;      // of the straight line nearest to it
