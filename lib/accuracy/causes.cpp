@@ -715,8 +715,9 @@ double ErrorSources::Shot::edge_error(const Edge& edge, const Discretisation& ce
   const double wavelength = stack.places.layers[stack.places.source_layer()].vp / nominal_hz;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& [along, mean] = edge.along_and_mean_m[r];
-    sum +=
-        std::pow(grazing_share(along, mean, wavelength, edge.zone_cells * cells.spacing_m), 2) * energies[r];
+    const double zone = edge.zone_cells * cells.spacing_m,
+                 of_s = source_is_force() ? grazing_share_of_force(along, mean, wavelength, zone) : 0;
+    sum += std::pow(std::hypot(grazing_share(along, mean, wavelength, zone), of_s), 2) * energies[r];
   }
   return sum;
 }
