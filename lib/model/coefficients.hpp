@@ -115,6 +115,29 @@ double fastest_speed(const Medium<D>& medium) {
   return fastest;
 }
 
+/// The speed of the fastest wave that crosses a cell of a fitted grid, but of tilted means that of the mean.
+template <int D>
+class FastestAcrossCell {
+ public:
+  explicit FastestAcrossCell(const Medium<D>& medium) : medium_(medium) {}
+  double operator()(std::size_t cell) {
+    return has_tilted_axis(medium_, cell) || (dips(cell) && is_anisotropic(medium_, cell))
+               ? of_tilted_(medium_, cell)
+               : double(medium_.vp[cell]);
+  }
+
+ private:
+  /// Across rows that are not level waves go in any direction.
+  bool dips(std::size_t cell) const {
+    if (D != 2 || !medium_.has(Property::epsilon)) return false;
+    const auto& grid = medium_.grid();
+    const auto row = grid.index(std::int64_t(cell))[D - 1] + grid.first[D - 1];
+    return !(grid.rows->row_is_level(row) && grid.rows->row_is_level(row + 1));
+  }
+  const Medium<D>& medium_;
+  FastestOfTilted<D> of_tilted_;
+};
+
 /// Largest speed in m/s at which a wave crosses cells, times their size: in a fitted grid waves cross low and
 /// steep rows in less time.
 template <int D>
@@ -127,18 +150,8 @@ double fastest_across_cells(const Medium<D>& medium) {
     at[D - 1] += grid.first[D - 1];
     fastest = std::max(fastest, speed * grid.rows->stretch(at, grid.spacing_m));
   };
-  FastestOfTilted<D> of_tilted;
-  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
-  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-    const auto of_model = row + grid.first[D - 1];
-    // Across rows that are not level waves go in any direction.
-    const bool dips = D == 2 && medium.has(Property::epsilon) &&
-                      !(grid.rows->row_is_level(of_model) && grid.rows->row_is_level(of_model + 1));
-    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
-      see(cell, has_tilted_axis(medium, cell) || (dips && is_anisotropic(medium, cell))
-                    ? of_tilted(medium, cell)
-                    : double(medium.vp[cell]));
-  }
+  FastestAcrossCell<D> speed(medium);
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) see(cell, speed(cell));
   for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));
   return fastest;
 }

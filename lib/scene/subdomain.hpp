@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
+#include <vector>
 
 #include "grid/grid.hpp"
 #include "grid/locate.hpp"
@@ -15,11 +17,13 @@ struct Subdomain {
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
-  bool slips = false;               // whether anything slips in any part
-  bool shear = false;               // whether any part has shear stress: solid cells or bent rows
-  bool anisotropic = false;         // whether any part has anisotropic cells
-  bool tilted = false;              // whether any part has rock in 3-D whose axes are turned
-  bool tilted_means = false;        // whether any part has cells that interfaces cut as tilted means
+  bool slips = false;         // whether anything slips in any part
+  bool shear = false;         // whether any part has shear stress: solid cells or bent rows
+  bool anisotropic = false;   // whether any part has anisotropic cells
+  bool tilted = false;        // whether any part has rock in 3-D whose axes are turned
+  bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
+  /// Of a fitted grid: side_speeds() of the whole model.
+  std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};
   double fastest = 0;               // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()
 

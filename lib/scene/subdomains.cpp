@@ -41,6 +41,28 @@ bool has_shear(const Medium<D>& medium) {
   return false;
 }
 
+template <int D>
+std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& medium,
+                                                              const Subdomain& part) {
+  const auto& grid = medium.grid();
+  std::array<std::array<std::vector<double>, 2>, 2> speeds;
+  if (!grid.rows) return speeds;
+  FastestAcrossCell<D> speed(medium);
+  for (std::size_t axis = 0; axis + 1 < std::size_t(D); ++axis)
+    for (const std::size_t side : {0, 1}) {
+      Grid<D> edge = grid;
+      edge.shape[axis] = 1;
+      for (std::int64_t n = 0; n < edge.size(); ++n) {
+        auto at = edge.index(n);
+        at[axis] = side ? grid.shape[axis] - 1 : 0;
+        if (!part.owns(grid, at[D - 1])) continue;
+        const auto cell = std::size_t(grid.flat(at));
+        speeds[axis][side].push_back(medium.is_void(cell) ? 0 : speed(cell));
+      }
+    }
+  return speeds;
+}
+
 int steps_of_a_tile(const Tiling& tiling) { return tiling.steps > 0 ? tiling.steps : usual_steps; }
 
 template <int D>
@@ -155,12 +177,17 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.anisotropic = largest_of(&ranks, anisotropic_cells(scene.model.medium) > 0 ? 1 : 0) > 0;
   scene.subdomain.tilted = largest_of(&ranks, any_tilted_axes(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.tilted_means = largest_of(&ranks, tilted_means(scene.model.medium) > 0 ? 1 : 0) > 0;
+  scene.subdomain.side_speeds = side_speeds(scene.model.medium, scene.subdomain);
+  for (auto& sides : scene.subdomain.side_speeds)
+    for (auto& speeds : sides) speeds = allgather(&ranks, speeds);
   scene.subdomain.shear = largest_of(&ranks, has_shear(scene.model.medium) ? 1 : 0) > 0;
   scene.subdomain.slips = largest_of(&ranks, scene.slips() ? 1 : 0) > 0;
 }
 
 template bool has_shear(const Medium<2>&);
 template bool has_shear(const Medium<3>&);
+template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<2>&, const Subdomain&);
+template std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<3>&, const Subdomain&);
 
 template std::int64_t spread_of_a_step<2>(const std::vector<SweepFraction>&, int, std::int64_t,
                                           const std::array<std::int64_t, 2>&);

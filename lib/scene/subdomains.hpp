@@ -10,6 +10,11 @@
 
 namespace slipwave {
 
+/// FastestAcrossCell of the cells beside each side of a model in a fitted grid, of the rows that its process
+/// owns, by horizontal axis and side; m/s, 0 in void. Empty where the grid is regular.
+template <int D>
+std::array<std::array<std::vector<double>, 2>, 2> side_speeds(const Medium<D>& medium, const Subdomain& part);
+
 /// Whether there is shear stress in a model: in solid cells, and in fluid whose rows are bent.
 template <int D>
 bool has_shear(const Medium<D>& medium);

@@ -154,6 +154,40 @@ void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) 
       if (across != axis && layout_.shape()[std::size_t(across)] > 1)
         find_plates(axis, side, across, domain, ranks);
     if (domain.anisotropic()) find_turning(axis, side, domain);
+    if (axis < D - 1 && !domain.bent_rows.empty()) find_slopes(axis, side, domain);
+  }
+}
+
+/// The largest damping, in terms of that of plates: at the outer end most is lost.
+template <int D, class Real>
+double Pml<D, Real>::most_damped(int axis) const {
+  constexpr double most_lost = 0.9;
+  double most = std::numeric_limits<double>::infinity();
+  for (const auto& factors : axes_[std::size_t(axis)].factors)
+    for (std::size_t slot = 0; slot < factors.kept.size(); ++slot)
+      most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
+  return most;
+}
+
+/// Marks cells along an edge beyond which rows go on with a slope: in row coordinates all waves turn there
+/// (theory.md (F10a)).
+template <int D, class Real>
+void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {
+  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  const double most = most_damped(axis);
+  const auto zone = (side ? domain.high_zone : domain.low_zone)[std::size_t(axis)];
+  Grid<D> edge = domain.grid;
+  edge.shape[std::size_t(axis)] = 1;
+  for (std::int64_t n = 0; n < edge.size(); ++n) {
+    auto at = edge.index(n);
+    if (!domain.bent(at[D - 1])) continue;
+    at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - zone : zone - 1;
+    auto next = at;
+    ++next[std::size_t(axis)];
+    const double slope = corner_depth(domain, next) - corner_depth(domain, at);
+    const double turning = (std::sqrt(1 + slope * slope) - 1) / 2;
+    auto& plate = plates[std::size_t(along_edge(axis, at))];
+    plate = std::max(plate, Real(std::min(turning / plate_damping_share, most)));
   }
 }
 
@@ -161,14 +195,8 @@ void Pml<D, Real>::find_plates(int axis, const Domain<D>& domain, Ranks* ranks) 
 /// of that of plates.
 template <int D, class Real>
 void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
-  constexpr double most_lost = 0.9;
-  auto& layer = axes_[std::size_t(axis)];
-  auto& plates = layer.plates[std::size_t(side)];
-  // At the outer end most is lost.
-  double most = std::numeric_limits<double>::infinity();
-  for (const auto& factors : layer.factors)
-    for (std::size_t slot = 0; slot < factors.kept.size(); ++slot)
-      most = std::min(most, most_lost * double(factors.kept[slot] / factors.lost_in_plates[slot]));
+  auto& plates = axes_[std::size_t(axis)].plates[std::size_t(side)];
+  const double most = most_damped(axis);
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
   Turning turning_of(axis);

@@ -80,6 +80,8 @@ class Pml : public Effect<D, Real> {
   void find_plates(int axis, const Domain<D>& domain, Ranks* ranks);
   void find_plates(int axis, int side, int across, const Domain<D>& domain, Ranks* ranks);
   void find_turning(int axis, int side, const Domain<D>& domain);
+  void find_slopes(int axis, int side, const Domain<D>& domain);
+  double most_damped(int axis) const;
   /// Of the field rows of a row of cells: the first value of the first of them, and from one to the next.
   std::pair<Real*, std::int64_t> memory_of(int axis, const Index<D>& line);
 

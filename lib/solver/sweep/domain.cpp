@@ -11,6 +11,7 @@
 #include "grid/tensor.hpp"
 #include "model/coefficients.hpp"
 #include "parallel/threads.hpp"
+#include "scene/subdomains.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -24,7 +25,7 @@ int ghost_impedance(EdgeLaw law, Wave wave) {
 constexpr std::int64_t shortest_run = 64;
 
 /// Depth in m of a corner counted in those of the whole model, from `axis` on; columns beyond a side of it
-/// continue with a slope that falls to zero within the cells of `side_bends`.
+/// continue as `side_rows` says (theory.md (F10)).
 template <int D>
 double corner_of_rows(const Domain<D>& domain, Index<D> corner, int axis) {
   const auto& rows = *domain.model_grid.rows;
@@ -44,10 +45,11 @@ double corner_of_rows(const Domain<D>& domain, Index<D> corner, int axis) {
   if (at == nearest) return depth;
   corner[std::size_t(axis)] += at < 0 ? 1 : -1;
   const double slope = depth - corner_of_rows(domain, corner, axis + 1);
-  // The integral of (1 - t/bend)^2.
-  const double bend = domain.side_bends[std::size_t(axis)][at < 0 ? 0 : 1];
-  const double left = std::max(1 - double(std::abs(at - nearest)) / bend, 0.);
-  return depth + slope * bend / 3 * (1 - left * left * left);
+  const auto& [straight, bend] = domain.side_rows[std::size_t(axis)][at < 0 ? 0 : 1];
+  const double away = double(std::abs(at - nearest));
+  // Of what bends, the integral of (1 - t/bend)^2.
+  const double left = std::clamp(1 - (away - straight) / bend, 0., 1.);
+  return depth + slope * (std::min(away, straight) + bend / 3 * (1 - left * left * left));
 }
 
 /// How much faster waves cross a cell of the model's or of a zone's rows than a regular one; infinite where
@@ -75,48 +77,72 @@ double stretch_of_cell(const Domain<D>& domain, const Index<D>& at) {
   return std::sqrt(square) / height;
 }
 
-/// Whether no row beyond a side becomes so low that the time step of the model is too long there.
-template <int D>
-bool zone_keeps_heights(const Domain<D>& domain, int axis, int side) {
-  // The time step is for the lowest or steepest rows of the model; rows of a side may come near to them.
-  constexpr double least_room = 1.02, room = 1.25;
-  const auto [thinnest, thickest] = domain.model_grid.rows->heights();
-  const double most = domain.grid.spacing_m / thinnest;
-  Index<D> shape = domain.model_grid.rows->cells();
-  shape[std::size_t(axis)] = 1;
-  std::int64_t cells = 1;
-  for (const auto n : shape) cells *= n;
-  for (std::int64_t n = 0; n < cells; ++n) {
-    Index<D> at{};
-    for (std::int64_t rest = n, other = 0; other < D; ++other) {
-      at[std::size_t(other)] = rest % shape[std::size_t(other)] + domain.low_zone[int(other)];
-      rest /= shape[std::size_t(other)];
-    }
-    // Counted in the rows that are held.
-    at[D - 1] -= domain.model_grid.first[D - 1];
-    const std::int64_t edge = side ? domain.model_grid.shape[axis] - 1 : 0;
-    at[std::size_t(axis)] = domain.low_zone[axis] + edge;
-    const double own = stretch_of_cell(domain, at);
-    const double largest = std::max(least_room * own, std::min(room * own, most));
-    for (const std::int64_t away : {1, 2, 4, 7, 10}) {
-      at[std::size_t(axis)] = domain.low_zone[axis] + edge + (side ? away : -away);
-      if (stretch_of_cell(domain, at) > largest) return false;
-    }
-  }
-  return true;
-}
+/// How much lower rows beyond a side may become than beside it, but for the time step; void cells have none.
+constexpr double least_room = 1.02, room = 1.5, room_of_void = 10;
 
-/// Finds within how many cells rows become level beyond the sides: ten, or less where they would become too
-/// low on the way.
+/// Finds how rows continue beyond the sides: straight through the zone, where waves are absorbed before they
+/// can come back from a bend, or as far as no row becomes so low that the time step of the model is too long.
 template <int D>
-void find_side_bends(Domain<D>& domain) {
-  if (!domain.model_grid.rows) return;
-  for (int axis = 0; axis < D - 1; ++axis)
-    for (const int side : {0, 1})
-      for (auto& bend = domain.side_bends[std::size_t(axis)][std::size_t(side)];
-           bend > 0.5 && !zone_keeps_heights(domain, axis, side);)
-        bend *= 0.7;
-}
+class SideRowsFinder {
+ public:
+  SideRowsFinder(Domain<D>& domain, const Medium<D>& medium)
+      : domain_(domain),
+        fastest_(std::max(fastest_across_cells(medium), domain.subdomain.fastest_across_cells)),
+        speeds_(domain.subdomain.is_whole() ? side_speeds(medium, domain.subdomain)
+                                            : domain.subdomain.side_speeds) {}
+  void find() {
+    for (int axis = 0; axis < D - 1; ++axis)
+      for (const int side : {0, 1}) {
+        auto& rows = domain_.side_rows[std::size_t(axis)][std::size_t(side)];
+        rows.straight = double(zone(axis, side));
+        while ((rows.straight > 0 || rows.bend > 0.5) && !keeps_heights(axis, side))
+          if (rows.straight >= 1)
+            rows.straight = std::floor(0.7 * rows.straight);
+          else
+            rows.bend *= 0.7;
+      }
+  }
+
+ private:
+  std::int64_t zone(int axis, int side) const {
+    return (side ? domain_.high_zone : domain_.low_zone)[std::size_t(axis)];
+  }
+  bool keeps_heights(int axis, int side) const {
+    Index<D> shape = domain_.model_grid.rows->cells();
+    shape[std::size_t(axis)] = 1;
+    const auto& speeds = speeds_[std::size_t(axis)][std::size_t(side)];
+    for (std::size_t n = 0; n < speeds.size(); ++n) {
+      Index<D> at{};
+      for (std::int64_t rest = std::int64_t(n), other = 0; other < D; ++other) {
+        at[std::size_t(other)] = rest % shape[std::size_t(other)] + domain_.low_zone[int(other)];
+        rest /= shape[std::size_t(other)];
+      }
+      // Counted in the rows that are held.
+      at[D - 1] -= domain_.model_grid.first[D - 1];
+      const std::int64_t edge = side ? domain_.model_grid.shape[axis] - 1 : 0;
+      const auto stretch = [&](std::int64_t away) {
+        at[std::size_t(axis)] = domain_.low_zone[axis] + edge + (side ? away : -away);
+        return stretch_of_cell(domain_, at);
+      };
+      const double own = stretch(0);
+      const double largest = speeds[n] > 0
+                                 ? std::max(least_room * own, std::min(room * own, fastest_ / speeds[n]))
+                                 : room_of_void * own;
+      // Heights change steadily while rows are straight, and where they bend within ten columns.
+      const auto straight = std::int64_t(domain_.side_rows[std::size_t(axis)][std::size_t(side)].straight);
+      for (const std::int64_t away : {1, 2, 4, 7, 10})
+        if (stretch(away) > largest ||
+            (straight + away <= zone(axis, side) && stretch(straight + away) > largest))
+          return false;
+      if (stretch(zone(axis, side)) > largest) return false;
+    }
+    return true;
+  }
+
+  Domain<D>& domain_;
+  double fastest_;
+  std::array<std::array<std::vector<double>, 2>, 2> speeds_;  // of the whole model
+};
 
 /// Finds bent rows, and the heights of others.
 template <int D>
@@ -564,7 +590,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   }
   // Its rows are those of the model, not of a grid of that size.
   domain.grid.rows = nullptr;
-  find_side_bends(domain);
+  if (domain.model_grid.rows) SideRowsFinder<D>(domain, medium).find();
   find_bent_rows(domain);
   domain.own = {0, domain.grid.shape[z]};
   const auto held = domain.model_grid.first[z];

@@ -63,6 +63,12 @@ struct EdgeCoupling {
   double normal = 0, shear = 0;
 };
 
+/// How rows of a fitted grid continue beyond a side of the model (theory.md (F10)), in cells: as they are for
+/// some, then they become level within others.
+struct SideRows {
+  double straight = 0, bend = 10;
+};
+
 /// The computed grid: the model and, outside its absorbing edges, zones (of the PML) with the
 /// medium of the edge.
 template <int D>
@@ -82,8 +88,8 @@ class Domain {
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.
   std::vector<char> bent_rows;
   std::vector<double> row_heights;
-  /// Within how many cells beyond each side of the model its rows become level.
-  std::array<std::array<double, 2>, std::size_t(D)> side_bends = every_side(10);
+  /// How rows continue beyond each side of the model.
+  std::array<std::array<SideRows, 2>, std::size_t(D)> side_rows{};
   std::array<bool, 2> level_ends{};  // whether the first and the last row of the model are level
   bool bent(std::int64_t row) const { return !bent_rows.empty() && bent_rows[std::size_t(row)]; }
   double height(std::int64_t row) const { return row_heights.empty() ? 1 : row_heights[std::size_t(row)]; }
@@ -160,11 +166,6 @@ class Domain {
   }
 
  private:
-  static std::array<std::array<double, 2>, std::size_t(D)> every_side(double cells) {
-    std::array<std::array<double, 2>, std::size_t(D)> all;
-    for (auto& sides : all) sides = {cells, cells};
-    return all;
-  }
   std::array<Field<D>, 2> impedances_;
   bool anisotropic_ = false;
   MaterialKind material_kind_ = MaterialKind::isotropic;
