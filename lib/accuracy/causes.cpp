@@ -28,7 +28,7 @@ constexpr std::size_t frequencies = 40;
 /// What linear terms leave out of dispersion.
 constexpr double dispersion_margin = 1.1;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
-constexpr double shift_on_faces = 3.7, shift_of_surface = 1.6, shift_of_floor = 3.4, shift_of_ramps = 2.3;
+constexpr double shift_on_faces = 3.7, shift_of_surface = 1.3, shift_of_floor = 3.4, shift_of_ramps = 2.3;
 /// At order 7 and above; orders 9 and 11 fall to 5 beside an interface, which is felt by the S waves of a
 /// force and at a free surface.
 constexpr double order_7_on_faces = 0.5, high_order_of_forces = 2, high_order_at_surfaces = 1.5;
@@ -47,7 +47,7 @@ constexpr double near_of_order_3 = 5;
 constexpr double cells_of_tilted_means = 7.7;
 /// What comes back along a fitted surface from where it becomes level beyond the sides, by its slope: of
 /// water, of rock, and of waves bound to rock.
-constexpr double bent_water = 0.045, bent_rock = 0.045, bent_bound = 0.02;
+constexpr double bent_water = 0.018, bent_rock = 0.018, bent_bound = 0.01;
 /// What comes back from where an interface becomes level beyond a side, by its slope and how well it
 /// reflects; and the share of it where rows follow it, which go on dipping (theory.md (F10)).
 constexpr double bent_interface = 0.055, bent_fitted = 0.6;
