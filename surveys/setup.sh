@@ -85,10 +85,11 @@ configure_build() {
       rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
     fi
   fi
-  # Later changes of the CMake files are seen by the build itself.
+  # Later changes of the CMake files are seen by the build itself. First builds are what counts here: whoever changes
+  # sources often configures a build where each is compiled by itself.
   if [ ! -f "$build/CMakeCache.txt" ] || [ ! -f "$build/build.ninja" ]; then
     # shellcheck disable=SC2086
-    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release ${SLIPWAVE_CMAKE_ARGS-} >&2 ||
+    cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLIPWAVE_UNITY=ON ${SLIPWAVE_CMAKE_ARGS-} >&2 ||
       fail "cmake could not configure the build in $build"
   fi
 }

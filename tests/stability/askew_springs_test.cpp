@@ -1,5 +1,5 @@
 // Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and
-// springs never rises above that of the beginning (docs/theory.md (S25), (S40)).
+// springs never rises above that of the beginning (docs/theory.md (S25), (S34b)).
 #include <gtest/gtest.h>
 
 #include <algorithm>

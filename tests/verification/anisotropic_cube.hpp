@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,9 @@
 #include "cube_extruded.hpp"
 
 namespace slipwave::solver {
+
+/// Whether SLIPWAVE_LONG asks for the long form.
+inline bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 /// Alike in all horizontal directions: a shale, and one whose waves turn; orthorhombic: a shale with upright
 /// cracks (Schoenberg and Helbig 1997, over density 2300), one like it that shows more.
@@ -17,6 +21,12 @@ inline const Material cracked =
     material_of_stiffness_in_space({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
                                     2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
                                    2300);
+
+/// The rock with its axes turned so, in degrees.
+inline Material turned_by(Material rock, double tilt, double azimuth, double rotation = 0) {
+  rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;
+  return rock;
+}
 
 /// Gives a medium the angles that any of these rocks has.
 template <int D>
@@ -28,6 +38,23 @@ void add_angles(Medium<D>& medium, const std::vector<Material>& rocks) {
   add(Property::tilt, [](const Material& rock) { return rock.tilt; });
   add(Property::azimuth, [](const Material& rock) { return rock.azimuth; });
   add(Property::rotation, [](const Material& rock) { return rock.rotation; });
+}
+
+/// Blocks of so many cells of rocks in turn, below eight rows of water.
+inline Medium<3> blocks_below_water(const std::vector<Material>& rocks, const Index<3>& shape,
+                                    const Index<3>& block) {
+  constexpr std::int64_t wet = 8;
+  Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
+  medium[Property::epsilon1] = Field<3>(medium.grid());
+  add_angles(medium, rocks);
+  complete_anisotropy(medium);
+  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
+    const auto at = medium.grid().index(n);
+    const auto turn = at[0] / block[0] + at[1] / block[1] + (at[2] - wet) / block[2];
+    put(medium, std::size_t(n),
+        at[2] < wet ? Material{1500, 0, 1000} : rocks[std::size_t(turn) % rocks.size()]);
+  }
+  return medium;
 }
 
 /// Leaves the first of these cells, in the order of the file, isotropic.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cube_shot.hpp"
+#include "gauss_rule.hpp"
 #include "model/anisotropy.hpp"
 
 namespace slipwave::solver {
@@ -44,10 +45,12 @@ class AnisotropicSpace {
     // Angles from the direction of the receiver and about it.
     constexpr int rings = 90, around = 48;
     const auto frame = frame_along(at, distance);
+    // The wave is smooth in the cosine, from 0 to 1.
+    const auto rule = gauss_rule(rings);
     for (int ring = -1; ring < rings; ++ring) {
       // The plane across that direction, ring -1, holds what follows the force at once.
-      const double x = gauss_point(ring, rings), cosine = ring < 0 ? 0 : x,
-                   sine = std::sqrt(1 - cosine * cosine);
+      const auto [cosine, weight] = ring < 0 ? std::array{0., 1.} : rule[std::size_t(ring)];
+      const double sine = std::sqrt(1 - cosine * cosine);
       for (int n = 0; n < around; ++n) {
         const double angle = 2 * std::numbers::pi * n / around;
         Point<3> direction;
@@ -63,7 +66,7 @@ class AnisotropicSpace {
             const double size =
                 ring < 0
                     ? wavelet.slope(t) / (8 * std::numbers::pi * std::numbers::pi * inertia[wave] * distance)
-                    : -gauss_weight(ring, rings) * wavelet.bend(t - distance * cosine / speed) /
+                    : -weight * wavelet.bend(t - distance * cosine / speed) /
                           (8 * std::numbers::pi * std::numbers::pi * inertia[wave] * speed);
             for (std::size_t i = 0; i < 3; ++i) found[i][k] += share * size * motion[i][wave];
           }
@@ -141,30 +144,6 @@ class AnisotropicSpace {
       frame[2][i] = frame[0][j] * frame[1][k] - frame[0][k] * frame[1][j];
     }
     return frame;
-  }
-  /// Of the cosine from 0 to 1; the wave is smooth in it.
-  static double gauss_point(int n, int count) { return gauss(n, count)[0]; }
-  static double gauss_weight(int n, int count) { return gauss(n, count)[1]; }
-  /// Legendre's points and weights, by Newton's method, kept.
-  static std::array<double, 2> gauss(int n, int count) {
-    static const auto all = [count] {
-      std::vector<std::array<double, 2>> points;
-      for (int k = 0; k < count; ++k) {
-        double x = std::cos(std::numbers::pi * (k + 0.75) / (count + 0.5)), slope = 0;
-        for (int step = 0; step < 20; ++step) {
-          double before = 1, value = x;
-          for (int degree = 2; degree <= count; ++degree) {
-            const double next = ((2 * degree - 1) * x * value - (degree - 1) * before) / degree;
-            before = value, value = next;
-          }
-          slope = count * (x * value - before) / (x * x - 1);
-          x -= value / slope;
-        }
-        points.push_back({(1 + x) / 2, 1 / ((1 - x * x) * slope * slope)});
-      }
-      return points;
-    }();
-    return n < 0 ? std::array<double, 2>{} : all[std::size_t(n)];
   }
 
   std::array<std::array<double, 6>, 6> c_{};

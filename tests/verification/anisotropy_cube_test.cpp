@@ -1,8 +1,6 @@
 // Anisotropic rock in 3-D against sums over plane waves, the solver in 2-D, symmetry and itself.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "anisotropic_cube.hpp"
 #include "parallel/threads.hpp"
 #include "plain_and_tiled.hpp"
@@ -52,7 +50,7 @@ TEST(AnisotropicSpace, OfIsotropicRockIsStokesSolution) {
 TEST(AnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_of_a_force(cracked, 16), 0.006);
-  if (std::getenv("SLIPWAVE_LONG") == nullptr) return;
+  if (!long_form()) return;
   for (const auto& rock : {shale, crossed, cracked})
     for (const int order : {5, 7}) {
       EXPECT_LT(error_of_a_force(rock, 16, order), 0.01) << order;
@@ -84,20 +82,12 @@ TEST(AnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
 }
 
 /// Blocks of rocks and water under a free surface.
-Scene<3> blocks(const std::array<Material, 3>& rocks, const Index<3>& shape = {40, 34, 36}) {
-  Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
-  medium[Property::epsilon1] = Field<3>(medium.grid());
-  complete_anisotropy(medium);
-  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
-    const auto at = medium.grid().index(n);
-    put(medium, std::size_t(n),
-        at[2] < 8 ? Material{1500, 0, 1000}
-                  : rocks[std::size_t((at[0] / 12 + at[1] / 15 + (at[2] - 8) / 13) % 3)]);
-  }
+Scene<3> blocks(const std::vector<Material>& rocks, const Index<3>& shape = {40, 34, 36}) {
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
   edges[2][0] = EdgeLaw::free;
-  return scene_of(medium, edges, {92, 71, 92}, "force:1,1,1", "ricker:25", {{140, 131, 120}, {42, 55, 143}},
+  return scene_of(blocks_below_water(rocks, shape, {12, 15, 13}), edges, {92, 71, 92}, "force:1,1,1",
+                  "ricker:25", {{140, 131, 120}, {42, 55, 143}},
                   {Component::vx, Component::vy, Component::vz, Component::p}, 0.06, 0.001);
 }
 

@@ -2,8 +2,6 @@
 // its own energy.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "anisotropic_cube.hpp"
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
@@ -15,11 +13,6 @@
 namespace slipwave::solver {
 namespace {
 
-Material turned_by(Material rock, double tilt, double azimuth, double rotation = 0) {
-  rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;
-  return rock;
-}
-bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 constexpr SlipCorrection corrections[] = {SlipCorrection::centred, SlipCorrection::second,
                                           SlipCorrection::exponential, SlipCorrection::first};
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 
 #include "attenuating_space.hpp"
 #include "continued.hpp"
@@ -14,12 +13,6 @@
 
 namespace slipwave::solver {
 namespace {
-
-Material turned_by(Material rock, double tilt, double azimuth, double rotation = 0) {
-  rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;
-  return rock;
-}
-bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 template <int D>
 void attenuate(Medium<D>& medium, const Qualities& of) {
@@ -212,23 +205,12 @@ const std::vector<Material> rocks = {
 /// Blocks of rocks, upright, tilted and isotropic, water above, under a free surface and in layers that
 /// absorb.
 Scene<3> blocks(const Index<3>& shape) {
-  Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
-  medium[Property::epsilon1] = Field<3>(medium.grid());
-  add_angles(medium, rocks);
-  complete_anisotropy(medium);
-  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
-    const auto at = medium.grid().index(n);
-    put(medium, std::size_t(n),
-        at[2] < 8
-            ? Material{1500, 0, 1000}
-            : rocks[std::size_t((at[0] / 22 + at[1] / 9 + (at[2] - 8) / 7) % std::int64_t(rocks.size()))]);
-  }
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
   edges[2] = {EdgeLaw::free, EdgeLaw::absorbing};
-  auto scene =
-      scene_of(medium, edges, {92, 41, 72}, "force:1,1,1", "ricker:25", {{120, 61, 90}, {42, 35, 63}},
-               {Component::vx, Component::vy, Component::vz, Component::p}, 0.03, 0.001);
+  auto scene = scene_of(blocks_below_water(rocks, shape, {22, 9, 7}), edges, {92, 41, 72}, "force:1,1,1",
+                        "ricker:25", {{120, 61, 90}, {42, 35, 63}},
+                        {Component::vx, Component::vy, Component::vz, Component::p}, 0.03, 0.001);
   scene.numerics.zone_cells = 6;
   return scene;
 }

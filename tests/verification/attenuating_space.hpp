@@ -53,6 +53,7 @@ class AttenuatingSpace {
     constexpr int steps_per_peak = 8, frequencies = 26, rings = 30, around = 24;
     const double distance = std::hypot(at[0], at[1], at[2]);
     const auto frame = frame_along(at, distance);
+    const auto rule = gauss_rule(rings);
     std::array<std::vector<double>, 3> found;
     for (auto& samples : found) samples.assign(count, 0);
     for (int k = 1; k <= frequencies; ++k) {
@@ -60,7 +61,7 @@ class AttenuatingSpace {
       const auto c = stiffness(hz);
       std::array<Complex, 3> motion{};
       for (int ring = -1; ring < rings; ++ring) {
-        const auto [cosine, weight] = ring < 0 ? std::array{0., 1.} : gauss_of(ring, rings);
+        const auto [cosine, weight] = ring < 0 ? std::array{0., 1.} : rule[std::size_t(ring)];
         const double sine = std::sqrt(1 - cosine * cosine);
         for (int n = 0; n < around; ++n) {
           const double angle = 2 * pi * n / around;
@@ -138,20 +139,6 @@ class AttenuatingSpace {
     for (auto& part : frame[1]) part /= length;
     frame[2] = cross(frame[0], frame[1]);
     return frame;
-  }
-  /// Point and weight of Gauss's rule from 0 to 1.
-  static std::array<double, 2> gauss_of(int n, int count) {
-    double x = std::cos(std::numbers::pi * (n + 0.75) / (count + 0.5)), slope = 0;
-    for (int step = 0; step < 8; ++step) {
-      double before = 1, value = x;
-      for (int degree = 2; degree <= count; ++degree) {
-        const double next = ((2 * degree - 1) * x * value - (degree - 1) * before) / degree;
-        before = value, value = next;
-      }
-      slope = count * (x * value - before) / (x * x - 1);
-      x -= value / slope;
-    }
-    return {(1 + x) / 2, 1 / ((1 - x * x) * slope * slope)};
   }
 
   Material rock_;

@@ -3,6 +3,7 @@
 #include <atomic>
 
 #include "memory_archive.hpp"
+#include "shared_out.hpp"
 #include "solver/simulation.hpp"
 
 namespace slipwave::solver {
@@ -37,5 +38,19 @@ class OnePause : public Pauses {
   std::atomic<int> times_asked_ = 0;
   std::int64_t last_ = 0;
 };
+
+/// Of a shot that is left off again and again, at the third pause each time; none if it does not end.
+template <int D>
+std::vector<double> samples_in_pieces(const Scene<D>& scene) {
+  std::vector<char> kept;
+  for (int piece = 0; piece < 50; ++piece) {
+    OnePause pause(kept, 3);
+    try {
+      return all_samples(shoot<D>(scene, 1, {}, {}, &pause));
+    } catch (const LeftOff&) {
+    }
+  }
+  return {};
+}
 
 }  // namespace slipwave::solver

@@ -1,8 +1,6 @@
 // Rock in 3-D whose axes are tilted against sums over plane waves, the solver in 2-D, symmetry and itself.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "anisotropic_cube.hpp"
 #include "parallel/threads.hpp"
 #include "plain_and_tiled.hpp"
@@ -11,13 +9,8 @@
 namespace slipwave::solver {
 namespace {
 
-Material turned_by(Material rock, double tilt, double azimuth, double rotation = 0) {
-  rock.tilt = tilt, rock.azimuth = azimuth, rock.rotation = rotation;
-  return rock;
-}
 /// Whose waves do not turn, either: layers damp less in 2-D, where fewer directions count.
 const Material stiff{3600, 1900, 2450, 0.15, 0.1, 0, 0.1};
-bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 
 TEST(TiltedSpace, HasTheStiffnessOfTurnedAxes) {
   // All indices of C_ijkl turned one after another about the axes of the grid.
@@ -143,21 +136,11 @@ TEST(TiltedSpace, IsTurnedWithItsAxes) {
 
 /// Blocks of rocks, water above, under a free surface.
 Scene<3> blocks(const std::vector<Material>& rocks, const Index<3>& shape) {
-  Medium<3> medium(Grid<3>{shape, 5, {0, 0, 0}});
-  medium[Property::epsilon1] = Field<3>(medium.grid());
-  add_angles(medium, rocks);
-  complete_anisotropy(medium);
-  for (std::int64_t n = 0; n < medium.grid().size(); ++n) {
-    const auto at = medium.grid().index(n);
-    put(medium, std::size_t(n),
-        at[2] < 8
-            ? Material{1500, 0, 1000}
-            : rocks[std::size_t((at[0] / 12 + at[1] / 15 + (at[2] - 8) / 13) % std::int64_t(rocks.size()))]);
-  }
   auto edges = edges_all_3d(EdgeLaw::mirror);
   edges[0] = {EdgeLaw::absorbing, EdgeLaw::absorbing};
   edges[2][0] = EdgeLaw::free;
-  return scene_of(medium, edges, {92, 71, 92}, "force:1,1,1", "ricker:25", {{140, 101, 110}, {42, 55, 123}},
+  return scene_of(blocks_below_water(rocks, shape, {12, 15, 13}), edges, {92, 71, 92}, "force:1,1,1",
+                  "ricker:25", {{140, 101, 110}, {42, 55, 123}},
                   {Component::vx, Component::vy, Component::vz, Component::p}, 0.06, 0.001);
 }
 const std::vector<Material> tilted_rocks = {turned_by(shale, 30, 20),
