@@ -10,6 +10,7 @@
 #include "model/fracture_network.hpp"
 #include "model/single_fracture.hpp"
 #include "solver/simulation.hpp"
+#include "whole_effect.hpp"
 
 namespace slipwave {
 namespace {
@@ -70,7 +71,6 @@ class DiscBox {
     const Grid<3> grid{shape, h, {0, 0, 0}};
     Medium<3> medium{Field<3>(grid, 4500), Field<3>(grid, 2250), Field<3>(grid, 2500)};
     const float others[][3] = {{2500, 1200, 2000}, {1500, 0, 1000}, {0, 0, 0}, {5500, 3800, 2700}};
-    std::mt19937 engine(seed);
     for (std::size_t cell = 0; lumps && cell < medium.vp.size(); ++cell) {
       const auto at = grid.index(std::int64_t(cell));
       std::mt19937 block(unsigned(at[0] / 3 + 7 * (at[1] / 3) + 49 * (at[2] / 3)) + seed);
