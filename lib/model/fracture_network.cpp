@@ -107,8 +107,8 @@ void check(const FractureNetwork& of) {
            " metre above zero");
   if (!(of.least_m > 0 && of.most_m >= of.least_m))
     refuse((D == 2 ? "--length: found " : "--radius: found ") + shown(of.least_m) + " to " +
-           shown(of.most_m) + " m, expected " + (D == 2 ? "lengths" : "radii") +
-           " above zero, the shortest first");
+           shown(of.most_m) + " m, expected " + (D == 2 ? "lengths" : "radii") + " above zero, the " +
+           (D == 2 ? "shortest" : "smallest") + " first");
   if (of.concentration && !(*of.concentration >= 0))
     refuse("--concentration: found " + shown(*of.concentration) + ", expected it not below zero");
 }
