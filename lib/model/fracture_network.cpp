@@ -60,7 +60,7 @@ std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& regi
   check<D>(of);
   const double wanted = of.count > 0 ? 0 : of.intensity_per_m * size_of(grid, region);
   const auto &low = region.bounds.low_m, &high = region.bounds.high_m;
-  constexpr std::int64_t numbers_a_try = 2 * D, tries_a_fracture = 10000;
+  constexpr std::int64_t numbers_a_try = std::int64_t{2} * D, tries_a_fracture = 10000;
   std::vector<FractureTrace<D>> all;
   double sum = 0;
   for (std::int64_t n = 0;; n += numbers_a_try) {
@@ -84,10 +84,7 @@ std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& regi
 Point<3> direction_about(const Point<3>& mean, double cosine, double turn) {
   // Across the mean, whichever axis is farthest from it.
   const Point<3> far = std::abs(mean[2]) < 0.5 ? Point<3>{0, 0, 1} : Point<3>{1, 0, 0};
-  const auto cross = [](const Point<3>& a, const Point<3>& b) {
-    return Point<3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
-  const auto first = unit_normal<3>(cross(mean, far)), second = cross(mean, first);
+  const auto first = unit_normal<3>(cross_product(mean, far)), second = cross_product(mean, first);
   const double sine = std::sqrt(std::max(0., 1 - cosine * cosine));
   Point<3> direction{};
   for (std::size_t axis = 0; axis < 3; ++axis)

@@ -19,9 +19,6 @@ constexpr int corners_of_disc = 32;
 /// Pieces that a polygon is cut into, per cell and direction.
 constexpr double pieces_a_cell = 8;
 
-Point<3> cross(const Point<3>& a, const Point<3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 Point<3> difference(const Point<3>& a, const Point<3>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 double product(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -29,7 +26,8 @@ double product(const Point<3>& a, const Point<3>& b) { return a[0] * b[0] + a[1]
 Point<3> area_vector(const FractureTrace<3>& polygon) {
   Point<3> sum{};
   for (std::size_t n = 2; n < polygon.size(); ++n) {
-    const auto twice = cross(difference(polygon[n - 1], polygon[0]), difference(polygon[n], polygon[0]));
+    const auto twice =
+        cross_product(difference(polygon[n - 1], polygon[0]), difference(polygon[n], polygon[0]));
     for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += twice[axis] / 2;
   }
   return sum;
@@ -42,7 +40,19 @@ std::array<double, 2> reach_of(const std::vector<Point<2>>& points, std::size_t 
   return {(*low)[axis], (*high)[axis]};
 }
 
-/// A polygon in its plane: along its first edge, and across it.
+/// The first edge that is not much shorter than the longest: its direction is not one of rounding.
+Point<3> leading_edge(const FractureTrace<3>& polygon) {
+  std::vector<Point<3>> edges;
+  double longest = 0;
+  for (std::size_t n = 0; n < polygon.size(); ++n) {
+    edges.push_back(difference(polygon[(n + 1) % polygon.size()], polygon[n]));
+    longest = std::max(longest, length<3, double>(edges.back()));
+  }
+  return *std::find_if(edges.begin(), edges.end(),
+                       [&](const auto& edge) { return length<3, double>(edge) >= longest / 2; });
+}
+
+/// A polygon in its plane: along an edge, and across it.
 struct Flat {
   Point<3> origin{}, along{}, across{};
   std::vector<Point<2>> corners;
@@ -51,10 +61,10 @@ struct Flat {
     const auto normal = normal_of_polygon(polygon);
     for (const auto& vertex : polygon)
       for (std::size_t axis = 0; axis < 3; ++axis) origin[axis] += vertex[axis] / double(polygon.size());
-    auto edge = difference(polygon[1], polygon[0]);
+    auto edge = leading_edge(polygon);
     const double off = product(edge, normal);
     for (std::size_t axis = 0; axis < 3; ++axis) edge[axis] -= off * normal[axis];
-    along = unit_normal<3>(edge), across = cross(normal, along);
+    along = unit_normal<3>(edge), across = cross_product(normal, along);
     for (const auto& vertex : polygon) {
       const auto from_middle = difference(vertex, origin);
       corners.push_back({product(from_middle, along), product(from_middle, across)});
@@ -139,6 +149,10 @@ FractureTrace<3> disc_in(const Point<3>& centre, const Point<3>& along, const Po
 
 }  // namespace
 
+Point<3> cross_product(const Point<3>& a, const Point<3>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
 FractureTrace<3> parse_disc(const std::string& text) {
   const auto of = parse_plane(text, 1, "a disc X,Y,Z:RADIUS[:DIP[:AZIMUTH]]");
   return disc_in(of.centre, of.axes[0], of.axes[1], of.size_m[0]);
@@ -153,7 +167,7 @@ FractureTrace<3> parse_rectangle(const std::string& text) {
 FractureTrace<3> disc_of(const Point<3>& centre_m, double radius_m, const Point<3>& normal) {
   const double level = std::hypot(normal[0], normal[1]);
   const Point<3> across = level > 0 ? Point<3>{-normal[1] / level, normal[0] / level, 0} : Point<3>{0, 1, 0};
-  return disc_in(centre_m, cross(across, normal), across, radius_m);
+  return disc_in(centre_m, cross_product(across, normal), across, radius_m);
 }
 
 Point<3> normal_of_polygon(const FractureTrace<3>& polygon) { return unit_normal<3>(area_vector(polygon)); }

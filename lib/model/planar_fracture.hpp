@@ -19,6 +19,7 @@ FractureTrace<3> parse_rectangle(const std::string& text);
 /// A disc whose plane has that unit normal.
 FractureTrace<3> disc_of(const Point<3>& centre_m, double radius_m, const Point<3>& normal);
 
+Point<3> cross_product(const Point<3>& a, const Point<3>& b);
 /// The unit normal, about which the vertices follow each other by the right-hand rule.
 Point<3> normal_of_polygon(const FractureTrace<3>& polygon);
 /// m2.

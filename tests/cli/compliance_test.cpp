@@ -78,7 +78,7 @@ TEST_F(Compliance, OfDiscsGoesFromTheCommandLineToTraces) {
   EXPECT_NE(run("sw-compare with.sgy intact.sgy --tolerance 0.001").code, 0);
   done("sw-plot s.nc -o s.png && sw-plot s.nc --slice z=60 -o z.png");
   const auto cut = run("sw-fracture m.nc --disc 100,70,10:40:90 --compliance 1e-10,1e-10 -o cut.nc");
-  EXPECT_TRUE(has(cut.err, "fractures end with the model: 1700 m2 of them are outside")) << cut.err;
+  EXPECT_TRUE(has(cut.err, "fractures end with the model: 1720 m2 of them are outside")) << cut.err;
   const std::string drawn = "sw-fracture m.nc --box 0:200,0:150,0:120 --radius 10:40:2.5 --dip 70:30 ";
   done(drawn + "--concentration 10 --network 12 --seed 4 --compliance 1e-10,1e-10 -o n.nc");
   EXPECT_TRUE(has(done("sw-info n.nc"), "single fractures 12"));
