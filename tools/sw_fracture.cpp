@@ -5,15 +5,16 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
+#include "fracture_options.hpp"
 #include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
-#include "model/compliance.hpp"
 #include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
 #include "model/fracture_network.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/parted_faces.hpp"
+#include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/region.hpp"
 #include "model/single_fracture.hpp"
@@ -23,110 +24,7 @@ using namespace slipwave;
 
 namespace {
 
-struct Settings {
-  std::string model = "-";
-  std::string box, polygon, ellipse, slab;
-  std::vector<std::string> segments, traces;
-  std::optional<double> intensity, concentration;
-  std::string network, length;
-  int count = 0, seed = 1;
-  std::string body;
-  std::vector<std::string> dips, normals;
-  std::optional<double> friction, viscosity_s, strength_pa;
-  std::string law;
-  ComplianceText compliance;
-  std::optional<double> for_hz, strain_rate;
-  bool block = false, opening = false, effective = false, open = false, faces = false;
-  std::string prestress;
-  std::string name;
-  std::string output = "-";
-};
-
-/// What the planes do. What is usual: docs/slip.md.
-void declare_laws(cli::Options& options, Settings& settings) {
-  options.add("friction", settings.friction, "Q", "coefficient of friction; of rock 0.6 to 0.85");
-  options.add(
-      "viscosity", settings.viscosity_s, "ETA",
-      "viscosity of slip, s: above the strength by a share of 1 planes slip at 1/ETA; 0: dry friction; "
-      "see --for-frequency");
-  options.add("for-frequency", settings.for_hz, "HZ",
-              "instead of --viscosity: that at which slip competes with waves of HZ and --strain-rate");
-  options.add("strain-rate", settings.strain_rate, "RATE",
-              "peak strain rate of these waves, 1/s: of a velocity v of the ground v 2 pi HZ/vp");
-  options.add("strength", settings.strength_pa, "PA", "cohesion, Pa [0]");
-  options.add("law", settings.law, "LAW",
-              "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m [coulomb]");
-  options.add(
-      "compliance", settings.compliance.compliance, "ZN,ZT",
-      "planes give way like springs, below friction or without it: normal and tangential compliance of "
-      "a plane, m/Pa; usual 1e-14 to 1e-9");
-  options.add("stiffness", settings.compliance.stiffness, "KN,KT", "or its stiffness, Pa/m");
-  options.add("spacing", settings.compliance.spacing_m, "M", "distance between planes, m");
-  options.add("dashpot", settings.compliance.dashpot, "DN,DT", "dashpots beside these springs, Pa s/m");
-  options.add("crack-density", settings.compliance.crack_density, "E",
-              "or penny-shaped cracks: their number in a unit volume times radius cubed; usual 0.01 to 0.1");
-  options.add("aspect", settings.compliance.aspect, "A", "thickness of the cracks over their diameter");
-  options.add("fill", settings.compliance.fill_pa, "PA",
-              "bulk modulus of the fluid in the cracks: water 2.2e9 [0: dry]");
-  options.add("effective", settings.effective,
-              "change the rock instead: speeds, epsilon, delta and tilt that it has with the planes, "
-              "for waves much longer than the spacing");
-}
-
-void declare(cli::Options& options, Settings& settings) {
-  options.positional(settings.model, "M");
-  options.add("box", settings.box, "X0:X1,Z0:Z1", "region to fracture: a box, m; in 3-D X0:X1,Y0:Y1,Z0:Z1");
-  options.add("polygon", settings.polygon, "FILE", "or in a polygon, one line \"X Z\" per vertex");
-  options.add("ellipse", settings.ellipse, "X,Z:A,B[:DIP]",
-              "or in an ellipse around X,Z with half axes A, which dips by DIP, and B; in 3-D "
-              "X,Y,Z:A,B,C[:DIP[:AZIMUTH]]");
-  options.add("slab", settings.slab, "X,Z:L,T[:DIP]",
-              "or in a slab of length L and thickness T; in 3-D X,Y,Z:L,WIDTH,T[:DIP[:AZIMUTH]]");
-  options.add(
-      "segment", settings.segments, "X,Z:X,Z",
-      "instead of a region and planes: one straight fracture of --compliance or --stiffness; repeatable");
-  options.add("trace", settings.traces, "FILE",
-              "or single fractures along curves, one line \"X Z\" per vertex, an empty line between two; "
-              "repeatable");
-  options.add("open", settings.open,
-              "single fractures carry no traction: open cracks, instead of --compliance; level or upright "
-              "ones, which --faces moves to the nearest face between cells");
-  options.add("faces", settings.faces,
-              "single fractures part the faces between cells instead of softening the cells beside them: for "
-              "compliances above 2e-10 m/Pa; level or upright ones");
-  options.add("network", settings.network, "N",
-              "or N straight single fractures with centres drawn from the region, of --length, about --dip");
-  options.add("intensity", settings.intensity, "P21",
-              "instead of N: metres of single fractures in a square metre of the region");
-  options.add("length", settings.length, "MIN:MAX[:EXPONENT]",
-              "lengths of a network, m: their density falls as a power of the length [2]");
-  options.add("concentration", settings.concentration, "KAPPA",
-              "dips of a network: von Mises distribution about --dip, of twice the angle; 0: all directions "
-              "[all have the dip]");
-  options.add("count", settings.count, "N",
-              "fracture only N small slabs in the region, parallel to the planes");
-  options.add("body", settings.body, "L,T",
-              "mean length and thickness of the slabs [1/10 of the region's longer side, 1/10 of that]");
-  options.add("seed", settings.seed, "S", "random seed of the slabs or of the network");
-  options.add(
-      "dip", settings.dips, "DEG[:AZIMUTH]",
-      "dip of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "
-      "(90: +y); repeat for two families of planes, in 3-D up to three");
-  options.add("normal", settings.normals, "NX,NZ",
-              "or their normal, of any length; z points down; in 3-D NX,NY,NZ");
-  declare_laws(options, settings);
-  options.add("block", settings.block, "blocks: add planes at right angles to those of --dip or --normal");
-  options.add("opening", settings.opening, "planes open under tension; otherwise they carry it");
-  options.add(
-      "prestress", settings.prestress, "STRESS",
-      "static stress of these cells, Pa: none, lithostatic[:K0] (the overburden; sideways K0 times that "
-      "[lambda/(lambda + 2 mu)]), a pressure, or SXX,SZZ,SXZ, in 3-D SXX,SYY,SZZ,SXY,SXZ,SYZ, tension "
-      "positive");
-  options.add("name", settings.name, "S", "name of the fracture set [fractures-N]");
-  options.add("output,o", settings.output, "M", "model file; - is standard output");
-  options.common({"box", "polygon", "slab", "segment", "trace", "dip", "normal", "friction", "viscosity",
-                  "compliance", "spacing", "prestress", "name", "output"});
-}
+using Settings = FractureSettings;
 
 /// Of "DEG", in 3-D "DEG" or "DEG:AZIMUTH".
 template <int D>
@@ -238,7 +136,10 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
 void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
 bool drawn(const Settings& s) { return !s.network.empty() || s.intensity; }
-bool single(const Settings& s) { return !s.segments.empty() || !s.traces.empty() || drawn(s); }
+bool given(const Settings& s) {
+  return !s.segments.empty() || !s.traces.empty() || !s.discs.empty() || !s.rectangles.empty();
+}
+bool single(const Settings& s) { return given(s) || drawn(s); }
 
 /// Throws a usage Error where friction is half given or contradicts the rest.
 void check_friction(const Settings& s) {
@@ -294,8 +195,9 @@ SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
 /// Throws a usage Error where single fractures are given what belongs to clusters.
 void check_single(const Settings& s) {
   if (!drawn(s))
-    for (const auto& [name, given] :
-         {std::pair{"length", !s.length.empty()}, {"concentration", s.concentration.has_value()}})
+    for (const auto& [name, given] : {std::pair{"length", !s.length.empty()},
+                                      {"radius", !s.radius.empty()},
+                                      {"concentration", s.concentration.has_value()}})
       if (given) refuse("--" + std::string(name) + " needs --network or --intensity");
   for (const auto& [name, given] : {std::pair{"open", s.open}, {"faces", s.faces}})
     if (given && !single(s))
@@ -303,13 +205,12 @@ void check_single(const Settings& s) {
   if (!single(s)) return;
   if (s.open && s.compliance.given())
     refuse("found --open and a compliance, give one of both: an open fracture carries no traction");
-  if (drawn(s) && (!s.segments.empty() || !s.traces.empty() || (!s.network.empty() && s.intensity)))
+  if (drawn(s) && (given(s) || (!s.network.empty() && s.intensity)))
     refuse(
         "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "
-        "--trace may stand together)");
+        "--trace may stand together, in 3-D --disc, --rectangle and --trace)");
   if (!s.compliance.given() && !s.open)
     refuse("--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT or --open");
-  if (drawn(s) && s.length.empty()) refuse("--length is missing; expected --length MIN:MAX[:EXPONENT]");
   if (drawn(s) && s.dips.size() != 1) refuse("--network and --intensity need one --dip");
   const auto& of = s.compliance;
   const bool region = !s.box.empty() || !s.polygon.empty() || !s.ellipse.empty() || !s.slab.empty();
@@ -332,6 +233,33 @@ void check_single(const Settings& s) {
              " with single fractures, which have --compliance or --stiffness and nothing else of clusters");
 }
 
+/// Throws a usage Error where single fractures are given what belongs to models of other dimensions.
+template <int D>
+void check_single_in(const Settings& s) {
+  if (!single(s)) return;
+  const std::pair<const char*, bool> flat[] = {{"segment", !s.segments.empty()},
+                                               {"length", !s.length.empty()},
+                                               {"open", s.open},
+                                               {"faces", s.faces}},
+                                     spatial[] = {{"disc", !s.discs.empty()},
+                                                  {"rectangle", !s.rectangles.empty()},
+                                                  {"radius", !s.radius.empty()}};
+  if constexpr (D == 3) {
+    for (const auto& [name, found] : flat)
+      if (found)
+        refuse("--" + std::string(name) + " needs a model in 2-D; in 3-D single fractures are --disc, " +
+               "--rectangle, --trace or a network of discs of --radius, with a compliance");
+    if (drawn(s) && s.radius.empty()) refuse("--radius is missing; expected --radius MIN:MAX[:EXPONENT]");
+  } else {
+    for (const auto& [name, found] : spatial)
+      if (found)
+        refuse("--" + std::string(name) + " needs a model in 3-D; in 2-D single fractures are --segment, " +
+               "--trace or a network of --length");
+    if (drawn(s) && s.length.empty()) refuse("--length is missing; expected --length MIN:MAX[:EXPONENT]");
+  }
+}
+
+template <int D>
 FractureNetwork network_of(const Settings& s) {
   FractureNetwork of;
   if (!s.network.empty()) {
@@ -343,11 +271,16 @@ FractureNetwork network_of(const Settings& s) {
   of.intensity_per_m = s.intensity.value_or(0);
   of.seed = std::uint64_t(s.seed);
   of.concentration = s.concentration;
-  of.dip_deg = in_place("--dip", [&] { return dip_of_normal(normal_of_dip(parse_number(s.dips[0]))); });
-  const auto lengths = in_place("--length", [&] {
-    auto numbers = parse_numbers(s.length, ':');
-    if (numbers.size() < 2 || numbers.size() > 3)
-      refuse("found '" + s.length + "', expected MIN:MAX[:EXPONENT]");
+  const auto normal = in_place("--dip", [&] { return normal_of<D>(s.dips[0]); });
+  if constexpr (D == 2) of.dip_deg = dip_of_normal(normal);
+  if constexpr (D == 3) {
+    const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
+    of.dip_deg = dip_deg, of.azimuth_deg = azimuth_deg;
+  }
+  const auto lengths = in_place(D == 2 ? "--length" : "--radius", [&] {
+    const auto& text = D == 2 ? s.length : s.radius;
+    auto numbers = parse_numbers(text, ':');
+    if (numbers.size() < 2 || numbers.size() > 3) refuse("found '" + text + "', expected MIN:MAX[:EXPONENT]");
     return numbers;
   });
   of.least_m = lengths[0], of.most_m = lengths[1];
@@ -356,18 +289,42 @@ FractureNetwork network_of(const Settings& s) {
 }
 
 /// The traces that are given or drawn.
-std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>& grid) {
-  if (drawn(settings)) return drawn_fractures(grid, region_of<2>(settings), network_of(settings));
+std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>& grid, const cli::Context&) {
+  if (drawn(settings)) return drawn_fractures(grid, region_of<2>(settings), network_of<2>(settings));
   std::vector<FractureTrace<2>> all;
   for (const auto& text : settings.segments) {
     all.push_back(in_place("--segment", [&] { return parse_segment(text); }));
     in_place("--segment", [&] { check_trace(grid, all.back()); });
   }
   for (const auto& path : settings.traces)
-    for (const auto& trace : read_fracture_traces(path)) {
+    for (const auto& trace : read_fracture_traces<2>(path)) {
       in_place("--trace: " + path, [&] { check_trace(grid, trace); });
       all.push_back(trace);
     }
+  return all;
+}
+
+/// The same of polygons, which end with the model.
+std::vector<FractureTrace<3>> traces_of(const Settings& settings, const Grid<3>& grid,
+                                        const cli::Context& context) {
+  if (drawn(settings)) return drawn_fractures(grid, region_of<3>(settings), network_of<3>(settings));
+  std::vector<FractureTrace<3>> all;
+  double outside_m2 = 0;
+  const auto add = [&](const FractureTrace<3>& polygon) {
+    if (const auto fault = fault_of_polygon(polygon); !fault.empty()) refuse(fault);
+    all.push_back(clipped(polygon, box_of_grid(grid)));
+    if (all.back().empty()) refuse("found no part of the fracture in the model, which is " + shown(grid));
+    outside_m2 += std::max(0., area_of(polygon) - area_of(all.back()));
+  };
+  for (const auto& text : settings.discs) in_place("--disc", [&] { add(parse_disc(text)); });
+  for (const auto& text : settings.rectangles) in_place("--rectangle", [&] { add(parse_rectangle(text)); });
+  for (const auto& path : settings.traces)
+    for (const auto& polygon : read_fracture_traces<3>(path))
+      in_place("--trace: " + path, [&] { add(polygon); });
+  double area_m2 = 0;
+  for (const auto& polygon : all) area_m2 += area_of(polygon);
+  if (outside_m2 > 1e-9 * area_m2)
+    context.warn("fractures end with the model: " + shown(outside_m2, 3) + " m2 of them are outside");
   return all;
 }
 
@@ -385,21 +342,34 @@ void place_on_faces(const Settings& settings, const Grid<2>& grid,
                  " m beside their traces: what they scatter comes from there");
 }
 
-/// Puts single fractures into the model, and says how many cells they lie in, or faces on.
-FractureCount put_single(const Settings& settings, Model<2>& model, const cli::Context& context) {
-  FractureSet<2> set{settings.name, {}, {}};
-  set.traces = traces_of(settings, model.grid());
-  if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
-  set.systems = {system_of<2>(settings, normal_between_tips(set.traces.front()))};
-  set.on_faces = settings.open || settings.faces;
-  if (set.on_faces) place_on_faces(settings, model.grid(), set.traces, context);
-  const auto count = add_single_fractures(model, set);
+/// How large all fractures of a set are.
+std::string size_of(const FractureSet<2>& set) {
   double length_m = 0;
   for (const auto& trace : set.traces) length_m += length_of(trace);
+  return shown(length_m, 4) + " m";
+}
+std::string size_of(const FractureSet<3>& set) {
+  double area_m2 = 0;
+  for (const auto& polygon : set.traces) area_m2 += area_of(polygon);
+  return shown(area_m2, 4) + " m2";
+}
+
+/// Puts single fractures into the model, and says how many cells they lie in, or faces on.
+template <int D>
+FractureCount put_single(const Settings& settings, Model<D>& model, const cli::Context& context) {
+  FractureSet<D> set{settings.name, {}, {}};
+  set.traces = traces_of(settings, model.grid(), context);
+  if (set.name.empty()) set.name = "fractures-" + std::to_string(model.fracture_sets.size() + 1);
+  const auto& first = set.traces.front();
+  if constexpr (D == 2) set.systems = {system_of<D>(settings, normal_between_tips(first))};
+  if constexpr (D == 3) set.systems = {system_of<D>(settings, normal_of_polygon(first))};
+  set.on_faces = settings.open || settings.faces;
+  if constexpr (D == 2)
+    if (set.on_faces) place_on_faces(settings, model.grid(), set.traces, context);
+  const auto count = add_single_fractures(model, set);
   context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
-               " of set '" + set.name + "', " + shown(length_m, 4) + " m in all, " +
-               (set.on_faces ? "on " : "in ") + std::to_string(count.marked) +
-               (set.on_faces ? " faces" : " cells"));
+               " of set '" + set.name + "', " + size_of(set) + " in all, " + (set.on_faces ? "on " : "in ") +
+               std::to_string(count.marked) + (set.on_faces ? " faces" : " cells"));
   if (count.taken > 0)
     context.warn(std::to_string(count.taken) +
                  " cells of earlier clusters have only the single fractures now");
@@ -432,11 +402,6 @@ FractureCount change_rock<2>(const Settings&, Model<2>& model, const std::vector
   return in_place("--effective", [&] { return make_effective(model, systems, region.contains); });
 }
 
-FractureCount put_single(const Settings&, Model<3>&, const cli::Context&) {
-  throw Error("single fractures (--segment, --trace, --network, --intensity) need a model in 2-D",
-              ErrorKind::usage);
-}
-
 /// Adds the set just described, with its stress and viscosity, and says how many cells it has.
 template <int D>
 FractureCount put_set(const Settings& settings, Model<D>& model, const std::vector<SlipSystem<D>>& systems,
@@ -460,6 +425,7 @@ FractureCount put_set(const Settings& settings, Model<D>& model, const std::vect
 template <int D>
 void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
               const cli::Context& context) {
+  check_single_in<D>(settings);
   std::vector<SlipSystem<D>> systems;
   if (!single(settings))
     for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));

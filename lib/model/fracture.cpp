@@ -41,7 +41,7 @@ bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t c
   if (has_tilted_axis(medium, cell)) return true;
   // All other planes of 3-D meet two shear moduli.
   if (D == 3)
-    return set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
+    return !set.traces.empty() || set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
            !(std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9);
   for (const auto& trace : set.traces)
     for (std::size_t n = 1; n < trace.size(); ++n)

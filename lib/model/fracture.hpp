@@ -29,7 +29,7 @@ bool is_oblique(const Point<D>& normal) {
 }
 /// Whether slip on any planes of a set takes more off the stress of an anisotropic cell than off that of
 /// isotropic rock: in 2-D where planes lie askew to the axes of symmetry, or these to the grid; in 3-D all
-/// but those of one level family in rock that is alike in all horizontal directions.
+/// but those of one level family in rock that is alike in all horizontal directions, and single fractures.
 template <int D>
 bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell);
 

@@ -8,15 +8,17 @@
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "model/noise.hpp"
+#include "model/planar_fracture.hpp"
 
 namespace slipwave {
 namespace {
 
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
-bool within(const Grid<2>& grid, const Point<2>& at) {
+template <int D>
+bool within(const Grid<D>& grid, const Point<D>& at) {
   const auto place = grid.row_coordinates(at);
-  for (std::size_t axis = 0; axis < 2; ++axis)
+  for (std::size_t axis = 0; axis < D; ++axis)
     if (!(place[axis] >= grid.origin_m[axis] && place[axis] <= grid.end(int(axis)))) return false;
   return true;
 }
@@ -35,29 +37,80 @@ Point<2> cut_off(const Grid<2>& grid, const Point<2>& centre, const Point<2>& en
   return at(inside);
 }
 
-/// Of the cells whose centres are in the region, m2.
-double area_of(const Grid<2>& grid, const Region& region) {
+/// Of the cells whose centres are in the region, m2, in 3-D m3.
+template <int D>
+double size_of(const Grid<D>& grid, const RegionIn<D>& region) {
   double sum = 0;
   for (std::int64_t n = 0; n < grid.size(); ++n) {
     const auto at = grid.index(n);
-    if (region.contains({grid.centre(0, at[0]), grid.depth(at)})) sum += grid.spacing_m * grid.height(at);
+    Point<D> centre{};
+    for (std::size_t axis = 0; axis < D; ++axis) centre[axis] = grid.centre(int(axis), at[axis]);
+    centre[D - 1] = grid.depth(at);
+    if (region.contains(centre)) sum += std::pow(grid.spacing_m, D - 1) * grid.height(at);
   }
   return sum;
 }
 
+/// Fractures, by draw(centre, number of the first random number that is left), until there are enough by
+/// count or by size(fracture). Each try draws numbers of its own, so that a fracture does not depend on how
+/// many there are.
+template <int D, class Draw, class Size>
+std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& region, const FractureNetwork& of,
+                                    const Draw& draw, const Size& size) {
+  check<D>(of);
+  const double wanted = of.count > 0 ? 0 : of.intensity_per_m * size_of(grid, region);
+  const auto &low = region.bounds.low_m, &high = region.bounds.high_m;
+  constexpr std::int64_t numbers_a_try = std::int64_t{2} * D, tries_a_fracture = 10000;
+  std::vector<FractureTrace<D>> all;
+  double sum = 0;
+  for (std::int64_t n = 0;; n += numbers_a_try) {
+    if (of.count > 0 ? all.size() == std::size_t(of.count) : sum >= wanted) break;
+    if (n / numbers_a_try > tries_a_fracture * (std::int64_t(all.size()) + 1))
+      throw Error("found no place for a fracture in the region, expected it to fill more of its bounds");
+    Point<D> centre;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      centre[axis] = uniform(of.seed, n + std::int64_t(axis), low[axis], high[axis]);
+    if (!region.contains(centre) || !within<D>(grid, centre)) continue;
+    auto fracture = draw(centre, n + D);
+    const double larger = size(fracture);
+    if (of.count == 0 && !all.empty() && sum + larger / 2 > wanted) break;
+    sum += larger;
+    all.push_back(std::move(fracture));
+  }
+  return all;
+}
+
+/// A direction at an angle from another, turned about it.
+Point<3> direction_about(const Point<3>& mean, double cosine, double turn) {
+  // Across the mean, whichever axis is farthest from it.
+  const Point<3> far = std::abs(mean[2]) < 0.5 ? Point<3>{0, 0, 1} : Point<3>{1, 0, 0};
+  const auto first = unit_normal<3>(cross_product(mean, far)), second = cross_product(mean, first);
+  const double sine = std::sqrt(std::max(0., 1 - cosine * cosine));
+  Point<3> direction{};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    direction[axis] =
+        cosine * mean[axis] + sine * (std::cos(turn) * first[axis] + std::sin(turn) * second[axis]);
+  return unit_normal<3>(direction);
+}
+
 }  // namespace
 
+template <int D>
 void check(const FractureNetwork& of) {
   if (of.count < 0) refuse("--network: found " + std::to_string(of.count) + ", expected at least 1");
   if (of.count == 0 && !(of.intensity_per_m > 0))
-    refuse("--intensity: found " + shown(of.intensity_per_m) +
-           ", expected metres of fractures in a square metre above zero");
+    refuse("--intensity: found " + shown(of.intensity_per_m) + ", expected " +
+           (D == 2 ? "metres" : "square metres") + " of fractures in a " + (D == 2 ? "square" : "cubic") +
+           " metre above zero");
   if (!(of.least_m > 0 && of.most_m >= of.least_m))
-    refuse("--length: found " + shown(of.least_m) + " to " + shown(of.most_m) +
-           " m, expected lengths above zero, the shortest first");
+    refuse((D == 2 ? "--length: found " : "--radius: found ") + shown(of.least_m) + " to " +
+           shown(of.most_m) + " m, expected " + (D == 2 ? "lengths" : "radii") + " above zero, the " +
+           (D == 2 ? "shortest" : "smallest") + " first");
   if (of.concentration && !(*of.concentration >= 0))
     refuse("--concentration: found " + shown(*of.concentration) + ", expected it not below zero");
 }
+template void check<2>(const FractureNetwork&);
+template void check<3>(const FractureNetwork&);
 
 double drawn_length(const FractureNetwork& of, double share) {
   const double power = 1 - of.exponent, ratio = of.most_m / of.least_m;
@@ -80,33 +133,40 @@ double drawn_turn(double concentration, double share) {
   return 180 * ((double(above - 1) + part) / steps - 0.5);
 }
 
+double drawn_cosine(double concentration, double share) {
+  if (concentration < 1e-6) return 2 * share - 1;
+  // Its limit of a large concentration neither overflows nor vanishes.
+  const double least = std::exp(-2 * concentration);
+  return std::max(-1., 1 + std::log(least + (1 - least) * share) / concentration);
+}
+
 std::vector<FractureTrace<2>> drawn_fractures(const Grid<2>& grid, const Region& region,
                                               const FractureNetwork& of) {
-  check(of);
-  const double wanted_m = of.count > 0 ? 0 : of.intensity_per_m * area_of(grid, region);
-  const auto &low = region.bounds.low_m, &high = region.bounds.high_m;
-  constexpr std::int64_t numbers_a_try = 4, tries_a_fracture = 10000;
-  std::vector<FractureTrace<2>> all;
-  double length_m = 0;
-  // Each try draws numbers of its own, so that a fracture does not depend on how many there are.
-  for (std::int64_t n = 0;; n += numbers_a_try) {
-    if (of.count > 0 ? all.size() == std::size_t(of.count) : length_m >= wanted_m) break;
-    if (n / numbers_a_try > tries_a_fracture * (std::int64_t(all.size()) + 1))
-      throw Error("found no place for a fracture in the region, expected it to fill more of its bounds");
-    const Point<2> centre = {uniform(of.seed, n, low[0], high[0]), uniform(of.seed, n + 1, low[1], high[1])};
-    if (!region.contains(centre) || !within(grid, centre)) continue;
-    const double turn = of.concentration ? drawn_turn(*of.concentration, uniform(of.seed, n + 3, 0, 1)) : 0;
+  const auto draw = [&](const Point<2>& centre, std::int64_t n) -> FractureTrace<2> {
+    const double turn = of.concentration ? drawn_turn(*of.concentration, uniform(of.seed, n + 1, 0, 1)) : 0;
     const double dip = (of.dip_deg + turn) * std::numbers::pi / 180;
-    const double half = drawn_length(of, uniform(of.seed, n + 2, 0, 1)) / 2;
+    const double half = drawn_length(of, uniform(of.seed, n, 0, 1)) / 2;
     const double x = half * std::cos(dip), z = half * std::sin(dip);
-    FractureTrace<2> trace = {cut_off(grid, centre, {centre[0] - x, centre[1] - z}),
-                              cut_off(grid, centre, {centre[0] + x, centre[1] + z})};
-    const double longer = length_of(trace);
-    if (of.count == 0 && !all.empty() && length_m + longer / 2 > wanted_m) break;
-    length_m += longer;
-    all.push_back(std::move(trace));
-  }
-  return all;
+    return {cut_off(grid, centre, {centre[0] - x, centre[1] - z}),
+            cut_off(grid, centre, {centre[0] + x, centre[1] + z})};
+  };
+  return drawn<2>(grid, region, of, draw, length_of);
+}
+
+std::vector<FractureTrace<3>> drawn_fractures(const Grid<3>& grid, const RegionIn<3>& region,
+                                              const FractureNetwork& of) {
+  const auto mean = normal_of_dip(of.dip_deg, of.azimuth_deg);
+  const auto box = box_of_grid(grid);
+  const auto draw = [&](const Point<3>& centre, std::int64_t n) {
+    const double radius_m = drawn_length(of, uniform(of.seed, n, 0, 1));
+    const auto normal =
+        of.concentration
+            ? direction_about(mean, drawn_cosine(*of.concentration, uniform(of.seed, n + 1, 0, 1)),
+                              2 * std::numbers::pi * uniform(of.seed, n + 2, 0, 1))
+            : mean;
+    return clipped(disc_of(centre, radius_m, normal), box);
+  };
+  return drawn<3>(grid, region, of, draw, area_of);
 }
 
 }  // namespace slipwave

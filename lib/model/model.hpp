@@ -28,14 +28,14 @@ struct SlipSystem {
   bool slides() const { return law != FrictionLaw::none; }
 };
 
-/// A single fracture: its vertices, m in true depth, from one tip to the other.
+/// A single fracture: its vertices, m in true depth, from tip to tip; in 3-D those of a plane polygon.
 template <int D>
 using FractureTrace = std::vector<Point<D>>;
 
-/// Cells that share slip systems: 1 to D systems. Or single fractures (2-D), all of the compliance of the one
+/// Cells that share slip systems: 1 to D systems. Or single fractures, all of the compliance of the one
 /// system, without spacing and whatever its normal: then the set's cells are those beside the traces, or,
-/// with `on_faces`, none: the fractures part the faces between cells that they lie on (parted_faces.hpp), and
-/// may have infinite compliances: they are open.
+/// with `on_faces` (2-D), none: the fractures part the faces between cells that they lie on
+/// (parted_faces.hpp), and may have infinite compliances: they are open.
 template <int D>
 struct FractureSet {
   std::string name;

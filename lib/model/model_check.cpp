@@ -7,6 +7,7 @@
 #include "model/attenuation.hpp"
 #include "model/fracture.hpp"
 #include "model/model.hpp"
+#include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/tilted_mean.hpp"
 
@@ -196,12 +197,17 @@ void check_single(const FractureSet<D>& set, const std::string& name) {
   if (set.on_faces && set.traces.empty())
     throw Error(name + " lies on faces, expected single fractures there");
   if (set.traces.empty()) return;
-  if (D == 3) throw Error(name + " has single fractures, which are of models in 2-D");
+  if (D == 3 && set.on_faces)
+    throw Error(name + " lies on faces between cells, which fractures of models in 2-D do");
   const auto& system = set.systems.front();
   if (set.systems.size() != 1 || system.slides() || system.compliance.damped() ||
       system.compliance.crack_density > 0)
     throw Error(name + ": single fractures have a normal and a tangential compliance and no other law");
   for (const auto& trace : set.traces) {
+    if constexpr (D == 3) {
+      if (const auto fault = fault_of_polygon(trace); !fault.empty()) throw Error(name + ": " + fault);
+      continue;
+    }
     bool good = trace.size() > 1;
     for (std::size_t n = 0; good && n < trace.size(); ++n) {
       good = n == 0 || trace[n] != trace[n - 1];

@@ -10,6 +10,7 @@
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
+#include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
 
@@ -111,14 +112,15 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
     of_set.count("cut by its edge", cells.cut);
     of_set.number("as whole cells", std::round(cells.shares * 10) / 10, "");
   }
-  if constexpr (D == 2) {
-    double length_m = 0;
-    for (const auto& trace : set.traces) length_m += length_of(trace);
-    if (!set.traces.empty()) {
-      of_set.count("single fractures", std::int64_t(set.traces.size()));
-      of_set.number("length of all", length_m, "m");
-      if (set.on_faces) of_set.text("lie", "on faces between cells");
+  if (!set.traces.empty()) {
+    double size = 0;
+    for (const auto& trace : set.traces) {
+      if constexpr (D == 2) size += length_of(trace);
+      if constexpr (D == 3) size += area_of(trace);
     }
+    of_set.count("single fractures", std::int64_t(set.traces.size()));
+    of_set.number(D == 2 ? "length of all" : "area of all", size, D == 2 ? "m" : "m2");
+    if (set.on_faces) of_set.text("lie", "on faces between cells");
   }
   std::vector<Report> systems;
   for (const auto& system : set.systems) {

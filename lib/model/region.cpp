@@ -6,6 +6,7 @@
 #include "io/input_bytes.hpp"
 #include "model/frame.hpp"
 #include "model/points_file.hpp"
+#include "model/polygon.hpp"
 
 namespace slipwave {
 namespace {
@@ -43,49 +44,15 @@ double volume_of(const Box<D>& box) {
   return volume;
 }
 
-/// Area of what a rectangle leaves of a polygon that does not cross itself, by cutting it along one side
-/// after the other (Sutherland & Hodgman 1974); edges that then lie on sides forth and back add nothing.
+/// Area of what a rectangle leaves of a polygon that does not cross itself.
 double area_within(std::vector<Point<2>> polygon, const Box<2>& cell) {
-  std::vector<Point<2>> left;
+  std::vector<Point<2>> room;
   for (const std::size_t axis : {0, 1})
-    for (const double sign : {1., -1.}) {
-      const double limit = sign > 0 ? cell.low_m[axis] : cell.high_m[axis];
-      left.clear();
-      for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-        const auto &from = polygon[j], &to = polygon[i];
-        const double before = sign * (from[axis] - limit), after = sign * (to[axis] - limit);
-        if ((before < 0) != (after < 0)) {
-          const double way = before / (before - after);
-          Point<2> crossing = {from[0] + way * (to[0] - from[0]), from[1] + way * (to[1] - from[1])};
-          crossing[axis] = limit;
-          left.push_back(crossing);
-        }
-        if (after >= 0) left.push_back(to);
-      }
-      polygon.swap(left);
+    for (const bool beyond : {true, false}) {
+      cut(polygon, room, axis, beyond ? cell.low_m[axis] : cell.high_m[axis], beyond);
       if (polygon.empty()) return 0;
     }
-  double twice = 0;
-  const auto& origin = polygon.front();  // so that little is lost in rounding
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++)
-    twice += (polygon[j][0] - origin[0]) * (polygon[i][1] - origin[1]) -
-             (polygon[i][0] - origin[0]) * (polygon[j][1] - origin[1]);
-  return std::abs(twice) / 2;
-}
-
-bool part_on_sides(const Point<2>& a, const Point<2>& b, const Point<2>& c, const Point<2>& d) {
-  const auto side = [](const Point<2>& p, const Point<2>& q, const Point<2>& r) {
-    return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]);
-  };
-  return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
-}
-
-bool crosses_itself(const std::vector<Point<2>>& vertices) {
-  const auto n = vertices.size();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = i + 2; j < n; ++j)
-      if (part_on_sides(vertices[i], vertices[i + 1], vertices[j], vertices[(j + 1) % n])) return true;
-  return false;
+  return std::abs(area_and_middle(polygon).area);
 }
 
 /// Calls with(point) at the middles of `parts` parts of a box along each axis but the last, and of so many

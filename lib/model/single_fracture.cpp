@@ -6,45 +6,17 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
-#include "grid/tensor.hpp"
 #include "io/input_bytes.hpp"
 #include "model/parted_faces.hpp"
+#include "model/planar_fracture.hpp"
 #include "model/points_file.hpp"
+#include "model/spline_shares.hpp"
 
 namespace slipwave {
 namespace {
 
 /// Points in which a piece is taken, per cell.
 constexpr double points_a_cell = 32;
-
-/// Components of the strain that a plane of unit density puts on rock for a stress (S19).
-std::array<double, 9> strain_of_plane(const Point<2>& n, double normal, double tangential) {
-  std::array<double, 9> all{};
-  for (std::size_t of = 0; of < 3; ++of) {
-    SymmetricTensor<2, double> stress, strain;
-    stress.values[of] = 1;
-    Point<2> tau;
-    const double s_n = resolve<2, double>(n, stress, tau);
-    for (std::size_t i = 0; i < 2; ++i)
-      for (std::size_t j = i; j < 2; ++j)
-        strain(int(i), int(j)) =
-            normal * s_n * n[i] * n[j] + tangential * (tau[i] * n[j] + n[i] * tau[j]) / 2;
-    for (std::size_t c = 0; c < 3; ++c) all[c * 3 + of] = strain.values[c];
-  }
-  return all;
-}
-
-/// Shares of a point in three cells of an axis, the first of them `first`: a quadratic B-spline about it,
-/// which keeps the place of the point wherever it lies in its cell.
-struct Shares {
-  std::int64_t first;
-  std::array<double, 3> of;
-};
-Shares shares_at(double position) {
-  const double nearest = std::floor(position + 0.5), off = position - nearest;
-  return {std::int64_t(nearest) - 1,
-          {(0.5 - off) * (0.5 - off) / 2, 0.75 - off * off, (0.5 + off) * (0.5 + off) / 2}};
-}
 
 /// What a point of a fracture brings to the cells about it.
 struct TracePoint {
@@ -53,9 +25,8 @@ struct TracePoint {
 };
 
 void add_point(const Grid<2>& grid, const Point<2>& at, const TracePoint& point,
-               std::map<std::size_t, CrossedCell>& cells) {
-  const auto place = grid.row_coordinates(at);
-  const Shares x = shares_at(grid.position(0, place[0])), z = shares_at(grid.position(1, place[1]));
+               std::map<std::size_t, CrossedCell<2>>& cells) {
+  const auto [x, z] = spline_shares<2>(grid, at);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < 3; ++i) {
       const Index<2> index = {x.first + std::int64_t(i), z.first + std::int64_t(k)};
@@ -104,7 +75,8 @@ std::array<double, 2> shares_within(const Box<2>& box, const Point<2>& from, con
 std::string shown_point(const Point<2>& point) { return shown(point[0]) + "," + shown(point[1]); }
 
 /// Marks with the code of a set what its fractures lie in, unless a later cluster took it.
-FractureCount mark(Model<2>& model, std::size_t code) {
+template <int D>
+FractureCount mark(Model<D>& model, std::size_t code) {
   FractureCount count;
   for (const auto& crossed : cells_crossed(model.grid(), model.fracture_sets[code - 1])) {
     auto& of_cell = model.fracture[crossed.cell];
@@ -149,20 +121,22 @@ FractureTrace<2> parse_segment(const std::string& text) {
   return {parse_point<2>(ends[0]), parse_point<2>(ends[1])};
 }
 
-std::vector<FractureTrace<2>> read_fracture_traces(const std::string& path) {
+template <int D>
+std::vector<FractureTrace<D>> read_fracture_traces(const std::string& path) {
   const auto text = read_text(path);
   return in_place(path, [&] {
-    std::vector<FractureTrace<2>> traces;
+    std::vector<FractureTrace<D>> traces;
     std::string part;
     int line = 0, first = 1;
     const auto finish = [&] {
       // Lines of the points are those of the file.
-      auto points = points_of_text<2>(std::string(std::size_t(first - 1), '\n') + part);
-      FractureTrace<2> trace;
+      auto points = points_of_text<D>(std::string(std::size_t(first - 1), '\n') + part);
+      FractureTrace<D> trace;
       for (const auto& point : points) trace.push_back(point.at);
-      if (trace.size() == 1)
-        throw Error("line " + std::to_string(points[0].line) +
-                    ": found a fracture of one point, expected at least 2");
+      if (!trace.empty() && trace.size() < std::size_t(D))
+        throw Error("line " + std::to_string(points[0].line) + ": found a fracture of " +
+                    (trace.size() == 1 ? "one point" : "two points") + ", expected at least " +
+                    std::to_string(D));
       if (!trace.empty()) traces.push_back(std::move(trace));
       part.clear();
       first = line + 1;
@@ -176,10 +150,13 @@ std::vector<FractureTrace<2>> read_fracture_traces(const std::string& path) {
         part += std::string(each) + "\n";
     }
     finish();
-    if (traces.empty()) throw Error("holds no fracture, expected lines of X Z");
+    if (traces.empty())
+      throw Error(std::string("holds no fracture, expected lines of ") + (D == 2 ? "X Z" : "X Y Z"));
     return traces;
   });
 }
+template std::vector<FractureTrace<2>> read_fracture_traces<2>(const std::string&);
+template std::vector<FractureTrace<3>> read_fracture_traces<3>(const std::string&);
 
 Point<2> normal_between_tips(const FractureTrace<2>& trace) {
   // Of a closed one the first piece.
@@ -194,9 +171,10 @@ double length_of(const FractureTrace<2>& trace) {
   return sum;
 }
 
-std::vector<CrossedCell> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
+template <>
+std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
   if (set.traces.empty()) return {};
-  std::map<std::size_t, CrossedCell> cells;
+  std::map<std::size_t, CrossedCell<2>> cells;
   const auto& of = set.systems.at(0).compliance;
   const auto bounds = bounds_of(grid);
   for (const auto& trace : set.traces)
@@ -204,20 +182,39 @@ std::vector<CrossedCell> cells_crossed(const Grid<2>& grid, const FractureSet<2>
       const Point<2> along = {trace[n][0] - trace[n - 1][0], trace[n][1] - trace[n - 1][1]};
       const double length_m = std::hypot(along[0], along[1]);
       const Point<2> normal = {-along[1] / length_m, along[0] / length_m};
-      const auto strain = strain_of_plane(normal, of.normal_m_per_pa, of.tangential_m_per_pa);
+      const auto strain = strain_of_plane<2>(normal, of.normal_m_per_pa, of.tangential_m_per_pa);
       const auto points = std::ceil(points_a_cell * length_m / grid.spacing_m);
       const auto [begin, end] = shares_within(bounds, trace[n - 1], along);
       for (double k = std::floor(begin * points) + 0.5; k < std::min(end * points + 1, points); ++k)
         add_point(grid, {trace[n - 1][0] + along[0] * k / points, trace[n - 1][1] + along[1] * k / points},
                   {length_m / points, strain}, cells);
     }
-  std::vector<CrossedCell> all;
+  std::vector<CrossedCell<2>> all;
   for (const auto& [number, cell] : cells) all.push_back(cell);
   return all;
 }
 
 template <>
-void place_single_fractures(Model<2>& model) {
+std::vector<CrossedCell<3>> cells_crossed(const Grid<3>& grid, const FractureSet<3>& set) {
+  if (set.traces.empty()) return {};
+  std::map<std::size_t, CrossedCell<3>> cells;
+  const auto& of = set.systems.at(0).compliance;
+  for (const auto& polygon : set.traces) {
+    const auto strain =
+        strain_of_plane<3>(normal_of_polygon(polygon), of.normal_m_per_pa, of.tangential_m_per_pa);
+    for (const auto& [number, density] : densities_of(grid, polygon)) {
+      auto& cell = cells[number];
+      cell.cell = number;
+      for (std::size_t n = 0; n < strain.size(); ++n) cell.strain[n] += density * strain[n];
+    }
+  }
+  std::vector<CrossedCell<3>> all;
+  for (const auto& [number, cell] : cells) all.push_back(cell);
+  return all;
+}
+
+template <int D>
+void place_single_fractures(Model<D>& model) {
   const auto& sets = model.fracture_sets;
   if (std::all_of(sets.begin(), sets.end(), [](const auto& set) { return set.traces.empty(); })) return;
   for (auto& code : model.fracture)
@@ -225,8 +222,8 @@ void place_single_fractures(Model<2>& model) {
   for (std::size_t code = 1; code <= sets.size(); ++code)
     if (!sets[code - 1].traces.empty() && !sets[code - 1].on_faces) mark(model, code);
 }
-template <>
-void place_single_fractures(Model<3>&) {}
+template void place_single_fractures(Model<2>&);
+template void place_single_fractures(Model<3>&);
 
 void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace) {
   if (trace.size() < 2)
@@ -246,11 +243,24 @@ void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace) {
   }
 }
 
-FractureCount add_single_fractures(Model<2>& model, const FractureSet<2>& set) {
+void check_trace(const Grid<3>& grid, const FractureTrace<3>& polygon) {
+  if (const auto fault = fault_of_polygon(polygon); !fault.empty()) throw Error(fault, ErrorKind::usage);
+  const auto box = box_of_grid(grid);
+  for (const auto& vertex : polygon)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (!(vertex[axis] >= box.low_m[axis] && vertex[axis] <= box.high_m[axis]))
+        throw Error("found the point " + shown(vertex[0]) + "," + shown(vertex[1]) + "," + shown(vertex[2]) +
+                        " outside the model, which is " + shown(grid),
+                    ErrorKind::usage);
+}
+
+template <int D>
+FractureCount add_single_fractures(Model<D>& model, const FractureSet<D>& set) {
   for (const auto& trace : set.traces) check_trace(model.grid(), trace);
   check_room_for_set(model);
-  if (model.fracture.empty()) model.fracture = Field<2, std::uint8_t>(model.grid());
-  if (set.on_faces) return add_on_faces(model, set);
+  if (model.fracture.empty()) model.fracture = Field<D, std::uint8_t>(model.grid());
+  if constexpr (D == 2)
+    if (set.on_faces) return add_on_faces(model, set);
   model.fracture_sets.push_back(set);
   const auto count = mark(model, model.fracture_sets.size());
   if (count.marked == 0)
@@ -258,5 +268,7 @@ FractureCount add_single_fractures(Model<2>& model, const FractureSet<2>& set) {
                 " cells that the fractures lie in is solid, at least one must be");
   return count;
 }
+template FractureCount add_single_fractures(Model<2>&, const FractureSet<2>&);
+template FractureCount add_single_fractures(Model<3>&, const FractureSet<3>&);
 
 }  // namespace slipwave

@@ -80,7 +80,7 @@ void draw_fractures(Canvas& canvas, const Panel& panel, const ModelSection& sect
       std::vector<Spot> spots;
       for (const auto& vertex : trace) spots.push_back({panel.x(vertex[0]), panel.y(vertex[1])});
       const bool dark = light[set + 1] < 0.5 * count[set + 1];
-      canvas.polyline(spots, {dark ? white : black, trace_pt});
+      if (!spots.empty()) canvas.polyline(spots, {dark ? white : black, trace_pt});
     }
 }
 

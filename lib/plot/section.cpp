@@ -9,6 +9,7 @@
 #include "grid/true_depth.hpp"
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/planar_fracture.hpp"
 #include "plot/derived_property.hpp"
 #include "plot/ticks.hpp"
 
@@ -65,9 +66,11 @@ Field<D, std::uint8_t> read_codes(const NetcdfFile& file, const Grid<D>& grid, s
   return field;
 }
 
-/// Sets as a section shows them: their normals without the part across it.
-std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& sets, int axis) {
-  const auto [across, down] = axes_left(axis);
+/// Sets as a section shows them: their normals without the part across it, and where it meets single
+/// fractures, or those that lie in its cells.
+std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& sets, const Slice& plane,
+                                            double spacing_m) {
+  const auto [across, down] = axes_left(plane.axis);
   std::vector<FractureSet<2>> seen;
   for (const auto& set : sets) {
     seen.push_back({set.name, {}});
@@ -79,6 +82,12 @@ std::vector<FractureSet<2>> seen_in_section(const std::vector<FractureSet<3>>& s
       flat.normal = {n[across] / length, n[down] / length};
       seen.back().systems.push_back(flat);
     }
+    auto& traces = seen.back().traces;
+    for (const auto& polygon : set.traces)
+      for (auto& line : met_by_plane(polygon, plane.axis, plane.at_m, spacing_m / 2))
+        traces.push_back(std::move(line));
+    // Cells beside single fractures are not those of a cluster, though the section meets none.
+    if (!set.traces.empty() && traces.empty()) traces.emplace_back();
   }
   return seen;
 }
@@ -126,7 +135,7 @@ std::vector<ModelSection> sections_of(const NetcdfFile& file, const Grid<3>& gri
     const auto sets = read_fracture_sets<3>(file);
     const auto codes = read_codes(file, grid, sets.size());
     for (std::size_t n = 0; n < layers.size(); ++n) {
-      sections[n].sets = seen_in_section(sets, layers[n].axis);
+      sections[n].sets = seen_in_section(sets, plane_of(grid, layers[n]), grid.spacing_m);
       sections[n].fracture = section_of(codes, layers[n]);
     }
   }

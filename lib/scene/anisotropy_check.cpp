@@ -32,7 +32,7 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
                                       : ", expected one level family in rock of level beds with gamma2 = "
                                         "gamma, or isotropic rock";
   if (gives(set)) {
-    if (D == 3) return "are springs" + expected;
+    if (D == 3) return "are springs" + (set.traces.empty() ? expected : ", expected isotropic rock");
     if (set.on_faces) return "are springs on faces and " + askew_to_axes + expected;
     if (any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
       return "are springs that slide or have dashpots and " + askew_to_axes + expected;

@@ -57,6 +57,34 @@ TEST_F(Compliance, OfSingleFracturesGoesFromTheCommandLineToTraces) {
                   "not counted: waves that single fractures send to each other"));
 }
 
+TEST_F(Compliance, OfDiscsGoesFromTheCommandLineToTraces) {
+  done("sw-layers --size 200x150x120 --step 10 --layer 0:3000:1500:2200 -q -o m.nc");
+  write("plates.txt", "40 40 60\n90 40 60\n90 100 80\n40 100 80\n\n120 50 30\n150 50 30\n150 50 90\n");
+  done(
+      "sw-fracture m.nc --disc 100,70,60:40:30:40 --rectangle 60,70,50:50,30:80 --compliance 1e-10,2e-10 -q "
+      "-o some.nc");
+  done("sw-fracture some.nc --trace plates.txt --stiffness 1e10,1e10 --name plates -q -o s.nc");
+  const auto info = done("sw-info s.nc");
+  EXPECT_TRUE(has(info, "single fractures 2, area of all 6526.548 m2")) << info;
+  EXPECT_TRUE(has(info, "name plates")) << info;
+  const std::string shot =
+      " --source 100,70,20 --receivers 50:150:50,60,20 --wavelet ricker:20 --time 0.15 --dt 0.002 -q ";
+  const auto plan = done("sw-shoot s.nc" + shot + "--plan -v");
+  EXPECT_TRUE(has(plan, "linear slip: ")) << plan;
+  EXPECT_TRUE(has(plan, "not estimated: waves of fractures in 3-D are not followed")) << plan;
+  done("sw-shoot s.nc" + shot + "-o with.sgy && sw-shoot s.nc" + shot +
+       "--without compliance -o without.sgy && sw-shoot s.nc" + shot + "--without slip -o intact.sgy");
+  done("sw-compare without.sgy intact.sgy --tolerance 0");
+  EXPECT_NE(run("sw-compare with.sgy intact.sgy --tolerance 0.001").code, 0);
+  done("sw-plot s.nc -o s.png && sw-plot s.nc --slice z=60 -o z.png");
+  const auto cut = run("sw-fracture m.nc --disc 100,70,10:40:90 --compliance 1e-10,1e-10 -o cut.nc");
+  EXPECT_TRUE(has(cut.err, "fractures end with the model: 1720 m2 of them are outside")) << cut.err;
+  const std::string drawn = "sw-fracture m.nc --box 0:200,0:150,0:120 --radius 10:40:2.5 --dip 70:30 ";
+  done(drawn + "--concentration 10 --network 12 --seed 4 --compliance 1e-10,1e-10 -o n.nc");
+  EXPECT_TRUE(has(done("sw-info n.nc"), "single fractures 12"));
+  done(drawn + "--intensity 0.02 --compliance 1e-10,1e-10 -o p.nc && sw-plot p.nc -o p.png");
+}
+
 TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
   done(model + "-o m.nc");
   expect_misuse("--compliance -1e-12,1e-12 --spacing 1",

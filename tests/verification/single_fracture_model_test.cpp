@@ -118,7 +118,7 @@ TEST(FractureTraces, AreReadFromTextWithEmptyLinesBetweenThem) {
   const auto path = std::filesystem::temp_directory_path() / ("traces-" + std::to_string(getpid()) + ".txt");
   const auto read = [&](const std::string& text) {
     std::ofstream(path) << text;
-    return read_fracture_traces(path.string());
+    return read_fracture_traces<2>(path.string());
   };
   const std::vector<FractureTrace<2>> two = {{{1, 2}, {3, 4}}, {{5, 6}, {7, 8}, {9, 1}}};
   EXPECT_EQ(read("1 2\n3,4 # end\n\n\n> second\n5 6\n# between\n7 8\n9 1\n"), two);

@@ -266,31 +266,28 @@ void LinearSlip<D, Real>::add_crossing(Group& group) const {
 /// Compliances of fractures of all sets add up where they cross (S30).
 template <int D, class Real>
 void LinearSlip<D, Real>::add_single(Group& group) const {
-  if constexpr (D == 2) {
-    constexpr std::size_t n = CrossedCell::components;
-    std::unordered_map<std::size_t, CrossedCell> cells;
-    for (const auto& set : model_.fracture_sets)
-      for (const auto& crossed : cells_crossed(model_.grid(), set)) {
-        auto& sum = cells[crossed.cell];
-        for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
-      }
-    group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-      const auto rock = rock_in_grid(model_.medium, cell);
-      const auto& of = cells[cell];
-      const auto strain_of = [&](const Tensor<D>& stress) {
-        Tensor<D> strain;
-        for (std::size_t c = 0; c < n; ++c)
-          for (std::size_t k = 0; k < n; ++k) strain.values[c] += of.strain[c * n + k] * stress.values[k];
-        return strain;
-      };
-      const auto put = [&](std::size_t row, double value) {
-        group.coefficients[row * group.places.stored() + place] = Real(value);
-      };
-      each_entry<D>(rock, strain_of, [&](std::size_t c, std::size_t k, double of_welded, double) {
-        put(c * n + k, of_welded);
-      });
-    });
-  }
+  constexpr std::size_t n = CrossedCell<D>::components;
+  std::unordered_map<std::size_t, CrossedCell<D>> cells;
+  for (const auto& set : model_.fracture_sets)
+    for (const auto& crossed : cells_crossed(model_.grid(), set)) {
+      auto& sum = cells[crossed.cell];
+      for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
+    }
+  group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
+    const auto rock = rock_in_grid(model_.medium, cell);
+    const auto& of = cells[cell];
+    const auto strain_of = [&](const Tensor<D>& stress) {
+      Tensor<D> strain;
+      for (std::size_t c = 0; c < n; ++c)
+        for (std::size_t k = 0; k < n; ++k) strain.values[c] += of.strain[c * n + k] * stress.values[k];
+      return strain;
+    };
+    const auto put = [&](std::size_t row, double value) {
+      group.coefficients[row * group.places.stored() + place] = Real(value);
+    };
+    each_entry<D>(rock, strain_of,
+                  [&](std::size_t c, std::size_t k, double of_welded, double) { put(c * n + k, of_welded); });
+  });
 }
 
 /// Columns end between two vectors or with the row.
