@@ -78,20 +78,24 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 }
 
 /// What the largest speed along the axes of the grid is at most where those of the rock are turned, m/s: in
-/// 2-D of quasi-P waves in any direction, in space that of these axes, asked for once of cells that are
-/// alike.
+/// 2-D of quasi-P waves in any direction, in space that of these axes or, where rows dip, of any direction;
+/// asked for once of cells that are alike.
 template <int D>
 class FastestOfTilted {
  public:
-  double operator()(const Medium<D>& medium, std::size_t cell) {
+  double operator()(const Medium<D>& medium, std::size_t cell, bool dips = false) {
     const auto material = material_of(medium, cell);
     if (D == 2) return fastest_p_speed_at_most(material);
-    if (!(material == last_)) speed_ = fastest_along_grid(last_ = material);
+    if (!(material == last_) || dips != dips_) {
+      last_ = material, dips_ = dips;
+      speed_ = dips ? fastest_in_space(material) : fastest_along_grid(material);
+    }
     return speed_;
   }
 
  private:
   Material last_;
+  bool dips_ = false;
   double speed_ = 0;
 };
 
@@ -132,11 +136,10 @@ double fastest_across_cells(const Medium<D>& medium) {
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
     const auto of_model = row + grid.first[D - 1];
     // Across rows that are not level waves go in any direction.
-    const bool dips = D == 2 && medium.has(Property::epsilon) &&
-                      !(grid.rows->row_is_level(of_model) && grid.rows->row_is_level(of_model + 1));
+    const bool dips = !(grid.rows->row_is_level(of_model) && grid.rows->row_is_level(of_model + 1));
     for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
       see(cell, has_tilted_axis(medium, cell) || (dips && is_anisotropic(medium, cell))
-                    ? of_tilted(medium, cell)
+                    ? of_tilted(medium, cell, dips)
                     : double(medium.vp[cell]));
   }
   for (const auto cell : cells_of_tilted_means(medium)) see(cell, fastest_in_tilted_mean(medium, cell));

@@ -15,12 +15,12 @@ struct Subdomain {
   std::int64_t first = 0, last = 0;  // first <= row < last
   /// Rows beside them that are refreshed by neighbours before each time tile.
   std::int64_t exchanged = 0;
-  bool slips = false;               // whether anything slips in any part
-  bool shear = false;               // whether any part has shear stress: solid cells or bent rows
-  bool anisotropic = false;         // whether any part has anisotropic cells
-  bool tilted = false;              // whether any part has rock in 3-D whose axes are turned
-  bool tilted_means = false;        // whether any part has cells that interfaces cut as tilted means
-  double fastest = 0;               // largest vp of the whole model, m/s
+  bool slips = false;         // whether anything slips in any part
+  bool shear = false;         // whether any part has shear stress: solid cells or bent rows
+  bool anisotropic = false;   // whether any part has anisotropic cells
+  bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
+  bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
+  double fastest = 0;         // largest vp of the whole model, m/s
   double fastest_across_cells = 0;  // the same of fastest_across_cells()
 
   bool is_whole() const { return rows == 0; }
