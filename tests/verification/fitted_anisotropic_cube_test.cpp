@@ -104,6 +104,78 @@ TEST(FittedAnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
   }
 }
 
+TEST(FittedAnisotropyInSpace, OfASliceOfYAndZIsThatInTwoDimensions) {
+  const ThreadLimit one_thread(1);
+  // Half sweeps along x of two steps are one in 2-D, but not along y: that error falls with the step.
+  const auto difference = [](double cfl) {
+    auto both = bent_slice({1, 2}, true, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing),
+                           turned_by(shale, 30, 0), turned_by(stiff, -15, 0));
+    both.flat.numerics.cfl *= cfl, both.deep.numerics.cfl *= cfl;
+    both.flat.recording.duration_s = both.deep.recording.duration_s = long_form() ? 0.1 : 0.05;
+    const double error = relative_error(samples_of(shoot(both.deep, 1)), samples_of(shoot(both.flat, 1)));
+    if (show()) std::printf("slice of y and z: %g\n", error);
+    return error;
+  };
+  const double coarse = difference(1);
+  EXPECT_LT(coarse, 4e-3);
+  if (!long_form()) return;
+  EXPECT_LT(difference(0.5), 0.6 * coarse);
+}
+
+TEST(FittedAnisotropyInSpace, ThatAttenuatesIsThatInTwoDimensions) {
+  const ThreadLimit one_thread(1);
+  auto both = bent_slice({0, 2}, true, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing),
+                         turned_by(shale, 30, 0), stiff);
+  const auto attenuate = [](auto& scene) {
+    auto& medium = scene.model.medium;
+    for (const auto property : {Property::qp, Property::qs}) {
+      medium[property] = medium.rho;
+      for (auto& value : medium[property]) value = property == Property::qp ? 30 : 20;
+    }
+    set_attenuation(scene);
+  };
+  const auto elastic = both;
+  attenuate(both.flat), attenuate(both.deep);
+  const double error = largest_error(both);
+  if (show()) std::printf("attenuating slice: %g\n", error);
+  // Moduli without relaxation are single precision.
+  EXPECT_LT(error, 1e-5);
+  both.flat = elastic.flat;
+  EXPECT_GT(largest_error(both), 0.1);
+}
+
+TEST(FittedAnisotropyInSpace, LeavesStrainsAtASurfaceThatDipsThatPutNoTractionOnIt) {
+  const ThreadLimit one_thread(1);
+  const auto rock = turned_by(cracked, 30, 40, 20);
+  const auto surface = [](double x, double y) { return 50 + 0.3 * (x - 70) - 0.2 * (y - 70); };
+  auto medium = fitted_medium<3>(Grid<3>{{28, 28, 30}, 5, {0, 0, 0}},
+                                 {below(surface, {rock.vp, rock.vs, rock.rho})}, true);
+  put_rocks(medium, rock, rock, 0);
+  auto scene = scene_of(
+      std::move(medium), edges_all_3d(EdgeLaw::rigid), {62, 65, 100}, "force:0,0,1", "ricker:20",
+      {{85, 80, surface(85, 80)}},
+      {Component::exx, Component::eyy, Component::ezz, Component::eyz, Component::exz, Component::exy}, 0.08,
+      0.001);
+  scene.edges[2][0] = EdgeLaw::free;
+  check(scene);
+  const auto gather = shoot(scene, 1);
+  const auto c = space_stiffness_of(rock);
+  const std::array<double, 3> normal = {-0.3, 0.2, 1};
+  for (std::size_t i = 0; i < 3; ++i) {
+    double sum = 0, size = 0;
+    for (std::size_t n = 0; n < gather.traces[0].samples.size(); ++n) {
+      double traction = 0;
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 6; ++k)
+          traction += normal[j] * c.voigt[SpaceStiffness::pair(int(i), int(j))][k] * (k < 3 ? 1 : 2) *
+                      gather.traces[k].samples[n];
+      sum += traction * traction, size += std::pow(c.voigt[2][2] * gather.traces[2].samples[n], 2);
+    }
+    if (show()) std::printf("traction %g\n", std::sqrt(sum / size));
+    EXPECT_LT(std::sqrt(sum / size), 1e-4) << i;
+  }
+}
+
 /// The sea of fitted_sea_3d(), or hills of rock in its place.
 Scene<3> sea_or_hills(bool hills, const Material& rock, const Index<3>& shape = {40, 22, 44}) {
   auto scene = fitted_sea_3d(shape);
@@ -141,7 +213,7 @@ TEST(FittedAnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
     auto scene = sea_or_hills(hills, hills ? turned_by(cracked, 30, 20, 15) : shale, {54, 14, 40});
     scene.survey.sources[0].position_m = {182, 51, 132};
     scene.survey.receivers_m = {{190, 61, 120}, {172, 55, 143}};
-    scene.recording.duration_s = 0.01;
+    scene.recording.duration_s = 0.006;
     scene.numerics.double_precision = hills;
     scene.numerics.time_order = hills ? 4 : 2;
     scene.numerics.order = hills ? 7 : 5;
@@ -209,11 +281,11 @@ double difference_when_turned(bool bent, double cfl) {
 TEST(FittedAnisotropyInSpace, IsTurnedWithItsAxes) {
   const ThreadLimit one_thread(1);
   // Sweeps along x and y do not commute: that error falls with the step, as that of level rows does.
-  const double level = difference_when_turned(false, 0.4), coarse = difference_when_turned(true, 0.8),
-               fine = difference_when_turned(true, 0.4);
-  if (show()) std::printf("turned %g %g level %g\n", coarse, fine, level);
-  EXPECT_LT(fine, 1.5 * level);
-  EXPECT_LT(fine, 0.7 * coarse);
+  const double level = difference_when_turned(false, 0.8), coarse = difference_when_turned(true, 0.8);
+  if (show()) std::printf("turned %g level %g\n", coarse, level);
+  EXPECT_LT(coarse, 1.5 * level);
+  if (!long_form()) return;
+  EXPECT_LT(difference_when_turned(true, 0.4), 0.7 * coarse);
 }
 
 /// The error of a force in a space of one rock, whose rows follow a horizon that dips and rolls, against sums
@@ -254,12 +326,111 @@ TEST(FittedAnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   };
   EXPECT_LT(error_of("tilted", turned_by(cracked, 40, 25, -50), 10), 0.04);
   if (!long_form()) return;
-  for (const auto& [name, rock] : {std::pair{"upright", shale},
-                                   {"tilted", turned_by(shale, 30, 20)},
-                                   {"orthorhombic", turned_by(cracked, 40, 25, -50)}}) {
-    const double coarse = error_of(name, rock, 12), fine = error_of(name, rock, 24);
+  for (const auto& [name, rock] :
+       {std::pair{"upright", shale}, {"tilted", turned_by(cracked, 40, 25, -50)}}) {
+    const double coarse = error_of(name, rock, 12), fine = error_of(name, rock, 18);
     EXPECT_LT(coarse, 0.03) << name;
-    EXPECT_LT(fine, 0.006) << name;
+    EXPECT_LT(fine, 0.01) << name;
+  }
+}
+
+/// An experiment in rock below a surface, or a floor of water, that is level, or dips along x and y. Places
+/// are along the dip, along the strike, and below.
+struct TurnedExperiment {
+  Material rock;  // alike in all directions across its axis
+  bool sea;
+  int cells;  // per wavelength of its slowest wave at the peak
+
+  static constexpr double h = 5, slope_x = 0.25, slope_y = 0.15;
+  double wavelength() const { return h * cells; }
+  /// Of the dipping frame; that of the level one is the grid.
+  static std::array<SpaceVector, 3> frame() {
+    const double over = 1 / std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
+    const SpaceVector down = {-slope_x * over, -slope_y * over, over};
+    const double along = 1 / std::sqrt(1 + slope_x * slope_x);
+    const SpaceVector one = {along, 0, slope_x * along};
+    return {one,
+            {down[1] * one[2] - down[2] * one[1], down[2] * one[0] - down[0] * one[2],
+             down[0] * one[1] - down[1] * one[0]},
+            down};
+  }
+  /// The rock as the dipping frame sees it: its axis in components of the frame.
+  Material seen_level() const {
+    const auto axis = axes_of(rock)[2];
+    SpaceVector seen{};
+    const auto axes = frame();
+    for (std::size_t n = 0; n < 3; ++n)
+      for (std::size_t i = 0; i < 3; ++i) seen[n] += axes[n][i] * axis[i];
+    const double degree = std::numbers::pi / 180;
+    return turned_by(rock, std::atan2(std::hypot(seen[0], seen[1]), seen[2]) / degree,
+                     std::atan2(-seen[1], -seen[0]) / degree);
+  }
+
+  /// Traces along the dip, the strike and the normal.
+  std::vector<double> traces(bool dips) const {
+    const double l = wavelength(), depth = (sea ? 1.9 : 1.1) * l;
+    // Wide enough that nothing comes back from where the rows of the zones become level.
+    const auto across = std::int64_t(4.2 * cells),
+               down = std::int64_t(std::lround((sea ? 4.2 : 3.4) * cells));
+    const double middle = 0.5 * h * double(across), top = dips  ? depth
+                                                          : sea ? std::lround(1.9 * cells) * h
+                                                                : 0;
+    const auto axes = frame();
+    const auto place = [&](double a, double b, double c) -> Point<3> {
+      if (!dips) return {middle + a, middle + b, top + c};
+      Point<3> at = {middle, middle, top};
+      for (std::size_t i = 0; i < 3; ++i) at[i] += a * axes[0][i] + b * axes[1][i] + c * axes[2][i];
+      return at;
+    };
+    const auto horizon = [=](double x, double y) {
+      return dips ? depth + slope_x * (x - middle) + slope_y * (y - middle) : top;
+    };
+    const Grid<3> grid{{across, across, down}, h, {0, 0, 0}};
+    const Rock solid{rock.vp, rock.vs, rock.rho};
+    auto medium = sea    ? fitted_medium<3>(grid, {water_above, below(horizon, solid)})
+                  : dips ? fitted_medium<3>(grid, {below(horizon, solid)}, true)
+                         : uniform_cube(grid.shape, h, solid);
+    const auto own = dips ? rock : seen_level();
+    put_rocks(medium, own, own, 0);
+    std::vector<Point<3>> receivers;
+    for (const auto& at : {Point<3>{0.8, 0.3, 0.3}, {-0.7, 0.6, 0.5}, {0.2, -0.9, 0.25}, {-0.5, -0.6, 0.8}})
+      receivers.push_back(place(at[0] * l, at[1] * l, at[2] * l));
+    const double peak_hz = slowest_speeds_in_space(rock).s / l;
+    auto edges = edges_all_3d(EdgeLaw::absorbing);
+    if (!sea) edges[2][0] = EdgeLaw::free;
+    auto scene = scene_of(std::move(medium), edges, place(0.05 * l, -0.1 * l, (sea ? -0.6 : 0.7) * l),
+                          "explosion", ("ricker:" + std::to_string(peak_hz)).c_str(), receivers,
+                          {Component::vx, Component::vy, Component::vz}, 2.9 / peak_hz, 0.05 / peak_hz);
+    check(scene);
+    const auto gather = shoot(scene, 1);
+    std::vector<double> found;
+    for (std::size_t at = 0; at < receivers.size(); ++at)
+      for (std::size_t n = 0; n < 3; ++n)
+        for (std::size_t sample = 0; sample < gather.traces[at].samples.size(); ++sample) {
+          double sum = 0;
+          for (std::size_t i = 0; i < 3; ++i)
+            sum += (dips ? axes[n][i] : double(n == i)) *
+                   gather.traces[i * receivers.size() + at].samples[sample];
+          found.push_back(sum);
+        }
+    return found;
+  }
+  double difference() const { return relative_error(traces(true), traces(false)); }
+};
+
+TEST(FittedAnisotropyInSpace, OfAnExperimentThatIsTurnedIsTheTurnedField) {
+  const ThreadLimit one_thread(1);
+  for (const bool sea : {false, true}) {
+    if (!long_form() && sea) continue;
+    const auto rock = turned_by(shale, 25, 70);
+    const double coarse = TurnedExperiment{rock, sea, 10}.difference();
+    if (show()) std::printf("turned, %s, 10 cells: %.4f\n", sea ? "sea" : "surface", coarse);
+    EXPECT_LT(coarse, 0.05);
+    if (!long_form()) continue;
+    const double fine = TurnedExperiment{rock, sea, 18}.difference();
+    if (show()) std::printf("turned, %s, 18 cells: %.4f\n", sea ? "sea" : "surface", fine);
+    EXPECT_LT(fine, 0.01);
+    EXPECT_GT(std::log(coarse / fine) / std::log(1.8), 2);
   }
 }
 

@@ -10,7 +10,6 @@ namespace slipwave::solver {
 namespace {
 
 constexpr int most_places = 2 * max_reach + 1;
-constexpr std::size_t components = 6;  // of velocity, then traction
 
 /// Voigt's pairs above the diagonal, row by row.
 template <class What>
@@ -112,6 +111,24 @@ auto BentTiltedCellsInSpace<Real>::rows_of(std::int64_t line, std::int64_t cell)
   return {values_.data() + from * std::int64_t(values) + (cell - from), pitch};
 }
 
+/// Of velocities and tractions in the pairs of the waves of n cells.
+template <class Real>
+void BentTiltedCellsInSpace<Real>::find_weights(const Rows& rows, std::int64_t n, Real sign,
+                                                Weights (&weights)[3]) {
+  for (std::size_t wave = 0; wave < 3; ++wave) {
+    const std::size_t motions = 3 + 3 * wave;
+    for (std::int64_t i = 0; i < n; ++i) {
+      const Real before[] = {rows[motions][i], rows[motions + 1][i], rows[motions + 2][i]};
+      const Real behind[] = {rows[of_face + motions][i], rows[of_face + motions + 1][i],
+                             rows[of_face + motions + 2][i]};
+      const auto pair = wave_pair_in_space<Real>(before, rows[wave][i], behind, rows[of_face + wave][i],
+                                                 rows[2 * of_face + wave][i], sign);
+      for (std::size_t c = 0; c < components; ++c)
+        weights[wave].of[0][c][i] = pair.v[c], weights[wave].of[1][c][i] = pair.s[c];
+    }
+  }
+}
+
 template <class Real>
 void BentTiltedCellsInSpace<Real>::reconstruct_across(std::int64_t line, const IndexRange& columns,
                                                       const Kernels<Real>& kernels,
@@ -121,25 +138,14 @@ void BentTiltedCellsInSpace<Real>::reconstruct_across(std::int64_t line, const I
   if (empty()) return;
   const Real sign = scale < 0 ? -1 : 1;
   const auto cells = cells_of(line, columns);
-  Real weights[3][2][components][at_once];  // [wave][v, s]
+  Weights weights[3];
   Real motion[components][at_once];
   Real pairs[3][2][most_places][at_once];
   for (auto first = cells.first; first < cells.last;) {
     const auto last = std::min(end_of_run(first, cells.last), first + at_once);
     const auto n = last - first, to = cells_[std::size_t(first)].x - columns.first;
     const auto rows = rows_of(line, first);
-    for (std::size_t wave = 0; wave < 3; ++wave) {
-      const std::size_t motions = 3 + 3 * wave;
-      for (std::int64_t i = 0; i < n; ++i) {
-        const Real before[] = {rows[motions][i], rows[motions + 1][i], rows[motions + 2][i]};
-        const Real behind[] = {rows[of_face + motions][i], rows[of_face + motions + 1][i],
-                               rows[of_face + motions + 2][i]};
-        const auto pair = wave_pair_in_space<Real>(before, rows[wave][i], behind, rows[of_face + wave][i],
-                                                   rows[2 * of_face + wave][i], sign);
-        for (std::size_t c = 0; c < components; ++c)
-          weights[wave][0][c][i] = pair.v[c], weights[wave][1][c][i] = pair.s[c];
-      }
-    }
+    find_weights(rows, n, sign, weights);
     for (int k = -reach_; k <= reach_; ++k) {
       const Real* const field = fields.first + to + k * fields.stride;
       const Real* const half_n = metric.half_n + to + k * metric.stride;
@@ -152,7 +158,7 @@ void BentTiltedCellsInSpace<Real>::reconstruct_across(std::int64_t line, const I
       }
       const Real* const at[] = {motion[0], motion[1], motion[2], motion[3], motion[4], motion[5]};
       for (std::size_t wave = 0; wave < 3; ++wave)
-        for (const std::size_t of : {0, 1}) combine(n, at, weights[wave][of], pairs[wave][of][k + reach_]);
+        for (const std::size_t of : {0, 1}) combine(n, at, weights[wave].of[of], pairs[wave][of][k + reach_]);
     }
     Real up[3][at_once], down[3][at_once];
     for (std::size_t wave = 0; wave < 3; ++wave)

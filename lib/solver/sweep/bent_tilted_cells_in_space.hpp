@@ -55,6 +55,12 @@ class BentTiltedCellsInSpace {
     const Real* operator[](std::size_t n) const { return first + std::int64_t(n) * pitch; }
   };
   Rows rows_of(std::int64_t line, std::int64_t cell) const;
+  /// Of a wave's pair [v, s], by component of velocity, then of traction.
+  static constexpr std::size_t components = 6;
+  struct Weights {
+    Real of[2][components][at_once];
+  };
+  static void find_weights(const Rows& rows, std::int64_t n, Real sign, Weights (&weights)[3]);
   void fill(const Domain<3>& domain, const Metric<3, Real>& metric, std::int64_t line);
   /// Impedances beside a run of faces, of their lower (0) or upper side, as symmetric matrices.
   using Impedances = std::array<std::array<Real, at_once>, 6>;

@@ -447,12 +447,11 @@ PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell)
     return {c.c11 * of->rho, c.c13 * of->rho, c.c15 * of->rho,
             c.c33 * of->rho, c.c35 * of->rho, c.c55 * of->rho};
   }
-  const double zp = domain.impedance(wave_p)(cell), zs = domain.impedance(wave_s)(cell);
-  // A fluid that is rounded carries some shear across rows that dip.
-  if (domain.anisotropic() && zs > 0) {
+  if (domain.anisotropic()) {
     const auto c = stiffness_at(domain, cell);
     return {c.c11, c.c13, 0, c.c33, 0, c.c55};
   }
+  const double zp = domain.impedance(wave_p)(cell), zs = domain.impedance(wave_s)(cell);
   return {zp * zp, zp * zp - 2 * zs * zs, 0, zp * zp, 0, zs * zs};
 }
 
@@ -464,6 +463,7 @@ SpaceStiffness space_stiffness_at(const Domain<3>& domain, const Index<3>& cell)
       for (std::size_t j = 0; j < 6; ++j) c[i][j] = of->rho * of->stiffness.voigt[i][j];
     return stiffness;
   }
+  // A fluid that is rounded carries some shear across rows that dip.
   if (const double zp = domain.impedance(wave_p)(cell); domain.impedance(wave_s)(cell) == 0) {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) c[i][j] = zp * zp;

@@ -253,7 +253,7 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
         BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
         end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
         if constexpr (D == 3) end.normal.y = Real(normal.y);
-        if (domain.is_tilted(at)) find_tensor(domain, at, outward_ / rows_height, end);
+        if (domain.is_tilted(at)) find_tensor(domain, at, normal, outward_ / rows_height, end);
         end.factor = Real(dot(normal, normal) * outward_ / rows_height);
         bent_ends_.push_back(end);
       }
@@ -274,15 +274,15 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
 }
 
 template <int D, class Real>
-void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& at, double factor,
-                                       BentEnd& end) {
+void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& at,
+                                       const RowVector<D, double>& normal, double factor, BentEnd& end) {
   end.anisotropic = true;
   if constexpr (D == 2) {
-    const auto of = acoustic_tensor(plane_stiffness_at(domain, at), double(end.normal.x), 1);
+    const auto of = acoustic_tensor(plane_stiffness_at(domain, at), normal.x, 1);
     end.tensor = {
         {{Real(factor * of.zz), Real(factor * of.zx)}, {Real(factor * of.zx), Real(factor * of.xx)}}};
   } else {
-    const auto n = normal_in_space(end.normal);
+    const auto n = normal_in_space(normal);
     const auto of = traction_of_rows(space_stiffness_at(domain, at), n, n);
     for (std::size_t c = 0; c < 3; ++c)
       end.tensor[c] = {Real(factor * of[c][0]), Real(factor * of[c][1]), Real(factor * of[c][2])};

@@ -85,7 +85,8 @@ class FreeSurface {
     bool anisotropic = false;
     std::array<RowVector<D, Real>, std::size_t(D)> tensor{};
   };
-  static void find_tensor(const Domain<D>& domain, const Index<D>& at, double factor, BentEnd& end);
+  static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
+                          double factor, BentEnd& end);
   void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
   /// A cell of rock whose axis is tilted: the place of b, and the density times the moduli by which what one
   /// pair does across the edge puts traction of another on it, over the height of the row, negative at a high

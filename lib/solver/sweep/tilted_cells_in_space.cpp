@@ -21,6 +21,35 @@ void add_share(std::int64_t n, const Real* __restrict of_one, const Real* __rest
   for (std::int64_t k = 0; k < n; ++k) stress[k] += of_one[k] * one[k] + of_other[k] * other[k];
 }
 
+/// J s of n cells of a bent row.
+template <class Real>
+void scale_by_height(std::int64_t n, const Real* __restrict half_j, const Real* __restrict stress,
+                     Real* __restrict to) {
+  for (std::int64_t i = 0; i < n; ++i) to[i] = (half_j[i] + half_j[i + 1]) * stress[i];
+}
+
+/// The pair of numbers of a wave with this motion, from velocities and tractions.
+template <class Real>
+void combine_pairs(std::int64_t n, const std::array<const Real*, 3>& motion,
+                   const std::array<const Real*, 3>& velocities, const std::array<const Real*, 3>& tractions,
+                   const Real* __restrict mean, const Real* __restrict turned, Real* __restrict v,
+                   Real* __restrict s) {
+  const Real* __restrict const q = motion[0];
+  const Real* __restrict const r = motion[1];
+  const Real* __restrict const t = motion[2];
+  const Real* __restrict const v0 = velocities[0];
+  const Real* __restrict const v1 = velocities[1];
+  const Real* __restrict const v2 = velocities[2];
+  const Real* __restrict const s0 = tractions[0];
+  const Real* __restrict const s1 = tractions[1];
+  const Real* __restrict const s2 = tractions[2];
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real own = q[i] * v0[i] + r[i] * v1[i] + t[i] * v2[i];
+    v[i] = mean[i] * own;
+    s[i] = turned[i] * own + (q[i] * s0[i] + r[i] * s1[i] + t[i] * s2[i]);
+  }
+}
+
 }  // namespace
 
 template <class Real>
@@ -201,35 +230,28 @@ void TiltedCells<3, Real>::reconstruct_bent_run(int axis, const IndexRange& run,
   const Real sign = scale < 0 ? -1 : 1;
   const int reach = reach_;
   Real v[3][2 * max_reach + 1][at_once], s[3][2 * max_reach + 1][at_once];  // [wave][place]
+  Real mean[at_once], turned[3][at_once], tractions[3][at_once];
   Real up[3][at_once], down[3][at_once];
   Expanded<impedances + motions> of;
   for (auto first = run.first; first < run.last; first += at_once) {
     const auto n = std::min(at_once, run.last - first), to = at + first - run.first;
     expand(first, n, axis, &OfAxis::waves, of);
-    const Real* __restrict const half_lo = metric.half_lo + to;
-    const Real* __restrict const half_hi = metric.half_hi + to;
+    for (std::int64_t i = 0; i < n; ++i) {
+      const Real lo = metric.half_lo[to + i], hi = metric.half_hi[to + i];
+      mean[i] = lo + hi;
+      for (std::size_t wave = 0; wave < 3; ++wave) turned[wave][i] = sign * of.values[wave][i] * (lo - hi);
+    }
     for (int k = -reach; k <= reach; ++k) {
-      const Real* __restrict const half_j = metric.half_x + to + k * metric.stride;
+      const Real* const half_j = metric.half_x + to + k * metric.stride;
       const auto field = [&](const Real* from) { return from + to + k * stride; };
-      const Real* __restrict const v0 = field(pairs[0].v);
-      const Real* __restrict const v1 = field(pairs[1].v);
-      const Real* __restrict const v2 = field(pairs[2].v);
-      const Real* __restrict const s0 = field(pairs[0].s);
-      const Real* __restrict const s1 = field(pairs[1].s);
-      const Real* __restrict const s2 = field(pairs[2].s);
+      for (std::size_t pair = 0; pair < 3; ++pair)
+        scale_by_height(n, half_j, field(pairs[pair].s), tractions[pair]);
       for (std::size_t wave = 0; wave < 3; ++wave) {
-        const Real* __restrict const z = of.values[wave];
-        const Real* __restrict const q = of.values[impedances + 3 * wave];
-        const Real* __restrict const r = of.values[impedances + 3 * wave + 1];
-        const Real* __restrict const t = of.values[impedances + 3 * wave + 2];
-        Real* __restrict const to_v = v[wave][k + reach];
-        Real* __restrict const to_s = s[wave][k + reach];
-        for (std::int64_t i = 0; i < n; ++i) {
-          const Real own = q[i] * v0[i] + r[i] * v1[i] + t[i] * v2[i], j = half_j[i] + half_j[i + 1];
-          to_v[i] = (half_lo[i] + half_hi[i]) * own;
-          to_s[i] = sign * z[i] * (half_lo[i] - half_hi[i]) * own +
-                    j * (q[i] * s0[i] + r[i] * s1[i] + t[i] * s2[i]);
-        }
+        const auto motion = [&](std::size_t pair) { return of.values[impedances + 3 * wave + pair]; };
+        combine_pairs(n, {motion(0), motion(1), motion(2)},
+                      {field(pairs[0].v), field(pairs[1].v), field(pairs[2].v)},
+                      {tractions[0], tractions[1], tractions[2]}, mean, turned[wave], v[wave][k + reach],
+                      s[wave][k + reach]);
       }
     }
     for (std::size_t wave = 0; wave < 3; ++wave)
