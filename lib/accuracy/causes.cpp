@@ -49,7 +49,7 @@ constexpr double cells_of_tilted_means = 7.7;
 /// water, of rock, and of waves bound to rock.
 constexpr double bent_water = 0.018, bent_rock = 0.018, bent_bound = 0.01;
 /// What comes back from where an interface becomes level beyond a side, by its slope and how well it
-/// reflects; and the share of it where rows follow it, which go on dipping (theory.md (F10)).
+/// reflects; and the share of it where rows follow it, which dip further (theory.md (F10)).
 constexpr double bent_interface = 0.055, bent_fitted = 0.6;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with

@@ -78,20 +78,24 @@ double wave_impedance(const Medium<D>& medium, std::size_t cell, int axis, Wave 
 }
 
 /// What the largest speed along the axes of the grid is at most where those of the rock are turned, m/s: in
-/// 2-D of quasi-P waves in any direction, in space that of these axes, asked for once of cells that are
-/// alike.
+/// 2-D of quasi-P waves in any direction, in space that of these axes or, where rows dip, of any direction;
+/// asked for once of cells that are alike.
 template <int D>
 class FastestOfTilted {
  public:
-  double operator()(const Medium<D>& medium, std::size_t cell) {
+  double operator()(const Medium<D>& medium, std::size_t cell, bool dips = false) {
     const auto material = material_of(medium, cell);
     if (D == 2) return fastest_p_speed_at_most(material);
-    if (!(material == last_)) speed_ = fastest_along_grid(last_ = material);
+    if (!(material == last_) || dips != dips_) {
+      last_ = material, dips_ = dips;
+      speed_ = dips ? fastest_in_space(material) : fastest_along_grid(material);
+    }
     return speed_;
   }
 
  private:
   Material last_;
+  bool dips_ = false;
   double speed_ = 0;
 };
 
@@ -121,18 +125,17 @@ class FastestAcrossCell {
  public:
   explicit FastestAcrossCell(const Medium<D>& medium) : medium_(medium) {}
   double operator()(std::size_t cell) {
-    return has_tilted_axis(medium_, cell) || (dips(cell) && is_anisotropic(medium_, cell))
-               ? of_tilted_(medium_, cell)
-               : double(medium_.vp[cell]);
+    // Across rows that are not level waves go in any direction.
+    const bool dips = is_anisotropic(medium_, cell) && !row_is_level(cell);
+    return dips || has_tilted_axis(medium_, cell) ? of_tilted_(medium_, cell, dips)
+                                                  : double(medium_.vp[cell]);
   }
 
  private:
-  /// Across rows that are not level waves go in any direction.
-  bool dips(std::size_t cell) const {
-    if (D != 2 || !medium_.has(Property::epsilon)) return false;
+  bool row_is_level(std::size_t cell) const {
     const auto& grid = medium_.grid();
     const auto row = grid.index(std::int64_t(cell))[D - 1] + grid.first[D - 1];
-    return !(grid.rows->row_is_level(row) && grid.rows->row_is_level(row + 1));
+    return grid.rows->row_is_level(row) && grid.rows->row_is_level(row + 1);
   }
   const Medium<D>& medium_;
   FastestOfTilted<D> of_tilted_;

@@ -12,15 +12,6 @@ namespace {
 
 const char* const isotropic_instead = " or --without anisotropy";
 
-/// Whether stencils of a row reach corners of cells that are not level.
-template <int D>
-bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
-  const std::int64_t last = grid.rows->cells()[D - 1];
-  for (auto n = row - near; n <= row + near + 1; ++n)
-    if (!grid.rows->row_is_level(std::clamp<std::int64_t>(n, 0, last))) return true;
-  return false;
-}
-
 /// What keeps the planes of a set from slipping in an anisotropic cell, or "".
 template <int D>
 std::string fault_of(const FractureSet<D>& set, bool askew) {
@@ -45,7 +36,7 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
 }
 
 template <int D>
-void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
+void check_cell(const Scene<D>& scene, std::size_t cell) {
   const auto& model = scene.model;
   const auto azimuth = [&](std::size_t of) {
     return D == 3 ? ", azimuth " + shown(model.medium.value(Property::azimuth, of), 6) : std::string();
@@ -60,11 +51,6 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
                      : "") +
                 ") and " + what);
   };
-  if (near_bent)
-    refuse(
-        "lies in rows that follow a horizon, or beside them, where rock must be isotropic; build the model "
-        "with "
-        "--fit none, or use --without anisotropy");
   if (!scene.slips() || model.fracture.empty() || model.fracture[cell] == 0) return;
   const auto& set = model.fracture_sets[model.fracture[cell] - 1U];
   if (const auto fault = fault_of(set, lie_askew(set, model.medium, cell)); !fault.empty())
@@ -77,7 +63,6 @@ void check_cell(const Scene<D>& scene, std::size_t cell, bool near_bent) {
 template <int D>
 void check_anisotropy(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
-  const auto& grid = medium.grid();
   // Ranks with other rows refuse what concerns the whole model, too.
   if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
   for (const auto& source : scene.survey.sources)
@@ -86,13 +71,8 @@ void check_anisotropy(const Scene<D>& scene) {
           "found a plane wave in a model that is anisotropic, expected in 3-D a point source or --without "
           "anisotropy",
           ErrorKind::usage);
-  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
-  for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
-    const bool near_bent = D == 3 && grid.rows &&
-                           near_bent_rows(grid, row + grid.first[D - 1], nearness_of(scene.numerics.order));
-    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
-      if (is_anisotropic(medium, cell)) check_cell(scene, cell, near_bent);
-  }
+  for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+    if (is_anisotropic(medium, cell)) check_cell(scene, cell);
 }
 
 template void check_anisotropy(const Scene<2>&);

@@ -20,7 +20,7 @@ struct Subdomain {
   bool slips = false;         // whether anything slips in any part
   bool shear = false;         // whether any part has shear stress: solid cells or bent rows
   bool anisotropic = false;   // whether any part has anisotropic cells
-  bool tilted = false;        // whether any part has rock in 3-D whose axes are turned
+  bool tilted = false;        // whether any part has rock whose axes are turned, in 3-D also any in bent rows
   bool tilted_means = false;  // whether any part has cells that interfaces cut as tilted means
   /// Of a fitted grid: side_speeds() of the whole model.
   std::array<std::array<std::vector<double>, 2>, 2> side_speeds{};

@@ -21,6 +21,30 @@ constexpr std::int64_t beside_points = widest_stencil;
 /// corrected, whether rows are level. Every rank must decide alike.
 constexpr std::int64_t beside_refreshed = std::int64_t(2) * max_reach;
 
+/// Whether stencils of a row reach corners of cells that are not level.
+template <int D>
+bool near_bent_rows(const Grid<D>& grid, std::int64_t row, std::int64_t near) {
+  const std::int64_t last = grid.rows->cells()[D - 1];
+  for (auto n = row - near; n <= row + near + 1; ++n)
+    if (!grid.rows->row_is_level(std::clamp<std::int64_t>(n, 0, last))) return true;
+  return false;
+}
+
+/// Whether rock in 3-D has to be swept by all three waves at once, somewhere: axes that are turned, or rows
+/// that bend.
+template <int D>
+bool couples_pairs(const Medium<D>& medium, int order) {
+  if (any_tilted_axes(medium)) return true;
+  const auto& grid = medium.grid();
+  const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  for (std::int64_t row = 0; D == 3 && grid.rows && row < grid.shape[D - 1]; ++row) {
+    if (!near_bent_rows(grid, row + grid.first[D - 1], nearness_of(order))) continue;
+    for (auto cell = std::size_t(row * a_row); cell < std::size_t((row + 1) * a_row); ++cell)
+      if (is_anisotropic(medium, cell)) return true;
+  }
+  return false;
+}
+
 template <class Value, int D>
 Field<D, Value> rows_of(const Field<D, Value>& field, const Grid<D>& held) {
   if (field.empty()) return field;
@@ -175,7 +199,8 @@ void join(Scene<D>& scene, Ranks& ranks) {
   scene.subdomain.fastest = largest_of(&ranks, fastest_speed(scene.model.medium));
   scene.subdomain.fastest_across_cells = largest_of(&ranks, fastest_across_cells(scene.model.medium));
   scene.subdomain.anisotropic = largest_of(&ranks, anisotropic_cells(scene.model.medium) > 0 ? 1 : 0) > 0;
-  scene.subdomain.tilted = largest_of(&ranks, any_tilted_axes(scene.model.medium) ? 1 : 0) > 0;
+  scene.subdomain.tilted =
+      largest_of(&ranks, couples_pairs(scene.model.medium, scene.numerics.order) ? 1 : 0) > 0;
   scene.subdomain.tilted_means = largest_of(&ranks, tilted_means(scene.model.medium) > 0 ? 1 : 0) > 0;
   scene.subdomain.side_speeds = side_speeds(scene.model.medium, scene.subdomain);
   for (auto& sides : scene.subdomain.side_speeds)

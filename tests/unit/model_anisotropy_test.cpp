@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "model/coefficients.hpp"
@@ -325,6 +326,28 @@ TEST(StiffnessInSpace, IsThatOfThomsenAndTsvankin) {
   EXPECT_NEAR(c.c12, c.c11 - 2 * c.c66, 1);
   EXPECT_FALSE(material_of_stiffness_in_space(c, layered.rho).orthorhombic);
   EXPECT_EQ(stiffness_in_space(rock).c12, stiffness_of(rock).c13);
+}
+
+TEST(PhaseSpeedsInSpace, AreFastestInSomeDirection) {
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(-0.3, 0.6);
+  for (int n = 0; n < 20; ++n) {
+    Material rock{3000, 1600, 2300, uniform(engine), uniform(engine), 0, uniform(engine)};
+    if (n % 2) rock.orthorhombic = Orthorhombic{uniform(engine), uniform(engine), 0.3 * uniform(engine), 0.1};
+    if (fault_of_anisotropy(rock, true)) continue;
+    rock.tilt = 30, rock.azimuth = 50;
+    const auto stiffness = space_stiffness_of(rock);
+    double fastest = 0;
+    for (int ring = 0; ring <= 180; ++ring)
+      for (int around = 0; around < 360; ++around) {
+        const double t = ring * std::numbers::pi / 360, a = around * std::numbers::pi / 180;
+        const SpaceVector direction = {std::sin(t) * std::cos(a), std::sin(t) * std::sin(a), std::cos(t)};
+        fastest = std::max(fastest, phase_speeds(stiffness, rock.rho, direction)[0]);
+      }
+    EXPECT_GE(fastest_in_space(rock), fastest * (1 - 1e-12)) << n;
+    EXPECT_NEAR(fastest_in_space(rock), fastest, 2e-4 * fastest) << n;
+    EXPECT_GE(fastest_in_space(rock), fastest_along_grid(rock));
+  }
 }
 
 TEST(PhaseSpeedsInSpace, AreRootsOfTheChristoffelEquation) {

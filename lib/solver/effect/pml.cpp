@@ -169,7 +169,7 @@ double Pml<D, Real>::most_damped(int axis) const {
   return most;
 }
 
-/// Marks cells along an edge beyond which rows go on with a slope: in row coordinates all waves turn there
+/// Marks cells along an edge beyond which rows keep a slope: in row coordinates all waves turn there
 /// (theory.md (F10a)).
 template <int D, class Real>
 void Pml<D, Real>::find_slopes(int axis, int side, const Domain<D>& domain) {

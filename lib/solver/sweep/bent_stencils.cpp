@@ -108,23 +108,41 @@ Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real
                       cell_normal<D>(metric.half_n + offset * metric.stride, metric.pitch, metric.stride))};
 }
 
-/// In 2-D; in 3-D there is none.
 template <class Real>
-RowVector<2, Real> through(const typename AnisotropicStencil<Real>::Weld& weld, const RowVector<2, Real>& v) {
-  return {weld.zz * v.z + weld.zx * v.x, weld.xz * v.z + weld.xx * v.x};
+RowVector<2, Real> through(const typename AnisotropicStencil<2, Real>::Weld& weld,
+                           const RowVector<2, Real>& v) {
+  const auto& [z, x] = weld.share;
+  return {z[0] * v.z + z[1] * v.x, x[0] * v.z + x[1] * v.x};
+}
+template <class Real>
+RowVector<3, Real> through(const typename AnisotropicStencil<3, Real>::Weld& weld,
+                           const RowVector<3, Real>& v) {
+  const auto of = [&](std::size_t c) {
+    const auto& row = weld.share[c];
+    return row[0] * v.z + row[1] * v.x + row[2] * v.y;
+  };
+  return {of(0), of(1), of(2)};
 }
 /// Of tractions: the vector less what the transposed matrix makes of it.
 template <class Real>
-RowVector<2, Real> tractions_through(const typename AnisotropicStencil<Real>::Weld& weld,
+RowVector<2, Real> tractions_through(const typename AnisotropicStencil<2, Real>::Weld& weld,
                                      const RowVector<2, Real>& t) {
-  return {t.z - (weld.zz * t.z + weld.xz * t.x), t.x - (weld.zx * t.z + weld.xx * t.x)};
+  const auto& [z, x] = weld.share;
+  return {t.z - (z[0] * t.z + x[0] * t.x), t.x - (z[1] * t.z + x[1] * t.x)};
+}
+template <class Real>
+RowVector<3, Real> tractions_through(const typename AnisotropicStencil<3, Real>::Weld& weld,
+                                     const RowVector<3, Real>& t) {
+  const auto& [z, x, y] = weld.share;
+  const auto of = [&](std::size_t c) { return z[c] * t.z + x[c] * t.x + y[c] * t.y; };
+  return {t.z - of(0), t.x - of(1), t.y - of(2)};
 }
 
 /// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
 template <bool Anisotropic, int D, class Real>
 void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                     const RowVector<D, Real>& normal, const InterfaceCorrections<D, Real>& corrections,
-                    int ghost, Real scale, const typename AnisotropicStencil<Real>::Weld* weld,
+                    int ghost, Real scale, const typename AnisotropicStencil<D, Real>::Weld* weld,
                     Motion<D, Real>& at) {
   const auto of = [&](auto&& component) {
     RowVector<D, Real> vector;
@@ -150,7 +168,7 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
 template <bool Anisotropic, int D, class Real>
 Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real>& fields,
                          const BentAcross<Real>& metric, const InterfaceCorrections<D, Real>& corrections,
-                         Real scale, const AnisotropicStencil<Real>* anisotropic, int offset) {
+                         Real scale, const AnisotropicStencil<D, Real>* anisotropic, int offset) {
   const bool below = offset < -stencil.low.cells;
   if (!below && offset <= stencil.high.cells) return load<D>(fields, metric, offset);
   const auto& side = below ? stencil.low : stencil.high;
@@ -162,7 +180,7 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
   const auto normal = face_normal<D>(metric.half_n + face * metric.stride, metric.pitch);
   const auto sign = [](Extension law, Extension odd) { return Real(law == odd ? -1 : 1); };
   const int ghost = below ? -side.cells - 1 - offset : offset - side.cells - 1;
-  const typename AnisotropicStencil<Real>::Weld* weld = nullptr;
+  const typename AnisotropicStencil<D, Real>::Weld* weld = nullptr;
   if constexpr (Anisotropic)
     if (const auto& of = anisotropic->welds[below ? 0 : 1]; of.holds) weld = &of;
   if (side.p != Extension::interface) {
@@ -224,12 +242,42 @@ void reconstruct_anisotropic(const BentWaves<Real>& waves,
   resolve(1, up, outgoing.up(0), outgoing.up(1));
   resolve(0, down, outgoing.down(0), outgoing.down(1));
 }
+/// The same in 3-D (F15).
+template <int Order, class Real>
+void reconstruct_anisotropic(const BentWavesInSpace<Real>& waves,
+                             const std::array<Motion<3, Real>, std::size_t(Order)>& at, Real scale, Real b,
+                             const BentAcross<Real>& /*metric*/, OutgoingWaves<Real> outgoing) {
+  constexpr int reach = reach_of(Order);
+  const Real sign = scale < 0 ? -1 : 1;
+  std::array<Real, 3> all_up{}, all_down{};
+  for (std::size_t wave = 0; wave < 3; ++wave) {
+    const Real z = waves.courant_z[wave];
+    const auto& [before, behind] = waves.faces;
+    const auto pair = wave_pair_in_space<Real>(before.motions[wave].data(), before.z[wave],
+                                               behind.motions[wave].data(), behind.z[wave], z, sign);
+    Real v[Order], s[Order], up = 0, down = 0;
+    for (std::size_t k = 0; k < std::size_t(Order); ++k) {
+      const auto sum = [&](const std::array<Real, 6>& by) {
+        return by[0] * at[k].v.z + by[1] * at[k].v.x + by[2] * at[k].v.y + by[3] * at[k].t.z +
+               by[4] * at[k].t.x + by[5] * at[k].t.y;
+      };
+      v[k] = sum(pair.v), s[k] = sum(pair.s);
+    }
+    reconstruct_cell<Order>(v + reach, s + reach, 1, sign * z, sign * scale * (z * b), up, down);
+    for (std::size_t c = 0; c < 3; ++c) {
+      all_up[c] += behind.motions[wave][c] * up;
+      all_down[c] += before.motions[wave][c] * down;
+    }
+  }
+  for (const int c : {0, 1, 2})
+    outgoing.up(c)[0] = all_up[std::size_t(c)], outgoing.down(c)[0] = all_down[std::size_t(c)];
+}
 
 template <int Order, bool Anisotropic, int D, class Real>
 void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const Real>& fields, Real b,
                   Real zp, Real zs, const BentAcross<Real>& metric,
                   const InterfaceCorrections<D, Real>& corrections,
-                  const AnisotropicStencil<Real>* anisotropic, OutgoingWaves<Real> outgoing) {
+                  const AnisotropicStencil<D, Real>* anisotropic, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   std::array<Motion<D, Real>, 2 * reach + 1> at;
   for (int k = -reach; k <= reach; ++k) {
@@ -260,7 +308,7 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
 template <int D, class Real>
 using CorrectCell = void(const BentStencil&, Real, const BentFields<const Real>&, Real, Real, Real,
                          const BentAcross<Real>&, const InterfaceCorrections<D, Real>&,
-                         const AnisotropicStencil<Real>*, OutgoingWaves<Real>);
+                         const AnisotropicStencil<D, Real>*, OutgoingWaves<Real>);
 template <bool Anisotropic, int D, class Real, int... N>
 constexpr std::array<CorrectCell<D, Real>*, sizeof...(N)> correctors(std::integer_sequence<int, N...>) {
   return {correct_cell<orders[N], Anisotropic, D, Real>...};
@@ -315,55 +363,96 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
 }
 
 template <int D, class Real>
-void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric) {
+void BentStencils<D, Real>::find_own_waves(const Domain<D>& domain, const Index<D>& at,
+                                           const BentAcross<Real>& of, Anisotropic& found) {
+  found.own_waves = domain.is_tilted(at);
+  if (!found.own_waves) return;
   if constexpr (D == 2) {
-    if (!domain.anisotropic()) return;
-    anisotropic_of_.assign(cells_.size(), -1);
-    for (std::int64_t line = 0; line + 1 < std::int64_t(starts_.size()); ++line)
-      for (auto n = std::size_t(starts_[std::size_t(line)]),
-                end = std::size_t(starts_[std::size_t(line) + 1]);
-           n < end; ++n) {
-        const auto& cell = cells_[n];
-        if (cell.reach == not_carried) continue;
-        const Index<2> at{cell.x, line};
-        const auto of = metric.across({0, line}, at[0]);
-        AnisotropicStencil<Real> found;
-        found.own_waves = domain.is_tilted(at);
-        if (found.own_waves) {
-          const auto waves = waves_across_rows(plane_stiffness_at(domain, at), of);
-          for (const std::size_t side : {0, 1}) {
-            const auto& face = waves.faces[side];
-            found.waves.faces[side] = {
-                Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
-            found.waves.courant_z[side] = Real(waves.courant_z[side]);
-          }
-        }
-        bool welded = false;
-        for (const std::size_t side : {0, 1}) {
-          const auto& end_of = side ? cell.high : cell.low;
-          if (end_of.p != Extension::interface) continue;
-          Index<2> near = at, beyond = at;
-          near[1] += side ? end_of.cells : -end_of.cells;
-          beyond[1] = near[1] + (side ? 1 : -1);
-          if (!domain.is_tilted(near) && !domain.is_tilted(beyond)) continue;
-          const auto face = side ? beyond[1] - line : near[1] - line;
-          const double nx = double(normal_of_face(of, face * of.stride));
-          const auto impedance = [&](const Index<2>& cell_at) {
-            return root_of(acoustic_tensor(plane_stiffness_at(domain, cell_at), nx, 1));
-          };
-          const auto own = impedance(near), other = impedance(beyond);
-          const double zz = own.zz + other.zz, zx = own.zx + other.zx, xx = own.xx + other.xx,
-                       over = 1 / (zz * xx - zx * zx);
-          found.welds[side] = {true, Real(over * (xx * other.zz - zx * other.zx)),
-                               Real(over * (xx * other.zx - zx * other.xx)),
-                               Real(over * (zz * other.zx - zx * other.zz)),
-                               Real(over * (zz * other.xx - zx * other.zx))};
-          welded = true;
-        }
-        if (!found.own_waves && !welded) continue;
-        anisotropic_of_[n] = std::int32_t(anisotropic_.size());
-        anisotropic_.push_back(found);
+    const auto waves = waves_across_rows(plane_stiffness_at(domain, at), of);
+    for (const std::size_t side : {0, 1}) {
+      const auto& face = waves.faces[side];
+      found.waves.faces[side] = {Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
+      found.waves.courant_z[side] = Real(waves.courant_z[side]);
+    }
+  } else {
+    const auto waves = waves_across_rows(space_stiffness_at(domain, at), of);
+    for (std::size_t wave = 0; wave < D; ++wave) {
+      found.waves.courant_z[wave] = Real(waves.courant_z[wave]);
+      for (const std::size_t side : {0, 1}) {
+        found.waves.faces[side].z[wave] = Real(waves.faces[side].z[wave]);
+        for (std::size_t c = 0; c < D; ++c)
+          found.waves.faces[side].motions[wave][c] = Real(waves.faces[side].motions[wave][c]);
       }
+    }
+  }
+}
+
+template <int D, class Real>
+void BentStencils<D, Real>::find_weld(const Domain<D>& domain, const Index<D>& near, const Index<D>& beyond,
+                                      const RowVector<D, Real>& normal, typename Anisotropic::Weld& weld) {
+  weld.holds = true;
+  if constexpr (D == 2) {
+    const auto impedance = [&](const Index<2>& at) {
+      return root_of(acoustic_tensor(plane_stiffness_at(domain, at), double(normal.x), 1));
+    };
+    const auto own = impedance(near), other = impedance(beyond);
+    const double zz = own.zz + other.zz, zx = own.zx + other.zx, xx = own.xx + other.xx,
+                 over = 1 / (zz * xx - zx * zx);
+    weld.share = {
+        {{Real(over * (xx * other.zz - zx * other.zx)), Real(over * (xx * other.zx - zx * other.xx))},
+         {Real(over * (zz * other.zx - zx * other.zz)), Real(over * (zz * other.xx - zx * other.zx))}}};
+  } else {
+    const auto impedance = [&](const Index<3>& at) {
+      return impedance_across_rows(space_stiffness_at(domain, at), normal_in_space(normal));
+    };
+    auto sum = impedance(near);
+    const auto other = impedance(beyond);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) sum[i][k] += other[i][k];
+    const auto share = product_of(inverse_of(sum), other);
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t k = 0; k < 3; ++k) weld.share[i][k] = Real(share[i][k]);
+  }
+}
+
+template <int D, class Real>
+void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric) {
+  if (!domain.anisotropic()) return;
+  const auto unlike_isotropic = [&](const Index<D>& at) {
+    if constexpr (D == 2)
+      return domain.is_tilted(at);
+    else
+      return anisotropic_across_rows(domain, at);
+  };
+  anisotropic_of_.assign(cells_.size(), -1);
+  for (std::int64_t line = 0; line + 1 < std::int64_t(starts_.size()); ++line) {
+    const auto first_of_line = domain.grid.index(line * domain.grid.shape[0]);
+    for (auto n = std::size_t(starts_[std::size_t(line)]), end = std::size_t(starts_[std::size_t(line) + 1]);
+         n < end; ++n) {
+      const auto& cell = cells_[n];
+      if (cell.reach == not_carried) continue;
+      auto at = first_of_line;
+      at[0] = cell.x;
+      const auto of = metric.across(first_of_line, at[0]);
+      Anisotropic found;
+      find_own_waves(domain, at, of, found);
+      bool welded = false;
+      for (const std::size_t side : {0, 1}) {
+        const auto& end_of = side ? cell.high : cell.low;
+        if (end_of.p != Extension::interface) continue;
+        auto near = at, beyond = at;
+        near[D - 1] += side ? end_of.cells : -end_of.cells;
+        beyond[D - 1] = near[D - 1] + (side ? 1 : -1);
+        if (!unlike_isotropic(near) && !unlike_isotropic(beyond)) continue;
+        const auto face = (side ? beyond : near)[D - 1] - at[D - 1];
+        find_weld(domain, near, beyond, face_normal<D>(of.half_n + face * of.stride, of.pitch),
+                  found.welds[side]);
+        welded = true;
+      }
+      if (!found.own_waves && !welded) continue;
+      anisotropic_of_[n] = std::int32_t(anisotropic_.size());
+      anisotropic_.push_back(found);
+    }
   }
 }
 
@@ -375,7 +464,7 @@ void BentStencils<D, Real>::correct(int order, std::int64_t line, const IndexRan
                                     OutgoingWaves<Real> outgoing) const {
   constexpr auto all_orders = std::make_integer_sequence<int, order_count>();
   static constexpr auto correct_as = correctors<false, D, Real>(all_orders),
-                        correct_anisotropic_as = correctors<D == 2, D, Real>(all_orders);
+                        correct_anisotropic_as = correctors<true, D, Real>(all_orders);
   const auto stop = cells_.begin() + starts_[std::size_t(line) + 1];
   auto cell = std::lower_bound(cells_.begin() + starts_[std::size_t(line)], stop, columns.first,
                                [](const BentStencil& stencil, std::int64_t x) { return stencil.x < x; });

@@ -1,11 +1,14 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 #include "grid/field.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/sweep/bent_waves.hpp"
+#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
@@ -30,18 +33,18 @@ struct BentStencil {
   Side low, high;
 };
 
-/// What replaces the laws of P and of S where a cell or its neighbour beyond an interface is anisotropic, in
-/// 2-D (theory.md (F13)).
-template <class Real>
+/// What replaces the laws of P and of S where a cell or its neighbour beyond an interface is anisotropic
+/// (theory.md (F13)).
+template <int D, class Real>
 struct AnisotropicStencil {
-  /// Of the velocities z and x, (Z_l + Z_r)^-1 Z_r for the cell as l.
+  /// Of the velocities z, x and in 3-D y, (Z_l + Z_r)^-1 Z_r for the cell as l.
   struct Weld {
     bool holds = false;
-    Real zz = 0, zx = 0, xz = 0, xx = 0;
+    std::array<std::array<Real, std::size_t(D)>, std::size_t(D)> share{};
   };
   std::array<Weld, 2> welds;
   bool own_waves = false;
-  BentWaves<Real> waves;
+  std::conditional_t<D == 2, BentWaves<Real>, BentWavesInSpace<Real>> waves;
 };
 
 /// Such cells of all bent rows, for sweeps along z.
@@ -62,12 +65,19 @@ class BentStencils {
 
  private:
   void find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric);
+  using Anisotropic = AnisotropicStencil<D, Real>;
+  /// `of`: the metric from the cell on.
+  static void find_own_waves(const Domain<D>& domain, const Index<D>& at, const BentAcross<Real>& of,
+                             Anisotropic& found);
+  /// Of a face with this N between two cells.
+  static void find_weld(const Domain<D>& domain, const Index<D>& near, const Index<D>& beyond,
+                        const RowVector<D, Real>& normal, typename Anisotropic::Weld& weld);
 
   std::vector<BentStencil> cells_;    // by line, then x
   std::vector<std::int64_t> starts_;  // of each line in cells_, and the end
   /// Of cells that have one, by their place in cells_; empty where nothing is anisotropic.
   std::vector<std::int32_t> anisotropic_of_;
-  std::vector<AnisotropicStencil<Real>> anisotropic_;
+  std::vector<Anisotropic> anisotropic_;
 };
 
 }  // namespace slipwave::solver

@@ -242,10 +242,9 @@ bool couples_pairs(const SpaceStiffness& c) {
 class TiltedMedia {
  public:
   static constexpr std::int32_t none = -1;
-  /// None where sweeps need no more than the nine stiffnesses along the grid.
   std::int32_t number(const Material& material) {
-    if (known_ && material == last_) return number_;
-    known_ = true, last_ = material;
+    if (number_ != none && material == last_) return number_;
+    last_ = material;
     const auto extra =
         material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
     const auto [found, is_new] =
@@ -255,13 +254,12 @@ class TiltedMedia {
                              none);
     if (is_new) {
       const auto stiffness = space_stiffness_of(material);
-      if (couples_pairs(stiffness)) {
-        found->second = std::int32_t(media_.size());
-        media_.push_back({material.rho, stiffness});
-      }
+      found->second = std::int32_t(media_.size());
+      media_.push_back({material.rho, stiffness, couples_pairs(stiffness)});
     }
     return number_ = found->second;
   }
+  const TiltedMediumInSpace& operator[](std::int32_t number) const { return media_[std::size_t(number)]; }
   std::vector<TiltedMediumInSpace> take() { return std::move(media_); }
 
  private:
@@ -270,19 +268,21 @@ class TiltedMedia {
   std::vector<TiltedMediumInSpace> media_;
   Material last_;
   std::int32_t number_ = none;
-  bool known_ = false;
 };
 
-/// Rock continues beyond the edges of the model as it is.
+/// Rock continues beyond the edges of the model as it is. In level rows sweeps need no more of some than the
+/// nine stiffnesses along the grid.
 void find_tilted(Domain<3>& domain, const Medium<3>& medium) {
-  if (!any_tilted_axes(medium)) return;
+  if (!any_tilted_axes(medium) && (domain.bent_rows.empty() || !domain.anisotropic())) return;
   TiltedMedia media;
   std::vector<TiltedCellInSpace> cells;
   for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
-    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(domain.grid.index(n))));
-    if (!has_tilted_axis(medium, cell)) continue;
-    if (const auto of = media.number(material_of(medium, cell)); of != TiltedMedia::none)
-      cells.push_back({n, of});
+    const auto at = domain.grid.index(n);
+    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
+    const bool bent = domain.bent(at[2]);
+    if (!has_tilted_axis(medium, cell) && !(bent && is_anisotropic(medium, cell))) continue;
+    const auto of = media.number(material_of(medium, cell));
+    if (bent || media[of].turned) cells.push_back({n, of});
   }
   domain.set_tilted(std::move(cells));
   domain.set_tilted_media(media.take());
@@ -479,6 +479,34 @@ PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell)
   }
   const double zp = domain.impedance(wave_p)(cell), zs = domain.impedance(wave_s)(cell);
   return {zp * zp, zp * zp - 2 * zs * zs, 0, zp * zp, 0, zs * zs};
+}
+
+SpaceStiffness space_stiffness_at(const Domain<3>& domain, const Index<3>& cell) {
+  SpaceStiffness stiffness;
+  auto& c = stiffness.voigt;
+  if (const auto* const of = domain.tilted_medium(cell)) {
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) c[i][j] = of->rho * of->stiffness.voigt[i][j];
+    return stiffness;
+  }
+  // A fluid that is rounded carries some shear across rows that dip.
+  if (const double zp = domain.impedance(wave_p)(cell); domain.impedance(wave_s)(cell) == 0) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) c[i][j] = zp * zp;
+    return stiffness;
+  }
+  const auto rock = stiffness_at(domain, cell);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) c[std::size_t(i)][std::size_t(j)] = rock.normal(i, j);
+  c[3][3] = rock.c44, c[4][4] = rock.c55, c[5][5] = rock.c66;
+  return stiffness;
+}
+
+bool anisotropic_across_rows(const Domain<3>& domain, const Index<3>& cell) {
+  if (domain.is_tilted(cell)) return true;
+  const double one = domain.impedance_of_pair(2, 1)(cell), other = domain.impedance_of_pair(2, 2)(cell);
+  constexpr double rounding = 1e-6;
+  return std::abs(one - other) > rounding * one;
 }
 
 template <int D>

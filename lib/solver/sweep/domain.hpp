@@ -33,6 +33,7 @@ struct TiltedCellInSpace {
 struct TiltedMediumInSpace {
   double rho;
   SpaceStiffness stiffness;
+  bool turned = true;  // whether sweeps along the grid couple its pairs
 };
 template <int D>
 using TiltedCell = std::conditional_t<D == 2, TiltedMedium, TiltedCellInSpace>;
@@ -109,7 +110,7 @@ class Domain {
   }
   /// Of the edge across an axis, to motion along another.
   EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis, int along) const;
-  /// Tilted means and cells of rock whose axis is tilted, by cell; in bent rows in 2-D all anisotropic cells.
+  /// Tilted means and cells of rock whose axis is tilted, by cell; in bent rows all anisotropic cells.
   /// Tilted means of zones are isotropic, and those in bent rows and beside them.
   const std::vector<TiltedCell<D>>& tilted() const { return tilted_; }
   bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
@@ -215,6 +216,10 @@ auto stiffness_at(const Domain<D>& domain, const Index<D>& cell) {
 
 /// That in the plane of x and z of any cell in 2-D, times the density.
 PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell);
+/// That of any cell in 3-D, times the density.
+SpaceStiffness space_stiffness_at(const Domain<3>& domain, const Index<3>& cell);
+/// Whether a cell in 3-D is listed as tilted(), or S waves along z have two speeds there.
+bool anisotropic_across_rows(const Domain<3>& domain, const Index<3>& cell);
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
 /// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep

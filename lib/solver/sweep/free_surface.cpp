@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/motion_along.hpp"
 
 namespace slipwave::solver {
@@ -53,8 +54,8 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
   return terms;
 }
 
-/// The same of an anisotropic cell in 2-D: the tensor of N times what it bends is the traction of motion
-/// along the rows.
+/// The same of an anisotropic cell: the tensor of N times what it bends is the traction of motion along the
+/// rows.
 std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, const Index<2>& at, int side,
                                                    int row) {
   const auto [normal, height] = end_of_rows(domain, at, side);
@@ -70,6 +71,33 @@ std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, cons
     const double share =
         over * (row == 0 ? tensor.zz * t_x - tensor.zx * t_z : tensor.xx * t_z - tensor.zx * t_x);
     if (share != 0 && !add_difference(domain, at, 0, of, share, terms)) return {};
+  }
+  return terms;
+}
+
+std::vector<SurfaceTerm<3>> anisotropic_bent_slope(const Domain<3>& domain, const Index<3>& at, int side,
+                                                   int row) {
+  const auto [normal, height] = end_of_rows(domain, at, side);
+  const auto c = space_stiffness_at(domain, at);
+  const auto n = normal_in_space(normal);
+  const auto over = inverse_of(traction_of_rows(c, n, n));
+  const double outward = (side ? -1 : 1) * height;
+  const auto component_of = std::size_t(row == 2 ? 0 : row + 1);
+  std::vector<SurfaceTerm<3>> terms;
+  for (const int along : {0, 1}) {
+    if (thin(domain, along)) {
+      if (ends_free(domain, along)) return {};
+      continue;
+    }
+    SpaceVector axis{};
+    axis[std::size_t(along)] = 1;
+    const auto bend = product_of(over, traction_of_rows(c, n, axis));
+    for (std::size_t of = 0; of < 3; ++of) {
+      const double share = outward * bend[component_of][of];
+      if (share != 0 &&
+          !add_difference(domain, at, along, FieldRows<3>::velocity(axes_of_rows[of]), share, terms))
+        return {};
+    }
   }
   return terms;
 }
@@ -160,8 +188,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
-  if constexpr (D == 2)
-    if (bent && domain.is_tilted(at)) return anisotropic_bent_slope(domain, at, side, row);
+  if (bent && domain.is_tilted(at)) return anisotropic_bent_slope(domain, at, side, row);
   if (bent) return bent_slope(domain, at, side, row);
   const double height = domain.height(at[D - 1]);
   std::vector<SurfaceTerm<D>> terms;
@@ -224,17 +251,10 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
       if (pair == 0 && !terms.empty() && domain.bent(at[D - 1])) {
         const auto [normal, rows_height] = end_of_rows(domain, at, side);
         BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
-        if constexpr (D == 2)
-          if (domain.is_tilted(at)) {
-            const auto tensor = acoustic_tensor(plane_stiffness_at(domain, at), normal.x, 1);
-            const double factor = outward_ / rows_height;
-            end.anisotropic = true;
-            end.zz = Real(factor * tensor.zz), end.zx = Real(factor * tensor.zx);
-            end.xx = Real(factor * tensor.xx);
-          }
-        end.factor = Real(dot(normal, normal) * outward_ / rows_height);
         end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
         if constexpr (D == 3) end.normal.y = Real(normal.y);
+        if (domain.is_tilted(at)) find_tensor(domain, at, normal, outward_ / rows_height, end);
+        end.factor = Real(dot(normal, normal) * outward_ / rows_height);
         bent_ends_.push_back(end);
       }
       ++pair;
@@ -251,6 +271,22 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
   if (axis < D - 1) retained_.assign(std::size_t((number(last) + padded_nx_) * D), 0);
   for (auto* lists : {&velocity_corrections_, &traction_corrections_})
     for (auto& list : *lists) list.assign(std::size_t(number(last) + padded_nx_), 0);
+}
+
+template <int D, class Real>
+void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& at,
+                                       const RowVector<D, double>& normal, double factor, BentEnd& end) {
+  end.anisotropic = true;
+  if constexpr (D == 2) {
+    const auto of = acoustic_tensor(plane_stiffness_at(domain, at), normal.x, 1);
+    end.tensor = {
+        {{Real(factor * of.zz), Real(factor * of.zx)}, {Real(factor * of.zx), Real(factor * of.xx)}}};
+  } else {
+    const auto n = normal_in_space(normal);
+    const auto of = traction_of_rows(space_stiffness_at(domain, at), n, n);
+    for (std::size_t c = 0; c < 3; ++c)
+      end.tensor[c] = {Real(factor * of[c][0]), Real(factor * of[c][1]), Real(factor * of[c][2])};
+  }
 }
 
 /// Of both pairs, in 3-D of the first two, of the first and the last, and of the last two.
@@ -345,8 +381,8 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
     const Real b = material[end->b], zp = material[end->zp], zs = material[end->zs];
     auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
     if (end->anisotropic) {
-      t.z = b * (end->zz * bend.z + end->zx * bend.x);
-      t.x = b * (end->zx * bend.z + end->xx * bend.x);
+      t.z = b * dot(end->tensor[0], bend), t.x = b * dot(end->tensor[1], bend);
+      if constexpr (D == 3) t.y = b * dot(end->tensor[2], bend);
     }
     traction_corrections_[0][n] = t.z - end->normal.x * t.x;
     traction_corrections_[1][n] = t.x;

@@ -81,10 +81,12 @@ class FreeSurface {
     std::int64_t number, b, zp, zs;
     RowVector<D, Real> normal;
     Real factor;
-    /// Of anisotropic rock in 2-D: the acoustic tensor of N times the density, over J, as N.N is.
+    /// Of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
     bool anisotropic = false;
-    Real zz = 0, zx = 0, xx = 0;
+    std::array<RowVector<D, Real>, std::size_t(D)> tensor{};
   };
+  static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
+                          double factor, BentEnd& end);
   void correct_bent_ends(const State<D, Real>& state, std::int64_t first, std::int64_t last);
   /// A cell of rock whose axis is tilted: the place of b, and the density times the moduli by which what one
   /// pair does across the edge puts traction of another on it, over the height of the row, negative at a high

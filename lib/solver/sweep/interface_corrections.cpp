@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/edges.hpp"
+#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/motion_along.hpp"
 
@@ -96,6 +97,62 @@ Vector solved_in_plane(Real along, Real mixed, Real across, const Vector& produc
   return found;
 }
 
+template <int D>
+Index<D> above(Index<D> at) {
+  --at[D - 1];
+  return at;
+}
+bool unlike_isotropic(const Domain<2>& domain, const Index<2>& at) { return domain.is_tilted(at); }
+bool unlike_isotropic(const Domain<3>& domain, const Index<3>& at) {
+  return anisotropic_across_rows(domain, at);
+}
+
+/// Across rows with the vector N: the impedance of a cell, and the tractions that motion along an axis puts
+/// on them, times the density, of components z, x, in 3-D y.
+template <int D>
+class Rows;
+template <>
+class Rows<2> {
+ public:
+  using Square = std::array<std::array<double, 2>, 2>;
+  Rows(const Domain<2>& domain, const Index<2>& cell, const RowVector<2, double>& normal)
+      : stiffness_(plane_stiffness_at(domain, cell)), nx_(normal.x) {}
+  Square impedance() const {
+    const auto z = root_of(acoustic_tensor(stiffness_, nx_, 1));
+    return {{{z.zz, z.zx}, {z.zx, z.xx}}};
+  }
+  Square load_along(int /*axis*/) const {
+    const auto& c = stiffness_;
+    return {{{c.c35 + nx_ * c.c55, c.c13 + nx_ * c.c15}, {c.c55 + nx_ * c.c15, c.c15 + nx_ * c.c11}}};
+  }
+
+ private:
+  PlaneStiffness stiffness_;
+  double nx_;
+};
+template <>
+class Rows<3> {
+ public:
+  using Square = RowMatrix;
+  Rows(const Domain<3>& domain, const Index<3>& cell, const RowVector<3, double>& normal)
+      : stiffness_(space_stiffness_at(domain, cell)), normal_(normal_in_space(normal)) {}
+  Square impedance() const { return impedance_across_rows(stiffness_, normal_); }
+  Square load_along(int axis) const {
+    SpaceVector along{};
+    along[std::size_t(axis)] = 1;
+    return traction_of_rows(stiffness_, normal_, along);
+  }
+
+ private:
+  SpaceStiffness stiffness_;
+  SpaceVector normal_;
+};
+Rows<2>::Square inverse(const Rows<2>::Square& of) {
+  const double over = 1 / (of[0][0] * of[1][1] - of[0][1] * of[0][1]);
+  return {{{over * of[1][1], -over * of[0][1]}, {-over * of[0][1], over * of[0][0]}}};
+}
+RowMatrix inverse(const RowMatrix& of) { return inverse_of(of); }
+
 /// Differences of the velocity along x and, in 3-D, y.
 template <int D, class Real, std::size_t N>
 std::array<RowVector<D, Real>, std::size_t(D - 1)> differences_along(const std::array<std::int64_t, N>& cells,
@@ -152,12 +209,14 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
-        if (!bent && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
+        if (!bent_face(domain, row) && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
       }
-      if constexpr (D == 2) {
-        const Index<2> above{at[0], row - 1};
-        if (bent_face(domain, row) && (domain.is_tilted(at) || domain.is_tilted(above)))
-          slot.bent = add_bent(state, domain, metric, at, bent ? double(slot.normal[0]) : 0);
+      if (bent_face(domain, row) &&
+          (unlike_isotropic(domain, at) || unlike_isotropic(domain, above<D>(at)))) {
+        RowVector<D, double> normal{};
+        normal.z = 1, normal.x = double(slot.normal[0]);
+        if constexpr (D == 3) normal.y = double(slot.normal[1]);
+        slot.bent = add_bent(state, domain, metric, at, normal);
       }
       slots_.push_back(slot);
     }
@@ -167,61 +226,60 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
     for (auto& list : *lists) list.assign(slots_.size(), 0);
 }
 
-/// Of a face of bent rows in 2-D: the sums of update_slot() with impedances and tensors of the vector N.
+/// Of a face of bent rows: the sums of update_slot() with impedances and tensors of the vector N.
 template <int D, class Real>
 std::int32_t InterfaceCorrections<D, Real>::add_bent(const State<D, Real>& state, const Domain<D>& domain,
                                                      const Metric<D, Real>& metric, const Index<D>& below,
-                                                     double nx) {
-  if constexpr (D == 2) {
-    using Square = std::array<std::array<double, 2>, 2>;  // of components z, x
-    const auto times = [](const Square& a, const Square& b) {
-      Square product{};
-      for (std::size_t i = 0; i < 2; ++i)
-        for (std::size_t j = 0; j < 2; ++j) product[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j];
-      return product;
-    };
-    const auto inverse = [](const PlaneTensor& of) -> Square {
-      const double over = 1 / (of.zz * of.xx - of.zx * of.zx);
-      return {{{over * of.xx, -over * of.zx}, {-over * of.zx, over * of.zz}}};
-    };
-    PlaneTensor sum;
-    std::array<Square, 2> load{}, bend{};
-    bool beside_void = false;
-    Bent found{};
-    for (const std::size_t side : {0, 1}) {
-      Index<2> cell = below;
-      cell[1] += std::int64_t(side) - 1;
-      if (domain.impedance(wave_p)(cell) == 0) {
-        beside_void = true;
-        continue;
-      }
-      const auto c = plane_stiffness_at(domain, cell);
-      // N . C : (e_x (x) dv), times the density.
-      load[side] = {{{c.c35 + nx * c.c55, c.c13 + nx * c.c15}, {c.c55 + nx * c.c15, c.c15 + nx * c.c11}}};
-      const auto z = root_of(acoustic_tensor(c, nx, 1));
-      sum = {sum.zz + z.zz, sum.zx + z.zx, sum.xx + z.xx};
-      // (T3): Z over the tensor is the density times the inverse of Z; of a fluid along the normal alone.
-      const double along = z.zz + z.xx, square = 1 + nx * nx;
-      const Square of_fluid = {{{1 / (along * square), nx / (along * square)},
-                                {nx / (along * square), nx * nx / (along * square)}}};
-      bend[side] = times(domain.impedance(wave_s)(cell) > 0 ? inverse(z) : of_fluid, load[side]);
+                                                     const RowVector<D, double>& normal) {
+  using Square = typename Rows<D>::Square;
+  constexpr std::size_t axes = D - 1;
+  std::array<double, std::size_t(D)> n{};
+  n[0] = normal.z, n[1] = normal.x;
+  if constexpr (D == 3) n[2] = normal.y;
+  Square sum{};
+  std::array<std::array<Square, axes>, 2> load{}, bend{};
+  bool beside_void = false;
+  Bent found{};
+  for (const std::size_t side : {0, 1}) {
+    const auto cell = side ? below : above<D>(below);
+    if (domain.impedance(wave_p)(cell) == 0) {
+      beside_void = true;
+      continue;
     }
-    const auto share = inverse(sum);
-    for (const std::size_t side : {0, 1}) {
-      Index<2> cell = below;
-      cell[1] += std::int64_t(side) - 1;
-      const double sign = side ? -1 : 1, j = double(metric.volume(cell)),
-                   b = double(state.material.data()[state.material_layout.cell(cell)]);
-      const auto velocity = times(share, bend[side]);
-      const double part = beside_void ? 1 : traction_share;
-      for (std::size_t i = 0; i < 2; ++i)
-        for (std::size_t k = 0; k < 2; ++k) {
-          found.velocity[i][2 * side + k] = Real(-sign * j * velocity[i][k]);
-          found.traction[i][2 * side + k] = Real(-sign / 2 * part * b * load[side][i][k]);
+    const Rows<D> rows(domain, cell, normal);
+    const auto z = rows.impedance();
+    double trace = 0;
+    for (std::size_t i = 0; i < D; ++i) {
+      trace += z[i][i];
+      for (std::size_t k = 0; k < D; ++k) sum[i][k] += z[i][k];
+    }
+    // (T3): Z over the tensor is the density times the inverse of Z; of a fluid along the normal alone.
+    Square of_fluid{};
+    for (std::size_t i = 0; i < D; ++i)
+      for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * dot(normal, normal));
+    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse(z) : of_fluid;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      load[side][axis] = rows.load_along(int(axis));
+      bend[side][axis] = product_of(over, load[side][axis]);
+    }
+  }
+  const auto share = inverse(sum);
+  for (const std::size_t side : {0, 1}) {
+    const auto cell = side ? below : above<D>(below);
+    const double sign = side ? -1 : 1, j = double(metric.volume(cell)),
+                 b = double(state.material.data()[state.material_layout.cell(cell)]);
+    const double part = beside_void ? 1 : traction_share;
+    for (std::size_t axis = 0; axis < axes; ++axis) {
+      const auto velocity = product_of(share, bend[side][axis]);
+      for (std::size_t i = 0; i < D; ++i)
+        for (std::size_t k = 0; k < D; ++k) {
+          const auto place = (side * axes + axis) * D + k;
+          found.velocity[i][place] = Real(-sign * j * velocity[i][k]);
+          found.traction[i][place] = Real(-sign / 2 * part * b * load[side][axis][i][k]);
         }
     }
-    bent_.push_back(found);
   }
+  bent_.push_back(found);
   return std::int32_t(bent_.size()) - 1;
 }
 
@@ -229,15 +287,17 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_bent_slot(const State<D, Real>& state, std::size_t n) {
   const Slot& slot = slots_[n];
   const Bent& of = bent_[std::size_t(slot.bent)];
-  std::array<Real, 4> along{};
-  for (const std::size_t side : {0, 1}) {
-    const auto difference =
-        differences_along<D>(slot.sides[side].cells, state.fields.data(), state.layout.row_pitch())[0];
-    along[2 * side] = difference.z, along[2 * side + 1] = difference.x;
-  }
-  for (const std::size_t i : {0, 1}) {
+  std::array<Real, Bent::differences> along{};
+  std::size_t place = 0;
+  for (const auto& side : slot.sides)
+    for (const auto& difference :
+         differences_along<D>(side.cells, state.fields.data(), state.layout.row_pitch())) {
+      along[place++] = difference.z, along[place++] = difference.x;
+      if constexpr (D == 3) along[place++] = difference.y;
+    }
+  for (std::size_t i = 0; i < D; ++i) {
     Real velocity = 0, traction = 0;
-    for (std::size_t k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < Bent::differences; ++k)
       velocity += of.velocity[i][k] * along[k], traction += of.traction[i][k] * along[k];
     velocities_[i][n] = velocity, tractions_[i][n] = traction;
   }
@@ -301,9 +361,9 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
   using Vector = RowVector<D, Real>;
   const Slot& slot = slots_[n];
+  if (slot.bent != none) return update_bent_slot(state, n);
   if (D == 3 && (slot.sides[0].tilted != none || slot.sides[1].tilted != none))
     return update_tilted_slot(state, n);
-  if (slot.bent != none) return update_bent_slot(state, n);
   const Vector normal = row_normal<D>(slot.normal.data(), 1);
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();

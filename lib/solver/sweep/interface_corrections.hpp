@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/kernels/bent_formulas.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/metric.hpp"
 #include "solver/sweep/state.hpp"
@@ -56,11 +57,13 @@ class InterfaceCorrections {
     std::array<Matrix, 2> motion;  // by the axis along the face: what motion along it puts on it
     Matrix z;
   };
-  /// Of a face in bent rows in 2-D beside anisotropic rock: what the differences along x of the velocities z
-  /// and x of its two sides make of the corrections of z and x (theory.md (F14)).
+  /// Of a face in bent rows beside anisotropic rock: what the differences along x, in 3-D also y, of the
+  /// velocities of its two sides make of its corrections (theory.md (F14)).
   struct Bent {
-    using Matrix = std::array<std::array<Real, 4>, 2>;  // [z, x][z before, x before, z behind, x behind]
-    Matrix velocity, traction;
+    static constexpr std::size_t differences = std::size_t(2) * (D - 1) * D;
+    /// [component][side, axis, component]
+    using Matrix = std::array<std::array<Real, differences>, std::size_t(D)>;
+    Matrix velocity{}, traction{};
   };
   struct Slot {
     std::int64_t row, column;
@@ -72,7 +75,7 @@ class InterfaceCorrections {
   void update_slot(const State<D, Real>& state, std::size_t slot);
   std::int32_t add_tilted(const Domain<D>& domain, const Index<D>& cell);
   std::int32_t add_bent(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric,
-                        const Index<D>& below, double nx);
+                        const Index<D>& below, const RowVector<D, double>& normal);
   void update_bent_slot(const State<D, Real>& state, std::size_t slot);
   static TiltedInSpace tilted_in_space(const TiltedMediumInSpace& medium);
   void update_tilted_slot(const State<D, Real>& state, std::size_t slot);

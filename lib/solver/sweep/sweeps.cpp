@@ -26,12 +26,11 @@ namespace {
 template <int D>
 bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
   const auto* const tilted = domain.tilted_at(at);
-  if constexpr (D == 2) {
-    // Upright rock is among those of bent rows.
+  // Upright rock is among those of bent rows.
+  if constexpr (D == 2)
     return tilted && !(domain.bent(at[1]) && tilted->stiffness.c15 == 0 && tilted->stiffness.c35 == 0);
-  } else {
-    return tilted;
-  }
+  else
+    return tilted && domain.tilted_media()[std::size_t(tilted->medium)].turned;
 }
 
 /// Faces that fractures part for a pair of sweeps along an axis.
@@ -112,8 +111,10 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
   if constexpr (D == 2) {
     tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
     bent_tilted_cells_ = BentTiltedCells<Real>(state, domain, metric_, reach_, stencils_[0]);
-  } else
+  } else {
     tilted_cells_ = TiltedCells<D, Real>(domain, reach_, stencils_);
+    bent_tilted_cells_ = BentTiltedCellsInSpace<Real>(domain, metric_, reach_);
+  }
   find_plain_lines();
 }
 
@@ -248,15 +249,20 @@ void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const Index
                                          const Real* fields, std::int64_t pitch, std::int64_t stride,
                                          const Real* b, Real scale, OutgoingWaves<Real> outgoing) const {
   if (tilted_cells_.empty()) return;
-  const auto pair = [&](int p) {
-    const auto& of = pairs_[axis][std::size_t(p)];
-    return typename TiltedCells<D, Real>::PairFields{fields + of.v * pitch + columns.first,
-                                                     fields + of.s * pitch + columns.first,
-                                                     corrections_of(axis, p)};
-  };
+  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride,
+                            tilted_pairs(axis, fields + columns.first, pitch), b, scale, outgoing);
+}
+
+/// From the first cell on.
+template <int D, class Real>
+auto Sweeps<D, Real>::tilted_pairs(int axis, const Real* fields, std::int64_t pitch) const ->
+    typename TiltedCells<D, Real>::Pairs {
   typename TiltedCells<D, Real>::Pairs pairs{};
-  for (int p = 0; p < D; ++p) pairs[std::size_t(p)] = pair(p);
-  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride, pairs, b, scale, outgoing);
+  for (int p = 0; p < D; ++p) {
+    const auto& of = pairs_[axis][std::size_t(p)];
+    pairs[std::size_t(p)] = {fields + of.v * pitch, fields + of.s * pitch, corrections_of(axis, p)};
+  }
+  return pairs;
 }
 
 template <int D, class Real>
@@ -271,10 +277,9 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
-    if constexpr (D == 2)
-      if (!bent_tilted_cells_.empty())
-        bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b,
-                                              scale, outgoing);
+    if (!bent_tilted_cells_.empty())
+      bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b, scale,
+                                            outgoing);
     bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
@@ -288,11 +293,28 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   for (int p = 0; p < D; ++p)
     stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
                                  outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
+  if (bent_tilted_cells_.empty()) return;
+  const auto all = tilted_pairs(axis, fields + columns.first, pitch);
+  if constexpr (D == 3)
+    tilted_cells_.reconstruct(axis, number, columns, *kernels_[false], stride, all, material.b, scale,
+                              outgoing, &metric);
+  else
+    bent_tilted_cells_.reconstruct_along(number, columns, *kernels_[false], {all, metric, material.b}, scale,
+                                         outgoing);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::solve_bent_tilted(const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                        const BentSolve<Real>& face, Real sign, bool fluid) const {
+  if (bent_tilted_cells_.empty()) return;
   if constexpr (D == 2) {
-    if (bent_tilted_cells_.empty()) return;
-    typename BentTiltedCells<Real>::Along all{{}, metric, material.b};
-    for (int p = 0; p < D; ++p) all.pairs[std::size_t(p)] = {pairs.v[p], pairs.s[p], corrections_of(axis, p)};
-    bent_tilted_cells_.reconstruct_along(number, columns, *kernels_[false], all, scale, outgoing);
+    bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
+  } else {
+    const auto line = [&](std::int64_t k) {
+      const bool inside = k >= 0 && k < state_.layout.shape()[z_axis];
+      return inside ? state_.layout.line_number(Index<D>{0, at[1], k}) : -1;
+    };
+    bent_tilted_cells_.solve_across(line(row - 1), line(row), columns, face, sign, fluid);
   }
 }
 
@@ -347,17 +369,18 @@ void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRan
   if (axis == z_axis) {
     const auto of = bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
     bent_kernels().update_across(columns.count(), scale, of);
-    if constexpr (D == 2)
-      if (!bent_tilted_cells_.empty())
-        bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
+    bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
     return;
   }
   bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
                               state_.material_from(line, columns.first),
                               metric_.along(axis, line, columns.first).over_j, rows);
-  if constexpr (D == 2)
-    if (!bent_tilted_cells_.empty())
-      bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
+  if constexpr (D == 3)
+    tilted_cells_.add_bent_stress(axis, number, columns, std::abs(scale),
+                                  state_.material_row(line, row_b) + columns.first, flux.lo, flux.hi, rows,
+                                  fields + columns.first + changed_[axis][changed] * pitch);
+  else
+    bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
 }
 
 /// Advances these columns by advance(), and lets effects filter what that adds.
@@ -655,9 +678,11 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
       const Real* const half_face = metric_.along(0, at, part.first).half_lo;
       bent_kernels().solve_along(part.count(), here.at(-1), here, material,
                                  state_.material_from(at, part.first), half_face, faces.at(from));
-      if constexpr (D == 2)
-        if (!bent_tilted_cells_.empty())
-          bent_tilted_cells_.solve_along(line, part, here.at(-1), here, half_face, faces.at(from));
+      if constexpr (D == 3)
+        tilted_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
+                            state_.material_from(at, part.first, 0), faces.at(from), half_face);
+      else
+        bent_tilted_cells_.solve_along(line, part, here.at(-1), here, half_face, faces.at(from));
       return;
     }
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
@@ -719,6 +744,8 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   Index<D> line_lo = at, line_hi = at;
   line_lo[axis] = row - 1, line_hi[axis] = row;
   const bool has_lo = row > 0, has_hi = row < rows;
+  const FaceLines lines{has_lo ? layout.line_number(line_lo) : -1, has_hi ? layout.line_number(line_hi) : -1,
+                        0};
   const auto up = ring.outgoing(row - 1, x), down = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
   const auto material_lo = state_.material_from(line_lo, x, axis),
@@ -729,12 +756,14 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
       const Real sign = scale < 0 ? -1 : 1;
       const auto face = bent_face(at, row, x, ring);
       bent_kernels().solve_across[fluid](columns.count(), sign, face);
-      if constexpr (D == 2)
-        if (!bent_tilted_cells_.empty()) bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
+      solve_bent_tilted(at, row, columns, face, sign, fluid);
       return;
     }
-    bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi,
-                               metric_.along(axis, line_hi, x).half_lo, faces);
+    const Real* const half_face = metric_.along(axis, line_hi, x).half_lo;
+    bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi, half_face, faces);
+    if constexpr (D == 3)
+      tilted_cells_.solve(axis, {lines.lo, lines.hi, 0}, columns, up, down, material_lo, material_hi, faces,
+                          half_face);
     return;
   }
   const auto run = [&](const Index<D>& line, bool is_there) {
@@ -745,9 +774,7 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   face_kernels(uniform).solve_riemann(columns.count(), up, down,
                                       uniform ? lo->template rows<D>(axis) : material_lo,
                                       uniform ? hi->template rows<D>(axis) : material_hi, faces);
-  solve_tilted(axis,
-               {has_lo ? layout.line_number(line_lo) : -1, has_hi ? layout.line_number(line_hi) : -1, 0},
-               columns, up, down, material_lo, material_hi, faces);
+  solve_tilted(axis, lines, columns, up, down, material_lo, material_hi, faces);
 }
 
 template <int D, class Real>
@@ -825,11 +852,8 @@ bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t ro
   const auto of = bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(),
                               ring.faces(done, x), ring.faces(done + 1, x));
   bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
-  if constexpr (D == 2) {
-    if (!bent_tilted_cells_.empty())
-      bent_tilted_cells_.solve_across(row, columns, face, scale < 0 ? -1 : 1, fluid);
-    if (!bent_tilted_cells_.empty()) bent_tilted_cells_.add_stress_across(done, columns, std::abs(scale), of);
-  }
+  solve_bent_tilted(at, row, columns, face, scale < 0 ? -1 : 1, fluid);
+  bent_tilted_cells_.add_stress_across(state_.layout.line_number(advanced), columns, std::abs(scale), of);
   work.prefetch().prefetch(prefetched_by_bent + 2);
   return true;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 #include <vector>
 
 #include "scene/edges.hpp"
 #include "solver/effect/effect.hpp"
 #include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/bent_tilted_cells.hpp"
+#include "solver/sweep/bent_tilted_cells_in_space.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
@@ -181,6 +183,10 @@ class Sweeps {
   void solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns, OutgoingWaves<Real> below,
                     OutgoingWaves<Real> above, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
                     InterfaceStates<Real> faces) const;
+  typename TiltedCells<D, Real>::Pairs tilted_pairs(int axis, const Real* fields, std::int64_t pitch) const;
+  /// The same of the faces across bent rows, before `row`.
+  void solve_bent_tilted(const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                         const BentSolve<Real>& face, Real sign, bool fluid) const;
   /// What is missing in the stresses of tilted cells.
   void add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
                          std::int64_t pitch, Real size, const Flux& flux) const;
@@ -249,7 +255,8 @@ class Sweeps {
     return {corrections_.velocity(pair), corrections_.traction(pair), parted};
   }
   BentStencils<D, Real> bent_stencils_;
-  BentTiltedCells<Real> bent_tilted_cells_;                           // in 2-D
+  /// In 2-D of all sweeps, in 3-D of those across the rows.
+  std::conditional_t<D == 2, BentTiltedCells<Real>, BentTiltedCellsInSpace<Real>> bent_tilted_cells_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]

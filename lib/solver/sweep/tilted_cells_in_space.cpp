@@ -9,50 +9,9 @@
 namespace slipwave::solver {
 namespace {
 
-/// Of the ghost beyond a mirror: nothing moves across it, whatever the shear of the rock does there.
-constexpr double mirror_impedance = 1e6;
-
 /// The axes of motion of the pairs of sweeps along an axis.
 std::array<int, 3> axes_of_pairs(int axis) {
   return {axis, axis_of_pair<3>(axis, 1), axis_of_pair<3>(axis, 2)};
-}
-
-/// Both sides of n faces; impedances of the order 00, 01, 02, 11, 12, 22. Z of both sides times v* is the sum
-/// of what comes in (theory.md (T5)).
-template <class Real>
-struct FaceRows {
-  const Real *lo[6], *hi[6], *up[3], *down[3];
-  Real *v[3], *s[3];
-};
-template <class Real>
-void solve_faces(std::int64_t n, const FaceRows<Real>& rows) {
-  const Real* __restrict const l0 = rows.lo[0];
-  const Real* __restrict const l1 = rows.lo[1];
-  const Real* __restrict const l2 = rows.lo[2];
-  const Real* __restrict const l3 = rows.lo[3];
-  const Real* __restrict const l4 = rows.lo[4];
-  const Real* __restrict const l5 = rows.lo[5];
-  const Real* __restrict const h0 = rows.hi[0];
-  const Real* __restrict const h1 = rows.hi[1];
-  const Real* __restrict const h2 = rows.hi[2];
-  const Real* __restrict const h3 = rows.hi[3];
-  const Real* __restrict const h4 = rows.hi[4];
-  const Real* __restrict const h5 = rows.hi[5];
-  for (std::int64_t k = 0; k < n; ++k) {
-    const Real m00 = l0[k] + h0[k], m01 = l1[k] + h1[k], m02 = l2[k] + h2[k], m11 = l3[k] + h3[k],
-               m12 = l4[k] + h4[k], m22 = l5[k] + h5[k];
-    const Real a = m11 * m22 - m12 * m12, b = m02 * m12 - m01 * m22, c = m01 * m12 - m02 * m11,
-               d = m00 * m22 - m02 * m02, e = m01 * m02 - m00 * m12, f = m00 * m11 - m01 * m01;
-    const Real share = 1 / (m00 * a + m01 * b + m02 * c);
-    const Real u0 = rows.up[0][k], u1 = rows.up[1][k], u2 = rows.up[2][k];
-    const Real r0 = u0 + rows.down[0][k], r1 = u1 + rows.down[1][k], r2 = u2 + rows.down[2][k];
-    const Real v0 = (a * r0 + b * r1 + c * r2) * share, v1 = (b * r0 + d * r1 + e * r2) * share,
-               v2 = (c * r0 + e * r1 + f * r2) * share;
-    rows.v[0][k] = v0, rows.v[1][k] = v1, rows.v[2][k] = v2;
-    rows.s[0][k] = l0[k] * v0 + l1[k] * v1 + l2[k] * v2 - u0;
-    rows.s[1][k] = l1[k] * v0 + l3[k] * v1 + l4[k] * v2 - u1;
-    rows.s[2][k] = l2[k] * v0 + l4[k] * v1 + l5[k] * v2 - u2;
-  }
 }
 
 /// Adds to n stresses what two velocities over cells put on them.
@@ -60,6 +19,35 @@ template <class Real>
 void add_share(std::int64_t n, const Real* __restrict of_one, const Real* __restrict one,
                const Real* __restrict of_other, const Real* __restrict other, Real* __restrict stress) {
   for (std::int64_t k = 0; k < n; ++k) stress[k] += of_one[k] * one[k] + of_other[k] * other[k];
+}
+
+/// J s of n cells of a bent row.
+template <class Real>
+void scale_by_height(std::int64_t n, const Real* __restrict half_j, const Real* __restrict stress,
+                     Real* __restrict to) {
+  for (std::int64_t i = 0; i < n; ++i) to[i] = (half_j[i] + half_j[i + 1]) * stress[i];
+}
+
+/// The pair of numbers of a wave with this motion, from velocities and tractions.
+template <class Real>
+void combine_pairs(std::int64_t n, const std::array<const Real*, 3>& motion,
+                   const std::array<const Real*, 3>& velocities, const std::array<const Real*, 3>& tractions,
+                   const Real* __restrict mean, const Real* __restrict turned, Real* __restrict v,
+                   Real* __restrict s) {
+  const Real* __restrict const q = motion[0];
+  const Real* __restrict const r = motion[1];
+  const Real* __restrict const t = motion[2];
+  const Real* __restrict const v0 = velocities[0];
+  const Real* __restrict const v1 = velocities[1];
+  const Real* __restrict const v2 = velocities[2];
+  const Real* __restrict const s0 = tractions[0];
+  const Real* __restrict const s1 = tractions[1];
+  const Real* __restrict const s2 = tractions[2];
+  for (std::int64_t i = 0; i < n; ++i) {
+    const Real own = q[i] * v0[i] + r[i] * v1[i] + t[i] * v2[i];
+    v[i] = mean[i] * own;
+    s[i] = turned[i] * own + (q[i] * s0[i] + r[i] * s1[i] + t[i] * s2[i]);
+  }
 }
 
 }  // namespace
@@ -102,12 +90,26 @@ auto TiltedCells<3, Real>::of_axis(const TiltedMediumInSpace& medium, int axis) 
                                                                {p, q, q}}};
   for (std::size_t n = 0; n < stresses; ++n)
     of.missing[n] = Real(rho * c(of_stress[n][0], of_stress[n][1], of_stress[n][2], a));
+  // Loops of bent rows take it for isotropic rock with the speeds along z.
+  const std::array<std::array<int, 2>, 6> all = {{{a, a}, {p, p}, {q, q}, {a, p}, {a, q}, {p, q}}};
+  const double modulus = c.voigt[2][2], mu = c.voigt[4][4];
+  std::size_t n = 0;
+  for (const auto& [i, j] : all)
+    for (const int k : {a, p, q}) {
+      const double taken = i == j             ? (k != a   ? 0
+                                                 : i == a ? modulus
+                                                          : modulus - 2 * mu)
+                           : i == a && j == k ? mu
+                                              : 0;
+      of.missing_in_bent[n++] = Real(rho * (c(i, j, k, a) - taken));
+    }
   return of;
 }
 
 template <class Real>
 TiltedCells<3, Real>::TiltedCells(const Domain<3>& domain, int reach,
-                                  const std::array<std::array<InterfaceStencils, 3>, 3>& stencils) {
+                                  const std::array<std::array<InterfaceStencils, 3>, 3>& stencils)
+    : reach_(reach) {
   if (domain.tilted().empty()) return;
   const auto nx = domain.grid.shape[0];
   for (const auto& medium : domain.tilted_media())
@@ -218,17 +220,69 @@ void TiltedCells<3, Real>::reconstruct_run(int axis, const IndexRange& run, cons
   }
 }
 
+/// The same of a bent row, whose faces have different sizes: each wave is one pair of numbers, as across the
+/// rows (WavePair).
+template <class Real>
+void TiltedCells<3, Real>::reconstruct_bent_run(int axis, const IndexRange& run, const Kernels<Real>& kernels,
+                                                std::int64_t stride, std::int64_t at, const Pairs& pairs,
+                                                const Real* b, Real scale, const BentAlong<Real>& metric,
+                                                OutgoingWaves<Real> outgoing) const {
+  const Real sign = scale < 0 ? -1 : 1;
+  const int reach = reach_;
+  Real v[3][2 * max_reach + 1][at_once], s[3][2 * max_reach + 1][at_once];  // [wave][place]
+  Real mean[at_once], turned[3][at_once], tractions[3][at_once];
+  Real up[3][at_once], down[3][at_once];
+  Expanded<impedances + motions> of;
+  for (auto first = run.first; first < run.last; first += at_once) {
+    const auto n = std::min(at_once, run.last - first), to = at + first - run.first;
+    expand(first, n, axis, &OfAxis::waves, of);
+    for (std::int64_t i = 0; i < n; ++i) {
+      const Real lo = metric.half_lo[to + i], hi = metric.half_hi[to + i];
+      mean[i] = lo + hi;
+      for (std::size_t wave = 0; wave < 3; ++wave) turned[wave][i] = sign * of.values[wave][i] * (lo - hi);
+    }
+    for (int k = -reach; k <= reach; ++k) {
+      const Real* const half_j = metric.half_x + to + k * metric.stride;
+      const auto field = [&](const Real* from) { return from + to + k * stride; };
+      for (std::size_t pair = 0; pair < 3; ++pair)
+        scale_by_height(n, half_j, field(pairs[pair].s), tractions[pair]);
+      for (std::size_t wave = 0; wave < 3; ++wave) {
+        const auto motion = [&](std::size_t pair) { return of.values[impedances + 3 * wave + pair]; };
+        combine_pairs(n, {motion(0), motion(1), motion(2)},
+                      {field(pairs[0].v), field(pairs[1].v), field(pairs[2].v)},
+                      {tractions[0], tractions[1], tractions[2]}, mean, turned[wave], v[wave][k + reach],
+                      s[wave][k + reach]);
+      }
+    }
+    for (std::size_t wave = 0; wave < 3; ++wave)
+      kernels.reconstruct(n, at_once, v[wave][reach], s[wave][reach], of.values[wave], b + to, scale,
+                          up[wave], down[wave]);
+    for (std::size_t pair = 0; pair < 3; ++pair) {
+      const auto sum = [&](const Real(&waves)[3][at_once], Real* __restrict result) {
+        const auto motion = [&](std::size_t wave) { return of.values[impedances + 3 * wave + pair]; };
+        const Real* __restrict const one = motion(0);
+        const Real* __restrict const two = motion(1);
+        const Real* __restrict const three = motion(2);
+        for (std::int64_t i = 0; i < n; ++i)
+          result[i] = one[i] * waves[0][i] + two[i] * waves[1][i] + three[i] * waves[2][i];
+      };
+      sum(up, outgoing.up(int(pair)) + to), sum(down, outgoing.down(int(pair)) + to);
+    }
+  }
+}
+
 template <class Real>
 template <int Order>
 void TiltedCells<3, Real>::reconstruct_ending(int axis, const Ending& ending, std::int64_t stride,
                                               std::int64_t at, const Pairs& pairs, Real b, Real scale,
+                                              const BentAlong<Real>* metric,
                                               OutgoingWaves<Real> outgoing) const {
   constexpr int reach = reach_of(Order), count = 2 * reach + 1;
   const auto& of = media_[std::size_t(cells_[std::size_t(ending.cell)].medium)].along[std::size_t(axis)];
   Real v[3][count], s[3][count];
   for (const std::size_t p : {0, 1, 2})
     extended_pair(ending.stencils[p], reach, stride, pairs[p].v + at, pairs[p].s + at, pairs[p].corrections,
-                  scale, v[p], s[p]);
+                  scale, v[p], s[p], metric ? metric->half_x + at : nullptr, metric ? metric->stride : 0);
   const Real sign = scale < 0 ? -1 : 1;
   Real up[3] = {0, 0, 0}, down[3] = {0, 0, 0};
   for (std::size_t wave = 0; wave < 3; ++wave) {
@@ -239,7 +293,16 @@ void TiltedCells<3, Real>::reconstruct_ending(int axis, const Ending& ending, st
       v_of[k] = motion[0] * v[0][k] + motion[1] * v[1][k] + motion[2] * v[2][k];
       s_of[k] = motion[0] * s[0][k] + motion[1] * s[1][k] + motion[2] * s[2][k];
     }
-    reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z, sign * scale * z * b, of_up, of_down);
+    const Real courant = sign * scale * z * b;
+    if (metric) {
+      Real other = 0;
+      reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * (2 * metric->half_hi[at]), courant,
+                              of_up, other);
+      reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z * (2 * metric->half_lo[at]), courant,
+                              other, of_down);
+    } else {
+      reconstruct_cell<Order>(v_of + reach, s_of + reach, 1, sign * z, courant, of_up, of_down);
+    }
     for (const int p : {0, 1, 2}) up[p] += motion[p] * of_up, down[p] += motion[p] * of_down;
   }
   for (const int p : {0, 1, 2}) outgoing.up(p)[at] = up[p], outgoing.down(p)[at] = down[p];
@@ -248,7 +311,8 @@ void TiltedCells<3, Real>::reconstruct_ending(int axis, const Ending& ending, st
 template <class Real>
 void TiltedCells<3, Real>::reconstruct(int axis, std::int64_t row, const IndexRange& columns,
                                        const Kernels<Real>& kernels, std::int64_t stride, const Pairs& pairs,
-                                       const Real* b, Real scale, OutgoingWaves<Real> outgoing) const {
+                                       const Real* b, Real scale, OutgoingWaves<Real> outgoing,
+                                       const BentAlong<Real>* metric) const {
   if (empty()) return;
   const auto cells = cells_of(row, columns);
   if (cells.empty()) return;
@@ -260,7 +324,8 @@ void TiltedCells<3, Real>::reconstruct(int axis, std::int64_t row, const IndexRa
     if (ending != endings.end() && ending->cell == n) {
       const auto as = [&]<std::size_t... N>(std::index_sequence<N...>) {
         ((ending->reach == reach_of(orders[N])
-              ? reconstruct_ending<orders[N]>(axis, *ending, stride, at, pairs, b[at], scale, outgoing)
+              ? reconstruct_ending<orders[N]>(axis, *ending, stride, at, pairs, b[at], scale, metric,
+                                              outgoing)
               : void()),
          ...);
       };
@@ -270,7 +335,10 @@ void TiltedCells<3, Real>::reconstruct(int axis, std::int64_t row, const IndexRa
     }
     const auto last = ending != endings.end() ? std::min(ending->cell, cells.last) : cells.last;
     const auto end = end_of_run(n, last);
-    reconstruct_run(axis, {n, end}, kernels, stride, at, pairs, b, scale, outgoing);
+    if (metric)
+      reconstruct_bent_run(axis, {n, end}, kernels, stride, at, pairs, b, scale, *metric, outgoing);
+    else
+      reconstruct_run(axis, {n, end}, kernels, stride, at, pairs, b, scale, outgoing);
     n = end;
   }
 }
@@ -301,7 +369,7 @@ template <class Real>
 void TiltedCells<3, Real>::solve(int axis, const Sides& sides, const IndexRange& columns,
                                  OutgoingWaves<Real> below, OutgoingWaves<Real> above,
                                  const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                                 InterfaceStates<Real> faces) const {
+                                 InterfaceStates<Real> faces, const Real* half_face) const {
   if (empty()) return;
   const auto shifted = [&](const IndexRange& of) {
     return IndexRange{of.first - sides.shift, of.last - sides.shift};
@@ -333,6 +401,12 @@ void TiltedCells<3, Real>::solve(int axis, const Sides& sides, const IndexRange&
       rows.v[p] = faces.v(p) + i, rows.s[p] = faces.s(p) + i;
     }
     solve_faces(run.count(), rows);
+    if (!half_face) continue;
+    // Impedances are J times as large as those that are kept: so are tractions, but not velocities.
+    for (std::int64_t k = 0; k < run.count(); ++k) {
+      const Real over = 1 / (half_face[i + k] + half_face[i + k]);
+      for (const int p : {0, 1, 2}) rows.v[p][k] *= over;
+    }
   }
 }
 
@@ -359,6 +433,37 @@ void TiltedCells<3, Real>::add_stress(int axis, std::int64_t row, const IndexRan
     add(0, 1, 2, rows.s), add(2, 1, 2, rows.passive), add(4, 1, 2, rows.passive2);
     add(6, 0, 2, rows.st), add(8, 0, 1, rows.st2), add(10, 0, 1, shear);
     for (std::int64_t k = 0; k < n; ++k) shear[i + k] += of.values[12][k] * over[2][k];
+    first = end;
+  }
+}
+
+template <class Real>
+void TiltedCells<3, Real>::add_bent_stress(int axis, std::int64_t row, const IndexRange& columns, Real size,
+                                           const Real* b, InterfaceStates<Real> lo, InterfaceStates<Real> hi,
+                                           const SweptRows<Real>& rows, Real* shear) const {
+  if (empty()) return;
+  const auto cells = cells_of(row, columns);
+  Expanded<bent_stresses> of;
+  for (auto first = cells.first; first < cells.last;) {
+    const auto end = std::min(end_of_run(first, cells.last), first + at_once), n = end - first;
+    const auto i = cells_[std::size_t(first)].x - columns.first;
+    expand(first, n, axis, &OfAxis::missing_in_bent, of);
+    Real over[3][at_once];
+    for (const int p : {0, 1, 2}) {
+      const Real* const from = lo.v(p) + i;
+      const Real* const to = hi.v(p) + i;
+      for (std::int64_t k = 0; k < n; ++k) over[p][k] = size * b[i + k] * (to[k] - from[k]);
+    }
+    std::size_t next = 0;
+    for (Real* const stress : {rows.s, rows.passive, rows.passive2, rows.st, rows.st2, shear}) {
+      const Real* __restrict const one = of.values[next];
+      const Real* __restrict const two = of.values[next + 1];
+      const Real* __restrict const three = of.values[next + 2];
+      Real* __restrict const sum = stress + i;
+      for (std::int64_t k = 0; k < n; ++k)
+        sum[k] += one[k] * over[0][k] + two[k] * over[1][k] + three[k] * over[2][k];
+      next += 3;
+    }
     first = end;
   }
 }
