@@ -10,7 +10,8 @@ namespace slipwave {
 /// the zone on its way comes back, however short the way.
 inline double grazing_share(double along_m, double mean_m, double wavelength_m, double zone_m) {
   const double way = along_m / wavelength_m, away = mean_m / wavelength_m, zone = zone_m / wavelength_m;
-  const double beside = 0.115 * way / (way + 0.15) * std::exp(-away / 0.16) / (1 + std::pow(zone / 0.22, 2.6));
+  const double beside =
+      0.115 * way / (way + 0.15) * std::exp(-away / 0.16) / (1 + std::pow(zone / 0.22, 2.6));
   const double along =
       0.46 * std::pow(way / 5, 2) * std::exp(-away / 0.4) / (1 + std::pow(zone / 0.34, 2.45));
   return std::min(0.5, beside + along);
