@@ -15,11 +15,11 @@ TEST_P(AbsorbingEdges, NeverFeedEnergyBack) {
     for (const int zone : {1, 3, 20}) {
       SCOPED_TRACE("order " + std::to_string(order) + ", zones of " + std::to_string(zone) + " cells");
       Lab<double>::Setup setup;
-      setup.medium = medium_named(GetParam(), long_form() ? 60 : 28);
+      setup.medium = medium_named(GetParam(), long_form() ? 60 : 20);
       setup.edges = all_edges(EdgeLaw::absorbing);
       setup.order = order;
       setup.zone_cells = zone;
-      Lab<double>(setup).expect_no_growth(long_form() ? 4000 : 400, rounding<double>());
+      Lab<double>(setup).expect_no_growth(long_form() ? 4000 : 300, rounding<double>());
     }
 }
 
@@ -27,12 +27,12 @@ TEST_P(AbsorbingEdges, BesideAFreeSurfaceNeverFeedEnergyBack) {
   for (const int order : {3, 5, 7}) {
     SCOPED_TRACE("order " + std::to_string(order));
     Lab<float>::Setup setup;
-    setup.medium = medium_named(GetParam(), long_form() ? 60 : 28);
+    setup.medium = medium_named(GetParam(), long_form() ? 60 : 20);
     setup.edges = all_edges(EdgeLaw::absorbing);
     setup.edges[1][0] = EdgeLaw::free;
     setup.order = order;
     setup.zone_cells = 10;
-    Lab<float>(setup).expect_no_growth(long_form() ? 10000 : 800, rounding<float>());
+    Lab<float>(setup).expect_no_growth(long_form() ? 10000 : 600, rounding<float>());
   }
 }
 
@@ -41,7 +41,7 @@ TEST_P(AbsorbingEdges, WithPmlDrainTheField) {
     for (const auto top : {EdgeLaw::absorbing, EdgeLaw::free}) {
       SCOPED_TRACE("order " + std::to_string(order) + (top == EdgeLaw::free ? ", free surface" : ""));
       Lab<float>::Setup setup;
-      setup.medium = medium_named(GetParam(), long_form() ? 60 : 28);
+      setup.medium = medium_named(GetParam(), long_form() ? 60 : 16);
       setup.edges = all_edges(EdgeLaw::absorbing);
       setup.edges[1][0] = top;
       setup.order = order;

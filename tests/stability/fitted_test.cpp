@@ -78,7 +78,7 @@ class FittedEnergy : public ::testing::TestWithParam<std::string> {
     return long_form() ? fitted_named(GetParam(), 40, 88) : fitted_named(GetParam(), 20, 44);
   }
   const ThreadLimit one_thread_{1};
-  const int steps_ = long_form() ? 20000 : 1000;
+  const int steps_ = long_form() ? 20000 : 600;
 };
 
 TEST_P(FittedEnergy, NeverRisesInDouble) {
@@ -145,7 +145,7 @@ TEST_P(FittedPml, StaysBoundedForThousandsOfSteps) {
     for (int n = 0; n < 500; ++n) lab.step();
     const double early = lab.energy();
     EXPECT_LT(early, begin);
-    for (int piece = 0; piece < (long_form() ? 39 : 7); ++piece) {
+    for (int piece = 0; piece < (long_form() ? 39 : 3); ++piece) {
       for (int n = 0; n < 500; ++n) lab.step();
       // Written so that NaN fails.
       ASSERT_TRUE(lab.energy() < 1.001 * early)

@@ -90,6 +90,8 @@ Lab<Real>::Lab(const Setup& setup)
     springs_ = std::make_unique<solver::LinearSlip<2, Real>>(state_, domain_, scene_, dt_s_);
   if (scene_.slips()) slip_ = std::make_unique<solver::Slip<2, Real>>(state_, domain_, scene_, dt_s_);
 
+  fill_energies();
+
   std::mt19937 engine(setup.seed);
   std::uniform_real_distribution<double> uniform(-0.5, 0.5);
   for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
@@ -114,6 +116,24 @@ Lab<Real>::Lab(const Setup& setup)
     set(3, model.medium.is_solid(cell) ? z * uniform(engine) : pressure);
     const double shear = model.medium.is_solid(cell) ? 0.3 * z * uniform(engine) : 0;
     if (!state_.fluid) set(4, shear);
+  }
+}
+
+template <class Real>
+void Lab<Real>::fill_energies() {
+  const auto& medium = scene_.model.medium;
+  energies_.reserve(std::size_t(domain_.grid.size()));
+  for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
+    const auto at = domain_.grid.index(n);
+    const auto cell = std::size_t(medium.grid().flat(domain_.model_cell(at)));
+    const double vp = medium.vp[cell], vs = medium.vs[cell], rho = medium.rho[cell];
+    const auto of = [&](double vx, double sxx, double szz, double sxz) {
+      return energy_density(vp, vs, rho, vx, 0, sxx, szz, sxz);
+    };
+    const bool solid = vs > 0;
+    energies_.push_back({of(1, 0, 0, 0), of(0, 0.5, 0.5, 0), solid ? of(0, 0.5, -0.5, 0) : 0,
+                         solid ? of(0, 0, 0, 1) : 0,
+                         !domain_.is_tilted(at) && !is_anisotropic(medium, cell)});
   }
 }
 
@@ -178,14 +198,19 @@ double Lab<Real>::sum(Stress which) const {
         s[c] = c == 2 && state_.fluid ? 0 : double(row[2 + c][i]);
         if (which == Stress::all && !still.empty()) s[c] += still[std::size_t(c)][cell];
       }
-      const CellFields fields = {double(row[0][i]), double(row[1][i]), s[0], s[1], s[2]};
+      const double vx = row[0][i], vz = row[1][i];
+      if (const auto& of = energies_[std::size_t(domain_.grid.flat({i, k}))]; of.isotropic) {
+        const double even = s[0] + s[1], odd = s[0] - s[1];
+        total += h * h *
+                 (of.kinetic * (vx * vx + vz * vz) + of.even * even * even + of.odd * odd * odd +
+                  of.shear * s[2] * s[2]);
+        continue;
+      }
+      const CellFields fields = {vx, vz, s[0], s[1], s[2]};
       total += h * h *
                (domain_.is_tilted({i, k})
                     ? energy_density(domain_.tilted_at({i, k})->stiffness, medium.rho[cell], fields)
-                : is_anisotropic(medium, cell)
-                    ? energy_density(stiffness_of(medium, cell), medium.rho[cell], fields)
-                    : energy_density(medium.vp[cell], medium.vs[cell], medium.rho[cell], double(row[0][i]),
-                                     double(row[1][i]), s[0], s[1], s[2]));
+                    : energy_density(stiffness_of(medium, cell), medium.rho[cell], fields));
     }
   }
   return total;

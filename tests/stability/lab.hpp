@@ -89,6 +89,7 @@ class Lab {
  private:
   enum class Stress { of_waves, all };
   double sum(Stress which) const;
+  void fill_energies();
   template <class Act>
   void slip(const Act& act);
 
@@ -102,6 +103,12 @@ class Lab {
   std::unique_ptr<solver::Effect<2, Real>> slip_;
   std::unique_ptr<solver::PartedFaces<2, Real>> parted_;
   std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
+  /// What (vx2 + vz2), (sxx + szz)2, (sxx - szz)2 and sxz2 count for in the energy of isotropic cells.
+  struct CellEnergy {
+    double kinetic, even, odd, shear;
+    bool isotropic;
+  };
+  std::vector<CellEnergy> energies_;  // of the computed grid: the energy is asked for after every step
   bool along_z_only_;
   double work_of_prestress_ = 0;
   std::vector<SweepFraction> splitting_;

@@ -11,12 +11,12 @@ template <class Real>
 void expect_bounded(const std::string& medium, int order, double cfl, EdgeLaw edges) {
   SCOPED_TRACE(medium + ", order " + std::to_string(order) + ", Courant " + std::to_string(cfl));
   typename Lab<Real>::Setup setup;
-  setup.medium = medium_named(medium, 24);
+  setup.medium = medium_named(medium, long_form() ? 24 : 18);
   setup.edges = all_edges(edges);
   setup.order = order;
   setup.cfl = cfl;
   setup.monotone = true;
-  Lab<Real>(setup).expect_no_growth(long_form() ? 16000 : 300, rounding<Real>());
+  Lab<Real>(setup).expect_no_growth(long_form() ? 16000 : 250, rounding<Real>());
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ void expect_to_last(InLayer&& lab) {
   lab.steps(500);
   const double early = lab.energy();
   EXPECT_LT(early, begin);
-  const int pieces = long_form() ? 39 : 7, piece = 500;
+  const int pieces = long_form() ? 39 : 3, piece = 500;
   for (int n = 0; n < pieces; ++n) {
     lab.steps(piece);
     // Written so that NaN fails.
