@@ -140,6 +140,30 @@ TEST(Discs, AreTheSameFromAFileAndInOtherCells) {
               set.traces[0][0][2] - 10, 1e-9);
 }
 
+TEST(Discs, KeepTheirAreaAndTheirPlaceWhereRowsBend) {
+  Grid<3> grid{{24, 20, 16}, 5, {0, 0, 0}};
+  std::vector<double> corners;
+  for (int k = 0; k <= 16; ++k)
+    for (int j = 0; j <= 20; ++j)
+      for (int i = 0; i <= 24; ++i) corners.push_back(5 * k + 4 * std::sin(0.3 * i + 0.2 * j));
+  grid.rows = std::make_shared<RowDepths<3>>(grid.shape, corners);
+  const auto disc = parse_disc("60,50,40:20:35:20");
+  double area = 0;
+  Point<3> middle{};
+  for (const auto& [number, density] : densities_of(grid, disc)) {
+    const auto at = grid.index(std::int64_t(number));
+    const double part = density * 25 * grid.height(at);
+    area += part;
+    const Point<3> centre = {grid.centre(0, at[0]), grid.centre(1, at[1]), grid.depth(at)};
+    for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] += part * centre[axis];
+  }
+  EXPECT_NEAR(area / area_of(disc), 1, 1e-12);
+  // Corners are joined by straight lines, splines reach over some of them.
+  EXPECT_NEAR(middle[0] / area, 60, 1e-9);
+  EXPECT_NEAR(middle[1] / area, 50, 1e-9);
+  EXPECT_NEAR(middle[2] / area, 40, 0.2);
+}
+
 TEST(Discs, EndWithTheModel) {
   // A segment of a circle is left; cells get of it what lies in them.
   const Grid<3> grid{{24, 20, 16}, 5, {0, 0, 0}};
