@@ -135,7 +135,8 @@ double fastest_in_space(const Material& material) {
   constexpr int most_turns = 200;
   double largest = 0;
   for (int n = 1; n < 27; ++n) {
-    SpaceVector direction = {double(n % 3) - 1, double(n / 3 % 3) - 1, double(n / 9) - 1};
+    const int second = n / 3 % 3, third = n / 9;
+    SpaceVector direction = {double(n % 3) - 1, double(second) - 1, double(third) - 1};
     const double size = std::hypot(direction[0], direction[1], direction[2]);
     if (size == 0) continue;
     for (auto& part : direction) part /= size;
