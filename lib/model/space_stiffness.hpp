@@ -46,7 +46,8 @@ SpaceVector phase_speeds(const SpaceStiffness& stiffness, double rho, const Spac
 
 /// The largest speed of waves along an axis of the grid, m/s: what bounds the time step.
 double fastest_along_grid(const Material& material);
-/// The largest speed of waves in any direction, m/s.
+/// What the largest speed of waves in any direction is, m/s; where all horizontal directions are alike at
+/// most.
 double fastest_in_space(const Material& material);
 /// How far waves turn along an axis, 0 to 2 (theory.md (V6)).
 double largest_turning(const SpaceStiffness& stiffness, int axis);

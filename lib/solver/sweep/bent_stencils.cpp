@@ -133,8 +133,9 @@ RowVector<2, Real> tractions_through(const typename AnisotropicStencil<2, Real>:
 template <class Real>
 RowVector<3, Real> tractions_through(const typename AnisotropicStencil<3, Real>::Weld& weld,
                                      const RowVector<3, Real>& t) {
-  const auto& [z, x, y] = weld.share;
-  const auto of = [&](std::size_t c) { return z[c] * t.z + x[c] * t.x + y[c] * t.y; };
+  const auto of = [&](std::size_t c) {
+    return weld.share[0][c] * t.z + weld.share[1][c] * t.x + weld.share[2][c] * t.y;
+  };
   return {t.z - of(0), t.x - of(1), t.y - of(2)};
 }
 
