@@ -25,8 +25,8 @@ constexpr std::size_t directions = 6;
 constexpr std::size_t frequencies = 40;
 
 // Fitted to the errors of 400 drawn scenes of layers against exact traces (docs/accuracy.md).
-/// What linear terms leave out of dispersion.
-constexpr double dispersion_margin = 1.1;
+/// What linear terms leave out of dispersion, and at orders 9 and 11, in fewer cells.
+constexpr double dispersion_margin = 1.1, of_high_orders = 1.2;
 /// Apparent shift of interfaces on faces, in cells times the square of cells per dominant wavelength.
 constexpr double shift_on_faces = 3.7, shift_of_surface = 1.3, shift_of_floor = 3.4, shift_of_ramps = 2.3;
 /// At order 7 and above; orders 9 and 11 fall to 5 beside an interface, which is felt by the S waves of a
@@ -208,7 +208,10 @@ double near_error(NearField kind, double away, double per_wave, double courant, 
   const double cubed = per_wave / std::pow(away, 3), shorter = std::clamp(0.9 / courant, 1., 10.);
   switch (kind) {
     case NearField::of_explosion_in_rock:
-      return (cells.order >= 7 ? 0.8 : 1.3) * cubed / away * std::sqrt(shorter) *
+      return (cells.order >= 9   ? 1.1
+              : cells.order >= 7 ? 0.8
+                                 : 1.5) *
+             cubed / away * std::sqrt(shorter) *
              (cells.time_order < 4 ? 1 : 1 + 1.5 * std::exp(-6 * std::max(0., 1.9 - courant)));
     case NearField::of_explosion_in_fluid:
       return cubed * (1.05 / away + 0.021 * per_wave * std::max(0., 0.9 - courant));
@@ -770,7 +773,7 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
                                                               bool by_wave) const {
   const auto& places = stack.places;
   const auto all = steps(cells);
-  const double dt = cells.time_step_s;
+  const double dt = cells.time_step_s, margin = cells.order >= 9 ? of_high_orders : dispersion_margin;
   Dispersion sum;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
@@ -798,8 +801,7 @@ ErrorSources::Shot::Dispersion ErrorSources::Shot::dispersion(const Discretisati
             for (const std::size_t c : {0, 1, 2}) wrong[of][bin][c] -= slower * change[bin][c];
         }
       }
-      const double weight =
-          (0.5 / directions + (n == direct ? 0.5 : 0)) * dispersion_margin * dispersion_margin;
+      const double weight = (0.5 / directions + (n == direct ? 0.5 : 0)) * margin * margin;
       sum.both += weight * energy_of(wrong[2], r);
       if (!by_wave) continue;
       sum.p += weight * energy_of(wrong[0], r);
