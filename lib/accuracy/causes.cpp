@@ -40,8 +40,8 @@ constexpr double shift_of_means = 0.13, shift_of_gentle_means = 0.087, shift_of_
 constexpr double drag_of_stairs = 1.5, drag_of_surface_stairs = 0.3;
 /// Of an interface known to lie beside its face, the share of the way that counts.
 constexpr double share_of_offset = 0.6;
-/// By how much near fields are worse at order 3.
-constexpr double near_of_order_3 = 5;
+/// By how much near fields are worse at order 3, and in the pressure of a force, which is weak beside it.
+constexpr double near_of_order_3 = 5, near_in_pressure = 3;
 /// Cells per wavelength from which cells that are anisotropic about the normal of an interface err less than
 /// means that are not: their error falls with the square of cells.
 constexpr double cells_of_tilted_means = 7.7;
@@ -546,12 +546,13 @@ double ErrorSources::Shot::near_field(const Discretisation& cells) const {
   const double per_wave = slowest_of(rock) / nominal_hz / h;
   // Of lower orders it is far less than dispersion.
   const bool sheared = cells.order >= 9 && near_kind() == NearField::of_explosion_in_rock;
+  const double worse = (cells.order == 3 ? near_of_order_3 : 1) *
+                       (source_is_force() && recorded == Recorded::pressure ? near_in_pressure : 1);
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const auto& at = places.receivers[r];
     const double own_way = std::hypot(at.a_m, at.b_m) / h, way = std::max(own_way, 1.);
-    const double share =
-        near_error(near_kind(), way, per_wave, courant, cells) * (cells.order == 3 ? near_of_order_3 : 1);
+    const double share = near_error(near_kind(), way, per_wave, courant, cells) * worse;
     const double s_waves = sheared ? shear_of_explosion(way, rock.vp / nominal_hz / h) : 0;
     const double uneven =
         unevenness * uneven_near_error(way, per_wave) * std::sqrt(std::max(1., 0.9 / courant));
