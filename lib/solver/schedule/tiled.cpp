@@ -111,9 +111,11 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
     all.push_back({Stage::end_of_step, end, {step, step_.dt_s()}});
     all.back().sweep = step_.sweeps().size() - 1;
   }
-  std::int64_t behind = 0;
+  std::int64_t behind = 0, next_along_y = 0;
   int along_x = 0, along_y = 0, along_z = 0, ends = 0;
   for (auto& stage : all) {
+    // Not before the last sweep along y has read what this one copies its velocities over (Sweeps::retain()).
+    if (stage.kind == Stage::along_y) behind = std::max(behind, next_along_y);
     stage.behind = behind;
     switch (stage.kind) {
       case Stage::along_z:
@@ -121,6 +123,7 @@ auto TiledExecutor<D, Real>::stages(std::int64_t first, std::int64_t last) const
         stage.number = along_z++;
         break;
       case Stage::along_y:
+        next_along_y = behind + 2 * surface_rows(1);
         behind += surface_rows(1);
         stage.number = along_y++;
         break;
