@@ -76,7 +76,7 @@ constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
   return {x, cells, cells, on, on, 0, 0, 0, 0, cells};
 }
 
-/// Whether the free surface of this side (0 low, 1 high) is corrected in line with a cell (FreeSurface).
+/// Whether stencils in line with a cell reach beyond this side (0 low, 1 high) as little as at contrasts.
 template <int D>
 using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
 

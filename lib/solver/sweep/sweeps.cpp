@@ -33,6 +33,16 @@ bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
     return tilted && domain.tilted_media()[std::size_t(tilted->medium)].turned;
 }
 
+/// Whether the order of the reconstruction rises away from an edge in line with a cell: from a corrected free
+/// surface, and in space from any of a solid. Where plain images, near a second free edge say, let it reach
+/// further than corrected ones beside them, stresses at rest in the surface of a box grew (theory.md, 1.3).
+template <int D>
+bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side) {
+  at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
+  if (D == 3) return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
+  return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
+}
+
 /// Faces that fractures part for a pair of sweeps along an axis.
 template <int D>
 PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reach) {
@@ -99,9 +109,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       if (wave == wave_s && !shear_) continue;
       SlotBefore<D> slot_before;
       if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
-      const CorrectedAt<D> corrected = [&domain, axis](Index<D> at, int side) {
-        at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
-        return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
+      const CorrectedAt<D> corrected = [&domain, axis](const Index<D>& at, int side) {
+        return order_rises_from(domain, at, axis, side);
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] =
           InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected,
