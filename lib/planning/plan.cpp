@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "accuracy/dispersion.hpp"
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "base/parse.hpp"
 #include "base/processor_time.hpp"
 #include "grid/longest_side.hpp"
@@ -97,9 +99,13 @@ constexpr std::int64_t program_bytes = std::int64_t{30} << 20;
 template <int D>
 std::int64_t shared_bytes(const Scene<D>& scene) {
   const auto& model = scene.model;
-  const auto fields = model.medium.properties().size() + model.prestress_pa.size();
-  return program_bytes + model.grid().size() * std::int64_t(fields * sizeof(float)) +
-         std::int64_t(model.fracture.size());
+  const auto bytes_of = [](const auto& field) {
+    return bytes_without_zero_pages(std::as_bytes(std::span(field)));
+  };
+  auto bytes = program_bytes + bytes_of(model.fracture);
+  for (const auto property : model.medium.properties()) bytes += bytes_of(model.medium[property]);
+  for (const auto& stress : model.prestress_pa) bytes += bytes_of(stress);
+  return bytes;
 }
 
 /// Of the shot that records most.

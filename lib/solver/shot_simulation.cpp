@@ -6,9 +6,11 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/memory.hpp"
 #include "grid/locate.hpp"
 #include "model/attenuation.hpp"
 #include "model/tilted_mean.hpp"
+#include "parallel/threads.hpp"
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/effect/attenuation.hpp"
@@ -68,6 +70,16 @@ ShotReport of_all(const ShotReport& mine, Ranks& ranks) {
   return all;
 }
 
+/// Writes the zeros of the fields, by the threads that will sweep them: make_state() leaves their memory to
+/// what is only there while a shot is built.
+template <int D, class Real>
+void take_memory(State<D, Real>& state) {
+  const auto line = state.layout.stride(1);
+  parallel_for(state.fields.size() / line, 16, [&](std::int64_t begin, std::int64_t end, int) {
+    std::memset(state.fields.data() + begin * line, 0, std::size_t((end - begin) * line) * sizeof(Real));
+  });
+}
+
 /// The computed grid of a shot. Cells that interfaces cut and that slip are isotropic means.
 template <int D>
 Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t shot) {
@@ -109,6 +121,8 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
+  release_freed_memory();
+  take_memory(state_);
   bool changed = false;
   for (auto& effect : effects_) changed |= effect->initialize(state_);
   if (changed) executor_->fields_changed();
@@ -248,13 +262,15 @@ std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
   return bytes;
 }
 
-/// Impedances, and the medium whose stress relaxes by steps.
+/// Impedances, and the medium whose stress relaxes by steps: what of them does not fit where the fields will
+/// be.
 template <int D, class Real>
 std::int64_t ShotSimulation<D, Real>::building_bytes() const {
   const auto& medium = scene_->model.medium;
   const std::int64_t of_medium =
       scene_->attenuates() ? medium.grid().size() * std::int64_t(medium.properties().size()) : 0;
-  return (2 * domain_.grid.size() + of_medium) * std::int64_t(sizeof(float));
+  const auto building = (2 * domain_.grid.size() + of_medium) * std::int64_t(sizeof(float));
+  return std::max<std::int64_t>(0, building - state_.fields.size() * std::int64_t(sizeof(Real)));
 }
 
 template class ShotSimulation<2, float>;

@@ -3,7 +3,9 @@
 #include <sys/mman.h>
 
 #include <cstring>
+#include <span>
 
+#include "base/memory.hpp"
 #include "parallel/threads.hpp"
 
 namespace slipwave::solver {
@@ -59,6 +61,13 @@ void clear(Buffer<Real>& buffer, std::int64_t piece) {
   });
 }
 
+/// Zeros that take memory once they are written, which the fields are when all is built that needs more while
+/// it is built.
+template <class Real>
+void clear_untouched(Buffer<Real>& buffer) {
+  clear_and_release(std::as_writable_bytes(std::span(buffer.data(), std::size_t(buffer.size()))));
+}
+
 template <int D, class Real>
 State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   State<D, Real> state;
@@ -69,7 +78,7 @@ State<D, Real> make_state(const Index<D>& shape, MaterialKind material) {
   state.material_layout = Layout<D>(shape, material_rows_of<D>(material));
   state.fields = Buffer<Real>(state.layout.total());
   state.material = Buffer<Real>(state.material_layout.total());
-  clear(state.fields, state.layout.stride(1));
+  clear_untouched(state.fields);
   clear(state.material, state.material_layout.stride(1));
   state.first_uniform_run.assign(std::size_t(state.layout.lines()) + 1, 0);
   return state;
