@@ -130,10 +130,10 @@ template <class Real>
                                                                const RowVector<2, Real>& v_s,
                                                                const RowVector<2, Real>& t_s,
                                                                const BentFace<2, Real>& face, Real side,
-                                                               Real zp, Real zs, Real carries_s) {
-  const Real nx = face.normal.x;
+                                                               Real zp, Real zs, bool carries_s) {
+  const Real nx = face.normal.x, over_s = carries_s ? face.over : Real(0);
   return {zp * (v_p.z + nx * v_p.x) - side * face.over * (t_p.z + nx * t_p.x),
-          zs * (v_s.x - nx * v_s.z) - side * (face.over * carries_s) * (t_s.x - nx * t_s.z)};
+          zs * (v_s.x - nx * v_s.z) - side * over_s * (t_s.x - nx * t_s.z)};
 }
 template <class Real>
 [[gnu::always_inline]] inline RowVector<3, Real> outgoing_wave(const RowVector<3, Real>& v_p,
@@ -141,10 +141,10 @@ template <class Real>
                                                                const RowVector<3, Real>& v_s,
                                                                const RowVector<3, Real>& t_s,
                                                                const BentFace<3, Real>& face, Real side,
-                                                               Real zp, Real zs, Real carries_s) {
+                                                               Real zp, Real zs, bool carries_s) {
   const Real length = face.over * dot(face.normal, face.normal);
   const auto p = (zp * length) * v_p - side * t_p;
-  const auto s = (zs * length) * v_s - (side * carries_s) * t_s;
+  const auto s = (zs * length) * v_s - (carries_s ? side : Real(0)) * t_s;
   return s + (face.over * face.over * dot(face.normal, p - s)) * face.normal;
 }
 
@@ -153,7 +153,8 @@ template <class Real>
 template <int D, class Real>
 struct BentCell {
   RowVector<D, Real> lower, upper;  // N of the faces towards lower and higher row coordinates
-  Real courant_p, courant_s, zp, zs, carries_s;
+  Real courant_p, courant_s, zp, zs;
+  bool carries_s;
 };
 
 /// The outgoing waves of a cell up and down (F4) through faces `upper` and `lower`, as outgoing_wave()
@@ -161,7 +162,7 @@ struct BentCell {
 template <int Order, int D, class Real, class V, class T>
 [[gnu::always_inline]] inline void reconstruct_between(const V& v, const T& t, const BentFace<D, Real>& lower,
                                                        const BentFace<D, Real>& upper, Real courant_p,
-                                                       Real courant_s, Real zp, Real zs, Real carries_s,
+                                                       Real courant_s, Real zp, Real zs, bool carries_s,
                                                        RowVector<D, Real>& up, RowVector<D, Real>& down) {
   RowVector<D, Real> vp_even, vp_odd, tp_even, tp_odd, vs_even, vs_odd, ts_even, ts_odd;
   Weights<Order, Real> p, s;

@@ -10,51 +10,119 @@
 namespace slipwave::solver {
 namespace {
 
-/// The outgoing waves of a pair (v, J s) of a cell; half points at half of J of its face before it along x.
-template <int Order, class Real>
-[[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, const Real* s, std::int64_t stride,
-                                                         const Real* half, std::int64_t j_stride,
+/// The outgoing waves of a pair (v, J s) of a cell; js(k) is J s k cells further along the sweep.
+template <int Order, class Real, class At>
+[[gnu::always_inline]] inline void reconstruct_bent_pair(const Real* v, std::int64_t stride, const At& js,
                                                          Real courant, Real z_lo, Real z_hi, Real& up,
                                                          Real& down) {
   Weights<Order, Real> w;
   Real v_even, v_odd, t_even, t_odd;
   weights(courant, w);
   even_odd(v, stride, w, v_even, v_odd);
-  even_odd_of(
-      [=](long k) __attribute__((always_inline)) {
-        return (half[k * j_stride] + half[k * j_stride + 1]) * s[k * stride];
-      },
-      w, t_even, t_odd);
+  even_odd_of(js, w, t_even, t_odd);
   up = z_hi * (v_even + v_odd) - (t_even + t_odd);
   down = z_lo * (v_even - v_odd) + (t_even - t_odd);
 }
 
-/// Along a horizontal axis: the pairs are (v, J s), and a face has the impedance Z times its own J (F2).
-template <int Order, int Pairs, class Real>
-void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
-                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
-                            OutgoingWaves<Real> outgoing) {
+/// The row loop along a horizontal axis: the pairs are (v, J s), and a face has the impedance Z times its own
+/// J (F2). js(p, i, k) is J s of pair p, k cells further along the sweep than cell i, one of these cells.
+template <int Order, int Pairs, class Real, class At>
+[[gnu::always_inline]] inline void reconstruct_bent_pairs(std::int64_t first, std::int64_t last,
+                                                          std::int64_t stride, const BentPairs<Real>& pairs,
+                                                          const At& js, const MaterialRows<Real>& material,
+                                                          Real scale, const BentAlong<Real>& metric,
+                                                          OutgoingWaves<Real> outgoing) {
   const Real sign = scale < 0 ? Real(-1) : Real(1), size = sign * scale, twice = 2 * sign;
-  const Real* __restrict half = metric.half_x, * __restrict half_lo = metric.half_lo, * __restrict half_hi = metric.half_hi;
+  const Real* __restrict half_lo = metric.half_lo, * __restrict half_hi = metric.half_hi;
   const Real* __restrict b = material.b, * __restrict zp = material.zp, * __restrict zs = material.zs;
-  const Real* __restrict v = pairs.v[0], * __restrict s = pairs.s[0], * __restrict w = pairs.v[1], * __restrict t = pairs.s[1];
-  const Real* __restrict w2 = pairs.v[2], * __restrict t2 = pairs.s[2];
-  const std::int64_t j_stride = metric.stride;
+  const Real* __restrict v = pairs.v[0], * __restrict w = pairs.v[1], * __restrict w2 = pairs.v[2];
   Real* __restrict up_p = outgoing.up(0), * __restrict down_p = outgoing.down(0);
   Real* __restrict up_s = outgoing.up(1), * __restrict down_s = outgoing.down(1);
   Real* __restrict up_s2 = outgoing.up(2), * __restrict down_s2 = outgoing.down(2);
 #pragma omp simd
-  for (std::int64_t i = 0; i < n; ++i) {
+  for (std::int64_t i = first; i < last; ++i) {
     const Real moved = size * b[i], lo = twice * half_lo[i], hi = twice * half_hi[i];
     const Real p = zp[i], z = zs[i];
-    reconstruct_bent_pair<Order>(v + i, s + i, stride, half + i, j_stride, moved * p, lo * p, hi * p, up_p[i],
-                                 down_p[i]);
-    reconstruct_bent_pair<Order>(w + i, t + i, stride, half + i, j_stride, moved * z, lo * z, hi * z, up_s[i],
-                                 down_s[i]);
-    if constexpr (Pairs == 3)
-      reconstruct_bent_pair<Order>(w2 + i, t2 + i, stride, half + i, j_stride, moved * z, lo * z, hi * z,
-                                   up_s2[i], down_s2[i]);
+    const auto of_p = [=](long k) __attribute__((always_inline)) { return js(0, i, k); };
+    const auto of_s = [=](long k) __attribute__((always_inline)) { return js(1, i, k); };
+    reconstruct_bent_pair<Order>(v + i, stride, of_p, moved * p, lo * p, hi * p, up_p[i], down_p[i]);
+    reconstruct_bent_pair<Order>(w + i, stride, of_s, moved * z, lo * z, hi * z, up_s[i], down_s[i]);
+    if constexpr (Pairs == 3) {
+      const auto of_s2 = [=](long k) __attribute__((always_inline)) { return js(2, i, k); };
+      reconstruct_bent_pair<Order>(w2 + i, stride, of_s2, moved * z, lo * z, hi * z, up_s2[i], down_s2[i]);
+    }
   }
+}
+
+/// Along y: all that is read of a row is read once.
+template <int Order, class Real>
+void reconstruct_bent_along_y(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
+                              const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
+                              OutgoingWaves<Real> outgoing) {
+  const Real* half = metric.half_x;
+  const Real *s = pairs.s[0], *t = pairs.s[1], *t2 = pairs.s[2];
+  const std::int64_t j_stride = metric.stride;
+  const auto js = [=](int pair, std::int64_t i, long k) __attribute__((always_inline)) {
+    const Real* const of = pair == 0 ? s : pair == 1 ? t : t2;
+    return (half[i + k * j_stride] + half[i + k * j_stride + 1]) * of[i + k * stride];
+  };
+  reconstruct_bent_pairs<Order, 3>(0, n, stride, pairs, js, material, scale, metric, outgoing);
+}
+
+/// Writes J s of cells; those of the next pair follow a pitch further.
+template <int Pairs, class Real>
+[[gnu::always_inline]] inline void put_js(std::int64_t first, std::int64_t last, const Real* __restrict half,
+                                          const BentPairs<Real>& pairs, Real* __restrict to,
+                                          std::int64_t pitch) {
+  const Real* __restrict s = pairs.s[0], * __restrict t = pairs.s[1], * __restrict t2 = pairs.s[2];
+  Real* __restrict to_t = to + pitch, * __restrict to_t2 = to + 2 * pitch;
+#pragma omp simd
+  for (std::int64_t i = first; i < last; ++i) {
+    const Real j = half[i] + half[i + 1];
+    to[i - first] = j * s[i];
+    to_t[i - first] = j * t[i];
+    if constexpr (Pairs == 3) to_t2[i - first] = j * t2[i];
+  }
+}
+
+/// Along x each value of J s is read by all cells within reach: it is computed once for all of them, of as
+/// many cells at a time as leave room in the first-level cache.
+template <int Order, int Pairs, class Real>
+void reconstruct_bent_along_x(std::int64_t n, const BentPairs<Real>& pairs,
+                              const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
+                              OutgoingWaves<Real> outgoing) {
+  // Each row begins with a cache line.
+  constexpr std::int64_t reach = Weights<Order, Real>::reach, most = 256, pitch = most + 16;
+  static_assert(2 * reach <= pitch - most);
+  alignas(64) Real computed[Pairs * pitch];
+  for (std::int64_t from = 0; from < n; from += most) {
+    const std::int64_t last = n - from < most ? n : from + most;
+    put_js<Pairs>(from - reach, last + reach, metric.half_x, pairs, computed, pitch);
+    const Real* const of = computed;
+    const auto js = [=](int pair, std::int64_t i, long k) __attribute__((always_inline)) {
+      return of[pair * pitch + reach + (i - from) + k];
+    };
+    reconstruct_bent_pairs<Order, Pairs>(from, last, 1, pairs, js, material, scale, metric, outgoing);
+  }
+}
+
+template <int Order, int Pairs, class Real>
+void reconstruct_bent_along(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
+                            const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
+                            OutgoingWaves<Real> outgoing) {
+  if constexpr (Pairs == 3)
+    if (stride != 1)
+      return reconstruct_bent_along_y<Order>(n, stride, pairs, material, scale, metric, outgoing);
+  reconstruct_bent_along_x<Order, Pairs>(n, pairs, material, scale, metric, outgoing);
+}
+
+/// The Riemann solution where waves of a face of size J carry J times the traction and `up` and `down` are
+/// those of J s: share = 1/((Z_lo + Z_hi) J), of_traction = 1/(Z_lo + Z_hi).
+template <class Real>
+[[gnu::always_inline]] inline void riemann_of_size(Real up, Real down, Real z_lo, Real z_hi, Real share,
+                                                   Real of_traction, Real& v, Real& s) {
+  v = (up + down) * share;
+  s = (z_lo * down - z_hi * up) * of_traction;
 }
 
 /// (E8) at faces of impedances Z J, of all pairs, with one division.
@@ -71,12 +139,13 @@ void solve_bent_along(std::int64_t n, OutgoingWaves<Real> below, OutgoingWaves<R
   for (std::int64_t i = 0; i < n; ++i) {
     const Real p_lo = zp_lo[i], p_hi = zp_hi[i], s_lo = zs_lo[i], s_hi = zs_hi[i],
                j = half_face[i] + half_face[i];
-    // Those of velocities; those of tractions are J times as large.
     const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none);
     const Real both = 1 / (sum_p * sum_s * j), share_p = both * sum_s, share_s = both * sum_p;
-    riemann(up_p[i], down_p[i], j * p_lo, j * p_hi, share_p, v_p[i], s_p[i]);
-    riemann(up_s[i], down_s[i], j * s_lo, j * s_hi, share_s, v_s[i], s_s[i]);
-    if constexpr (Pairs == 3) riemann(up_s2[i], down_s2[i], j * s_lo, j * s_hi, share_s, v_s2[i], s_s2[i]);
+    const Real traction_p = j * share_p, traction_s = j * share_s;
+    riemann_of_size(up_p[i], down_p[i], p_lo, p_hi, share_p, traction_p, v_p[i], s_p[i]);
+    riemann_of_size(up_s[i], down_s[i], s_lo, s_hi, share_s, traction_s, v_s[i], s_s[i]);
+    if constexpr (Pairs == 3)
+      riemann_of_size(up_s2[i], down_s2[i], s_lo, s_hi, share_s, traction_s, v_s2[i], s_s2[i]);
   }
 }
 
@@ -144,7 +213,7 @@ template <int Order, int D, class Real>
       },
       BentFace<D, Real>{face_normal<D>(half_n, of_metric), over_face[0]},
       BentFace<D, Real>{face_normal<D>(half_n + next, of_metric), over_face[next]}, courant * zp,
-      courant * zs, sign * zp, sign * zs, zs > 0 ? Real(1) : Real(0), up, down);
+      courant * zs, sign * zp, sign * zs, zs > 0, up, down);
   put(up, out, 2 * out_pitch);
   put(down, out + out_pitch, 2 * out_pitch);
 }
@@ -183,10 +252,12 @@ template <bool Fluid, class Real>
                                                  std::int64_t first_pitch, Real* seen_above,
                                                  std::int64_t seen_pitch) {
   const Real nx = face.normal.x, over = face.over;
-  Real share_p, share_s, v_n, t_n, v_t, t_t;
-  riemann_shares<true>(p_lo, p_hi, s_lo, s_hi, share_p, share_s);
-  riemann(up.z, down.z, p_lo, p_hi, over * share_p, v_n, t_n);
-  riemann(up.x, down.x, s_lo, s_hi, over * share_s, v_t, t_t);
+  // 1/|N| times 1/(Z_lo + Z_hi), with one division for both.
+  const Real sum_p = p_lo + p_hi + Real(none), sum_s = s_lo + s_hi + Real(none),
+             both = over / (sum_p * sum_s);
+  Real v_n, t_n, v_t, t_t;
+  riemann(up.z, down.z, p_lo, p_hi, both * sum_s, v_n, t_n);
+  riemann(up.x, down.x, s_lo, s_hi, both * sum_p, v_t, t_t);
   v_n *= over, v_t *= over;
   Real t_lo = v_t;
   if constexpr (Fluid) {
@@ -271,8 +342,9 @@ template <int D, class Real>
     f[0] += dt.x;
     f[p] += dt.z;
     const Real along = nx * d.x;
-    f[2 * p] += lambda * d.z + p_modulus * along;
-    f[3 * p] += lambda * along + p_modulus * d.z;
+    // One product after the other: each is added in one instruction.
+    f[2 * p] = f[2 * p] + lambda * d.z + p_modulus * along;
+    f[3 * p] = f[3 * p] + p_modulus * d.z + lambda * along;
     f[4 * p] += mu * (nx * d.z + d.x);
   } else {
     const Real ny = normal.y;

@@ -297,7 +297,7 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
                                   courant * zs,
                                   sign * zp,
                                   sign * zs,
-                                  Real(zs > 0 ? 1 : 0)};
+                                  zs > 0};
   RowVector<D, Real> up, down;
   reconstruct_bent_cell<Order, D>([&](long k) { return at[std::size_t(k + reach)].v; },
                                   [&](long k) { return at[std::size_t(k + reach)].t; }, cell, up, down);
