@@ -91,5 +91,62 @@ TEST(AskewSprings, NeverAddEnergyHoweverStiffOrSoft) {
           expect_no_growth({number++, tilts, families, softness}, cells, steps);
 }
 
+/// Four blocks of one rock, each with beds that dip otherwise, between walls.
+Lab<double>::Setup tilted_blocks(unsigned draw, int order) {
+  std::mt19937 engine(draw);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const std::function<double()> random = [&] { return uniform(engine); };
+  constexpr int block = 6, cells = 2 * block;
+  Lab<double>::Setup setup;
+  setup.medium = rocks(cells, block, true, true, random);
+  setup.edges = all_edges(EdgeLaw::rigid);
+  setup.order = order;
+  return setup;
+}
+
+/// Planes that carry nothing leave motion alone but for what the sweeps take: these must not feed it.
+TEST(TiltedBlocks, LoseMotionHoweverSoftTheirPlanesAre) {
+  const ThreadLimit one_thread(1);
+  for (unsigned draw = 1; draw <= (long_form() ? 12U : 4U); ++draw)
+    for (const int order : {5, 11}) {
+      auto setup = tilted_blocks(draw, order);
+      FractureSet<2> set{"springs", {}};
+      for (const double angle_deg : {20., 75.}) {
+        set.systems.push_back(system_of(angle_deg, {0, 0}));
+        set.systems.back().law = FrictionLaw::none;
+        set.systems.back().compliance = {1e9 / usual_mu, 1e9 / usual_mu, 0, 0, 1};
+      }
+      setup.fracture_sets = {set};
+      setup.fracture = Field<2, std::uint8_t>(setup.medium.grid(), 1);
+      SCOPED_TRACE("draw " + std::to_string(draw) + ", order " + std::to_string(order));
+      Lab<double> lab(setup);
+      const double begin = lab.kinetic_energy();
+      double middle = begin;
+      const int steps = long_form() ? 6000 : 1200;
+      for (int n = 1; n <= steps; ++n) {
+        lab.step();
+        if (n == steps / 2) middle = lab.kinetic_energy();
+      }
+      const double end = lab.kinetic_energy();
+      EXPECT_TRUE(middle < begin && end < middle) << begin << ' ' << middle << ' ' << end;
+    }
+}
+
+TEST(TiltedBlocks, LoseEnergyInTheLongRun) {
+  if (!long_form()) GTEST_SKIP() << "takes tens of thousands of steps";
+  const ThreadLimit one_thread(1);
+  for (const int order : {5, 11}) {
+    Lab<double> lab(tilted_blocks(1, order));
+    for (int n = 0; n < 10000; ++n) lab.step();
+    double last = lab.energy();
+    for (int part = 0; part < 3; ++part) {
+      for (int n = 0; n < 10000; ++n) lab.step();
+      const double now = lab.energy();
+      EXPECT_LT(now, last) << "order " << order << ", part " << part;
+      last = now;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace slipwave

@@ -223,6 +223,19 @@ double Lab<Real>::energy() const {
 }
 
 template <class Real>
+double Lab<Real>::kinetic_energy() const {
+  const auto& medium = scene_.model.medium;
+  double total = 0;
+  for (std::int64_t n = 0; n < domain_.grid.size(); ++n) {
+    const auto at = domain_.grid.index(n);
+    const double rho = medium.rho[std::size_t(medium.grid().flat(domain_.model_cell(at)))];
+    for (int axis = 0; axis < 2; ++axis)
+      total += rho * std::pow(double(state_.field_row({0, at[1]}, axis)[at[0]]), 2) / 2;
+  }
+  return total * std::pow(domain_.grid.spacing_m, 2);
+}
+
+template <class Real>
 double Lab<Real>::energy_with_prestress() const {
   return sum(Stress::all);
 }

@@ -76,7 +76,9 @@ class Lab {
   void step();
   /// Of the whole computed grid, zones and springs of planes included, J per metre; NaN where a field is.
   double energy() const;
-  /// The same with the prestress on top of that of the waves.
+  /// Of motion alone, J per metre.
+  double kinetic_energy() const;
+  /// The same as energy() with the prestress on top of that of the waves.
   double energy_with_prestress() const;
   /// energy() less the work that the prestress has done by slip and opening: the potential energy of all
   /// stress under loads that stay, up to a constant.

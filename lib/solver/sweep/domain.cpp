@@ -204,7 +204,7 @@ void add_tilted_rock(const Domain<2>& domain, const Medium<2>& medium, std::vect
     const auto at = domain.grid.index(n);
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
     if (has_tilted_axis(medium, cell) || (domain.bent(at[1]) && is_anisotropic(medium, cell)))
-      found.push_back({n, double(medium.rho[cell]), plane_stiffness_of(medium, cell)});
+      found.push_back({n, double(medium.rho[cell]), plane_stiffness_of(medium, cell), false});
   }
   std::sort(found.begin(), found.end(),
             [](const TiltedMedium& one, const TiltedMedium& other) { return one.cell < other.cell; });
@@ -218,7 +218,8 @@ std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& 
     if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
         domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
       continue;
-    found.push_back({domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell)});
+    found.push_back(
+        {domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell), true});
   }
   if (medium.has(Property::tilt) || (domain.anisotropic() && !domain.bent_rows.empty()))
     add_tilted_rock(domain, medium, found);

@@ -23,6 +23,7 @@ struct TiltedMedium {
   std::int64_t cell;
   double rho;
   PlaneStiffness stiffness;
+  bool mean = false;
 };
 
 /// In 3-D: the number of its medium, and that.

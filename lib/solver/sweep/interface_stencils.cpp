@@ -29,7 +29,7 @@ struct Side {
 template <int D>
 class Walk {
  public:
-  Walk(const Field<D>& impedance, const TiltedFace<D>& tilted, const PartedLine<D>& parted,
+  Walk(const Field<D>& impedance, const TiltedFaces<D>& tilted, const PartedLine<D>& parted,
        const Index<D>& from, int axis, int step)
       : impedance_(impedance), tilted_(tilted), parted_(parted), at_(from), axis_(axis), step_(step) {}
   bool leaves_grid(int n) const {
@@ -43,26 +43,39 @@ class Walk {
   /// The slot of the face behind cell n where a fracture parts the rock, on this side of it, or -1.
   std::int32_t parted_behind(int n) const {
     if (!parted_.slot) return -1;
-    const auto slot = parted_.slot(place(step_ > 0 ? n + 1 : n));
+    const auto slot = parted_.slot(face_behind(n));
     return slot < 0 ? slot : 2 * slot + (step_ > 0 ? 0 : 1);
   }
   /// Cells up to the next strong interface at a tilted mean, which stencils cross; at most `reach`.
   int cells_to_tilted(int reach) const {
-    if (!tilted_) return reach;
+    if (!tilted_.crossed) return reach;
     for (int n = 0; n < reach && !leaves_grid(n + 1) && (*this)(n + 1) > 0; ++n)
       if (strong((*this)(n), (*this)(n + 1)) && parted_by_mean(n)) return n;
     return reach;
   }
+  /// Of the face behind cell n.
+  TiltedContrast contrast_behind(int n) const {
+    return tilted_.contrasts.before ? tilted_.contrasts.before(face_behind(n)) : TiltedContrast::none;
+  }
+  /// Cells up to the next strong contrast of tilted rock, at most `reach`.
+  int cells_to_turned(int reach) const {
+    if (!tilted_.contrasts.before) return reach;
+    for (int n = 0; n < reach && !leaves_grid(n + 1); ++n)
+      if (contrast_behind(n) == TiltedContrast::strong) return n;
+    return reach;
+  }
 
  private:
-  bool parted_by_mean(int n) const { return tilted_ && tilted_(place(n), place(n + 1)); }
+  bool parted_by_mean(int n) const { return tilted_.crossed && tilted_.crossed(place(n), place(n + 1)); }
+  /// The cell behind the face that is behind cell n on the way.
+  Index<D> face_behind(int n) const { return place(step_ > 0 ? n + 1 : n); }
   Index<D> place(int n) const {
     Index<D> at = at_;
     at[std::size_t(axis_)] += n * step_;
     return at;
   }
   const Field<D>& impedance_;
-  const TiltedFace<D>& tilted_;
+  const TiltedFaces<D>& tilted_;
   const PartedLine<D>& parted_;
   Index<D> at_;
   int axis_, step_;
@@ -118,7 +131,9 @@ Side side_of(const Walk<D>& z, Extension edge, int reach) {
 template <int D>
 int cells_to_contrast(const Walk<D>& z, int reach) {
   for (int n = 1; n <= reach && !z.leaves_grid(n) && z(n) > 0; ++n)
-    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n)) return n - 1;
+    if (z(n) > contrast_ratio * z(n - 1) || z(n - 1) > contrast_ratio * z(n) ||
+        z.contrast_behind(n - 1) != TiltedContrast::none)
+      return n - 1;
   return reach;
 }
 
@@ -163,13 +178,13 @@ void mark(const Field<D>& impedance, std::int64_t line, int axis, int reach,
   }
 }
 
-/// The same of cells beside parted faces, in the line that begins with cell `first`.
-template <int D>
-void mark_beside(const PartedLine<D>& parted, std::int64_t first, std::vector<std::int32_t>& marks) {
+/// The same of these cells, ascending, in the line that begins with cell `first`.
+void mark_these(const std::vector<std::int64_t>& cells, std::int64_t first,
+                std::vector<std::int32_t>& marks) {
   const auto last = first + std::int64_t(marks.size());
-  for (auto near = std::lower_bound(parted.near.begin(), parted.near.end(), first);
-       near != parted.near.end() && *near < last; ++near)
-    marks[std::size_t(*near - first)] = 1;
+  for (auto cell = std::lower_bound(cells.begin(), cells.end(), first); cell != cells.end() && *cell < last;
+       ++cell)
+    marks[std::size_t(*cell - first)] = 1;
 }
 
 /// Cells of the sides that end at `law`: the fewest, or `reach`.
@@ -306,10 +321,20 @@ int reach_within(int interfaces, int nearest, bool ends, int others, int reach) 
   return interfaces == 2 || (interfaces == 1 && ends && others == 0) ? std::min(reach, others) : reach;
 }
 
+/// Cells the reconstruction may reach in line with faces of tilted cells: across such a contrast higher
+/// orders feed waves, and damp too little of it elsewhere.
+template <int D>
+static int reach_beside_tilted(const Walk<D>& down, const Walk<D>& up, int reach) {
+  const int to_tilted = std::min(down.cells_to_tilted(reach), up.cells_to_tilted(reach));
+  const int to_turned = std::min(down.cells_to_turned(reach), up.cells_to_turned(reach));
+  return std::min(reach > most_reach_at_contrasts ? reach_up_to(to_tilted, 1, reach) : reach,
+                  reach_up_to(to_turned, 1, reach));
+}
+
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
                                      int reach, const CorrectedAt<D>& corrected,
-                                     const SlotBefore<D>& slot_before, const TiltedFace<D>& tilted,
+                                     const SlotBefore<D>& slot_before, const TiltedFaces<D>& tilted,
                                      const PartedLine<D>& parted)
     : wave_(wave) {
   const auto& grid = impedance.grid();
@@ -318,7 +343,8 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
   std::vector<std::int32_t> marks(std::size_t(nx), 0);
   for (std::int64_t line = 0; line < lines; ++line) {
     mark(impedance, line, axis, reach, marks);
-    mark_beside(parted, line * nx, marks);
+    mark_these(parted.near, line * nx, marks);
+    mark_these(tilted.contrasts.near, line * nx, marks);
     for (std::int64_t x = 0; x < nx; ++x) {
       if (marks[std::size_t(x)] == 0) continue;
       const auto at = grid.index(line * nx + x);
@@ -333,9 +359,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
       const int to_contrast = std::min(cells_to_contrast(down, reach), cells_to_contrast(up, reach));
-      // Across such a contrast higher orders feed waves, and damp too little of it elsewhere.
-      const int to_tilted = std::min(down.cells_to_tilted(reach), up.cells_to_tilted(reach));
-      const int at_most = reach > most_reach_at_contrasts ? reach_up_to(to_tilted, 1, reach) : reach;
+      const int at_most = reach_beside_tilted(down, up, reach);
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         const auto slot = [&](const Side& side, std::int64_t cells) {
@@ -425,10 +449,10 @@ template void extended_pair(const InterfaceStencil&, int, std::int64_t, const do
                             std::int64_t);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
                                               const CorrectedAt<2>&, const SlotBefore<2>&,
-                                              const TiltedFace<2>&, const PartedLine<2>&);
+                                              const TiltedFaces<2>&, const PartedLine<2>&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
                                               const CorrectedAt<3>&, const SlotBefore<3>&,
-                                              const TiltedFace<3>&, const PartedLine<3>&);
+                                              const TiltedFaces<3>&, const PartedLine<3>&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
                                               float*, float*, const PairCorrections<float>&,

@@ -49,6 +49,8 @@ constexpr int reach_up_to(int cells, int beyond, int reach) {
 }
 /// Ratio of impedances from which a face within the stencil of a cell is a contrast.
 constexpr double contrast_ratio = 1.2;
+/// The same of impedances as matrices, where axes are tilted.
+constexpr double tilted_contrast_ratio = 1.05;
 /// Cells the reconstruction may reach where a stencil ends at so many strong interfaces, the nearest after
 /// `nearest` cells, `others` cells beside its own lie between its ends, and `ends`: it ends on both sides.
 /// Between two strong interfaces w cells allow order 2w - 1 and no more, and so does a single cell between a
@@ -111,6 +113,24 @@ void extended_pair(const InterfaceStencil& stencil, int reach, std::int64_t stri
 template <int D>
 using TiltedFace = std::function<bool(const Index<D>& at, const Index<D>& beside)>;
 
+/// How much the impedances on both sides of a face differ, as matrices, where axes are tilted (theory.md
+/// (T6)).
+enum class TiltedContrast : std::uint8_t { none, weak, strong };
+/// Faces of one axis with such a contrast: cells within reach of them, ascending; and that of the face before
+/// a cell.
+template <int D>
+struct TiltedContrasts {
+  std::vector<std::int64_t> near{};
+  std::function<TiltedContrast(const Index<D>& behind)> before{};
+};
+
+/// Where axes are tilted: faces that stencils cross, and contrasts.
+template <int D>
+struct TiltedFaces {
+  TiltedFace<D> crossed{};
+  TiltedContrasts<D> contrasts{};
+};
+
 /// Faces of one axis where fractures part the rock: cells within reach of them, ascending; and the slot of
 /// the side (0 before, 1 behind) of the face before a cell, or -1.
 template <int D>
@@ -130,7 +150,7 @@ class InterfaceStencils {
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
                     const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before,
-                    const TiltedFace<D>& tilted = {}, const PartedLine<D>& parted = {});
+                    const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {});
   /// That of a cell, null where the bulk kernel serves.
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 

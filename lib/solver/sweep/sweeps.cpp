@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "parallel/threads.hpp"
+#include "solver/sweep/tilted_contrasts.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -93,13 +94,15 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
   for (const int side : {0, 1})
     if (reach_ > 0 && shear_)
       surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
-  TiltedFace<D> tilted;
-  if (!domain.tilted().empty())
-    tilted = [&](const Index<D>& at, const Index<D>& beside) {
+  std::array<TiltedFaces<D>, std::size_t(D)> tilted;
+  for (int axis = 0; axis < D && !domain.tilted().empty(); ++axis) {
+    tilted[std::size_t(axis)].contrasts = tilted_contrasts(domain, axis, reach_);
+    tilted[std::size_t(axis)].crossed = [&](const Index<D>& at, const Index<D>& beside) {
       const auto& s_waves = domain.impedance(wave_s);
       return (couples_pairs(domain, at) || couples_pairs(domain, beside)) && s_waves(at) > 0 &&
              s_waves(beside) > 0;
     };
+  }
   // Each reads all cells.
   if (domain.splits_shear()) distinct_pairs_ = D;
   parallel_for(std::int64_t(distinct_pairs_) * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
@@ -114,7 +117,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] =
           InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected,
-                            slot_before, tilted, parted_along(domain, axis, pair, reach_));
+                            slot_before, tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_));
     }
   });
   if constexpr (D == 2) {

@@ -1,0 +1,122 @@
+#include "solver/sweep/tilted_contrasts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace slipwave::solver {
+namespace {
+
+/// A symmetric matrix of components along the axes of the grid.
+template <int D>
+using Tensor = std::array<std::array<double, std::size_t(D)>, std::size_t(D)>;
+
+/// The acoustic tensor of a cell along an axis, times the density: the square of its impedance.
+Tensor<2> tensor_along(const Domain<2>& domain, const Index<2>& cell, int axis) {
+  const auto c = plane_stiffness_at(domain, cell);
+  if (axis == 0) return {{{c.c11, c.c15}, {c.c15, c.c55}}};
+  return {{{c.c55, c.c35}, {c.c35, c.c33}}};
+}
+Tensor<3> tensor_along(const Domain<3>& domain, const Index<3>& cell, int axis) {
+  const auto rows = tractions_of_motion(space_stiffness_at(domain, cell), axis, axis);
+  return {rows[0], rows[1], rows[2]};
+}
+
+/// Whether times the square of a ratio the first is nowhere less than the other: pivots of the difference.
+template <int D>
+bool is_no_less(const Tensor<D>& one, const Tensor<D>& other, double ratio) {
+  Tensor<D> rest;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = 0; j < D; ++j) rest[i][j] = ratio * ratio * one[i][j] - other[i][j];
+  for (std::size_t k = 0; k < D; ++k) {
+    if (!(rest[k][k] > 0)) return false;
+    for (std::size_t i = k + 1; i < D; ++i)
+      for (std::size_t j = k + 1; j < D; ++j) rest[i][j] -= rest[i][k] * rest[k][j] / rest[k][k];
+  }
+  return true;
+}
+template <int D>
+bool differ(const Tensor<D>& one, const Tensor<D>& other, double ratio) {
+  return !is_no_less<D>(one, other, ratio) || !is_no_less<D>(other, one, ratio);
+}
+
+/// Whether waves along an axis of the grid move along one.
+template <int D>
+bool is_diagonal(const Tensor<D>& tensor) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(tensor[i][j]) > rounding * tensor[i][i]) return false;
+  return true;
+}
+
+/// Rock, not the mean of a cell that an interface cuts.
+bool is_rock(const Domain<2>& domain, const Index<2>& cell) {
+  const auto* const of = domain.tilted_at(cell);
+  return of && !of->mean;
+}
+bool is_rock(const Domain<3>& domain, const Index<3>& cell) { return domain.is_tilted(cell); }
+
+/// Of the face between two cells, one of which is tilted rock.
+template <int D>
+TiltedContrast contrast_of(const Domain<D>& domain, const Index<D>& before, const Index<D>& behind,
+                           int axis) {
+  const auto& s_waves = domain.impedance(wave_s);
+  if (s_waves(before) == 0 || s_waves(behind) == 0) return TiltedContrast::none;
+  const auto one = tensor_along(domain, before, axis), other = tensor_along(domain, behind, axis);
+  if (is_diagonal<D>(one) && is_diagonal<D>(other)) return TiltedContrast::none;
+  return differ<D>(one, other, strong_interface_ratio)  ? TiltedContrast::strong
+         : differ<D>(one, other, tilted_contrast_ratio) ? TiltedContrast::weak
+                                                        : TiltedContrast::none;
+}
+
+/// The faces of tilted rock across an axis, by the cell behind them; those of two such cells once.
+template <int D>
+std::vector<Index<D>> faces_of_rock(const Domain<D>& domain, int axis) {
+  const auto along = std::size_t(axis);
+  std::vector<Index<D>> faces;
+  for (const auto& tilted : domain.tilted()) {
+    auto at = domain.grid.index(tilted.cell);
+    if (!is_rock(domain, at)) continue;
+    if (at[along] > 0) faces.push_back(at);
+    if (++at[along] < domain.grid.shape[along] && !is_rock(domain, at)) faces.push_back(at);
+  }
+  return faces;
+}
+
+}  // namespace
+
+template <int D>
+TiltedContrasts<D> tilted_contrasts(const Domain<D>& domain, int axis, int reach) {
+  const auto along = std::size_t(axis);
+  TiltedContrasts<D> contrasts;
+  std::vector<std::pair<std::int64_t, TiltedContrast>> faces;
+  for (const auto& behind : faces_of_rock(domain, axis)) {
+    auto near = behind;
+    --near[along];
+    const auto contrast = contrast_of(domain, near, behind, axis);
+    if (contrast == TiltedContrast::none) continue;
+    faces.emplace_back(domain.grid.flat(behind), contrast);
+    const auto first = std::max<std::int64_t>(behind[along] - reach, 0),
+               last = std::min(behind[along] + reach, domain.grid.shape[along]);
+    for (near[along] = first; near[along] < last; ++near[along])
+      contrasts.near.push_back(domain.grid.flat(near));
+  }
+  if (faces.empty()) return contrasts;
+  std::sort(contrasts.near.begin(), contrasts.near.end());
+  contrasts.near.erase(std::unique(contrasts.near.begin(), contrasts.near.end()), contrasts.near.end());
+  std::sort(faces.begin(), faces.end());
+  contrasts.before = [faces = std::move(faces), grid = domain.grid](const Index<D>& behind) {
+    const std::pair wanted{grid.flat(behind), TiltedContrast::none};
+    const auto found = std::lower_bound(faces.begin(), faces.end(), wanted);
+    return found != faces.end() && found->first == wanted.first ? found->second : TiltedContrast::none;
+  };
+  return contrasts;
+}
+
+template TiltedContrasts<2> tilted_contrasts(const Domain<2>&, int, int);
+template TiltedContrasts<3> tilted_contrasts(const Domain<3>&, int, int);
+
+}  // namespace slipwave::solver
