@@ -42,7 +42,7 @@ bool lie_askew(const FractureSet<D>& set, const Medium<D>& medium, std::size_t c
   // All other planes of 3-D meet two shear moduli.
   if (D == 3)
     return !set.traces.empty() || set.systems.size() > 1 || is_orthorhombic(medium, cell) ||
-           !(std::abs(set.systems[0].normal[D - 1]) > 1 - 1e-9);
+           !is_level<D>(set.systems[0].normal);
   for (const auto& trace : set.traces)
     for (std::size_t n = 1; n < trace.size(); ++n)
       if (trace[n][0] != trace[n - 1][0] && trace[n][D - 1] != trace[n - 1][D - 1]) return true;

@@ -27,6 +27,11 @@ bool is_oblique(const Point<D>& normal) {
     oblique = std::max(oblique, std::abs(normal[axis] * normal[D - 1]));
   return oblique > 1e-9;
 }
+/// Whether planes are level.
+template <int D>
+bool is_level(const Point<D>& normal) {
+  return std::abs(normal[D - 1]) > 1 - 1e-9;
+}
 /// Whether slip on any planes of a set takes more off the stress of an anisotropic cell than off that of
 /// isotropic rock: in 2-D where planes lie askew to the axes of symmetry, or these to the grid; in 3-D all
 /// but those of one level family in rock that is alike in all horizontal directions, and single fractures.

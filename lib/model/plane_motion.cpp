@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "model/anisotropy.hpp"
+#include "model/polynomial_roots.hpp"
 
 namespace slipwave {
 namespace {
@@ -20,7 +21,7 @@ struct Inertia {
         xz(c.c15 * along * along + (c.c13 + c.c55) * along * down + c.c35 * down * down) {}
 };
 
-/// The four slownesses down of a slowness along x: all roots at once (Durand and Kerner).
+/// The four slownesses down of a slowness along x.
 std::array<Complex, 4> slownesses(const PlaneStiffness& c, double rho, double along) {
   const std::array<double, 3> xx{c.c11 * along * along - rho, 2 * c.c15 * along, c.c55},
       zz{c.c55 * along * along - rho, 2 * c.c35 * along, c.c33},
@@ -29,25 +30,7 @@ std::array<Complex, 4> slownesses(const PlaneStiffness& c, double rho, double al
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < 3; ++b) of[a + b] += xx[a] * zz[b] - xz[a] * xz[b];
   const double size = std::sqrt(rho / c.c55) + std::abs(along);
-  std::array<Complex, 4> roots;
-  for (std::size_t n = 0; n < 4; ++n) roots[n] = size * std::exp(Complex(0, 0.4 + 1.5 * double(n)));
-  constexpr int rounds = 500;
-  for (int round = 0; round < rounds; ++round) {
-    double most = 0;
-    for (std::size_t n = 0; n < 4; ++n) {
-      Complex value = of[4], others = of[4];
-      for (std::size_t power = 4; power-- > 0;) value = value * roots[n] + of[power];
-      for (std::size_t m = 0; m < 4; ++m)
-        if (m != n) others *= roots[n] - roots[m];
-      roots[n] -= value / others;
-      most = std::max(most, std::abs(value / others));
-    }
-    if (most < 1e-15 * size) break;
-  }
-  // Those of a real polynomial are real or pairs; near where both meet they are known to half the digits.
-  for (auto& root : roots)
-    if (std::abs(root.imag()) < 1e-7 * size) root = root.real();
-  return roots;
+  return roots_of(of, size);
 }
 
 /// Motion that the equation of motion lets through, of unit size.
@@ -92,6 +75,13 @@ PlaneMotion plane_motion(const Material& rock, double across, double down, bool 
   if (shear ? motion.x * down - motion.z * across < 0 : motion.x * across + motion.z * down < 0)
     motion.x = -motion.x, motion.z = -motion.z;
   return motion;
+}
+
+std::complex<double> slowness_across(double speed, double along) {
+  const double square = 1 / (speed * speed) - along * along, least = 1e-7 / speed;
+  // Where waves turn, up and down are one: kept apart by a hair.
+  if (square >= 0) return std::max(std::sqrt(square), least);
+  return {0, -std::max(std::sqrt(-square), least)};
 }
 
 std::array<LayerWave, 2> layer_waves(const Material& rock, double along, bool down) {

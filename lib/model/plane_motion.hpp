@@ -17,6 +17,10 @@ struct PlaneMotion {
 /// The front moves along the unit vector (across, down). Of an isotropic rock along it, or across it.
 PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear);
 
+/// The slowness across layers of a wave of a speed that is alike in all directions: down it decays, or
+/// travels down.
+std::complex<double> slowness_across(double speed, double along);
+
 /// A wave of one slowness along x, that and down in s/m: it decays or carries energy the way it goes; motion
 /// is of unit size.
 struct LayerWave {

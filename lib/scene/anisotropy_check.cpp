@@ -18,19 +18,19 @@ std::string fault_of(const FractureSet<D>& set, bool askew) {
   const auto any = [&](const auto& is) { return std::any_of(set.systems.begin(), set.systems.end(), is); };
   if (any([](const auto& system) { return system.opens; })) return "open, expected closed ones";
   if (!askew) return "";
-  const std::string askew_to_axes = D == 2 ? "lie askew to the axes of rock" : "",
+  const std::string askew_to_axes = D == 2 ? " and lie askew to the axes of rock" : "",
                     expected = D == 2 ? ", expected along both or in isotropic rock"
                                       : ", expected one level family in rock of level beds with gamma2 = "
                                         "gamma, or isotropic rock";
   if (gives(set)) {
-    if (D == 3) return "are springs" + (set.traces.empty() ? expected : ", expected isotropic rock");
-    if (set.on_faces) return "are springs on faces and " + askew_to_axes + expected;
+    if (D == 3 && !set.traces.empty()) return "are springs of single fractures, expected isotropic rock";
+    if (set.on_faces) return "are springs on faces" + askew_to_axes + expected;
     if (any([](const auto& system) { return system.slides() || system.compliance.damped(); }))
-      return "are springs that slide or have dashpots and " + askew_to_axes + expected;
+      return "are springs that slide or have dashpots" + askew_to_axes + expected;
   }
   if (set.systems.size() > 1 &&
       any([](const auto& system) { return system.law == FrictionLaw::slip_weakening; }))
-    return (D == 2 ? "cross, weaken with slip and " + askew_to_axes : "cross and weaken with slip") +
+    return "cross" + std::string(D == 2 ? ", weaken with slip" : " and weaken with slip") + askew_to_axes +
            expected;
   return "";
 }
@@ -65,12 +65,6 @@ void check_anisotropy(const Scene<D>& scene) {
   const auto& medium = scene.model.medium;
   // Ranks with other rows refuse what concerns the whole model, too.
   if (!scene.subdomain.anisotropic && anisotropic_cells(medium) == 0) return;
-  for (const auto& source : scene.survey.sources)
-    if (D == 3 && std::holds_alternative<PlaneWave<D>>(source.mechanism))
-      throw Error(
-          "found a plane wave in a model that is anisotropic, expected in 3-D a point source or --without "
-          "anisotropy",
-          ErrorKind::usage);
   for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
     if (is_anisotropic(medium, cell)) check_cell(scene, cell);
 }

@@ -7,6 +7,7 @@
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/plane_motion.hpp"
+#include "model/space_motion.hpp"
 
 namespace slipwave {
 namespace {
@@ -68,7 +69,9 @@ template <int D>
 /// Phase speed of the wave in a cell.
 template <int D>
 double speed_in(const Medium<D>& medium, std::size_t cell, const PlaneWave<D>& wave) {
-  return plane_motion(material_of(medium, cell), wave.across(), wave.direction[D - 1], wave.shear).speed;
+  const auto rock = material_of(medium, cell);
+  if constexpr (D == 3) return space_motion(rock, wave.direction, wave.along, wave.shear).speed;
+  return plane_motion(rock, wave.across(), wave.direction[D - 1], wave.shear).speed;
 }
 
 /// At t = 0 the wave stands on the near side of its front; that must lie in the medium it comes from.
@@ -90,6 +93,11 @@ void check_beginning(const Scene<D>& scene, const Source<D>& source, const Plane
   }
 }
 
+/// No wave is faster.
+double fastest_of(const Material& rock, bool in_space) {
+  return in_space && rock.is_anisotropic_in_space() ? fastest_in_space(rock) : fastest_p_speed_at_most(rock);
+}
+
 /// The wave of t = 0 is that of the layers: it must not have come to any cell that differs from them.
 template <int D>
 void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, const PlaneWave<D>& wave,
@@ -107,7 +115,7 @@ void check_beginning_in_layers(const Scene<D>& scene, const Source<D>& source, c
     auto at = way.column;
     at[D - 1] = way.entry_side == 0 ? n : rows - 1 - n;
     const auto cell = std::size_t(grid.flat(at));
-    const double fast = 1 / fastest_p_speed_at_most(material_of(medium, cell)), height = grid.height(at);
+    const double fast = 1 / fastest_of(material_of(medium, cell), D == 3), height = grid.height(at);
     const double slowness = medium.same(cell, from) && so_far == 0
                                 ? across
                                 : std::sqrt(std::max(fast * fast - along * along, 0.));

@@ -267,7 +267,19 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
       ", expected one level family in rock of level beds with gamma2 = gamma, or isotropic rock; use "
       "--without "
       "slip or --without anisotropy";
-  EXPECT_EQ(told(), of + "the planes of its fracture set 'upright' are springs" + expected);
+  const std::string springs_that = "the planes of its fracture set 'upright' are springs ";
+  EXPECT_EQ(told(), of + springs_that + "that slide or have dashpots" + expected);
+  system.law = FrictionLaw::none;
+  EXPECT_EQ(told(), "");
+  system.compliance = {1e-12, 1e-12, 1e3, 1e3, 1};
+  EXPECT_EQ(told(), of + springs_that + "that slide or have dashpots" + expected);
+  system.compliance = {1e-12, 1e-12, 0, 0, 1};
+  deep.model.fracture_sets[0].traces = {{{0, 0, 1}, {5, 0, 1}, {5, 5, 4}, {0, 5, 4}}};
+  EXPECT_EQ(told(), of + springs_that +
+                        "of single fractures, expected isotropic rock; use --without slip or --without "
+                        "anisotropy");
+  deep.model.fracture_sets[0].traces = {};
+  system.law = FrictionLaw::coulomb;
   system.normal = {0, 0, 1};
   EXPECT_EQ(told(), "");
   auto& sets = deep.model.fracture_sets;

@@ -2,7 +2,7 @@
 // its own energy.
 #include <gtest/gtest.h>
 
-#include "anisotropic_cube.hpp"
+#include "askew_cluster.hpp"
 #include "model/fracture.hpp"
 #include "parallel/threads.hpp"
 #include "plain_and_tiled.hpp"
@@ -23,35 +23,6 @@ FractureSet<3> families(const std::vector<std::array<double, 2>>& dips, double f
   for (const auto& [dip, azimuth] : dips)
     set.systems.push_back({normal_of_dip(dip, azimuth), friction, viscosity_s, cohesion_pa});
   return set;
-}
-
-/// A cluster of fractures amid a cube of one rock, under a force above it.
-Scene<3> cluster(const Material& rock, const FractureSet<3>& set, const Index<3>& shape = {18, 18, 18}) {
-  auto scene = scene_of(uniform_rock(shape, 5, rock), edges_all_3d(EdgeLaw::rigid), {41, 52, 18},
-                        "force:1,0.5,1", "ricker:25", {{51, 37, 78}, {26, 62, 53}},
-                        {Component::vx, Component::vy, Component::vz}, 0.06, 0.001);
-  scene.model.fracture = Field<3, std::uint8_t>(scene.model.grid());
-  for (std::int64_t n = 0; n < scene.model.grid().size(); ++n) {
-    const auto at = scene.model.grid().index(n);
-    bool inside = true;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      inside = inside && at[axis] >= shape[axis] / 3 && at[axis] < shape[axis] - shape[axis] / 3;
-    scene.model.fracture[std::size_t(n)] = inside;
-  }
-  scene.model.fracture_sets = {set};
-  return scene;
-}
-
-std::vector<double> difference(std::vector<double> one, const std::vector<double>& other) {
-  for (std::size_t n = 0; n < one.size(); ++n) one[n] -= other[n];
-  return one;
-}
-/// What slip changes in the traces.
-std::vector<double> of_slip(Scene<3> scene) {
-  check(scene);
-  const auto with = samples_of(shoot(scene, 1));
-  scene.with_slip = false;
-  return difference(with, samples_of(shoot(scene, 1)));
 }
 
 TEST(AskewSlipInSpace, OfNextToIsotropicRockIsThatOfIsotropicRock) {
@@ -172,14 +143,7 @@ TEST(AskewSlipInSpace, OnlyTakesEnergy) {
     for (auto& system : scene.model.fracture_sets[0].systems) system.strength_pa = n % 2 ? 0 : 3e5;
     auto& medium = scene.model.medium;
     for (std::size_t cell = 0; cell < medium.vp.size(); ++cell) {
-      Material rock;
-      do {
-        const double vp = between(2500, 4500);
-        rock = {vp, vp * between(0.3, 0.65), between(2000, 2600), between(-0.25, 0.5), between(-0.25, 0.5),
-                0,  between(-0.25, 0.5)};
-        rock.orthorhombic = {between(-0.2, 0.5), between(-0.2, 0.5), between(-0.2, 0.3), between(-0.2, 0.5)};
-      } while (fault_of_anisotropy(rock, true));
-      put(medium, cell, turned_by(rock, between(-90, 90), between(-180, 180), between(-180, 180)));
+      put(medium, cell, any_turned_rock(between));
       scene.model.fracture[cell] = uniform(engine) < 0.8;
     }
     scene.slip_diary = true;

@@ -355,7 +355,7 @@ std::unique_ptr<IncidentWave<D, Real>> make_incident_wave(const Scene<D>& scene,
     if (way.kind == PlaneWaveKind::vertical)
       return std::make_unique<VerticalWave<Real>>(scene, source, form, domain, dt_s, fastest_speed(medium));
   if constexpr (D == 3)
-    if (!std::get<PlaneWave<3>>(source.mechanism).in_x_z())
+    if (!std::get<PlaneWave<3>>(source.mechanism).in_x_z() || travels_in_anisotropic_rock(scene, domain, way))
       return make_turned_wave<Real>(scene, source, form, domain, way, dt_s);
   if (way.kind == PlaneWaveKind::layered) return make_layered_wave<D, Real>(scene, source, form, domain, way);
   return std::make_unique<UniformWave<D, Real>>(form, domain, way);

@@ -9,6 +9,7 @@
 #include "scene/plane_wave.hpp"
 #include "solver/effect/incident_wave.hpp"
 #include "solver/effect/plane_form.hpp"
+#include "solver/effect/stack_series.hpp"
 
 namespace slipwave::solver {
 
@@ -34,12 +35,8 @@ class PlaneStackResponse {
   /// Amplitudes of all waves(); the last is that of the incident wave.
   std::vector<Complex> solve(Complex omega) const;
 
-  /// A wave in a layer: its fields (vx, vz, sxx, szz, sxz) at amplitude 1 at depth reference_m, and its
-  /// slowness downwards.
-  struct Wave {
-    std::size_t layer;
-    double reference_m;
-    Complex slowness;
+  /// Its fields are vx, vz, sxx, szz, sxz.
+  struct Wave : StackWave {
     std::array<Complex, 5> fields;
   };
   const std::vector<Wave>& waves() const { return waves_; }
@@ -58,6 +55,21 @@ class PlaneStackResponse {
   std::vector<Wave> waves_;
   std::vector<std::size_t> first_wave_;  // of each layer and behind the last
 };
+
+/// The layers of the column of cells that holds them; of each row of the computed grid the one it is in.
+struct ColumnOfLayers {
+  std::vector<Material> layers;
+  std::vector<double> depths_m;  // as in a PlaneStack
+  std::vector<std::size_t> of_row;
+};
+template <int D>
+ColumnOfLayers layers_of(const Scene<D>& scene, const Domain<D>& domain, const PlaneWaveWay<D>& way);
+
+/// The times that a wave in them is asked for: `slowness` along x and y, and down, where it comes from; its
+/// amplitude is counted at depth reference_m.
+template <int D>
+SeriesWindow window_of(const Scene<D>& scene, const Source<D>& source, const Domain<D>& domain,
+                       const std::array<double, 2>& slowness, double down, double reference_m);
 
 /// The exact solution of an oblique plane wave in the layers of a scene, in each row of cells.
 template <int D>

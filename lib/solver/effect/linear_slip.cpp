@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
@@ -10,6 +11,7 @@
 #include "model/cluster_edge.hpp"
 #include "model/plane_strain.hpp"
 #include "model/single_fracture.hpp"
+#include "model/space_stiffness.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -24,23 +26,35 @@ CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_fricti
 template <int D>
 using Tensor = SymmetricTensor<D, double>;
 
-/// The rock of a cell: about its axis and, where that is tilted, as it lies in the grid.
+/// The rock of a cell: in the plane of x and z about its axis and, where that does not say all, as it lies in
+/// the grid: in 2-D where the axis is tilted, in 3-D where rock is anisotropic.
+template <int D>
 struct Rock {
   Stiffness upright;
-  std::optional<PlaneStiffness> turned;
+  std::optional<std::conditional_t<D == 2, PlaneStiffness, SpaceStiffness>> in_grid;
 };
 template <int D>
-Rock rock_in_grid(const Medium<D>& medium, std::size_t cell) {
-  Rock rock{stiffness_of(medium, cell), {}};
-  if (D == 2 && has_tilted_axis(medium, cell)) rock.turned = plane_stiffness_of(medium, cell);
+Rock<D> rock_in_grid(const Medium<D>& medium, std::size_t cell) {
+  Rock<D> rock{stiffness_of(medium, cell), {}};
+  if constexpr (D == 2) {
+    if (has_tilted_axis(medium, cell)) rock.in_grid = plane_stiffness_of(medium, cell);
+  } else {
+    if (is_anisotropic(medium, cell)) rock.in_grid = space_stiffness_of(material_of(medium, cell));
+  }
   return rock;
 }
 
-/// Stress that belongs to a strain. In 3-D rock is isotropic.
+/// A strain with its shear components doubled, and back.
 template <int D>
-Tensor<D> stress_of(const Tensor<D>& strain, const Rock& of) {
-  if constexpr (D == 2)
-    if (of.turned) return {stress_of_strain(*of.turned, {strain(0, 0), strain(1, 1), 2 * strain(0, 1)})};
+auto doubled_shear(Tensor<D> strain, double by = 2) {
+  for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] *= by;
+  return strain.values;
+}
+
+/// Stress that belongs to a strain.
+template <int D>
+Tensor<D> stress_of(const Tensor<D>& strain, const Rock<D>& of) {
+  if (of.in_grid) return {stress_of_strain(*of.in_grid, doubled_shear(strain))};
   const Stiffness& rock = of.upright;
   Tensor<D> stress;
   double trace = 0;
@@ -55,12 +69,8 @@ Tensor<D> stress_of(const Tensor<D>& strain, const Rock& of) {
 
 /// Strain that belongs to a stress.
 template <int D>
-Tensor<D> strain_of(const Tensor<D>& stress, const Rock& of) {
-  if constexpr (D == 2)
-    if (of.turned) {
-      const auto strain = strain_of_stress(*of.turned, {stress(0, 0), stress(1, 1), stress(0, 1)});
-      return {{strain[0], strain[1], strain[2] / 2}};
-    }
+Tensor<D> strain_of(const Tensor<D>& stress, const Rock<D>& of) {
+  if (of.in_grid) return {doubled_shear(Tensor<D>{strain_of_stress(*of.in_grid, stress.values)}, 0.5)};
   const Stiffness& rock = of.upright;
   Tensor<D> strain;
   for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] = stress.values[c] / (2 * rock.c55);
@@ -84,11 +94,17 @@ double modulus_across(const Point<D>& normal, const Stiffness& rock) {
 
 /// Whether planes of a set may lie askew in the rock of some cell of the model, of any process: then strains
 /// across them and along them are not independent.
-bool may_lie_askew(const FractureSet<2>& set, const Domain<2>& domain, const Scene<2>& scene) {
+template <int D>
+bool may_lie_askew(const FractureSet<D>& set, const Domain<D>& domain, const Scene<D>& scene) {
   if (!domain.anisotropic()) return false;
-  return scene.subdomain.tilted || any_tilted_axes(scene.model.medium) ||
-         std::any_of(set.systems.begin(), set.systems.end(),
-                     [](const auto& system) { return is_oblique<2>(system.normal); });
+  const auto any = [&](const auto& has) { return std::any_of(set.systems.begin(), set.systems.end(), has); };
+  if constexpr (D == 2)
+    return scene.subdomain.tilted || any_tilted_axes(scene.model.medium) ||
+           any([](const auto& system) { return is_oblique<D>(system.normal); });
+  // All processes have the same properties, whatever their values.
+  const auto has = [&](Property of) { return scene.model.medium.has(of); };
+  return has(Property::epsilon1) || has(Property::tilt) || has(Property::azimuth) ||
+         any([](const auto& system) { return !is_level<D>(system.normal); });
 }
 
 /// Strain of the planes of all families under a stress, dashpots at rest.
@@ -141,7 +157,8 @@ Tensor<D> strain_of_part(const FractureSet<D>& set, const Model<D>& model, std::
     for (double& value : strain.values) value *= share;
     return strain;
   };
-  if (slides(set) || rock.c11 != rock.c33) return scaled(strain_of_planes<D>(set, stress, rock));
+  if (slides(set) || is_anisotropic(model.medium, cell))
+    return scaled(strain_of_planes<D>(set, stress, rock));
   const auto edge = edge_normal(model, cell);
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   std::array<double, n * n> of_part{};
@@ -187,9 +204,7 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, const Scene<D>& scene, 
               any([](const auto& s) { return s.slides(); })};
   // The rest of a cell holds springs of its part in all directions.
   if (kind == CellKind::cut && !group.of.damped && !group.of.slides) group.of.one_family = false;
-  if constexpr (D == 2)
-    if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene))
-      group.of.one_family = false;
+  if (!group.of.damped && !group.of.slides && may_lie_askew(set, domain_, scene)) group.of.one_family = false;
   group.planes = planes_of<D, Real>(set.systems, unit_);
   group.kernels = linear_slip_kernels<Real>(group.of);
   group.memory.assign(group.places.stored() * std::size_t(group.of.memory_rows()), 0);
@@ -227,7 +242,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
 /// of welded planes it is G (1 + G)^-1 (S22). Hands out each entry of both: its component, that of the
 /// stress, and the entries of the latter and of G.
 template <int D, class StrainOf, class Put>
-static void each_entry(const Rock& rock, const StrainOf& strain_of, const Put& put) {
+static void each_entry(const Rock<D>& rock, const StrainOf& strain_of, const Put& put) {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   std::array<double, n * n> taken{}, with_rock{};
   for (std::size_t k = 0; k < n; ++k) {

@@ -43,6 +43,39 @@ std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const MotionAl
   return waves;
 }
 
+/// The same of a rock of any symmetry.
+std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const SpaceStiffness& stiffness, double rho,
+                                                        const SpaceFields& fields) {
+  std::vector<std::pair<SpaceFields, double>> waves;
+  SpaceFields rest = fields;
+  SpaceVector direction{};
+  direction[std::size_t(axis)] = 1;
+  const auto all = slipwave::waves_along(stiffness, direction);
+  for (std::size_t n = 0; n < 3; ++n) {
+    constexpr double rounding = 1e-12;
+    if (all.moduli[n] < rounding * all.moduli[0]) continue;
+    const auto& motion = all.motions[n];
+    const double c = std::sqrt(all.moduli[n] / rho);
+    double v = 0, t = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int row = i == axis ? Rows::normal_stress(axis) : shear(axis, i);
+      v += motion[std::size_t(i)] * fields[std::size_t(i)];
+      t += motion[std::size_t(i)] * fields[std::size_t(row)];
+    }
+    for (const double sign : {1., -1.}) {
+      const double size = (v - sign * t / (rho * c)) / 2;
+      SpaceVector slowness{}, velocity = motion;
+      slowness[std::size_t(axis)] = sign / c;
+      for (auto& part : velocity) part *= size;
+      const auto wave = fields_of_motion(stiffness, slowness, velocity);
+      for (std::size_t row = 0; row < field_count; ++row) rest[row] -= wave[row];
+      waves.emplace_back(wave, sign * c);
+    }
+  }
+  waves.emplace_back(rest, 0);
+  return waves;
+}
+
 /// Of every stage between sweeps of a step.
 std::vector<SweepsAhead> all_ahead(int time_order, double dt_s) {
   const auto sweeps = splitting(3, time_order);
@@ -170,15 +203,14 @@ SpaceSeries series_of_wavelet(const Wavelet& wavelet, const std::vector<ShiftedF
   return series;
 }
 
-/// Of a row in layers; `parts_of` says what becomes of fields there.
-template <class PartsOf>
-SpaceSeries series_of_layers(const LayeredSeries<3>& layers,
-                             const std::array<std::vector<LayeredSeries<3>::Complex>, 5>& spectra,
+/// Of a row in layers; `parts_of` says what becomes of N fields there.
+template <std::size_t N, class Layers, class PartsOf>
+SpaceSeries series_of_layers(Layers& layers, const std::array<std::vector<std::complex<double>>, N>& spectra,
                              const PartsOf& parts_of) {
   std::vector<double> earlier_s;
-  std::array<std::vector<std::array<double, 5>>, field_count> factors;  // [row][part][field]
-  for (std::size_t field = 0; field < 5; ++field) {
-    PlaneFields one{};
+  std::array<std::vector<std::array<double, N>>, field_count> factors;  // [row][part][field]
+  for (std::size_t field = 0; field < N; ++field) {
+    std::array<double, N> one{};
     one[field] = 1;
     const auto parts = parts_of(one);
     earlier_s.resize(parts.size());
@@ -194,21 +226,35 @@ SpaceSeries series_of_layers(const LayeredSeries<3>& layers,
   return series;
 }
 
-}  // namespace
-
-std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
-                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
+/// What becomes of fields whose waves along an axis `waves_of` says.
+template <class WavesOf>
+std::vector<ShiftedFields> split_ahead(const SpaceFields& fields, const std::array<double, 2>& slowness,
+                                       const SweepsAhead& ahead, const WavesOf& waves_of) {
   std::vector<ShiftedFields> parts = {{fields, 0}};
   for (const int axis : {0, 1}) {
     const double ahead_s = axis == 0 ? ahead.x_s : ahead.y_s;
     if (ahead_s == 0 || slowness[std::size_t(axis)] == 0) continue;
     std::vector<ShiftedFields> split;
     for (const auto& part : parts)
-      for (const auto& [wave, velocity] : waves_along(axis, medium, part.fields))
+      for (const auto& [wave, velocity] : waves_of(axis, part.fields))
         split.push_back({wave, part.earlier_s + slowness[std::size_t(axis)] * velocity * ahead_s});
     parts = std::move(split);
   }
   return parts;
+}
+
+}  // namespace
+
+std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
+                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
+  return split_ahead(fields, slowness, ahead,
+                     [&](int axis, const SpaceFields& of) { return waves_along(axis, medium, of); });
+}
+
+std::vector<ShiftedFields> parts_ahead(const SpaceStiffness& stiffness, double rho, const SpaceFields& fields,
+                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
+  return split_ahead(fields, slowness, ahead,
+                     [&](int axis, const SpaceFields& of) { return waves_along(axis, stiffness, rho, of); });
 }
 
 SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields,
@@ -231,10 +277,96 @@ SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields,
   return space;
 }
 
+bool travels_in_anisotropic_rock(const Scene<3>& scene, const Domain<3>& domain, const PlaneWaveWay<3>& way) {
+  const auto& medium = scene.model.medium;
+  if (way.kind != PlaneWaveKind::layered)
+    return material_of(medium, std::size_t(medium.grid().flat(way.entry))).is_anisotropic_in_space();
+  const auto layers = layers_of(scene, domain, way).layers;
+  return std::any_of(layers.begin(), layers.end(),
+                     [](const Material& layer) { return layer.is_anisotropic_in_space(); });
+}
+
+namespace {
+
+/// The motion and slowness that a plane wave has where it comes from.
+struct Incident {
+  SpaceVector slowness{}, motion{};
+  double depth_m = 0;  // of the source
+  Incident(const Source<3>& source, const Material& rock) : depth_m(source.position_m[2]) {
+    const auto& plane = std::get<PlaneWave<3>>(source.mechanism);
+    const auto of = space_motion(rock, plane.direction, plane.along, plane.shear);
+    motion = of.motion;
+    for (std::size_t axis = 0; axis < 3; ++axis) slowness[axis] = plane.direction[axis] / of.speed;
+  }
+  std::array<double, 2> along() const { return {slowness[0], slowness[1]}; }
+};
+
+/// Series of all stages, of each row of layers.
+template <class Real>
+void add_layers(const Scene<3>& scene, const Source<3>& source, const Domain<3>& domain,
+                const PlaneWaveWay<3>& way, const Incident& incident, const std::vector<SweepsAhead>& stages,
+                TurnedWave<Real>& wave) {
+  const SpaceStackResponse response({layers_of(scene, domain, way),
+                                     {scene.edges[2][0], scene.edges[2][1]},
+                                     way.entry_side == 0,
+                                     incident.slowness,
+                                     incident.motion});
+  const auto window = window_of(scene, source, domain, incident.along(), incident.slowness[2],
+                                response.waves().back().reference_m);
+  StackSeries series(
+      {response.waves().begin(), response.waves().end()},
+      [&](std::complex<double> omega) { return response.solve(omega); }, source.wavelet, source.amplitude,
+      window);
+  const auto& column = response.stack().column;
+  const auto depths = depths_of_rows(domain);
+  for (std::size_t row = 0; row < depths.size(); ++row) {
+    const auto& rock = column.layers[column.of_row[row]];
+    const auto stiffness = space_stiffness_of(rock);
+    const auto spectra = series.sums_at<field_count>(
+        depths[row], column.of_row[row], [&](std::size_t n) { return response.waves()[n].fields; });
+    for (std::size_t stage = 0; stage < stages.size(); ++stage)
+      wave.add(stage, series_of_layers(series, spectra, [&](const SpaceFields& fields) {
+                 return parts_ahead(stiffness, rock.rho, fields, incident.along(), stages[stage]);
+               }));
+  }
+}
+
+template <class Real>
+std::unique_ptr<IncidentWave<3, Real>> make_anisotropic_wave(const Scene<3>& scene, const Source<3>& source,
+                                                             const Domain<3>& domain,
+                                                             const PlaneWaveWay<3>& way, double dt_s) {
+  const auto& medium = scene.model.medium;
+  const auto rock = material_of(medium, std::size_t(medium.grid().flat(way.entry)));
+  const Incident incident(source, rock);
+  const auto stages = all_ahead(scene.numerics.time_order, dt_s);
+  auto wave = std::make_unique<TurnedWave<Real>>(domain, source, incident.along(), fastest_speed(medium),
+                                                 stages, dt_s);
+  if (way.kind == PlaneWaveKind::layered) {
+    add_layers(scene, source, domain, way, incident, stages, *wave);
+    return wave;
+  }
+  if (way.by_entry_only) wave->enters_only(way.entry_side);
+  const auto depths = depths_of_rows(domain);
+  for (std::size_t row = 0; row < depths.size(); ++row)
+    wave->set_delay(row, incident.slowness[2] * (depths[row] - incident.depth_m));
+  const auto stiffness = space_stiffness_of(rock);
+  auto velocity = incident.motion;
+  for (auto& part : velocity) part *= source.amplitude;
+  const auto fields = fields_of_motion(stiffness, incident.slowness, velocity);
+  for (std::size_t stage = 0; stage < stages.size(); ++stage)
+    wave->add(stage, series_of_wavelet(source.wavelet, parts_ahead(stiffness, rock.rho, fields,
+                                                                   incident.along(), stages[stage])));
+  return wave;
+}
+
+}  // namespace
+
 template <class Real>
 std::unique_ptr<IncidentWave<3, Real>> make_turned_wave(const Scene<3>& scene, const Source<3>& source,
                                                         const PlaneForm<3>& form, const Domain<3>& domain,
                                                         const PlaneWaveWay<3>& way, double dt_s) {
+  if (travels_in_anisotropic_rock(scene, domain, way))
+    return make_anisotropic_wave<Real>(scene, source, domain, way, dt_s);
   const auto& plane = std::get<PlaneWave<3>>(source.mechanism);
   const std::array<double, 2> slowness = {form.slowness()[0] * plane.along[0],
                                           form.slowness()[0] * plane.along[1]};

@@ -6,11 +6,9 @@
 #include "scene/plane_wave.hpp"
 #include "solver/effect/incident_wave.hpp"
 #include "solver/effect/plane_form.hpp"
+#include "solver/effect/space_stack.hpp"
 
 namespace slipwave::solver {
-
-/// The nine fields of a 3-D state, in the order of its rows.
-using SpaceFields = std::array<double, std::size_t(FieldRows<3>::count)>;
 
 /// A part of a plane wave's fields, and how much earlier it is read.
 struct ShiftedFields {
@@ -29,11 +27,19 @@ struct SweepsAhead {
 std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFields& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead);
 
+/// The same in a rock of any symmetry (theory.md (A19)).
+std::vector<ShiftedFields> parts_ahead(const SpaceStiffness& stiffness, double rho, const SpaceFields& fields,
+                                       const std::array<double, 2>& slowness, const SweepsAhead& ahead);
+
 /// Fields of a wave that travels in the x-z plane, turned about z from x towards y.
 SpaceFields turned(const MotionAlongX& medium, const PlaneFields& fields, const std::array<double, 2>& along);
 
-/// The incident wave of a 3-D plane wave whose plane of travel is not x-z: of one medium, or in layers. Its
-/// fields after any of the sweeps of a step are series in time, one a field, in layers of each row.
+/// Whether any rock that the incident wave of a scene is known in is anisotropic.
+bool travels_in_anisotropic_rock(const Scene<3>& scene, const Domain<3>& domain, const PlaneWaveWay<3>& way);
+
+/// The incident wave of a 3-D plane wave whose plane of travel is not x-z, or in anisotropic rock: of one
+/// medium, or in layers. Its fields after any of the sweeps of a step are series in time, one a field, in
+/// layers of each row.
 template <class Real>
 std::unique_ptr<IncidentWave<3, Real>> make_turned_wave(const Scene<3>& scene, const Source<3>& source,
                                                         const PlaneForm<3>& form, const Domain<3>& domain,

@@ -1,0 +1,167 @@
+#include "model/space_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/plane_motion.hpp"
+#include "model/polynomial_roots.hpp"
+
+namespace slipwave {
+namespace {
+
+using Complex = std::complex<double>;
+using ComplexVector = std::array<Complex, 3>;
+
+double dot(const SpaceVector& a, const SpaceVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Numbers from the constant on.
+using Quadratic = std::array<double, 3>;
+using QuadraticMatrix = std::array<std::array<Quadratic, 3>, 3>;
+
+/// The Christoffel matrix less the density, of slownesses along x and y, by powers of that down.
+QuadraticMatrix inertia(const SpaceStiffness& c, double rho, const std::array<double, 2>& along) {
+  QuadraticMatrix of{};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) {
+      auto& powers = of[std::size_t(i)][std::size_t(k)];
+      if (i == k) powers[0] = -rho;
+      for (int a = 0; a < 2; ++a) {
+        const double p = along[std::size_t(a)];
+        for (int b = 0; b < 2; ++b) powers[0] += c(i, a, k, b) * p * along[std::size_t(b)];
+        powers[1] += (c(i, a, k, 2) + c(i, 2, k, a)) * p;
+      }
+      powers[2] = c(i, 2, k, 2);
+    }
+  return of;
+}
+
+/// The determinant, of sixth degree.
+std::array<double, 7> determinant(const QuadraticMatrix& of) {
+  std::array<double, 7> sum{};
+  const auto add = [&](const Quadratic& a, const Quadratic& b, const Quadratic& c, double sign) {
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k) sum[i + j + k] += sign * a[i] * b[j] * c[k];
+  };
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto next = (n + 1) % 3, last = (n + 2) % 3;
+    add(of[0][n], of[1][next], of[2][last], 1);
+    add(of[0][n], of[1][last], of[2][next], -1);
+  }
+  return sum;
+}
+
+/// What is at right angles to all rows of a matrix that has no inverse, of unit size: across the two rows
+/// that point apart the most.
+ComplexVector motion_of(const QuadraticMatrix& of, Complex down) {
+  std::array<ComplexVector, 3> rows;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) rows[i][k] = of[i][k][0] + down * (of[i][k][1] + down * of[i][k][2]);
+  ComplexVector motion{};
+  double largest = 0;
+  for (std::size_t n = 0; n < 3; ++n) {
+    const auto &a = rows[n], &b = rows[(n + 1) % 3];
+    const ComplexVector across = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                                  a[0] * b[1] - a[1] * b[0]};
+    const double size = std::norm(across[0]) + std::norm(across[1]) + std::norm(across[2]);
+    if (size > largest) largest = size, motion = across;
+  }
+  for (auto& part : motion) part /= std::sqrt(largest);
+  return motion;
+}
+
+/// Whether it decays downwards or carries energy down.
+bool goes_down(const SpaceStiffness& stiffness, const std::array<double, 2>& along,
+               const SpaceLayerWave& wave) {
+  if (wave.down.imag() != 0) return wave.down.imag() < 0;
+  const auto stress = stress_of_motion<Complex>(stiffness, {along[0], along[1], wave.down}, wave.motion);
+  Complex power = 0;
+  for (int i = 0; i < 3; ++i)
+    power += std::conj(wave.motion[std::size_t(i)]) * stress[SpaceStiffness::pair(i, 2)];
+  return power.real() < 0;
+}
+
+/// Of any stiffness.
+std::vector<SpaceLayerWave> waves_of_any(const Material& rock, const std::array<double, 2>& along,
+                                         bool down) {
+  const auto stiffness = space_stiffness_of(rock);
+  const auto of = inertia(stiffness, rock.rho, along);
+  const double size = std::sqrt(rock.rho / std::min({stiffness.voigt[3][3], stiffness.voigt[4][4]})) +
+                      std::hypot(along[0], along[1]);
+  std::vector<SpaceLayerWave> all;
+  for (const auto& root : roots_of(determinant(of), size)) all.push_back({root, motion_of(of, root)});
+  // Three go down and three up; those that lie along the layers are whichever are left.
+  std::stable_sort(all.begin(), all.end(), [&](const SpaceLayerWave& one, const SpaceLayerWave& other) {
+    return goes_down(stiffness, along, one) > goes_down(stiffness, along, other);
+  });
+  return {all.begin() + (down ? 0 : 3), all.begin() + (down ? 3 : 6)};
+}
+
+/// Of rock that is alike in all horizontal directions: in the plane of travel, and across it.
+std::vector<SpaceLayerWave> waves_of_level_beds(const Material& rock, const std::array<double, 2>& along,
+                                                bool down) {
+  const double p = std::hypot(along[0], along[1]);
+  const double x = p > 0 ? along[0] / p : 1, y = p > 0 ? along[1] / p : 0;
+  std::vector<SpaceLayerWave> all;
+  if (rock.is_anisotropic()) {
+    for (const auto& wave : layer_waves(rock, p, down))
+      all.push_back({wave.down, {x * wave.x, y * wave.x, wave.z}});
+  } else {
+    for (const bool shear : {false, true}) {
+      if (shear && rock.vs == 0) continue;
+      const double speed = shear ? rock.vs : rock.vp;
+      const auto q = (down ? 1. : -1.) * slowness_across(speed, p);
+      // Along the slowness, or across it.
+      const Complex level = speed * (shear ? q : Complex(p)), sinking = speed * (shear ? Complex(-p) : q);
+      const double size = std::sqrt(std::norm(level) + std::norm(sinking));
+      all.push_back({q, {x * level / size, y * level / size, sinking / size}});
+    }
+  }
+  if (rock.vs == 0) return all;
+  // (rho - c66 p^2)/c55 is the square of the slowness down.
+  const double stretch = std::sqrt(1 + 2 * rock.gamma);
+  all.push_back({(down ? 1. : -1.) * slowness_across(rock.vs, p * stretch), {-y, x, 0}});
+  return all;
+}
+
+}  // namespace
+
+template <class Number>
+std::array<Number, 6> stress_of_motion(const SpaceStiffness& stiffness, const std::array<Number, 3>& slowness,
+                                       const std::array<Number, 3>& velocity) {
+  const auto& [x, y, z] = slowness;
+  const auto& [vx, vy, vz] = velocity;
+  const std::array<Number, 6> strain = {-(x * vx),          -(y * vy),          -(z * vz),
+                                        -(y * vz + z * vy), -(x * vz + z * vx), -(x * vy + y * vx)};
+  std::array<Number, 6> stress{};
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) stress[i] += stiffness.voigt[i][j] * strain[j];
+  return stress;
+}
+template std::array<double, 6> stress_of_motion(const SpaceStiffness&, const std::array<double, 3>&,
+                                                const std::array<double, 3>&);
+template std::array<Complex, 6> stress_of_motion(const SpaceStiffness&, const std::array<Complex, 3>&,
+                                                 const std::array<Complex, 3>&);
+
+SpaceMotion space_motion(const Material& rock, const SpaceVector& direction,
+                         const std::array<double, 2>& along, bool shear) {
+  const double level = direction[0] * along[0] + direction[1] * along[1];
+  // Towards which P moves, and S waves of isotropic rock.
+  const SpaceVector usual =
+      shear ? SpaceVector{direction[2] * along[0], direction[2] * along[1], -level} : direction;
+  if (!rock.is_anisotropic_in_space()) return {shear ? rock.vs : rock.vp, usual};
+  const auto waves = waves_along(space_stiffness_of(rock), direction);
+  const auto share = [&](std::size_t wave) { return dot(waves.motions[wave], usual); };
+  const std::size_t wave = !shear ? 0 : std::abs(share(1)) >= std::abs(share(2)) ? 1 : 2;
+  SpaceMotion found{std::sqrt(waves.moduli[wave] / rock.rho), waves.motions[wave]};
+  if (share(wave) < 0)
+    for (auto& part : found.motion) part = -part;
+  return found;
+}
+
+std::vector<SpaceLayerWave> layer_waves(const Material& rock, const std::array<double, 2>& along, bool down) {
+  const bool level = rock.tilt == 0 && !rock.orthorhombic;
+  return level ? waves_of_level_beds(rock, along, down) : waves_of_any(rock, along, down);
+}
+
+}  // namespace slipwave

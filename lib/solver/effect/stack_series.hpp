@@ -1,0 +1,118 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "acquisition/survey.hpp"
+#include "base/fft.hpp"
+#include "solver/effect/plane_form.hpp"
+
+namespace slipwave::solver {
+
+/// A wave in a layer of a stack, whose amplitude is 1 at depth reference_m; its slowness downwards.
+struct StackWave {
+  std::size_t layer = 0;
+  double reference_m = 0;
+  std::complex<double> slowness;
+};
+
+/// When the incident wave comes to where its amplitude is counted, s, and the times that are asked for.
+struct SeriesWindow {
+  double arrival_s = 0, first_s = 0, last_s = 0;
+};
+
+/// What a plane wave makes of layers as functions of t - slowness (x - x_s), on bins of frequency: all waves
+/// in them, times the wavelet.
+class StackSeries {
+ public:
+  using Complex = std::complex<double>;
+  /// `solve` gives the amplitudes of all waves for an angular frequency.
+  StackSeries(std::vector<StackWave> waves, const std::function<std::vector<Complex>(Complex omega)>& solve,
+              const Wavelet& wavelet, double amplitude, const SeriesWindow& window);
+  std::size_t bins() const { return bins_; }
+  Complex omega(std::size_t bin) const {
+    return {2 * std::numbers::pi * double(bin) / (double(length_) * interval_s_), -decay_};
+  }
+  /// Calls `see(bin, amplitude)` of a wave at a depth.
+  template <class See>
+  void each_bin(std::size_t wave, double z, const See& see) const;
+  /// Spectra at a depth, which lies in that layer: each the sum of the waves there times their factors, as
+  /// many as spectra.
+  template <std::size_t N>
+  std::array<std::vector<Complex>, N> sums_at(
+      double z, std::size_t layer,
+      const std::function<std::array<Complex, N>(std::size_t wave)>& factors) const;
+  TimeSeries series_of(const std::vector<Complex>& spectrum);
+  /// The sum of parts of some spectra: `factors` of each in a part, and how much earlier a part is read.
+  template <std::size_t N>
+  TimeSeries sum_of(const std::array<std::vector<Complex>, N>& spectra,
+                    const std::vector<std::array<double, N>>& factors, const std::vector<double>& earlier_s);
+
+ private:
+  std::vector<float> samples_of(const std::vector<Complex>& spectrum, double& first_s);
+
+  std::vector<StackWave> waves_;
+  double interval_s_, first_s_, last_s_, decay_ = 0;
+  std::size_t length_, bins_;
+  std::vector<Complex> source_;                   // [bin]
+  std::vector<std::vector<Complex>> amplitudes_;  // [bin][wave]
+  RealTransform transform_;
+  double largest_;
+};
+
+/// From bin to bin the phase grows by the same factor.
+template <class See>
+void StackSeries::each_bin(std::size_t wave, double z, const See& see) const {
+  const double step = 2 * std::numbers::pi / (double(length_) * interval_s_);
+  const auto& of = waves_[wave];
+  const auto way = Complex(0, -1) * of.slowness * (z - of.reference_m);
+  const auto factor = std::exp(way * step);
+  auto phase = std::exp(way * Complex(0, -decay_));
+  for (std::size_t bin = 0; bin < bins_; ++bin, phase *= factor)
+    see(bin, phase * amplitudes_[bin][wave] * source_[bin]);
+}
+
+template <std::size_t N>
+std::array<std::vector<StackSeries::Complex>, N> StackSeries::sums_at(
+    double z, std::size_t layer,
+    const std::function<std::array<Complex, N>(std::size_t wave)>& factors) const {
+  std::array<std::vector<Complex>, N> spectra;
+  for (auto& spectrum : spectra) spectrum.assign(bins_, 0);
+  for (std::size_t n = 0; n < waves_.size(); ++n) {
+    if (waves_[n].layer != layer) continue;
+    const auto of = factors(n);
+    each_bin(n, z, [&](std::size_t bin, const Complex& here) {
+      for (std::size_t k = 0; k < N; ++k) spectra[k][bin] += here * of[k];
+    });
+  }
+  return spectra;
+}
+
+/// From bin to bin the phase of a part grows by the same factor.
+template <std::size_t N>
+TimeSeries StackSeries::sum_of(const std::array<std::vector<Complex>, N>& spectra,
+                               const std::vector<std::array<double, N>>& factors,
+                               const std::vector<double>& earlier_s) {
+  std::vector<Complex> sum(bins_);
+  const Complex first = Complex(0, 1) * omega(0), step = Complex(0, 1) * omega(1) - first;
+  for (std::size_t part = 0; part < factors.size(); ++part) {
+    const auto& of = factors[part];
+    bool any = false;
+    for (const double factor : of) any = any || factor != 0;
+    if (!any) continue;
+    auto phase = std::exp(first * earlier_s[part]);
+    const auto turn = std::exp(step * earlier_s[part]);
+    for (std::size_t bin = 0; bin < sum.size(); ++bin, phase *= turn) {
+      Complex here = 0;
+      for (std::size_t field = 0; field < N; ++field) here += of[field] * spectra[field][bin];
+      sum[bin] += here * phase;
+    }
+  }
+  return series_of(sum);
+}
+
+}  // namespace slipwave::solver
