@@ -34,13 +34,24 @@ bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
     return tilted && domain.tilted_media()[std::size_t(tilted->medium)].turned;
 }
 
+/// Whether edges of more than one axis are free.
+template <int D>
+bool has_free_edges_across(const Domain<D>& domain) {
+  int axes = 0;
+  for (int axis = 0; axis < D; ++axis)
+    axes += domain.edges[axis][0] == EdgeLaw::free || domain.edges[axis][1] == EdgeLaw::free;
+  return axes > 1;
+}
+
 /// Whether the order of the reconstruction rises away from an edge in line with a cell: from a corrected free
-/// surface, and in space from any of a solid. Where plain images, near a second free edge say, let it reach
-/// further than corrected ones beside them, stresses at rest in the surface of a box grew (theory.md, 1.3).
+/// surface, and in space, where free edges meet, from any of a solid. Where plain images, near a second free
+/// edge say, let it reach further than corrected ones beside them, stresses at rest in the surface of a box
+/// grew (theory.md, 1.3).
 template <int D>
 bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side) {
   at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;
-  if (D == 3) return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
+  if (D == 3 && has_free_edges_across(domain))
+    return domain.edges[axis][side] == EdgeLaw::free && domain.impedance(wave_s)(at) > 0;
   return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
 }
 
