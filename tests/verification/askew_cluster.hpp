@@ -38,6 +38,28 @@ inline std::vector<double> of_slip(Scene<3> scene) {
   return difference(with, samples_of(shoot(scene, 1)));
 }
 
+/// How far what slip changes is from that of the same experiment turned by a right angle about the vertical,
+/// where x becomes y, and y becomes -x: rock and cluster, whose planes set_of() gives by azimuth, source and
+/// receiver.
+inline double error_of_turned(const Material& rock,
+                              const std::function<FractureSet<3>(double azimuth)>& set_of) {
+  const auto shot = [&](const Material& of, double azimuth, const Point<3>& source,
+                        const std::vector<Point<3>>& receivers, const char* force) {
+    auto scene = cluster(of, set_of(azimuth));
+    scene.survey.sources[0].position_m = source;
+    scene.survey.sources[0].mechanism = parse_mechanism<3>(force);
+    scene.survey.receivers_m = receivers;
+    scene.numerics.cfl = 0.4;
+    return of_slip(scene);
+  };
+  const auto one = shot(turned_by(rock, 25, 35, 50), 20, {31, 42, 18}, {{51, 62, 78}}, "force:1,0,0"),
+             turned = shot(turned_by(rock, 25, 125, 50), 110, {48, 31, 18}, {{28, 51, 78}}, "force:0,1,0");
+  const auto count = one.size() / 3;
+  auto back = turned;
+  for (std::size_t n = 0; n < count; ++n) back[n] = turned[count + n], back[count + n] = -turned[n];
+  return relative_error(back, one);
+}
+
 /// Orthorhombic rock with any stiffness about any axes; `between` draws between two numbers.
 inline Material any_turned_rock(const std::function<double(double low, double high)>& between) {
   for (;;) {
