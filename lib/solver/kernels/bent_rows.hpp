@@ -56,9 +56,11 @@ template <int Order, int Pairs, class Real, class At>
 
 /// Along y: all that is read of a row is read once.
 template <int Order, class Real>
-void reconstruct_bent_along_y(std::int64_t n, std::int64_t stride, const BentPairs<Real>& pairs,
-                              const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
-                              OutgoingWaves<Real> outgoing) {
+[[gnu::always_inline]] inline void reconstruct_bent_along_y(std::int64_t n, std::int64_t stride,
+                                                            const BentPairs<Real>& pairs,
+                                                            const MaterialRows<Real>& material, Real scale,
+                                                            const BentAlong<Real>& metric,
+                                                            OutgoingWaves<Real> outgoing) {
   const Real* half = metric.half_x;
   const Real *s = pairs.s[0], *t = pairs.s[1], *t2 = pairs.s[2];
   const std::int64_t j_stride = metric.stride;
@@ -88,9 +90,10 @@ template <int Pairs, class Real>
 /// Along x each value of J s is read by all cells within reach: it is computed once for all of them, of as
 /// many cells at a time as leave room in the first-level cache.
 template <int Order, int Pairs, class Real>
-void reconstruct_bent_along_x(std::int64_t n, const BentPairs<Real>& pairs,
-                              const MaterialRows<Real>& material, Real scale, const BentAlong<Real>& metric,
-                              OutgoingWaves<Real> outgoing) {
+[[gnu::always_inline]] inline void reconstruct_bent_along_x(std::int64_t n, const BentPairs<Real>& pairs,
+                                                            const MaterialRows<Real>& material, Real scale,
+                                                            const BentAlong<Real>& metric,
+                                                            OutgoingWaves<Real> outgoing) {
   // Each row begins with a cache line.
   constexpr std::int64_t reach = Weights<Order, Real>::reach, most = 256, pitch = most + 16;
   static_assert(2 * reach <= pitch - most);
