@@ -87,7 +87,7 @@ TEST(AnisotropicPlaneWaveInSpace, GoesThroughARockUndisturbed) {
       if (!long_form() && shear != (rock == shale)) continue;
       constexpr double angle = 25, azimuth = 40;
       auto scene =
-          box(rock, rock, 24, (shear ? "plane-s:25," : "plane:25,") + std::string("40"), shear ? 0.26 : 0.16);
+          box(rock, rock, 12, (shear ? "plane-s:25," : "plane:25,") + std::string("40"), shear ? 0.24 : 0.15);
       check(scene);
       const SpaceVector direction = {std::sin(angle * degree) * std::cos(azimuth * degree),
                                      std::sin(angle * degree) * std::sin(azimuth * degree),
@@ -165,7 +165,7 @@ TEST(AnisotropicPlaneWaveInSpace, InLayersIsTheSameHoweverWideTheModelIs) {
       check(scene);
       return samples_of(shoot(scene, 1));
     };
-    const auto narrow = shot(18), wide = shot(long_form() ? 48 : 32);
+    const auto narrow = shot(12), wide = shot(long_form() ? 40 : 20);
     EXPECT_LT(relative_error(narrow, wide), 0.015) << kind;
   }
 }
@@ -174,8 +174,8 @@ TEST(AnisotropicPlaneWaveInSpace, IsTurnedWithItsRock) {
   const ThreadLimit one_thread(1);
   // About the vertical by a right angle: x becomes y, and y becomes -x.
   const auto shot = [&](double turn_deg) {
-    auto scene = box(turned_by(cracked, 40, 25 + turn_deg, -50), turned_by(shale, 20, 70 + turn_deg), 16,
-                     "plane:25," + std::to_string(40 + turn_deg), 0.16);
+    auto scene = box(turned_by(cracked, 40, 25 + turn_deg, -50), turned_by(shale, 20, 70 + turn_deg), 10,
+                     "plane:25," + std::to_string(40 + turn_deg), 0.12);
     scene.survey.receivers_m =
         turn_deg == 0 ? std::vector<Point<3>>{{-12, 14, 71}} : std::vector<Point<3>>{{-14, -12, 71}};
     scene.numerics.cfl = 0.4;
