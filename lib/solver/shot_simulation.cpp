@@ -14,6 +14,7 @@
 #include "scene/largest_velocity.hpp"
 #include "scene/surroundings.hpp"
 #include "solver/effect/attenuation.hpp"
+#include "solver/effect/linear_slip.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -86,7 +87,7 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
   auto domain = make_domain(medium, scene.edges, zone_cells(scene, scene.survey.sources[shot - 1]),
                             scene.subdomain, scene.numerics.order);
   const auto& model = scene.model;
-  if (scene.with_slip) domain.parted = parted_faces(model);
+  if (scene.with_slip) domain.parted = parted_faces(model), domain.soft = soft_cells(domain, model);
   for (auto& face : domain.parted) face.behind = domain.computed_cell(face.behind);
   if (scene.slips())
     domain.drop_tilted(

@@ -148,5 +148,59 @@ TEST(TiltedBlocks, LoseEnergyInTheLongRun) {
   }
 }
 
+/// Four blocks of isotropic rocks whose speeds differ by up to two and a half, full of planes of two
+/// families.
+Lab<double>::Setup soft_blocks(unsigned draw, double softness) {
+  std::mt19937 engine(draw);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  const auto random = [&] { return uniform(engine); };
+  constexpr int block = 6, cells = 2 * block;
+  Lab<double>::Setup setup;
+  setup.medium = rock(cells, cells);
+  std::array<Material, 4> rocks{};
+  for (auto& of : rocks) {
+    of.vp = 2000 + 3000 * random();
+    of.vs = of.vp * (0.4 + 0.3 * random());
+    of.rho = 1800 + 1000 * random();
+  }
+  for (int cell = 0; cell < cells * cells; ++cell)
+    put(setup.medium, std::size_t(cell), rocks[std::size_t(cell / cells / block * 2 + cell % cells / block)]);
+  setup.edges = all_edges(EdgeLaw::rigid);
+  FractureSet<2> set{"springs", {}};
+  for (int family = 0; family < 2; ++family) {
+    set.systems.push_back(system_of(360 * random(), {0, 0}));
+    set.systems.back().law = FrictionLaw::none;
+    set.systems.back().compliance = {softness / usual_mu, softness / usual_mu, 0, 0, 1};
+  }
+  setup.fracture_sets = {set};
+  setup.fracture = Field<2, std::uint8_t>(setup.medium.grid(), 1);
+  return setup;
+}
+
+/// Motion wavers as the springs swing; in the long run it falls.
+TEST(SoftBlocks, LoseMotionAtAllOrders) {
+  const ThreadLimit one_thread(1);
+  for (unsigned draw = 1; draw <= (long_form() ? 16U : 4U); ++draw)
+    for (const double softness : {100., 1e4})
+      for (const int order : long_form() ? std::vector<int>{5, 7, 9, 11} : std::vector<int>{11}) {
+        auto setup = soft_blocks(draw, softness);
+        setup.order = order;
+        SCOPED_TRACE("draw " + std::to_string(draw) + ", softness " + std::to_string(softness) + ", order " +
+                     std::to_string(order));
+        Lab<double> lab(setup);
+        const int steps = 4400;
+        double before = lab.kinetic_energy();
+        for (int part = 0; part < 2; ++part) {
+          double mean = 0;
+          for (int n = 0; n < steps; ++n) {
+            lab.step();
+            if (n >= steps - 400) mean += lab.kinetic_energy() / 400;
+          }
+          EXPECT_LT(mean, before) << "part " << part;
+          before = mean;
+        }
+      }
+}
+
 }  // namespace
 }  // namespace slipwave

@@ -68,6 +68,7 @@ Lab<Real>::Lab(const Setup& setup)
   dt_s_ = setup.cfl * model.grid().spacing_m / fastest_speed(model.medium);
   domain_.parted = parted_faces(model);
   for (auto& face : domain_.parted) face.behind = domain_.computed_cell(face.behind);
+  domain_.soft = solver::soft_cells(domain_, model);
   state_ = solver::make_state<2, Real>(domain_.grid.shape, domain_.material_kind());
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);

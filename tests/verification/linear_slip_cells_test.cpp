@@ -312,7 +312,9 @@ std::vector<std::vector<SlipSystem<2>>> kinds() {
           {sliding},
           {block, across},
           {sliding},
-          {block, across}};
+          {block, across},
+          // With stencils of their own (soft_cells()).
+          {spring<2>({0.6, 0.8}, 300 / mu, 300 / mu), spring<2>({1, 0}, 300 / mu, 300 / mu)}};
 }
 
 TEST(SpringScenes, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
@@ -327,6 +329,41 @@ TEST(SpringScenes, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
     expect_same(scene);
     EXPECT_TRUE(samples_in_pieces(scene) == alone);
   }
+}
+
+TEST(SoftCells, AreThoseThatCarryNoStress) {
+  constexpr double much = 2.5 * softness_without_stress;
+  const auto soft = [](const Point<2>& normal) { return spring<2>(normal, much / modulus, much / mu); };
+  const Point<2> one{0.6, 0.8}, other{1, 0};
+  auto slides = soft(other);
+  slides.law = FrictionLaw::coulomb, slides.friction = 0.2, slides.viscosity_s = 10;
+  auto damped = soft(other);
+  damped.compliance.tangential_dashpot_pa_s_m = mu;
+  FractureSet<2> single{"single", {soft(one)}};
+  single.traces = {{{0.5, 0.5}, {2.5, 0.5}}};
+  Model<2> model;
+  model.medium = uniform_medium(9, 2, 1, rock);
+  // One family leaves the stress along its planes, and those that shear alone the one across them.
+  model.fracture_sets = {{"one", {soft(one)}},
+                         {"two", {soft(one), soft(other)}},
+                         {"two that shear", {spring<2>(one, 0, much / mu), spring<2>(other, 0, much / mu)}},
+                         {"stiffer", {spring<2>(one, 0.3 * much / modulus, 0.3 * much / mu), soft(other)}},
+                         {"damped", {soft(one), damped}},
+                         {"slides", {soft(one), slides}},
+                         {"three", {soft(one), soft(other), soft({0, 1})}},
+                         single};
+  model.fracture = Field<2, std::uint8_t>(model.grid());
+  for (std::uint8_t code = 0; code < 9; ++code) model.fracture[9U + code] = code;
+  const auto domain = make_domain(model.medium, edges_all(EdgeLaw::rigid), 3);
+  std::vector<std::int64_t> expected;
+  for (const std::int64_t code : {2, 6, 7})
+    expected.push_back(domain.grid.flat(domain.computed_cell({code, 1})));
+  EXPECT_EQ(soft_cells(domain, model), expected);
+  // A cell that the edge of its cluster cuts is rock in part.
+  model.fracture_share = Field<2>(model.grid(), 1);
+  model.fracture_share[9U + 6] = 0.9F;
+  expected.erase(expected.begin() + 1);
+  EXPECT_EQ(soft_cells(domain, model), expected);
 }
 
 /// Speeds and polarizations of the two plane waves along z in rock full of planes.

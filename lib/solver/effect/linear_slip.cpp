@@ -174,7 +174,52 @@ Tensor<D> strain_of_part(const FractureSet<D>& set, const Model<D>& model, std::
   return scaled(strain_of_planes<D>(set, inside, rock));
 }
 
+/// Whether a symmetric matrix, row after row, is positive definite (Cholesky).
+template <std::size_t N>
+bool is_positive(std::array<double, N * N> m) {
+  for (std::size_t k = 0; k < N; ++k) {
+    if (!(m[k * N + k] > 0)) return false;
+    for (std::size_t i = k + 1; i < N; ++i)
+      for (std::size_t j = k + 1; j <= i; ++j) m[i * N + j] -= m[i * N + k] * m[j * N + k] / m[k * N + k];
+  }
+  return true;
+}
+
+/// Whether under every stress planes give way by more than the rock, times softness_without_stress.
+template <int D>
+bool carries_no_stress(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell) {
+  constexpr std::size_t n = std::size_t(Tensor<D>::components);
+  const auto rock = rock_in_grid(medium, cell);
+  std::array<double, n * n> left{};
+  for (std::size_t k = 0; k < n; ++k) {
+    Tensor<D> unit;
+    unit.values[k] = 1;
+    const auto planes = doubled_shear(strain_of_planes<D>(set, unit, rock.upright));
+    const auto alone = doubled_shear(strain_of<D>(unit, rock));
+    for (std::size_t c = 0; c < n; ++c) left[c * n + k] = planes[c] - softness_without_stress * alone[c];
+  }
+  return is_positive<n>(left);
+}
+
 }  // namespace
+
+template <int D>
+std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& model) {
+  std::vector<std::int64_t> cells;
+  std::vector<char> undamped;  // by set: clusters of such springs
+  for (const auto& set : model.fracture_sets)
+    undamped.push_back(gives(set) && set.traces.empty() &&
+                       std::none_of(set.systems.begin(), set.systems.end(),
+                                    [](const auto& system) { return system.compliance.damped(); }));
+  if (std::none_of(undamped.begin(), undamped.end(), [](char of) { return of; })) return cells;
+  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
+    const std::size_t code = model.fracture[cell];
+    if (code == 0 || !undamped[code - 1] || is_cut(model, cell)) continue;
+    if (carries_no_stress(model.fracture_sets[code - 1], model.medium, cell))
+      cells.push_back(domain.grid.flat(domain.computed_cell(model.grid().index(std::int64_t(cell)))));
+  }
+  return cells;
+}
 
 template <int D, class Real>
 LinearSlip<D, Real>::LinearSlip(State<D, Real>& state, const Domain<D>& domain, const Scene<D>& scene,
@@ -429,6 +474,8 @@ double LinearSlip<D, Real>::stored_energy() const {
   return energy;
 }
 
+template std::vector<std::int64_t> soft_cells(const Domain<2>&, const Model<2>&);
+template std::vector<std::int64_t> soft_cells(const Domain<3>&, const Model<3>&);
 template class LinearSlip<2, float>;
 template class LinearSlip<2, double>;
 template class LinearSlip<3, float>;

@@ -8,6 +8,14 @@
 
 namespace slipwave::solver {
 
+/// Where planes give way by so many times what the rock does, whatever the stress, it is next to none.
+constexpr double softness_without_stress = 100;
+
+/// Cells of the computed grid, ascending, where springs of clusters do, without dashpots: it takes two
+/// families, in 3-D three.
+template <int D>
+std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& model);
+
 /// Planes that give way as springs, with or without dashpots, in all fracture cells that have such planes
 /// (theory.md 2.6). It acts before slip at the end of a step and after it at the beginning of the next, so
 /// that friction is above the springs. Keeps references.

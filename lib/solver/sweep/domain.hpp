@@ -85,6 +85,7 @@ class Domain {
   Subdomain subdomain;
   IndexRange own;                     // rows of the computed grid that this process owns
   std::vector<PartedFace<D>> parted;  // of the computed grid, by axis and cell
+  std::vector<std::int64_t> soft;     // cells that carry next to no stress (soft_cells())
   int order = 1;                      // of the reconstruction, at most
   /// Of a fitted grid, by row (in 3-D plane) of the computed grid: whether it or one that stencils reach from
   /// it is not level, and the height of level ones in cells. Empty where none is bent, or all are one cell.

@@ -331,11 +331,27 @@ static int reach_beside_tilted(const Walk<D>& down, const Walk<D>& up, int reach
                   reach_up_to(to_turned, 1, reach));
 }
 
+/// Cells the reconstruction may reach along an axis for cells that carry next to no stress.
+template <int D>
+static int reach_beside_soft(const SoftLine& soft, const Grid<D>& grid, const Index<D>& at, int axis,
+                             int reach) {
+  const auto is_soft = [&](int offset) {
+    auto other = at;
+    auto& place = other[std::size_t(axis)];
+    place += offset;
+    return place >= 0 && place < grid.shape[std::size_t(axis)] &&
+           std::binary_search(soft.cells.begin(), soft.cells.end(), grid.flat(other));
+  };
+  for (int cells = 0; !soft.cells.empty() && cells < reach; ++cells)
+    if (is_soft(-cells) || is_soft(cells)) return reach_up_to(cells, most_reach_in_soft_cells, reach);
+  return reach;
+}
+
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
-                                     int reach, const CorrectedAt<D>& corrected,
+                                     int reach, const RisesFrom<D>& rises_from,
                                      const SlotBefore<D>& slot_before, const TiltedFaces<D>& tilted,
-                                     const PartedLine<D>& parted)
+                                     const PartedLine<D>& parted, const SoftLine& soft)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -343,8 +359,8 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
   std::vector<std::int32_t> marks(std::size_t(nx), 0);
   for (std::int64_t line = 0; line < lines; ++line) {
     mark(impedance, line, axis, reach, marks);
-    mark_these(parted.near, line * nx, marks);
-    mark_these(tilted.contrasts.near, line * nx, marks);
+    for (const auto* cells : {&parted.near, &tilted.contrasts.near, &soft.near})
+      mark_these(*cells, line * nx, marks);
     for (std::int64_t x = 0; x < nx; ++x) {
       if (marks[std::size_t(x)] == 0) continue;
       const auto at = grid.index(line * nx + x);
@@ -359,7 +375,8 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
       const int to_contrast = std::min(cells_to_contrast(down, reach), cells_to_contrast(up, reach));
-      const int at_most = reach_beside_tilted(down, up, reach);
+      const int at_most =
+          std::min(reach_beside_tilted(down, up, reach), reach_beside_soft(soft, grid, at, axis, reach));
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         const auto slot = [&](const Side& side, std::int64_t cells) {
@@ -379,8 +396,9 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
         continue;
       }
       int within = reach_up_to(to_contrast, most_reach_at_contrasts, reach);
-      if (low.at_edge() && corrected(at, 0)) within = reach_up_to(low.cells, most_reach_at_contrasts, within);
-      if (high.at_edge() && corrected(at, 1))
+      if (low.at_edge() && rises_from(at, 0))
+        within = reach_up_to(low.cells, most_reach_at_contrasts, within);
+      if (high.at_edge() && rises_from(at, 1))
         within = reach_up_to(high.cells, most_reach_at_contrasts, within);
       within = std::min(within, at_most);
       if (within < reach)
@@ -448,11 +466,11 @@ template void extended_pair(const InterfaceStencil&, int, std::int64_t, const do
                             const PairCorrections<double>&, double, double*, double*, const double*,
                             std::int64_t);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
-                                              const CorrectedAt<2>&, const SlotBefore<2>&,
-                                              const TiltedFaces<2>&, const PartedLine<2>&);
+                                              const RisesFrom<2>&, const SlotBefore<2>&,
+                                              const TiltedFaces<2>&, const PartedLine<2>&, const SoftLine&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
-                                              const CorrectedAt<3>&, const SlotBefore<3>&,
-                                              const TiltedFaces<3>&, const PartedLine<3>&);
+                                              const RisesFrom<3>&, const SlotBefore<3>&,
+                                              const TiltedFaces<3>&, const PartedLine<3>&, const SoftLine&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
                                               float*, float*, const PairCorrections<float>&,

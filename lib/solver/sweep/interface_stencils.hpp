@@ -42,6 +42,9 @@ constexpr Extension extension_of(EdgeLaw law, Wave wave) {
 constexpr int most_reach_at_contrasts = 2;
 /// The same beyond the plain mirror image at a void.
 constexpr int most_reach_at_mirrors = 3;
+/// In cells of a cluster that carry next to no stress, where more of it fed motion between contrasts
+/// (theory.md, 2.6).
+constexpr int most_reach_in_soft_cells = 1;
 /// Cells the reconstruction may reach in a cell with `cells` others up to what it may reach `beyond` cells
 /// across: the order rises away from it, since it may always reach up to it.
 constexpr int reach_up_to(int cells, int beyond, int reach) {
@@ -78,9 +81,10 @@ constexpr InterfaceStencil whole_stencil(std::int32_t x, int reach) {
   return {x, cells, cells, on, on, 0, 0, 0, 0, cells};
 }
 
-/// Whether stencils in line with a cell reach beyond this side (0 low, 1 high) as little as at contrasts.
+/// Whether the reach of stencils in line with a cell rises away from the edge on this side (0 low, 1 high),
+/// as it does from contrasts.
 template <int D>
-using CorrectedAt = std::function<bool(const Index<D>& at, int side)>;
+using RisesFrom = std::function<bool(const Index<D>& at, int side)>;
 
 /// Slot of the corrections (InterfaceCorrections) at the face between a cell and the one before it, or -1.
 template <int D>
@@ -139,6 +143,11 @@ struct PartedLine {
   std::function<std::int32_t(const Index<D>& behind)> slot{};
 };
 
+/// Cells of clusters that carry next to no stress, and those within reach of them along one axis, ascending.
+struct SoftLine {
+  std::vector<std::int64_t> cells{}, near{};
+};
+
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
 /// these are corrected.
 class InterfaceStencils {
@@ -149,8 +158,9 @@ class InterfaceStencils {
   /// tilted means, which part what would be a strong interface in two.
   template <int D>
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
-                    const CorrectedAt<D>& corrected, const SlotBefore<D>& slot_before,
-                    const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {});
+                    const RisesFrom<D>& rises_from, const SlotBefore<D>& slot_before,
+                    const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {},
+                    const SoftLine& soft = {});
   /// That of a cell, null where the bulk kernel serves.
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 

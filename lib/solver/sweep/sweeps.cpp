@@ -81,6 +81,24 @@ PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reac
   return line;
 }
 
+/// Where cells carry next to no stress.
+template <int D>
+SoftLine soft_along(const Domain<D>& domain, int axis, int reach) {
+  SoftLine line;
+  if (reach <= most_reach_in_soft_cells) return line;
+  line.cells = domain.soft;
+  const auto along = std::size_t(axis);
+  for (const auto cell : domain.soft) {
+    auto near = domain.grid.index(cell);
+    const auto first = std::max<std::int64_t>(near[along] - reach, 0),
+               last = std::min(near[along] + reach + 1, domain.grid.shape[along]);
+    for (near[along] = first; near[along] < last; ++near[along]) line.near.push_back(domain.grid.flat(near));
+  }
+  std::sort(line.near.begin(), line.near.end());
+  line.near.erase(std::unique(line.near.begin(), line.near.end()), line.near.end());
+  return line;
+}
+
 }  // namespace
 
 template <int D, class Real>
@@ -123,12 +141,13 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       if (wave == wave_s && !shear_) continue;
       SlotBefore<D> slot_before;
       if (axis == z_axis) slot_before = [&](const Index<D>& at) { return corrections_.slot(at); };
-      const CorrectedAt<D> corrected = [&domain, axis](const Index<D>& at, int side) {
+      const RisesFrom<D> rises_from = [&domain, axis](const Index<D>& at, int side) {
         return order_rises_from(domain, at, axis, side);
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] =
-          InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, corrected,
-                            slot_before, tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_));
+          InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from,
+                            slot_before, tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_),
+                            soft_along(domain, axis, reach_));
     }
   });
   if constexpr (D == 2) {
