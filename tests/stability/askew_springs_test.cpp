@@ -177,10 +177,10 @@ Lab<double>::Setup soft_blocks(unsigned draw, double softness) {
   return setup;
 }
 
-/// Motion wavers as the springs swing; in the long run it falls.
+/// Springs swing slowly: in the long run motion falls.
 TEST(SoftBlocks, LoseMotionAtAllOrders) {
   const ThreadLimit one_thread(1);
-  for (unsigned draw = 1; draw <= (long_form() ? 16U : 4U); ++draw)
+  for (unsigned draw = 1; draw <= (long_form() ? 16U : 3U); ++draw)
     for (const double softness : {100., 1e4})
       for (const int order : long_form() ? std::vector<int>{5, 7, 9, 11} : std::vector<int>{11}) {
         auto setup = soft_blocks(draw, softness);
@@ -188,17 +188,13 @@ TEST(SoftBlocks, LoseMotionAtAllOrders) {
         SCOPED_TRACE("draw " + std::to_string(draw) + ", softness " + std::to_string(softness) + ", order " +
                      std::to_string(order));
         Lab<double> lab(setup);
-        const int steps = 4400;
-        double before = lab.kinetic_energy();
-        for (int part = 0; part < 2; ++part) {
-          double mean = 0;
-          for (int n = 0; n < steps; ++n) {
-            lab.step();
-            if (n >= steps - 400) mean += lab.kinetic_energy() / 400;
-          }
-          EXPECT_LT(mean, before) << "part " << part;
-          before = mean;
-        }
+        // Longer than springs swing.
+        const int quarter = 5000;
+        std::array<double, 4> means{};
+        for (double& mean : means)
+          for (int n = 0; n < quarter; ++n) lab.step(), mean += lab.kinetic_energy() / quarter;
+        EXPECT_LT(means[1], means[0]);
+        EXPECT_LT(means[3], means[1]);
       }
 }
 
