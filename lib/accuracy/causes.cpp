@@ -653,16 +653,23 @@ double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) cons
   return sum;
 }
 
-/// Each of them counts as moved like those that are followed, by what it reflects.
+/// Each of them counts as moved like those that are followed, by what it reflects: a wave that meets it at
+/// the angle a from its normal is late by 2 d cos a of the way there, at the speed that rock has there.
 double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
   const auto& places = stack.places;
-  const double k = 2 * std::numbers::pi * nominal_hz / slowest_of(places.layers[places.source_layer()]);
-  const double moved = 2 * k * shift_of_means * std::max(geometry_m(cells, 1), cells.spacing_m);
+  const bool from_fluid = !(places.layers[places.source_layer()].vs > 0);
+  const double d = shift_of_means * std::max(geometry_m(cells, 1), cells.spacing_m);
   double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     const double way = std::hypot(places.receivers[r].a_m, places.receivers[r].b_m);
-    for (const auto& [contrast, away_m] : stack.left_out)
-      sum += std::pow(moved * reflection_of(contrast), 2) * way / std::hypot(way, 2 * away_m) * energies[r];
+    for (const auto& weak : stack.left_out) {
+      const double speed = from_fluid || !(weak.vs > 0) ? weak.vp : weak.vs;
+      const double back = std::hypot(way, 2 * weak.away_m);
+      if (!(back > 0) || back > stable_speed * places.duration_s) continue;
+      const double late = 2 * d * (2 * weak.away_m / back) / speed;
+      sum += std::pow(2 * std::numbers::pi * nominal_hz * late * reflection_of(weak.contrast), 2) * way /
+             back * energies[r];
+    }
   }
   return sum;
 }

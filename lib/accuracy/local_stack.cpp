@@ -167,9 +167,15 @@ double contrast_of(const Cell& a, const Cell& b) {
   return a.vs > 0 ? std::max(p, ratio(a.rho * a.vs, b.rho * b.vs)) : p;
 }
 
-/// Leaves out the weakest interfaces; the rocks on both sides are joined. Their rows and contrasts.
-std::vector<std::pair<std::int64_t, double>> join_weakest(std::vector<Segment>& segments) {
-  std::vector<std::pair<std::int64_t, double>> left_out;
+/// An interface that is left out: the row behind it, and the rocks on both sides.
+struct Weak {
+  std::int64_t row;
+  Cell upper, lower;
+};
+
+/// Leaves out the weakest interfaces; the rocks on both sides are joined.
+std::vector<Weak> join_weakest(std::vector<Segment>& segments) {
+  std::vector<Weak> left_out;
   for (;;) {
     std::size_t weakest = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -181,8 +187,7 @@ std::vector<std::pair<std::int64_t, double>> join_weakest(std::vector<Segment>& 
       if (strength < least) least = strength, weakest = n;
     }
     if (std::isinf(least) || (segments.size() <= most_layers && least > 0.005)) return left_out;
-    left_out.emplace_back(segments[weakest].last,
-                          contrast_of(segments[weakest].rock, segments[weakest + 1].rock));
+    left_out.push_back({segments[weakest].last, segments[weakest].rock, segments[weakest + 1].rock});
     segments[weakest] = joined(segments[weakest], segments[weakest + 1]);
     segments.erase(segments.begin() + std::ptrdiff_t(weakest) + 1);
   }
@@ -397,8 +402,7 @@ class Tracker {
     high_ = std::min(high_ + 12, columns_.count() - 1);
     segments_ = segments_of(columns_, column_);
     join_cut_cells(segments_);
-    for (const auto& [row, contrast] : join_weakest(segments_))
-      stack_.left_out.push_back({contrast, std::abs(columns_.face(column_, row) - source_.position_m[1])});
+    for (const auto& weak : join_weakest(segments_)) add_left_out(weak);
     follow_all();
     find_body();
     flatten();
@@ -410,6 +414,13 @@ class Tracker {
 
  private:
   bool fitted() const { return scene_.model.grid().rows != nullptr; }
+
+  void add_left_out(const Weak& weak) {
+    const auto &a = weak.upper, &b = weak.lower;
+    stack_.left_out.push_back({contrast_of(a, b),
+                               std::abs(columns_.face(column_, weak.row) - source_.position_m[1]),
+                               std::min(a.vp, b.vp), std::min(a.vs, b.vs)});
+  }
 
   /// Faces of two matters in columns that no interface below the source continues to.
   void find_body() {

@@ -64,6 +64,7 @@ struct LocalStack {
   /// An interface too weak to be among those that are followed.
   struct LeftOut {
     double contrast = 1, away_m = 0;  // from the source
+    double vp = 0, vs = 0;            // of the slower side
   };
   std::vector<LeftOut> left_out;
   /// A body of another matter that the source does not lie above: fluid in rock, rock in fluid, a cave.
