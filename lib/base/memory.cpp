@@ -36,9 +36,9 @@ void each_zero_run(std::span<const std::byte> pages, const See& see) {
 }
 
 /// Private memory without a file behind it is zeros after this; false where the system can not.
-bool discard(std::span<std::byte> pages) {
+bool discard(std::span<const std::byte> pages) {
 #if defined(__linux__)
-  return pages.empty() || madvise(pages.data(), pages.size(), MADV_DONTNEED) == 0;
+  return pages.empty() || madvise(const_cast<std::byte*>(pages.data()), pages.size(), MADV_DONTNEED) == 0;
 #else
   return pages.empty();
 #endif
@@ -46,7 +46,7 @@ bool discard(std::span<std::byte> pages) {
 
 }  // namespace
 
-void release_zero_pages(std::span<std::byte> memory) {
+void release_zero_pages(std::span<const std::byte> memory) {
   const auto pages = pages_of(memory);
   each_zero_run(pages, [&](std::size_t first, std::size_t count) { discard(pages.subspan(first, count)); });
 }

@@ -1,6 +1,5 @@
 #include "shooting/shooting.hpp"
 
-#include <span>
 #include <utility>
 
 #include "accuracy/choice.hpp"
@@ -9,6 +8,7 @@
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/model_zeros.hpp"
 #include "planning/plan.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/rank_groups.hpp"
@@ -53,17 +53,6 @@ bool is_of_response(const ShootingOptions& options) {
   if (of == "response" && !options.wanted_error && !options.plan)
     throw Error("--of response needs --error or --plan", ErrorKind::usage);
   return of == "response";
-}
-
-/// Leaves the model no memory but what it needs: that of a file's values is freed, and zeros, of vs in a
-/// fluid say, take none.
-template <int D>
-void release_spare_memory(Model<D>& model) {
-  for (const auto property : model.medium.properties())
-    release_zero_pages(std::as_writable_bytes(std::span(model.medium[property])));
-  for (auto& stress : model.prestress_pa) release_zero_pages(std::as_writable_bytes(std::span(stress)));
-  release_zero_pages(std::as_writable_bytes(std::span(model.fracture)));
-  release_freed_memory();
 }
 
 /// The scene without its model, all options checked.
@@ -173,7 +162,8 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   auto scene = make_scene<D>(options);
   for (const auto& sentence : options.scene.read_model_into(scene, file)) messages.warn(sentence);
   file.close();
-  release_spare_memory(scene.model);
+  release_zeros(scene.model);
+  release_freed_memory();
   if (options.wanted_error) scene = with_wanted_error(scene, options, messages);
   for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   warn_of_projection(scene.survey, messages);
@@ -192,7 +182,8 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
                           !options.output.snapshots.empty());
   const auto of_model = options.scene.read_part_into(scene, file, ranks, groups.group());
   file.close();
-  release_spare_memory(scene.model);
+  release_zeros(scene.model);
+  release_freed_memory();
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
   if (groups.leads()) warn_of_projection(scene.survey, messages);

@@ -9,6 +9,7 @@
 #include "base/memory.hpp"
 #include "grid/locate.hpp"
 #include "model/attenuation.hpp"
+#include "model/model_zeros.hpp"
 #include "model/tilted_mean.hpp"
 #include "parallel/threads.hpp"
 #include "scene/largest_velocity.hpp"
@@ -122,6 +123,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
+  release_zeros(scene.model);
   release_freed_memory();
   take_memory(state_);
   bool changed = false;

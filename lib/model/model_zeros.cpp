@@ -1,0 +1,20 @@
+#include "model/model_zeros.hpp"
+
+#include <span>
+
+#include "base/memory.hpp"
+
+namespace slipwave {
+
+template <int D>
+void release_zeros(const Model<D>& model) {
+  const auto release = [](const auto& field) { release_zero_pages(std::as_bytes(std::span(field))); };
+  for (const auto property : model.medium.properties()) release(model.medium[property]);
+  for (const auto& stress : model.prestress_pa) release(stress);
+  release(model.fracture);
+}
+
+template void release_zeros(const Model<2>&);
+template void release_zeros(const Model<3>&);
+
+}  // namespace slipwave
