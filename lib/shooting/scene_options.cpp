@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/subdomains.hpp"
@@ -199,6 +200,8 @@ std::vector<std::string> SceneOptions::read_part_into(Scene<D>& scene, const Net
       const auto grid = read_model_grid<D>(file);
       place(scene.survey, read_ground(file, grid, needs_ground(scene.survey)));
       check(scene.survey, grid);
+      // Fractures on faces widen what ranks exchange.
+      if (file.has_variable("fracture")) scene.model.fracture_sets = read_fracture_sets<D>(file);
       scene.subdomain = subdomain_for(scene, grid, group->number(), group->count());
       const auto [first, last] = rows_held(scene.subdomain);
       scene.model = read_model_rows<D>(file, first, last);

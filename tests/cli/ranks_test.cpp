@@ -65,6 +65,21 @@ TEST_F(ShotByRanks, TakesTheSameSnapshotsAndSaysTheSame) {
   done("cmp alone.nc s.nc && cmp alone.sgy t.sgy");
 }
 
+TEST_F(ShotByRanks, IsTheSameWhereFracturesLieOnFaces) {
+  done("sw-layers --size 400x500 --step 5 --layer 0:3000:1600:2200 -o f.nc");
+  const auto expect_same = [&] {
+    const std::string shot =
+        "f.nc --source 150,100 --wavelet ricker:40 --time 0.2 --receivers 100:300:100,400 --receivers "
+        "200,248 ";
+    done("sw-shoot " + shot + "-o alone.sgy");
+    const auto ran = run(line(2, shot + "-o together.sgy"));
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    done("cmp alone.sgy together.sgy");
+  };
+  done("sw-fracture f.nc --segment 200,150:200,400 --faces --compliance 1e-10,1e-10 -o f.nc");
+  expect_same();
+}
+
 TEST_F(ShotByRanks, InThreeDimensionsToo) {
   done("sw-layers --size 120x100x300 --step 5 --layer 0:3000:1600:2200 --layer 150:4000:2300:2500 -o c.nc");
   const std::string cube =
