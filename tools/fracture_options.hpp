@@ -48,7 +48,9 @@ inline void declare_laws(cli::Options& options, FractureSettings& settings) {
       "planes give way like springs, below friction or without it: normal and tangential compliance of "
       "a plane, m/Pa; usual 1e-14 to 1e-9");
   options.add("stiffness", settings.compliance.stiffness, "KN,KT", "or its stiffness, Pa/m");
-  options.add("spacing", settings.compliance.spacing_m, "M", "distance between planes, m");
+  options.add(
+      "spacing", settings.compliance.spacing_m, "M",
+      "distance between planes, m; of single ones with --viscosity, between those of which each is one");
   options.add("dashpot", settings.compliance.dashpot, "DN,DT", "dashpots beside these springs, Pa s/m");
   options.add("crack-density", settings.compliance.crack_density, "E",
               "or penny-shaped cracks: their number in a unit volume times radius cubed; usual 0.01 to 0.1");
@@ -77,7 +79,7 @@ inline void declare_single(cli::Options& options, FractureSettings& settings) {
               "ones, which --faces moves to the nearest face between cells");
   options.add("faces", settings.faces,
               "single fractures part the faces between cells instead of softening the cells beside them: for "
-              "compliances above 2e-10 m/Pa; level or upright ones");
+              "compliances above 2e-10 m/Pa, and for friction; level or upright ones");
   options.add(
       "network", settings.network, "N",
       "or N straight single fractures with centres drawn from the region, of --length, about --dip; in "

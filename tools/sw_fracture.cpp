@@ -184,12 +184,25 @@ SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
     system.law = FrictionLaw::none;
   else if (!settings.law.empty())
     in_place("--law", [&] { set_friction_law(system, settings.law); });
-  if (settings.compliance.given())
-    system.compliance = parse_compliance(settings.compliance, single(settings));
+  const auto& springs = settings.compliance;
+  if (single(settings) ? !springs.compliance.empty() || !springs.stiffness.empty() : springs.given())
+    system.compliance = parse_compliance(springs, single(settings));
+  if (single(settings)) system.compliance.spacing_m = settings.compliance.spacing_m.value_or(0);
   if (settings.open)
     system.compliance.normal_m_per_pa = system.compliance.tangential_m_per_pa =
         std::numeric_limits<double>::infinity();
   return system;
+}
+
+/// Viscosity is that of planes so far apart, of which a single fracture is one.
+void check_viscosity_of_single(const Settings& s) {
+  const bool flows = s.viscosity_s.value_or(0) > 0;
+  if (s.friction && flows && !s.compliance.spacing_m)
+    refuse(
+        "--spacing is missing; expected with the --viscosity of a single fracture the distance between the "
+        "planes of which it is one, m");
+  if (s.compliance.spacing_m && !(*s.compliance.spacing_m > 0))
+    refuse("--spacing: found " + shown(*s.compliance.spacing_m) + ", expected it above zero");
 }
 
 /// Throws a usage Error where single fractures are given what belongs to clusters.
@@ -205,12 +218,24 @@ void check_single(const Settings& s) {
   if (!single(s)) return;
   if (s.open && s.compliance.given())
     refuse("found --open and a compliance, give one of both: an open fracture carries no traction");
+  if (s.open && s.friction)
+    refuse(
+        "found --open and --friction, give one of both: an open fracture carries no traction; one that parts "
+        "only under tension has --faces --friction --opening");
+  if (s.friction && !s.faces)
+    refuse(
+        "found --friction with single fractures in cells, expected --faces (in 2-D): they have friction "
+        "where "
+        "they part the faces between cells");
   if (drawn(s) && (given(s) || (!s.network.empty() && s.intensity)))
     refuse(
         "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "
         "--trace may stand together, in 3-D --disc, --rectangle and --trace)");
-  if (!s.compliance.given() && !s.open)
-    refuse("--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT or --open");
+  if (!s.compliance.given() && !s.open && !s.friction)
+    refuse(
+        "--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT, --open, or --faces and "
+        "--friction");
+  check_viscosity_of_single(s);
   if (drawn(s) && s.dips.size() != 1) refuse("--network and --intensity need one --dip");
   const auto& of = s.compliance;
   const bool region = !s.box.empty() || !s.polygon.empty() || !s.ellipse.empty() || !s.slab.empty();
@@ -220,17 +245,19 @@ void check_single(const Settings& s) {
                                                  {"--count", s.count != 0},
                                                  {"--body", !s.body.empty()},
                                                  {"--block", s.block},
-                                                 {"--opening", s.opening},
-                                                 {"--friction", s.friction.has_value()},
-                                                 {"--spacing", of.spacing_m.has_value()},
+                                                 {"--opening", s.opening && !s.friction},
+                                                 {"--spacing", of.spacing_m && !s.friction},
+                                                 {"--law", !s.law.empty()},
+                                                 {"--for-frequency", s.for_hz.has_value()},
                                                  {"--dashpot", !of.dashpot.empty()},
                                                  {"--crack-density", of.crack_density.has_value()},
                                                  {"--effective", s.effective},
-                                                 {"--prestress", !s.prestress.empty()}};
+                                                 {"--prestress", !s.prestress.empty() && !s.friction}};
   for (const auto& [name, given] : others)
     if (given)
       refuse("found " + std::string(name) +
-             " with single fractures, which have --compliance or --stiffness and nothing else of clusters");
+             " with single fractures, which have --compliance or --stiffness, with --faces --friction, "
+             "--viscosity, --strength, --opening and --prestress, and nothing else of clusters");
 }
 
 /// Throws a usage Error where single fractures are given what belongs to models of other dimensions.
@@ -367,6 +394,9 @@ FractureCount put_single(const Settings& settings, Model<D>& model, const cli::C
   if constexpr (D == 2)
     if (set.on_faces) place_on_faces(settings, model.grid(), set.traces, context);
   const auto count = add_single_fractures(model, set);
+  if (!settings.prestress.empty())
+    set_prestress(model, model.fracture_sets.size(),
+                  in_place("--prestress", [&] { return parse_prestress<D>(settings.prestress); }));
   context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
                " of set '" + set.name + "', " + size_of(set) + " in all, " + (set.on_faces ? "on " : "in ") +
                std::to_string(count.marked) + (set.on_faces ? " faces" : " cells"));

@@ -55,7 +55,7 @@ class Digest {
       add(int(law));
       for (const double constant : {dynamic_friction, slip_distance_m}) add(constant);
     }
-    if (compliance.gives()) add(compliance);
+    if (compliance.gives() || compliance.spacing_m > 0) add(compliance);
   }
   void add(const LinearCompliance& compliance) {
     const auto& [normal, tangential, normal_dashpot, tangential_dashpot, spacing_m, crack_density, aspect,

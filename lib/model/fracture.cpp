@@ -172,7 +172,9 @@ void remove_effect(Model<D>& model, ModelEffect effect) {
       if (effect == ModelEffect::viscosity) system.viscosity_s = 0;
       if (effect == ModelEffect::cohesion) system.strength_pa = 0;
       if (effect == ModelEffect::opening) system.opens = false;
-      if (effect == ModelEffect::compliance) system.compliance = {};
+      // Planes of which one is on faces stay as far apart as viscosity has them.
+      if (effect == ModelEffect::compliance)
+        system.compliance = {.spacing_m = set.on_faces ? system.compliance.spacing_m : 0};
     }
 }
 

@@ -160,9 +160,9 @@ void check_compliance(const SlipSystem<D>& system, bool single, bool on_faces, c
       {"normal dashpot", of.normal_dashpot_pa_s_m}, {"tangential dashpot", of.tangential_dashpot_pa_s_m},
       {"spacing of planes", of.spacing_m},          {"crack density", of.crack_density},
       {"aspect ratio of cracks", of.aspect},        {"bulk modulus of the fill", of.fill_pa}};
-  // On faces a fracture may be open.
+  // On faces a fracture may be open; then nothing is left for friction.
   const auto infinite = [&](const double& value) {
-    return on_faces && std::isinf(value) &&
+    return on_faces && !system.slides() && std::isinf(value) &&
            (&value == &constants[0].second || &value == &constants[1].second);
   };
   for (const auto& [what, value] : constants)
@@ -173,7 +173,7 @@ void check_compliance(const SlipSystem<D>& system, bool single, bool on_faces, c
   if (of.fill_pa > 0)
     refuse_unless(of.aspect > 0 && of.aspect <= 1, "aspect ratio of cracks", of.aspect,
                   "it above zero and at most 1");
-  if (system.opens && (of.gives() || !system.slides()))
+  if (system.opens && ((of.gives() && !on_faces) || !system.slides()))
     throw Error(name + ": planes that open carry no tension, planes with a compliance do; give one of both");
 }
 
@@ -200,9 +200,16 @@ void check_single(const FractureSet<D>& set, const std::string& name) {
   if (D == 3 && set.on_faces)
     throw Error(name + " lies on faces between cells, which fractures of models in 2-D do");
   const auto& system = set.systems.front();
-  if (set.systems.size() != 1 || system.slides() || system.compliance.damped() ||
+  if (set.systems.size() != 1 || (system.slides() && !set.on_faces) || system.compliance.damped() ||
       system.compliance.crack_density > 0)
-    throw Error(name + ": single fractures have a normal and a tangential compliance and no other law");
+    throw Error(name + ": single fractures have a normal and a tangential compliance and no other law" +
+                (D == 2 ? ", on faces friction, too" : ""));
+  if (system.law == FrictionLaw::slip_weakening)
+    throw Error(name + ": single fractures on faces have Coulomb friction, found slip weakening");
+  if (system.slides() && system.viscosity_s > 0 && !(system.compliance.spacing_m > 0))
+    throw Error(name +
+                ": the viscosity of a single fracture needs a spacing above zero, in metres: that of " +
+                "the planes of which it is one");
   for (const auto& trace : set.traces) {
     if constexpr (D == 3) {
       if (const auto fault = fault_of_polygon(trace); !fault.empty()) throw Error(name + ": " + fault);

@@ -109,14 +109,18 @@ constexpr ComplianceColumn compliance_columns[] = {
      &LinearCompliance::normal_dashpot_pa_s_m},
     {"slip_tangential_dashpot", "dashpot beside the tangential compliance of a plane", "Pa s m-1",
      &LinearCompliance::tangential_dashpot_pa_s_m},
-    {"slip_spacing", "distance between planes that have a compliance", "m", &LinearCompliance::spacing_m},
+    {"slip_spacing", "distance between planes that have a compliance, or of which one lies on faces", "m",
+     &LinearCompliance::spacing_m},
     {"slip_crack_density", "density of penny-shaped cracks", "1", &LinearCompliance::crack_density},
     {"slip_crack_aspect", "thickness of cracks over their diameter", "1", &LinearCompliance::aspect},
     {"slip_crack_fill", "bulk modulus of what fills the cracks, 0: dry", "Pa", &LinearCompliance::fill_pa}};
 
+/// Whether any set has such constants: planes with friction on faces have a spacing at most.
 template <int D>
 bool any_gives(const std::vector<FractureSet<D>>& sets) {
-  return std::any_of(sets.begin(), sets.end(), gives<D>);
+  return std::any_of(sets.begin(), sets.end(), [](const auto& set) {
+    return gives(set) || (set.on_faces && set.systems.front().compliance.spacing_m > 0);
+  });
 }
 
 template <int D>

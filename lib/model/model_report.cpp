@@ -132,6 +132,8 @@ Report report_of_set(const FractureSet<D>& set, const CellsOfSet& cells) {
     if (set.traces.empty()) systems.back().text("normal", normal);
     report_compliance(systems.back(), system.compliance);
     if (!system.slides()) continue;
+    if (!system.compliance.gives() && system.compliance.spacing_m > 0)
+      systems.back().number("spacing", system.compliance.spacing_m, "m");
     systems.back().number("friction", system.friction, "");
     systems.back().number("viscosity", system.viscosity_s, "s");
     systems.back().number("strength", system.strength_pa, "Pa");

@@ -21,6 +21,29 @@ double together(double one_m_per_pa, double other_m_per_pa) {
   return 1 / (1 / one_m_per_pa + 1 / other_m_per_pa);
 }
 
+/// A tip that holds back slip on a face with a spring of that compliance: the plane and it are as compliant
+/// as the tip where nothing holds the plane, and as both springs where friction does (S42).
+double holding(double tip_m_per_pa, double both_m_per_pa) {
+  return std::isinf(tip_m_per_pa) ? 0 : 1 / (tip_m_per_pa - both_m_per_pa);
+}
+
+/// Of a set on faces, its friction; the stress of cells on both sides holds for the face between them.
+FaceLaw law_of(const Model<2>& model, const SlipSystem<2>& system, int axis,
+               const std::array<std::size_t, 2>& cells) {
+  FaceLaw law;
+  law.slides = system.slides(), law.opens = system.opens;
+  if (!law.slides) return law;
+  law.friction = system.friction, law.cohesion_pa = system.strength_pa;
+  if (system.viscosity_s > 0) law.viscosity_s_m = system.viscosity_s / system.compliance.spacing_m;
+  if (model.prestress_pa.empty()) return law;
+  // Components are sxx, szz, sxz.
+  const std::array<std::size_t, 2> components{axis == 0 ? 0U : 1U, 2U};
+  for (const std::size_t pair : {0, 1})
+    for (const auto cell : cells)
+      law.prestress_pa[pair] += double(model.prestress_pa[components[pair]][cell]) / 2;
+  return law;
+}
+
 /// mu/(1 - nu), by which a static crack in plane strain opens.
 double modulus_of_cracks(const Medium<2>& medium, std::size_t cell) {
   const double vs2 = double(medium.vs[cell]) * medium.vs[cell],
@@ -28,8 +51,9 @@ double modulus_of_cracks(const Medium<2>& medium, std::size_t cell) {
   return 2 * medium.rho[cell] * vs2 * (vp2 - vs2) / vp2;
 }
 
-void add_faces(const Model<2>& model, const FacesOfTrace& of, const LinearCompliance& compliance,
+void add_faces(const Model<2>& model, const FacesOfTrace& of, const SlipSystem<2>& system,
                std::vector<PartedFace<2>>& faces, std::int64_t& left) {
+  const auto& compliance = system.compliance;
   const auto& grid = model.grid();
   const auto across = std::size_t(of.axis), along = 1 - across;
   const std::int64_t face = of.face - grid.first[across];
@@ -40,10 +64,8 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const LinearCompli
     PartedFace<2> one;
     one.axis = of.axis;
     one.behind[across] = face, one.behind[along] = n - grid.first[along];
-    auto before = one.behind;
     // The first row of a part of the model: its face belongs to the part above, too.
-    if (face > 0) --before[across];
-    const auto low = std::size_t(grid.flat(before)), high = std::size_t(grid.flat(one.behind));
+    const auto low = std::size_t(grid.flat(one.before())), high = std::size_t(grid.flat(one.behind));
     if (!model.medium.is_solid(low) || !model.medium.is_solid(high)) {
       ++left;
       continue;
@@ -55,13 +77,24 @@ void add_faces(const Model<2>& model, const FacesOfTrace& of, const LinearCompli
     if (inside < 2)
       tip = tip_compliance * inside / ((2 - inside) * (2 - inside)) * grid.spacing_m * 2 /
             (modulus_of_cracks(model.medium, low) + modulus_of_cracks(model.medium, high));
-    one.normal_m_per_pa = together(compliance.normal_m_per_pa * covered, tip * normal_share);
-    one.tangential_m_per_pa = together(compliance.tangential_m_per_pa * covered, tip / normal_share);
+    const double tip_normal = tip * normal_share, tip_tangential = tip / normal_share;
+    one.normal_m_per_pa = together(compliance.normal_m_per_pa * covered, tip_normal);
+    one.tangential_m_per_pa = together(compliance.tangential_m_per_pa * covered, tip_tangential);
+    one.law = law_of(model, system, of.axis, {low, high});
+    if (one.law.opens) one.law.held_pa_m[0] = holding(tip_normal, one.normal_m_per_pa);
+    if (one.law.slides) one.law.held_pa_m[1] = holding(tip_tangential, one.tangential_m_per_pa);
     faces.push_back(one);
   }
 }
 
-/// Where fractures share a face their compliances add up.
+void add_faces(const Model<2>& model, const FractureSet<2>& set, std::vector<PartedFace<2>>& faces,
+               std::int64_t& left) {
+  if (!parts_faces(set)) return;
+  for (const auto& trace : set.traces)
+    add_faces(model, faces_of(model.grid(), trace), set.systems.front(), faces, left);
+}
+
+/// Where fractures share a face their compliances add up; strengths do not.
 void join(const Grid<2>& grid, std::vector<PartedFace<2>>& faces) {
   const auto place = [&](const PartedFace<2>& face) { return std::pair(face.axis, grid.flat(face.behind)); };
   std::stable_sort(faces.begin(), faces.end(),
@@ -72,6 +105,10 @@ void join(const Grid<2>& grid, std::vector<PartedFace<2>>& faces) {
       joined.push_back(face);
       continue;
     }
+    if (joined.back().law.any() || face.law.any())
+      throw Error("found two fractures on the face before the cell at " +
+                  place_of(grid, grid.flat(face.behind)) +
+                  ", one of them with friction, expected no other fracture there");
     joined.back().normal_m_per_pa += face.normal_m_per_pa;
     joined.back().tangential_m_per_pa += face.tangential_m_per_pa;
   }
@@ -121,11 +158,7 @@ template <>
 std::vector<PartedFace<2>> parted_faces(const Model<2>& model, std::int64_t* left) {
   std::vector<PartedFace<2>> faces;
   std::int64_t count = 0;
-  for (const auto& set : model.fracture_sets) {
-    if (!set.on_faces || !gives(set)) continue;
-    for (const auto& trace : set.traces)
-      add_faces(model, faces_of(model.grid(), trace), set.systems.front().compliance, faces, count);
-  }
+  for (const auto& set : model.fracture_sets) add_faces(model, set, faces, count);
   join(model.grid(), faces);
   if (left) *left = count;
   return faces;
@@ -133,6 +166,17 @@ std::vector<PartedFace<2>> parted_faces(const Model<2>& model, std::int64_t* lef
 template <>
 std::vector<PartedFace<3>> parted_faces(const Model<3>&, std::int64_t* left) {
   if (left) *left = 0;
+  return {};
+}
+template <>
+std::vector<PartedFace<2>> parted_faces(const Model<2>& model, const FractureSet<2>& set) {
+  std::vector<PartedFace<2>> faces;
+  std::int64_t left = 0;
+  add_faces(model, set, faces, left);
+  return faces;
+}
+template <>
+std::vector<PartedFace<3>> parted_faces(const Model<3>&, const FractureSet<3>&) {
   return {};
 }
 

@@ -3,18 +3,31 @@
 #include <algorithm>
 #include <vector>
 
+#include "fracture/face_law.hpp"
 #include "model/model.hpp"
 
 /// Single fractures on faces between cells (docs/theory.md 2.8): the rock on both sides moves apart there.
 namespace slipwave {
 
-/// A face where a single fracture parts the rock, before the cell `behind` along an axis, and its
-/// compliances, m/Pa: infinite where it is open.
+/// A face where a single fracture parts the rock, before the cell `behind` along an axis, its compliances,
+/// m/Pa, infinite where it is open, and its friction.
 template <int D>
 struct PartedFace {
   Index<D> behind{};
   int axis = 0;
   double normal_m_per_pa = 0, tangential_m_per_pa = 0;
+  FaceLaw law = {};
+
+  /// Whether both sides may move apart across it (pair 0) or along it.
+  bool parts(int pair) const {
+    return pair == 0 ? normal_m_per_pa > 0 || law.opens : tangential_m_per_pa > 0 || law.slides;
+  }
+  /// The cell on the other side; that behind it at the first row of a part of the model.
+  Index<D> before() const {
+    auto at = behind;
+    if (at[std::size_t(axis)] > 0) --at[std::size_t(axis)];
+    return at;
+  }
 };
 
 /// Where a level or upright fracture lies among the faces of the whole model.
@@ -31,18 +44,26 @@ FacesOfTrace faces_of(const Grid<2>& grid, const FractureTrace<2>& trace);
 /// The same of a whole model; also throws where it lies along the edge of the model.
 FacesOfTrace check_on_faces(const Grid<2>& grid, const FractureTrace<2>& trace);
 
-/// The first set whose fractures part faces; null where none does.
+/// Whether single fractures of a set part faces.
+template <int D>
+bool parts_faces(const FractureSet<D>& set) {
+  return set.on_faces && (gives(set) || slides(set));
+}
+/// The first such set; null where none does.
 template <int D>
 const FractureSet<D>* first_on_faces(const std::vector<FractureSet<D>>& sets) {
-  const auto found =
-      std::find_if(sets.begin(), sets.end(), [](const auto& set) { return set.on_faces && gives(set); });
+  const auto found = std::find_if(sets.begin(), sets.end(), parts_faces<D>);
   return found == sets.end() ? nullptr : &*found;
 }
 
 /// The faces that the fractures on faces of all sets part in the part of the model that the grid holds, by
 /// axis and cell; those at which rock ends on one side or both are left out and counted. Near tips they are
-/// springs, so that the fracture ends where its trace does (S37). In 3-D there are none.
+/// springs, so that the fracture ends where its trace does (S37). In 3-D there are none. Throws an Error
+/// where one with friction shares a face with another.
 template <int D>
 std::vector<PartedFace<D>> parted_faces(const Model<D>& model, std::int64_t* left = nullptr);
+/// Those of one set.
+template <int D>
+std::vector<PartedFace<D>> parted_faces(const Model<D>& model, const FractureSet<D>& set);
 
 }  // namespace slipwave

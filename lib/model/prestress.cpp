@@ -7,6 +7,7 @@
 #include "base/parse.hpp"
 #include "fracture/coulomb.hpp"
 #include "model/anisotropy.hpp"
+#include "model/parted_faces.hpp"
 
 namespace slipwave {
 namespace {
@@ -85,6 +86,27 @@ Prestress<D> parse_prestress(const std::string& text) {
   return stress;
 }
 
+namespace {
+
+/// Those of a set, ascending; of one on faces those beside its faces without a set of their own.
+template <int D>
+std::vector<std::size_t> cells_under_prestress(const Model<D>& model, std::size_t code) {
+  std::vector<std::size_t> cells;
+  if (!model.fracture_sets[code - 1].on_faces) {
+    for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
+      if (model.fracture[cell] == code) cells.push_back(cell);
+    return cells;
+  }
+  for (const auto& face : parted_faces(model, model.fracture_sets[code - 1]))
+    for (const auto& at : {face.before(), face.behind}) {
+      const auto cell = std::size_t(model.grid().flat(at));
+      if (model.fracture[cell] == 0) cells.push_back(cell);
+    }
+  return cells;
+}
+
+}  // namespace
+
 template <int D>
 void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestress) {
   using Tensor = SymmetricTensor<D, double>;
@@ -95,8 +117,8 @@ void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestr
   const auto* const tensor = std::get_if<Tensor>(&prestress);
   const auto* const weight = std::get_if<Lithostatic>(&prestress);
   const auto mass = weight ? mass_above(model.medium) : std::vector<double>();
-  for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
-    if (model.fracture[cell] != code) continue;
+  const auto cells = cells_under_prestress(model, code);
+  for (const auto cell : cells) {
     Tensor stress;
     if (tensor) stress = *tensor;
     if (weight) {
@@ -110,9 +132,35 @@ void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestr
   }
 }
 
+namespace {
+
+/// The same of planes on faces.
+template <int D>
+void check_prestress_of_faces(const Model<D>& model) {
+  for (const auto& face : parted_faces(model)) {
+    const auto& law = face.law;
+    if (!law.any()) continue;
+    const auto [normal, shear] = law.prestress_pa;
+    const double rounding = slack * (std::abs(normal) + std::abs(shear));
+    const auto refuse = [&](const std::string& found) {
+      throw Error("the prestress at " + place_of(model.grid(), model.grid().flat(face.behind)) + ' ' + found);
+    };
+    if (!std::isfinite(normal + shear)) refuse("of a fracture on faces is not finite, expected numbers");
+    if (law.opens && normal > rounding)
+      refuse("pulls a fracture on faces apart by " + shown(normal, 4) +
+             " Pa; planes that may open must be under compression");
+    if (std::abs(shear) > law.strength_pa(normal, false) + rounding)
+      refuse("shears a fracture on faces by " + shown(std::abs(shear), 4) +
+             " Pa, expected at most its strength of " + shown(law.strength_pa(normal, false), 4) + " Pa");
+  }
+}
+
+}  // namespace
+
 template <int D>
 void check_prestress(const Model<D>& model) {
   if (model.prestress_pa.empty() || model.fracture.empty()) return;
+  check_prestress_of_faces(model);
   for (std::size_t cell = 0; cell < model.fracture.size(); ++cell) {
     const std::size_t code = model.fracture[cell];
     if (code == 0) continue;

@@ -30,12 +30,13 @@ Prestress<D> parse_prestress(const std::string& text);
 template <int D>
 const std::vector<std::string>& stress_names();
 
-/// Gives the cells of fracture set `code` (1-based) their prestress.
+/// Gives the cells of fracture set `code` (1-based) their prestress; of one on faces the cells on both sides
+/// of these that belong to no other set.
 template <int D>
 void set_prestress(Model<D>& model, std::size_t code, const Prestress<D>& prestress);
 
-/// Throws an Error on the first fractured cell whose prestress is not finite, or slips (shear traction
-/// above the strength (S2)) or parts (s_n > 0 where planes open) by itself.
+/// Throws an Error on the first fractured cell, or face with friction, whose prestress is not finite, or
+/// slips (shear traction above the strength (S2)) or parts (s_n > 0 where planes open) by itself.
 template <int D>
 void check_prestress(const Model<D>& model);
 

@@ -6,6 +6,7 @@
 
 #include "grid/locate.hpp"
 #include "grid/tensor.hpp"
+#include "model/parted_faces.hpp"
 
 namespace slipwave {
 namespace {
@@ -80,9 +81,11 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
     }
   }
   double energy_over_volume = 0;
-  if (scene.slips() && !scene.model.prestress_pa.empty())
+  // Of planes on faces the cells beside them have the stress.
+  const bool of_faces = scene.with_slip && first_on_faces(scene.model.fracture_sets);
+  if ((scene.slips() || of_faces) && !scene.model.prestress_pa.empty())
     for (std::size_t cell = 0; cell < std::size_t(grid.size()); ++cell) {
-      if (scene.model.fracture[cell] == 0) continue;
+      if (!of_faces && scene.model.fracture[cell] == 0) continue;
       if (!scene.subdomain.owns(grid, grid.index(std::int64_t(cell))[D - 1])) continue;
       double squares = 0;
       for (const auto& component : scene.model.prestress_pa)

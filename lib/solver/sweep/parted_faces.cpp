@@ -13,12 +13,21 @@ namespace {
 /// Stiffer fractures are welded, as far as numbers go.
 constexpr double most_stiffness = 1e6;
 
+/// How stiff a plane is for what stencils read across it (S36). One that slides or stands open moves by
+/// itself: what they may read across is what holds back a tip, behind its spring.
+template <class Real>
+Real stiffness_to_stencils(double spring, double held, bool loose) {
+  if (!loose) return Real(std::min(spring, most_stiffness));
+  if (!(held > 0)) return 0;
+  return Real(std::min(1 / (1 / spring + 1 / held), most_stiffness));
+}
+
 }  // namespace
 
 template <int D, class Real>
 PartedFaces<D, Real>::PartedFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s,
                                   double unit)
-    : state_(state), spacing_m_(domain.grid.spacing_m), unit_(unit), own_(domain.own) {
+    : state_(state), spacing_m_(domain.grid.spacing_m), unit_(unit), dt_s_(dt_s), own_(domain.own) {
   for (auto& of_pair : images_) of_pair.resize(2 * domain.parted.size());
   for (const auto& parted : domain.parted) {
     Face face{};
@@ -28,20 +37,25 @@ PartedFaces<D, Real>::PartedFaces(const State<D, Real>& state, const Domain<D>& 
   for (auto& face : faces_) find_along(face);
   tractions_.assign(faces_.size() * D, 0);
   retained_.assign(faces_.size() * 2 * D, 0);
+  if (std::none_of(faces_.begin(), faces_.end(), [](const Face& face) { return face.law.any(); })) return;
+  slips_.resize(faces_.size());
+  work_.resize(faces_.size());
+  for (std::size_t n = 0; n < faces_.size(); ++n)
+    for (const std::size_t pair : {0, 1}) slips_[n].stiffness[pair] = images_[pair][2 * n].stiffness;
 }
 
 template <int D, class Real>
 void PartedFaces<D, Real>::place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted,
                                  double dt_s) {
   const auto& layout = state_.layout;
-  auto before = parted.behind;
+  const auto before = parted.before();
   face.axis = parted.axis;
   face.inside = parted.behind[std::size_t(parted.axis)] > 0;
-  if (face.inside) --before[std::size_t(parted.axis)];
   face.line = layout.line_number(parted.behind), face.x = parted.behind[0];
   face.cells = {layout.cell(before), layout.cell(parted.behind)};
   face.compliance.fill(parted.tangential_m_per_pa);
   face.compliance[0] = parted.normal_m_per_pa;
+  face.law = parted.law;
   const auto b_of = [&](Index<D> at) {
     const auto x = at[0];
     at[0] = 0;
@@ -54,6 +68,7 @@ void PartedFaces<D, Real>::place(Face& face, const Domain<D>& domain, const Part
     face.relaxation[pair] = Real(std::min(relaxation, double(std::numeric_limits<float>::max())));
     // Mean time in steps that the wave takes through half a cell, of both sides.
     const double half_cell = (1 / (lo * b_of(before)) + 1 / (hi * b_of(parted.behind))) / 4;
+    face.impedance[pair] = lo * hi / (lo + hi), face.half_cell[pair] = Real(half_cell);
     for (const std::size_t side : {0, 1}) {
       auto& image = images_[pair][2 * faces_.size() + side];
       image.stiffness = Real(std::min(relaxation * half_cell, most_stiffness));
@@ -164,6 +179,7 @@ void PartedFaces<D, Real>::put_images(std::size_t n) {
       image.v = outward * bend[pair];
       image.swept = traction[pair];
       image.s = 2 * tractions_[n * D + pair];
+      if (face.law.any()) image.stiffness = slips_[n].stiffness[pair];
     }
   }
 }
@@ -199,20 +215,91 @@ void PartedFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) 
             state_.fields.data()[faces_[n].cells[side] + row * state_.layout.row_pitch()];
 }
 
-/// The mean traction of the spring during the sweep less that of the welded face, put on one of its cells;
-/// `side` is 1 before the face and -1 behind it. Both cells see their own wave come back.
+/// Of a face with friction whose traction is that of `welded` rock, in a sweep over `size` of the step.
+template <int D, class Real>
+typename PartedFaces<D, Real>::Swept PartedFaces<D, Real>::solve(std::size_t n,
+                                                                 const std::array<Real, D>& welded,
+                                                                 Real size) const {
+  const Face& face = faces_[n];
+  const auto& law = face.law;
+  const double time_s = dt_s_ * double(size);
+  const auto load = [&](std::size_t pair) {
+    const double resting = law.prestress_pa[pair];
+    return FaceLoad{
+        double(welded[pair]) / unit_ + resting, double(tractions_[n * D + pair]) / unit_ + resting,
+        double(face.relaxation[pair]) * double(size), law.held_pa_m[pair] * time_s / face.impedance[pair]};
+  };
+  // Traction that holds a jump of 1 m in the sweep.
+  const auto per_m = [&](std::size_t pair) { return face.impedance[pair] / time_s; };
+  const auto across = load(0), along = load(1);
+  const double opening_m = double(slips_[n].opening) / unit_, slip_m = double(slips_[n].slip) / unit_;
+  Swept swept{};
+  swept.motion[0] = law.opens ? part_face(across, opening_m * per_m(0)) : give_face(across);
+  const double strength = law.strength_pa(swept.motion[0].mean, swept.motion[0].loose);
+  const double drag = law.viscosity_s_m * strength / face.impedance[1];
+  swept.motion[1] = slide_face(along, slip_m * per_m(1), strength, drag);
+  for (const std::size_t pair : {0, 1}) {
+    const auto& motion = swept.motion[pair];
+    const double half_cell = double(face.half_cell[pair]);
+    const double held = law.held_pa_m[pair] * dt_s_ / face.impedance[pair] * half_cell;
+    swept.moved_m[pair] = motion.moved / per_m(pair);
+    swept.stiffness[pair] =
+        stiffness_to_stencils<Real>(double(face.relaxation[pair]) * half_cell, held, motion.loose);
+    swept.change[pair] = Real((motion.mean - (pair == 0 ? across : along).welded) * unit_);
+  }
+  return swept;
+}
+
+/// The mean traction during the sweep less that of the welded face.
+template <int D, class Real>
+std::array<Real, D> PartedFaces<D, Real>::changes_of(std::size_t n, const std::array<Real, D>& welded,
+                                                     Real size) const {
+  if (faces_[n].law.any()) return solve(n, welded, size).change;
+  std::array<Real, D> changes{};
+  for (std::size_t pair = 0; pair < D; ++pair) {
+    if (faces_[n].compliance[pair] == 0) continue;
+    const Real lag = faces_[n].relaxation[pair] * size;
+    const Real kept = lag > 0 ? -std::expm1(-lag) / lag : Real(1);
+    changes[pair] = kept * (tractions_[n * D + pair] - welded[pair]);
+  }
+  return changes;
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
+  const Face& face = faces_[n];
+  auto& slip = slips_[n];
+  auto& work = work_[n];
+  for (const std::size_t pair : {0, 1}) {
+    const auto& motion = swept.motion[pair];
+    const double resting = face.law.prestress_pa[pair];
+    const double held = face.law.held_pa_m[pair], moved = swept.moved_m[pair];
+    auto& so_far = pair == 0 ? slip.opening : slip.slip;
+    // What holds back a tip stores its part.
+    const double stored = held * (double(so_far) / unit_ + moved / 2);
+    work.heat += (motion.mean - stored) * moved;
+    work.out_of_waves += (motion.mean - resting - stored) * moved;
+    so_far = Real(double(so_far) + moved * unit_);
+    tractions_[n * D + pair] = Real((motion.end - resting) * unit_);
+    slip.stiffness[pair] = swept.stiffness[pair];
+    if (pair == 1 && motion.loose) slip.slid = 1;
+  }
+  // What rounding leaves of it would be a plane that stands open.
+  if (!swept.motion[0].loose) slip.opening = 0;
+}
+
+/// Puts that mean on one of its cells; `side` is 1 before the face and -1 behind it. Both cells see their own
+/// wave come back.
 template <int D, class Real>
 void PartedFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale,
                                        const Real* face, std::int64_t pitch, std::int64_t i, Real side,
                                        const SweptRows<Real>& rows) const {
   const auto material = state_.material_from(state_.layout.line_index(line), x, faces_[n].axis);
   const Real b = *material.b, zp = *material.zp, zs = *material.zs, size = std::abs(scale);
-  for (int pair = 0; pair < D; ++pair) {
-    if (faces_[n].compliance[std::size_t(pair)] == 0) continue;
-    const Real lag = faces_[n].relaxation[std::size_t(pair)] * size;
-    const Real kept = lag > 0 ? -std::expm1(-lag) / lag : Real(1);
-    const Real change = kept * (tractions_[n * D + std::size_t(pair)] - face[(2 * pair + 1) * pitch]);
-    const Real moved = side * scale * b * change, strained = size * b * change;
+  const auto changes = changes_of(n, tractions_at(face, pitch), size);
+  for (std::size_t pair = 0; pair < D; ++pair) {
+    if (changes[pair] == 0) continue;
+    const Real moved = side * scale * b * changes[pair], strained = size * b * changes[pair];
     if (pair == 0) {
       rows.v[i] += moved;
       rows.s[i] += zp * strained;
@@ -222,6 +309,14 @@ void PartedFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::in
       rows.st[i] += zs * strained;
     }
   }
+}
+
+/// Of all pairs of a face state.
+template <int D, class Real>
+std::array<Real, D> PartedFaces<D, Real>::tractions_at(const Real* face, std::int64_t pitch) {
+  std::array<Real, D> all;
+  for (int pair = 0; pair < D; ++pair) all[std::size_t(pair)] = face[(2 * pair + 1) * pitch];
+  return all;
 }
 
 template <int D, class Real>
@@ -245,7 +340,12 @@ void PartedFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& co
     if (!faces_[n].inside) continue;
     const auto i = faces_[n].x - columns.first;
     add_to_cell(n, line, faces_[n].x, scale, lo.first + i, lo.pitch, i, -1, rows);
-    for (int pair = 0; remember && pair < D; ++pair) {
+    if (!remember) continue;
+    if (faces_[n].law.any()) {
+      advance(n, solve(n, tractions_at(lo.first + i, lo.pitch), std::abs(scale)));
+      continue;
+    }
+    for (int pair = 0; pair < D; ++pair) {
       Real& traction = tractions_[n * D + std::size_t(pair)];
       const Real welded = lo.s(pair)[i];
       const Real left = std::exp(-faces_[n].relaxation[std::size_t(pair)] * std::abs(scale));
@@ -261,28 +361,80 @@ void PartedFaces<D, Real>::exchange(const IndexRange& rows,
   for (const int axis : {0, D - 1}) {
     const auto first = find(axis, rows.first * lines_a_row, whole_line())[0],
                last = find(axis, rows.last * lines_a_row, whole_line())[0];
-    if (first < last) to(tractions_.data() + first * D, std::int64_t(last - first) * D);
+    if (first == last) continue;
+    to(tractions_.data() + first * D, std::int64_t(last - first) * D);
+    if (slips_.empty()) continue;
+    static_assert(sizeof(Slip) == reals_of_slip * sizeof(Real));
+    to(&slips_[first].opening, std::int64_t(last - first) * reals_of_slip);
   }
 }
 
 template <int D, class Real>
+void PartedFaces<D, Real>::serialize(Archive& archive) {
+  archive.fixed(tractions_);
+  if (slips_.empty()) return;
+  archive.fixed(slips_);
+  archive.fixed(work_);
+}
+
+template <int D, class Real>
+std::vector<EffectShare> PartedFaces<D, Real>::shares() const {
+  std::vector<EffectShare> all = {{name(), cells()}};
+  const auto count = [&](const auto& has) {
+    return std::int64_t(std::count_if(faces_.begin(), faces_.end(), has));
+  };
+  if (const auto sliding = count([](const Face& face) { return face.law.slides; }); sliding > 0)
+    all.push_back({"  friction", sliding});
+  if (const auto opening = count([](const Face& face) { return face.law.opens; }); opening > 0)
+    all.push_back({"  opening", opening});
+  return all;
+}
+
+template <int D, class Real>
+void PartedFaces<D, Real>::report(ShotReport& report) const {
+  report.energy_left += stored_energy();
+  if (slips_.empty()) return;
+  SlipTotals totals = report.slip.value_or(SlipTotals{});
+  const double area = std::pow(spacing_m_, D - 1);
+  for (std::size_t n = 0; n < faces_.size(); ++n) {
+    if (!faces_[n].law.any() || !owns(n)) continue;
+    ++totals.cells;
+    totals.slipped += slips_[n].slid > 0;
+    totals.dissipated += area * work_[n].heat;
+    totals.out_of_waves += area * work_[n].out_of_waves;
+  }
+  report.slip = totals;
+}
+
+template <int D, class Real>
+bool PartedFaces<D, Real>::owns(std::size_t n) const {
+  const auto row = state_.layout.line_index(faces_[n].line)[D - 1];
+  return row >= own_.first && row < own_.last;
+}
+
+template <int D, class Real>
 std::int64_t PartedFaces<D, Real>::memory_bytes() const {
-  std::size_t bytes = faces_.size() * sizeof(Face) + (tractions_.size() + retained_.size()) * sizeof(Real);
+  std::size_t bytes = faces_.size() * sizeof(Face) + slips_.size() * (sizeof(Slip) + sizeof(Work)) +
+                      (tractions_.size() + retained_.size()) * sizeof(Real);
   for (const auto& of_pair : images_) bytes += of_pair.size() * sizeof(PartedImage<Real>);
   return std::int64_t(bytes);
 }
 
-/// Half of traction times jump, that is C times traction, of each face. An open one has no traction.
+/// Half of traction times jump, that is C times traction, of each face, and of what holds back tips. An open
+/// one has no traction.
 template <int D, class Real>
 double PartedFaces<D, Real>::stored_energy() const {
   double energy = 0;
   for (std::size_t n = 0; n < faces_.size(); ++n) {
-    const auto row = state_.layout.line_index(faces_[n].line)[D - 1];
-    if (row < own_.first || row >= own_.last) continue;
+    if (!owns(n)) continue;
     for (std::size_t pair = 0; pair < D; ++pair) {
       const double traction = double(tractions_[n * D + pair]) / unit_;
       if (traction != 0) energy += faces_[n].compliance[pair] * traction * traction / 2;
     }
+    if (!faces_[n].law.any()) continue;
+    const auto& held = faces_[n].law.held_pa_m;
+    const double opening_m = double(slips_[n].opening) / unit_, slip_m = double(slips_[n].slip) / unit_;
+    energy += (held[0] * opening_m * opening_m + held[1] * slip_m * slip_m) / 2;
   }
   return energy * std::pow(spacing_m_, D - 1);
 }

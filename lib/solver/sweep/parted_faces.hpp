@@ -13,9 +13,9 @@
 namespace slipwave::solver {
 
 /// Faces between cells that single fractures part (theory.md 2.8): each side has its own velocity, and the
-/// traction is that of a spring between them, none where it is open. Sweeps take such faces for welded ones;
-/// add() then gives both sides what the spring leaves of that (S35). The stencils beside them read images()
-/// (S36). Retains the tractions.
+/// traction is that of a spring between them, none where it is open, at most its strength where it has
+/// friction (S40). Sweeps take such faces for welded ones; add() then gives both sides what is left of that
+/// (S35). The stencils beside them read images() (S36). Retains the tractions, and slip and opening.
 template <int D, class Real>
 class PartedFaces : public Effect<D, Real> {
  public:
@@ -49,12 +49,13 @@ class PartedFaces : public Effect<D, Real> {
   void update_line(std::int64_t line, const IndexRange& columns);
   void retain(std::int64_t line, const IndexRange& columns);
 
-  void serialize(Archive& archive) override { archive.fixed(tractions_); }
+  void serialize(Archive& archive) override;
   void exchange(const IndexRange& rows,
                 const std::function<void(Real* values, std::int64_t count)>& to) override;
   std::int64_t memory_bytes() const override;
-  /// Adds the energy of the springs to what is left in the model.
-  void report(ShotReport& report) const override { report.energy_left += stored_energy(); }
+  std::vector<EffectShare> shares() const override;
+  /// Adds the energy of the springs to what is left in the model, and the work of slip.
+  void report(ShotReport& report) const override;
   /// Of the springs of the rows that this process owns, J/m.
   double stored_energy() const;
 
@@ -67,7 +68,33 @@ class PartedFaces : public Effect<D, Real> {
     std::array<std::int32_t, 2> along;  // faces beside it at offsets_along; -1: one is missing
     std::array<Real, D> relaxation;     // of a pair in a step: dt/(C Z)
     std::array<double, D> compliance;   // C, m/Pa
+    std::array<double, D> impedance;    // Z of both sides together
+    std::array<Real, D> half_cell;      // time that a wave takes through it, in steps
+    FaceLaw law;
   };
+  /// Of a face with friction, from step to step.
+  struct Slip {
+    Real opening = 0, slip = 0;       // m times the unit of the fields
+    std::array<Real, 2> stiffness{};  // PartedImage::stiffness, as the plane sticks or slides
+    Real slid = 0;                    // 1: it has
+  };
+  static constexpr int reals_of_slip = 5;
+  /// What slip has done since the beginning, in J/m2.
+  struct Work {
+    double heat = 0, out_of_waves = 0;
+  };
+  /// What a sweep does to the tractions of a face with friction.
+  struct Swept {
+    std::array<FaceMotion, 2> motion;
+    std::array<double, 2> moved_m;
+    std::array<Real, 2> stiffness;
+    std::array<Real, D> change;  // of the mean traction
+  };
+  static std::array<Real, D> tractions_at(const Real* face, std::int64_t pitch);
+  std::array<Real, D> changes_of(std::size_t n, const std::array<Real, D>& welded, Real size) const;
+  Swept solve(std::size_t n, const std::array<Real, D>& welded, Real size) const;
+  void advance(std::size_t n, const Swept& swept);
+  bool owns(std::size_t n) const;
   void place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted, double dt_s);
   void find_along(Face& face) const;
   bool crossed(const Face& face) const;
@@ -80,11 +107,13 @@ class PartedFaces : public Effect<D, Real> {
   IndexRange whole_line() const { return {0, state_.layout.shape()[0]}; }
 
   const State<D, Real>& state_;
-  double spacing_m_, unit_;
+  double spacing_m_, unit_, dt_s_;
   IndexRange own_;
   std::vector<Face> faces_;      // by axis, line, x
   std::vector<Real> tractions_;  // D of each
-  std::vector<Real> retained_;   // velocities before and behind each across x
+  std::vector<Slip> slips_;      // of each, or of none where no face has friction
+  std::vector<Work> work_;
+  std::vector<Real> retained_;  // velocities before and behind each across x
   std::array<std::vector<PartedImage<Real>>, D> images_;
 };
 

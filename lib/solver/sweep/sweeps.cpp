@@ -63,8 +63,7 @@ PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reac
   const auto along = std::size_t(axis);
   for (std::size_t n = 0; n < domain.parted.size(); ++n) {
     const auto& face = domain.parted[n];
-    const double compliance = pair == 0 ? face.normal_m_per_pa : face.tangential_m_per_pa;
-    if (face.axis != axis || compliance == 0) continue;
+    if (face.axis != axis || !face.parts(pair)) continue;
     faces.emplace_back(domain.grid.flat(face.behind), std::int32_t(n));
     auto near = face.behind;
     const auto first = std::max<std::int64_t>(near[along] - reach, 0),
