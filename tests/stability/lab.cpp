@@ -238,7 +238,7 @@ double Lab<Real>::kinetic_energy() const {
 
 template <class Real>
 double Lab<Real>::energy_with_prestress() const {
-  return sum(Stress::all);
+  return sum(Stress::all) + (parted_ ? parted_->stored_energy() : 0);
 }
 
 template <class Real>

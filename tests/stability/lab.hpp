@@ -78,7 +78,7 @@ class Lab {
   double energy() const;
   /// Of motion alone, J per metre.
   double kinetic_energy() const;
-  /// The same as energy() with the prestress on top of that of the waves.
+  /// The same as energy() with the prestress on top of that of the waves; faces that part have no springs.
   double energy_with_prestress() const;
   /// energy() less the work that the prestress has done by slip and opening: the potential energy of all
   /// stress under loads that stay, up to a constant.

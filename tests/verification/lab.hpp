@@ -35,19 +35,25 @@ class Lab {
  public:
   enum Row { vx, vz, sxx, szz, sxz };
 
-  Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2)
+  /// With `parted` faces between cells.
+  Lab(const Medium<2>& medium, const EdgeLaws<2>& edges, int order, double dt_s, int time_order = 2,
+      std::vector<PartedFace<2>> parted = {})
       : medium_(medium),
-        domain_(make_domain(medium_, edges, 1, {}, order)),
+        domain_(domain_with(make_domain(medium_, edges, 1, {}, order), std::move(parted))),
         state_(std::make_unique<State<2, Real>>(
             make_state<2, Real>(domain_.grid.shape, domain_.material_kind()))),
         sweeps_(*state_, domain_, order),
         splitting_(splitting(2, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);
+    if (domain_.parted.empty()) return;
+    parted_ = std::make_unique<PartedFaces<2, Real>>(*state_, domain_, dt_s, 1);
+    sweeps_.part(parted_.get());
   }
   Real& operator()(Row row, std::int64_t i, std::int64_t k) { return state_->field_row({0, k}, row)[i]; }
   const Grid<2>& grid() const { return domain_.grid; }
   State<2, Real>& state() { return *state_; }
   const Domain<2>& domain() const { return domain_; }
+  PartedFaces<2, Real>* parted() { return parted_.get(); }
   double energy() const { return solver::energy(*state_, domain_, medium_); }
 
   void keep_monotone() { sweeps_.keep_monotone(); }
@@ -69,10 +75,16 @@ class Lab {
   }
 
  private:
+  static Domain<2> domain_with(Domain<2> domain, std::vector<PartedFace<2>> parted) {
+    for (auto& face : parted) face.behind = domain.computed_cell(face.behind);
+    domain.parted = std::move(parted);
+    return domain;
+  }
   Medium<2> medium_;
   Domain<2> domain_;
   std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
   Sweeps<2, Real> sweeps_;
+  std::unique_ptr<PartedFaces<2, Real>> parted_;
   std::vector<SweepFraction> splitting_;
 };
 

@@ -1,0 +1,203 @@
+// Planes with friction on faces between cells in whole scenes: who computes them makes no difference
+// (docs/theory.md 2.8, (S40) to (S43)).
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "continued.hpp"
+#include "lab.hpp"
+#include "model/prestress.hpp"
+#include "model/single_fracture.hpp"
+#include "plain_and_tiled.hpp"
+#include "shared_out.hpp"
+#include "slip_layer.hpp"
+
+namespace slipwave::solver {
+namespace {
+
+struct Plane {
+  double friction = 0.5, cohesion_pa = 0, viscosity_s = 0;
+  bool opens = false;
+  double z_n = 0, z_t = 0;
+};
+
+void add(Model<2>& model, const Plane& of, std::vector<FractureTrace<2>> traces,
+         const std::string& prestress) {
+  SlipSystem<2> system{normal_between_tips(traces.front()), of.friction, of.viscosity_s, of.cohesion_pa,
+                       of.opens};
+  system.compliance = {of.z_n, of.z_t, 0, 0, of.viscosity_s > 0 ? 5. : 0};
+  add_single_fractures(model, {"faces", {system}, std::move(traces), true});
+  set_prestress(model, model.fracture_sets.size(), parse_prestress<2>(prestress));
+}
+
+/// Two rocks, with planes that stick and slide, open and shut, with springs and viscosity and without, cross,
+/// end between faces and lie on the interface, beside a cluster of planes.
+Scene<2> faulted() {
+  constexpr Rock rock{4500, 2250, 2500}, soft{2500, 1200, 2000};
+  constexpr std::int64_t nx = 96, nz = 160;
+  Scene<2> scene;
+  auto& model = scene.model;
+  model.medium = uniform_medium(nx, nz, 5, rock);
+  for (std::int64_t k = 100; k < nz; ++k)
+    for (std::int64_t i = 0; i < nx; ++i) put(model.medium, {i, k}, soft);
+  model.fracture = Field<2, std::uint8_t>(model.grid());
+  for (std::int64_t k = 60; k < 70; ++k)
+    for (std::int64_t i = 10; i < 30; ++i) model.fracture({i, k}) = 1;
+  model.fracture_sets = {{"cluster", {{{0.6, 0.8}, 0.1, 2e3, 1e3}}}};
+  add(model, {}, {{{152, 300}, {301, 300}}, {{220, 141}, {220, 420}}}, "-2000,-3000,500");
+  add(model, {0.3, 100, 0, true}, {{{80, 500}, {390, 500}}}, "-1500,-1000,-200");
+  add(model, {0.2, 0, 5, true, 2e-9, 1e-9}, {{{330, 90}, {330, 700}}}, "-1000,-1000,0");
+  add(model, {0.4, 0, 20}, {{{100, 200}, {200, 200}}}, "-1000,-2000,-700");
+  scene.survey.sources = {{{203, 261}, parse_mechanism<2>("force:1,2"), parse_wavelet("ricker:40"), 1e6}};
+  scene.survey.receivers_m = {{100, 33}, {402.5, 201.3}, {220, 400}, {227, 703.3}, {33, 641}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.numerics.order = 7;
+  scene.recording = {{Component::vx, Component::vz, Component::sxz}, 0.12, 0.001};
+  return scene;
+}
+
+TEST(FaceFriction, GivesTheBitsOfThePlainExecutorInTiles) {
+  auto scene = faulted();
+  scene.slip_diary = true;
+  expect_same(scene);
+  scene.numerics.order = 1;
+  scene.numerics.double_precision = true;
+  scene.recording.duration_s = 0.06;
+  expect_same(scene);
+}
+
+TEST(FaceFriction, IsTheSameOnSeveralRanks) {
+  const auto scene = faulted();
+  const auto alone = all_samples(shoot(scene, 1));
+  for (const int count : {2, 3})
+    EXPECT_TRUE(all_samples(shared_out(scene, count, 2)) == alone) << count << " ranks";
+}
+
+TEST(FaceFriction, ContinuesFromACheckpoint) { expect_to_continue(faulted()); }
+
+TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) {
+  auto scene = faulted();
+  scene.recording.duration_s = 0.3;
+  const auto single = all_samples(shoot(scene, 1));
+  scene.numerics.double_precision = true;
+  const auto precise = all_samples(shoot(scene, 1));
+  // Stresses and velocities have scales of their own: each by the largest of its trace.
+  const std::size_t a_trace = precise.size() / 15;
+  for (std::size_t n = 0; n < precise.size(); n += a_trace) {
+    double off = 0, largest = 0;
+    for (auto k = n; k < n + a_trace; ++k) {
+      off = std::max(off, std::abs(single[k] - precise[k]));
+      largest = std::max(largest, std::abs(precise[k]));
+    }
+    EXPECT_LT(off, 1e-4 * largest) << n / a_trace;
+  }
+}
+
+/// An explosion above a level plane whose tips lie between faces, in so large cells.
+Scene<2> over_a_plane(double h) {
+  Scene<2> scene;
+  const auto cells = std::int64_t(600 / h);
+  scene.model.medium = uniform_medium(cells, cells, h, {4500, 2250, 2500});
+  scene.survey.sources = {{{203, 161}, parse_mechanism<2>("explosion"), parse_wavelet("ricker:30"), 1e9}};
+  for (double x = 100; x <= 500; x += 50)
+    for (const double z : {200., 400.}) scene.survey.receivers_m.push_back({x, z});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {{Component::vx, Component::vz}, 0.25, 0.001};
+  return scene;
+}
+const FractureTrace<2> level{{201, 300}, {399, 300}};
+
+/// Largest difference of two records over the largest sample.
+double change_between(const Scene<2>& one, const Scene<2>& other) {
+  const auto a = all_samples(shoot(one, 1)), b = all_samples(shoot(other, 1));
+  double off = 0, all = 0;
+  for (std::size_t n = 0; n < a.size(); ++n) {
+    off = std::max(off, std::abs(a[n] - b[n]));
+    all = std::max(all, std::abs(b[n]));
+  }
+  return off / all;
+}
+
+TEST(FaceFriction, OfEachKindChangesTheTraces) {
+  const auto scene = faulted();
+  for (std::size_t set = 1; set < scene.model.fracture_sets.size(); ++set) {
+    auto without = scene;
+    auto& system = without.model.fracture_sets[set].systems[0];
+    system.law = FrictionLaw::none, system.opens = false;
+    EXPECT_GT(change_between(scene, without), 1e-3) << set;
+  }
+}
+
+TEST(FaceFriction, WithoutAnyIsACrackThatIsFreeAlongItself) {
+  auto free = over_a_plane(5), slippery = free;
+  SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
+  system.compliance.tangential_m_per_pa = std::numeric_limits<double>::infinity();
+  add_single_fractures(free.model, {"free", {system}, {level}, true});
+  add(slippery.model, {0}, {level}, "none");
+  EXPECT_LT(change_between(slippery, free), 1e-5);
+  EXPECT_GT(change_between(slippery, over_a_plane(5)), 0.1);
+}
+
+TEST(FaceFriction, OfStrengthThatNoWaveReachesIsTheSpringAlone) {
+  auto spring = over_a_plane(5), strong = spring;
+  SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
+  system.compliance = {1e-9, 2e-9, 0, 0, 0};
+  add_single_fractures(spring.model, {"spring", {system}, {level}, true});
+  add(strong.model, {0, 1e12, 0, false, 1e-9, 2e-9}, {level}, "none");
+  EXPECT_LT(change_between(strong, spring), 1e-5);
+}
+
+TEST(FaceFriction, OfStrengthThatNoWaveReachesIsRockThatIsWhole) {
+  // Up to what sweeps of order 5 beside it leave, as beside a spring that is stiff as rock.
+  auto strong = over_a_plane(5);
+  add(strong.model, {0, 1e12}, {level}, "none");
+  EXPECT_LT(change_between(strong, over_a_plane(5)), 1e-3);
+}
+
+/// What a plane of that strength sends out, whose viscosity drags as so many times Z at its strength: on
+/// faces, or as a row of cells whose middles lie where it does.
+std::vector<double> sent_out(double strength_pa, double drag, double h, bool row) {
+  auto scene = over_a_plane(h);
+  const double z = 2500 * 2250 / 2;
+  if (row) {
+    auto grid = scene.model.grid();
+    grid.origin_m[1] = -h / 2;
+    ++grid.shape[1];
+    scene.model.medium = {Field<2>(grid, 4500), Field<2>(grid, 2250), Field<2>(grid, 2500)};
+    scene.model.fracture = Field<2, std::uint8_t>(grid);
+    for (auto i = std::int64_t(200 / h); i < std::int64_t(400 / h); ++i)
+      scene.model.fracture({i, std::int64_t(300 / h)}) = 1;
+    // A row has some more viscosity of its own, (S9).
+    constexpr double k = 0.19;
+    scene.model.fracture_sets = {{"row", {{{0, 1}, 0, (drag - k) * z * h / strength_pa, strength_pa}}}};
+  } else {
+    // Of planes as far apart as add() has them.
+    add(scene.model, {0, strength_pa, drag * z * 5 / strength_pa}, {{{200, 300}, {400, 300}}}, "none");
+  }
+  auto whole = scene;
+  whole.with_slip = false;
+  auto sent = all_samples(shoot(scene, 1));
+  const auto wave = all_samples(shoot(whole, 1));
+  for (std::size_t n = 0; n < sent.size(); ++n) sent[n] -= wave[n];
+  return sent;
+}
+
+TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
+  auto probe = over_a_plane(5);
+  probe.survey.receivers_m = {{250, 300}, {300, 300}, {350, 300}};
+  probe.recording.components = {Component::sxz};
+  double most = 0;
+  for (const double sample : all_samples(shoot(probe, 1))) most = std::max(most, std::abs(sample));
+  for (const auto& [share, drag] : {std::pair{0.1, 1.}, {0.25, 3.}}) {
+    const auto off = [strength = share * most, drag = drag](double h) {
+      return relative_error(sent_out(strength, drag, h, true), sent_out(strength, drag, h, false));
+    };
+    const double fine = off(2.5);
+    EXPECT_LT(fine, 0.05) << share;
+    EXPECT_GT(off(5), 1.5 * fine) << share;
+  }
+}
+
+}  // namespace
+}  // namespace slipwave::solver
