@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.hpp"
 #include "model/averaging.hpp"
 #include "model/layers.hpp"
+#include "model/parted_faces.hpp"
 #include "model/single_fracture.hpp"
 #include "model/tilted_mean.hpp"
 
@@ -85,6 +87,36 @@ float blend(const Field<D>& field, const std::vector<Corner>& corners, Mean rule
   return float(value);
 }
 
+/// Planes with friction on faces keep the prestress of both sides, which stands in the cells beside them
+/// alone.
+void keep_prestress_of_faces(const Model<2>& from, Model<2>& to) {
+  const auto& old = from.grid();
+  for (auto set : from.fracture_sets) {
+    if (from.prestress_pa.empty() || !set.on_faces || !slides(set)) continue;
+    for (const auto& trace : std::exchange(set.traces, {})) {
+      set.traces = {trace};
+      const auto of = faces_of(old, trace);
+      const auto across = std::size_t(of.axis), along = 1 - across;
+      for (const auto& face : parted_faces(to, set))
+        for (const std::int64_t side : {1, 0}) {
+          const auto at = side == 1 ? face.before() : face.behind;
+          const auto cell = std::size_t(to.grid().flat(at));
+          if (to.fracture[cell] != 0) continue;
+          Index<2> source{};
+          source[across] = of.face - side;
+          // New faces may reach beyond the old ones at tips.
+          source[along] =
+              std::clamp(std::int64_t((double(at[along]) + 0.5) * to.grid().spacing_m / old.spacing_m),
+                         std::max(std::int64_t(std::floor(of.first)), std::int64_t(0)),
+                         std::min(std::int64_t(std::ceil(of.last)), old.shape[along]) - 1);
+          for (std::size_t c = 0; c < from.prestress_pa.size(); ++c)
+            to.prestress_pa[c][cell] = from.prestress_pa[c][std::size_t(old.flat(source))];
+        }
+    }
+  }
+}
+void keep_prestress_of_faces(const Model<3>&, Model<3>&) {}
+
 /// `model` on cells of another size: no values yet, and per axis where their centres lie.
 template <int D>
 struct Regridding {
@@ -127,6 +159,7 @@ struct Regridding {
         model.prestress_pa[c][cell] = from.prestress_pa[c][source];
     }
     place_single_fractures(model);
+    keep_prestress_of_faces(from, model);
     return std::move(model);
   }
 };

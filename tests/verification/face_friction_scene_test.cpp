@@ -7,6 +7,7 @@
 #include "continued.hpp"
 #include "lab.hpp"
 #include "model/prestress.hpp"
+#include "model/resample.hpp"
 #include "model/single_fracture.hpp"
 #include "plain_and_tiled.hpp"
 #include "shared_out.hpp"
@@ -91,6 +92,26 @@ TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) {
       largest = std::max(largest, std::abs(precise[k]));
     }
     EXPECT_LT(off, 1e-4 * largest) << n / a_trace;
+  }
+}
+
+TEST(FaceFriction, KeepsItsPrestressInCellsOfAnotherSize) {
+  Model<2> model;
+  model.medium = uniform_medium(60, 60, 5, {4500, 2250, 2500});
+  add(model, {}, {{{51, 101}, {249, 101}}}, "-2000,-3000,500");
+  add(model, {0.5, 0, 0, true}, {{{150, 120}, {150, 280}}}, "-7000,-5000,100");
+  for (const double h : {2.5, 4., 10., 12.}) {
+    const auto resized = resampled(model, h, true);
+    check(resized);
+    int level = 0, upright = 0;
+    for (const auto& face : parted_faces(resized)) {
+      const auto& stress = face.law.prestress_pa;
+      if (face.axis == 1) ++level;
+      if (face.axis == 0) ++upright;
+      EXPECT_EQ(stress, face.axis == 1 ? (std::array{-3000., 500.}) : (std::array{-7000., 100.})) << h;
+    }
+    EXPECT_GE(level, int(198 / h)) << h;
+    EXPECT_GE(upright, int(160 / h)) << h;
   }
 }
 
