@@ -10,6 +10,7 @@
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
+#include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
 #include "model/single_fracture.hpp"
@@ -212,10 +213,15 @@ Report report_of(const Model<D>& model) {
     sets.push_back(report_of_set(model.fracture_sets[k], cells[k + 1]));
   }
   of_model.list("fractures", sets);
+  const auto faces = parted_faces(model);
   for (std::size_t c = 0; c < model.prestress_pa.size(); ++c) {
     Range range;  // elsewhere it does nothing
     for (std::size_t cell = 0; cell < model.fracture.size(); ++cell)
       if (model.fracture[cell] != 0) range.see(double(model.prestress_pa[c][cell]));
+    for (const auto& face : faces) {
+      if (!face.law.any()) continue;
+      for (const auto& at : {face.before(), face.behind}) range.see(double(model.prestress_pa[c](at)));
+    }
     report(of_model, "prestress " + stress_names<D>()[c], range, "Pa");
   }
   if (!model.title.empty()) of_model.text("title", model.title);

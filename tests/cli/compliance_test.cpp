@@ -57,6 +57,28 @@ TEST_F(Compliance, OfSingleFracturesGoesFromTheCommandLineToTraces) {
                   "not counted: waves that single fractures send to each other"));
 }
 
+TEST_F(Compliance, OfFracturesWithFrictionGoesFromTheCommandLineToTraces) {
+  done(model + "-o m.nc");
+  done(
+      "sw-fracture m.nc --segment 80,150:220,150 --faces --friction 0.3 --viscosity 10 --spacing 5 --opening "
+      "--strength 10 --compliance 1e-11,1e-11 --prestress=-100,-100,20 -o s.nc");
+  const auto info = done("sw-info s.nc");
+  for (const auto* text : {"lie on faces between cells", "friction 0.3", "spacing 5 m", "opens under tension",
+                           "prestress sxz  20 Pa"})
+    EXPECT_TRUE(has(info, text)) << info;
+  const std::string shot =
+      " --source 150,50 --receivers 50:250:50,20 --wavelet ricker:20 --amplitude 1e9 --time 0.2 --dt 0.002 ";
+  const auto balance = run("sw-shoot s.nc" + shot + "--balance -o with.sgy").err;
+  EXPECT_TRUE(has(balance, "14 of 14 fractured cells slipped")) << balance;
+  for (const std::string effect :
+       {"slip", "viscosity", "cohesion", "opening", "compliance", "prestress", "friction,prestress"}) {
+    done("sw-shoot s.nc" + shot + "--without " + effect + " -q -o without.sgy");
+    EXPECT_NE(run("sw-compare with.sgy without.sgy --tolerance 0").code, 0) << effect;
+  }
+  EXPECT_TRUE(has(done("sw-shoot s.nc" + shot + "--plan -q"), "lie on faces"));
+  done("sw-plot s.nc -o s.png");
+}
+
 TEST_F(Compliance, OfDiscsGoesFromTheCommandLineToTraces) {
   done("sw-layers --size 200x150x120 --step 10 --layer 0:3000:1500:2200 -q -o m.nc");
   write("plates.txt", "40 40 60\n90 40 60\n90 100 80\n40 100 80\n\n120 50 30\n150 50 30\n150 50 90\n");
