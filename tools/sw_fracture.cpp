@@ -225,8 +225,7 @@ void check_single(const Settings& s) {
   if (s.friction && !s.faces)
     refuse(
         "found --friction with single fractures in cells, expected --faces (in 2-D): they have friction "
-        "where "
-        "they part the faces between cells");
+        "where they part the faces between cells");
   if (drawn(s) && (given(s) || (!s.network.empty() && s.intensity)))
     refuse(
         "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "

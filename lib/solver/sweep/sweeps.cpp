@@ -55,20 +55,26 @@ bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side) 
   return !surface_slope(domain, at, axis, side, FieldRows<D>::velocity(axis)).empty();
 }
 
+/// Adds the cells first to last, counted along an axis from one cell, that are in the grid.
+template <int D>
+void add_cells_along(const Grid<D>& grid, Index<D> at, int axis, std::int64_t first, std::int64_t last,
+                     std::vector<std::int64_t>& cells) {
+  auto& place = at[std::size_t(axis)];
+  const auto from = std::max<std::int64_t>(place + first, 0),
+             to = std::min(place + last, grid.shape[std::size_t(axis)] - 1);
+  for (place = from; place <= to; ++place) cells.push_back(grid.flat(at));
+}
+
 /// Faces that fractures part for a pair of sweeps along an axis.
 template <int D>
 PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reach) {
   PartedLine<D> line;
   std::vector<std::pair<std::int64_t, std::int32_t>> faces;  // cell behind, place in the domain's list
-  const auto along = std::size_t(axis);
   for (std::size_t n = 0; n < domain.parted.size(); ++n) {
     const auto& face = domain.parted[n];
     if (face.axis != axis || !face.parts(pair)) continue;
     faces.emplace_back(domain.grid.flat(face.behind), std::int32_t(n));
-    auto near = face.behind;
-    const auto first = std::max<std::int64_t>(near[along] - reach, 0),
-               last = std::min(near[along] + reach, domain.grid.shape[along]);
-    for (near[along] = first; near[along] < last; ++near[along]) line.near.push_back(domain.grid.flat(near));
+    add_cells_along(domain.grid, face.behind, axis, -reach, reach - 1, line.near);
   }
   if (faces.empty()) return line;
   std::sort(line.near.begin(), line.near.end());
@@ -86,13 +92,8 @@ SoftLine soft_along(const Domain<D>& domain, int axis, int reach) {
   SoftLine line;
   if (reach <= most_reach_in_soft_cells) return line;
   line.cells = domain.soft;
-  const auto along = std::size_t(axis);
-  for (const auto cell : domain.soft) {
-    auto near = domain.grid.index(cell);
-    const auto first = std::max<std::int64_t>(near[along] - reach, 0),
-               last = std::min(near[along] + reach + 1, domain.grid.shape[along]);
-    for (near[along] = first; near[along] < last; ++near[along]) line.near.push_back(domain.grid.flat(near));
-  }
+  for (const auto cell : domain.soft)
+    add_cells_along(domain.grid, domain.grid.index(cell), axis, -reach, reach, line.near);
   std::sort(line.near.begin(), line.near.end());
   line.near.erase(std::unique(line.near.begin(), line.near.end()), line.near.end());
   return line;
@@ -131,6 +132,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
              s_waves(beside) > 0;
     };
   }
+  std::array<SoftLine, std::size_t(D)> soft;
+  for (int axis = 0; axis < D; ++axis) soft[std::size_t(axis)] = soft_along(domain, axis, reach_);
   // Each reads all cells.
   if (domain.splits_shear()) distinct_pairs_ = D;
   parallel_for(std::int64_t(distinct_pairs_) * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
@@ -143,10 +146,9 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       const RisesFrom<D> rises_from = [&domain, axis](const Index<D>& at, int side) {
         return order_rises_from(domain, at, axis, side);
       };
-      stencils_[std::size_t(axis)][std::size_t(pair)] =
-          InterfaceStencils(domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from,
-                            slot_before, tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_),
-                            soft_along(domain, axis, reach_));
+      stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
+          domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from, slot_before,
+          tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), soft[std::size_t(axis)]);
     }
   });
   if constexpr (D == 2) {
