@@ -18,6 +18,13 @@ class ShotByRanks : public Shell {
     return "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 " +
            launcher + " -n " + std::to_string(ranks) + " sw-shoot " + arguments;
   }
+  /// Expects so many ranks to write the file that one process does.
+  void expect_same_traces(int ranks, const std::string& arguments) {
+    done("sw-shoot " + arguments + "-o alone.sgy");
+    const auto ran = run(line(ranks, arguments + "-o together.sgy"));
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    done("cmp alone.sgy together.sgy");
+  }
   /// Of stderr the lines of the tool.
   static std::string said(const Ran& ran) {
     std::string lines;
@@ -71,10 +78,7 @@ TEST_F(ShotByRanks, IsTheSameWhereFracturesLieOnFaces) {
     const std::string shot =
         "f.nc --source 150,100 --wavelet ricker:40 --amplitude 1e9 --time 0.2 --receivers 200,248 "
         "--receivers 100:300:100,400 ";
-    done("sw-shoot " + shot + "-o alone.sgy");
-    const auto ran = run(line(2, shot + "-o together.sgy"));
-    EXPECT_EQ(ran.code, 0) << ran.err;
-    done("cmp alone.sgy together.sgy");
+    expect_same_traces(2, shot);
   };
   done("sw-fracture f.nc --segment 200,150:200,400 --faces --compliance 1e-10,1e-10 -o f.nc");
   expect_same();
@@ -89,10 +93,7 @@ TEST_F(ShotByRanks, InThreeDimensionsToo) {
   const std::string cube =
       "c.nc --source 60,52,80 --kind force:1,2,3 --wavelet ricker:40 --time 0.06 "
       "--receivers 10:110:50,20:80:30,3 --edge-width 6 ";
-  done("sw-shoot " + cube + "-o alone.sgy");
-  const auto ran = run(line(3, cube + "-o together.sgy"));
-  EXPECT_EQ(ran.code, 0) << ran.err;
-  done("cmp alone.sgy together.sgy");
+  expect_same_traces(3, cube);
 }
 
 TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {

@@ -9,8 +9,7 @@
 #include "model/prestress.hpp"
 #include "model/resample.hpp"
 #include "model/single_fracture.hpp"
-#include "plain_and_tiled.hpp"
-#include "shared_out.hpp"
+#include "scene_of_faces.hpp"
 #include "slip_layer.hpp"
 
 namespace slipwave::solver {
@@ -34,13 +33,8 @@ void add(Model<2>& model, const Plane& of, std::vector<FractureTrace<2>> traces,
 /// Two rocks, with planes that stick and slide, open and shut, with springs and viscosity and without, cross,
 /// end between faces and lie on the interface, beside a cluster of planes.
 Scene<2> faulted() {
-  constexpr Rock rock{4500, 2250, 2500}, soft{2500, 1200, 2000};
-  constexpr std::int64_t nx = 96, nz = 160;
-  Scene<2> scene;
+  auto scene = two_rocks();
   auto& model = scene.model;
-  model.medium = uniform_medium(nx, nz, 5, rock);
-  for (std::int64_t k = 100; k < nz; ++k)
-    for (std::int64_t i = 0; i < nx; ++i) put(model.medium, {i, k}, soft);
   model.fracture = Field<2, std::uint8_t>(model.grid());
   for (std::int64_t k = 60; k < 70; ++k)
     for (std::int64_t i = 10; i < 30; ++i) model.fracture({i, k}) = 1;
@@ -49,51 +43,19 @@ Scene<2> faulted() {
   add(model, {0.3, 100, 0, true}, {{{80, 500}, {390, 500}}}, "-1500,-1000,-200");
   add(model, {0.2, 0, 5, true, 2e-9, 1e-9}, {{{330, 90}, {330, 700}}}, "-1000,-1000,0");
   add(model, {0.4, 0, 20}, {{{100, 200}, {200, 200}}}, "-1000,-2000,-700");
-  scene.survey.sources = {{{203, 261}, parse_mechanism<2>("force:1,2"), parse_wavelet("ricker:40"), 1e6}};
-  scene.survey.receivers_m = {{100, 33}, {402.5, 201.3}, {220, 400}, {227, 703.3}, {33, 641}};
-  scene.edges = edges_all(EdgeLaw::absorbing);
-  scene.edges[1][0] = EdgeLaw::free;
-  scene.numerics.order = 7;
-  scene.recording = {{Component::vx, Component::vz, Component::sxz}, 0.12, 0.001};
   return scene;
 }
 
-TEST(FaceFriction, GivesTheBitsOfThePlainExecutorInTiles) {
-  auto scene = faulted();
-  scene.slip_diary = true;
-  expect_same(scene);
-  scene.numerics.order = 1;
-  scene.numerics.double_precision = true;
-  scene.recording.duration_s = 0.06;
-  expect_same(scene);
-}
+TEST(FaceFriction, GivesTheBitsOfThePlainExecutorInTiles) { expect_same_in_tiles(faulted()); }
 
 TEST(FaceFriction, IsTheSameOnSeveralRanks) {
   const auto scene = faulted();
-  const auto alone = all_samples(shoot(scene, 1));
-  for (const int count : {2, 3})
-    EXPECT_TRUE(all_samples(shared_out(scene, count, 2)) == alone) << count << " ranks";
+  expect_same_on_ranks(scene, all_samples(shoot(scene, 1)));
 }
 
 TEST(FaceFriction, ContinuesFromACheckpoint) { expect_to_continue(faulted()); }
 
-TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) {
-  auto scene = faulted();
-  scene.recording.duration_s = 0.3;
-  const auto single = all_samples(shoot(scene, 1));
-  scene.numerics.double_precision = true;
-  const auto precise = all_samples(shoot(scene, 1));
-  // Stresses and velocities have scales of their own: each by the largest of its trace.
-  const std::size_t a_trace = precise.size() / 15;
-  for (std::size_t n = 0; n < precise.size(); n += a_trace) {
-    double off = 0, largest = 0;
-    for (auto k = n; k < n + a_trace; ++k) {
-      off = std::max(off, std::abs(single[k] - precise[k]));
-      largest = std::max(largest, std::abs(precise[k]));
-    }
-    EXPECT_LT(off, 1e-4 * largest) << n / a_trace;
-  }
-}
+TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(faulted()); }
 
 TEST(FaceFriction, KeepsItsPrestressInCellsOfAnotherSize) {
   Model<2> model;
