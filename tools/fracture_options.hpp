@@ -32,10 +32,9 @@ struct FractureSettings {
 /// What the planes do. What is usual: docs/slip.md.
 inline void declare_laws(cli::Options& options, FractureSettings& settings) {
   options.add("friction", settings.friction, "Q", "coefficient of friction; of rock 0.6 to 0.85");
-  options.add(
-      "viscosity", settings.viscosity_s, "ETA",
-      "viscosity of slip, s: above the strength by a share of 1 planes slip at 1/ETA; 0: dry friction; "
-      "see --for-frequency");
+  options.add("viscosity", settings.viscosity_s, "ETA",
+              "viscosity of slip, s: at twice the strength planes slip at 1/ETA; 0: dry friction; see "
+              "--for-frequency");
   options.add("for-frequency", settings.for_hz, "HZ",
               "instead of --viscosity: that at which slip competes with waves of HZ and --strain-rate");
   options.add("strain-rate", settings.strain_rate, "RATE",

@@ -126,7 +126,7 @@ TEST_F(FaultOfWriting, ADirectoryThatMayNotBeWrittenIsNamed) {
 
 TEST_F(FaultOfWriting, AnOutputRemovedUnderARunningToolIsMissed) {
   const std::string waiting = "until test -n \"$(find there -name '.out*' -size ";
-  const std::string shot = "sw-shoot in/m.nc --source 150,10 --wavelet ricker:10 --time 2 ";
+  const std::string shot = "sw-shoot in/m.nc --source 150,10 --wavelet ricker:10 ";
   const auto expect_missed = [&](const std::string& line, const std::string& size,
                                  const std::string& removal) {
     const Ran ran = run("mkdir there; " + line + " & " + waiting + size + ")\"; do sleep 0.01; done; " +
@@ -137,8 +137,9 @@ TEST_F(FaultOfWriting, AnOutputRemovedUnderARunningToolIsMissed) {
     done("rm -rf there");
   };
   for (const std::string removal : {"rm there/.out*", "rm -r there"}) {
-    expect_missed(shot + "--receivers 3,3 -o there/out", "-1", removal);
-    expect_missed(shot + "--every 0.001 --snapshots there/out -o /dev/null", "+20k", removal);
+    // Long enough to be running still when this shell gets its turn on a busy machine.
+    expect_missed(shot + "--time 20 --receivers 3,3 -o there/out", "-1", removal);
+    expect_missed(shot + "--time 2 --every 0.001 --snapshots there/out -o /dev/null", "+20k", removal);
   }
 }
 
