@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "fracture/face_law.hpp"
@@ -21,6 +22,11 @@ struct PartedFace {
   /// Whether both sides may move apart across it (pair 0) or along it.
   bool parts(int pair) const {
     return pair == 0 ? normal_m_per_pa > 0 || law.opens : tangential_m_per_pa > 0 || law.slides;
+  }
+  /// Whether the sides pull each other back.
+  bool springs() const {
+    const auto spring = [](double compliance) { return compliance > 0 && std::isfinite(compliance); };
+    return spring(normal_m_per_pa) || spring(tangential_m_per_pa);
   }
   /// The cell on the other side; that behind it at the first row of a part of the model.
   Index<D> before() const {

@@ -121,8 +121,6 @@ TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
     for (const auto& plane : planes) {
       const unsigned seed = next++;
       const bool even = (seed + seed / 10) % 2 == 0;
-      // Springs on faces without friction grow at higher orders, too: 1.005 times in 20000 steps at order 9.
-      if (plane.compliance > 0 && order > 7) continue;
       // The long form shares the kinds out among the orders.
       if (long_form() && (seed + unsigned(order) / 2) % 2 == 0) continue;
       const auto run = [&](auto real) {
@@ -165,6 +163,30 @@ TEST_P(PartedFaces, OnTheVergeOfSlipNeverAddEnergyToAllStressBetweenWalls) {
       expect_bounded<double>(setup);
       ++seed;
     }
+}
+
+// A few cells below softer rock springs fed waves at orders 9 and 11, by half of what was left in these
+// steps.
+TEST(SpringsOnFaces, NearAnInterfaceLoseEnergyAtHighOrders) {
+  const ThreadLimit one_thread(1);
+  constexpr int width = 40, rows_below = 4;
+  typename Lab<double>::Setup setup;
+  setup.medium = medium_named("SofterRockInRock", width);
+  setup.order = 11;
+  setup.seed = 8;
+  const auto& grid = setup.medium.grid();
+  const double depth = grid.spacing_m * (width - width / 3 + rows_below);
+  setup.fracture_sets = {fractures({{{0, depth}, {grid.spacing_m * width, depth}}}, 0, 5e-10)};
+  setup.fracture = Field<2, std::uint8_t>(grid);
+  Lab<double> lab(setup);
+  double lowest = lab.energy();
+  for (int n = 0; n < 12000; ++n) {
+    lab.step();
+    if (n % 10 != 9) continue;
+    const double now = lab.energy();
+    ASSERT_TRUE(now <= lowest * 1.001) << "step " << n << ": " << now << " after " << lowest;
+    lowest = std::min(lowest, now);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Media, PartedFaces,

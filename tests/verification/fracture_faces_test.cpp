@@ -39,6 +39,16 @@ TEST(FractureOnFaces, IsTheSameOnSeveralRanks) {
   EXPECT_FALSE(all_samples(shoot(whole, 1)) == alone);
 }
 
+// Along springs the order is lower in some rows on both sides, whichever ranks have them.
+TEST(FractureOnFaces, AtHighOrdersIsTheSameOnSeveralRanks) {
+  auto scene = two_rocks();
+  scene.numerics.order = 11;
+  std::vector<FractureTrace<2>> springs;
+  for (double depth = 60; depth < 760; depth += 20) springs.push_back({{150, depth}, {300, depth}});
+  add(scene.model, 2e-11, 5e-11, springs);
+  expect_same_on_ranks(scene, all_samples(shoot(scene, 1)));
+}
+
 TEST(FractureOnFaces, ContinuesFromACheckpoint) { expect_to_continue(cracked()); }
 
 TEST(FractureOnFaces, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(cracked()); }

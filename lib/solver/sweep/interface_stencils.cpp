@@ -331,27 +331,17 @@ static int reach_beside_tilted(const Walk<D>& down, const Walk<D>& up, int reach
                   reach_up_to(to_turned, 1, reach));
 }
 
-/// Cells the reconstruction may reach along an axis for cells that carry next to no stress.
-template <int D>
-static int reach_beside_soft(const SoftLine& soft, const Grid<D>& grid, const Index<D>& at, int axis,
-                             int reach) {
-  const auto is_soft = [&](int offset) {
-    auto other = at;
-    auto& place = other[std::size_t(axis)];
-    place += offset;
-    return place >= 0 && place < grid.shape[std::size_t(axis)] &&
-           std::binary_search(soft.cells.begin(), soft.cells.end(), grid.flat(other));
-  };
-  for (int cells = 0; !soft.cells.empty() && cells < reach; ++cells)
-    if (is_soft(-cells) || is_soft(cells)) return reach_up_to(cells, most_reach_in_soft_cells, reach);
-  return reach;
+int ReachBounds::at(std::int64_t cell, int reach) const {
+  const auto found = std::lower_bound(cells.begin(), cells.end(), cell);
+  if (found == cells.end() || *found != cell) return reach;
+  return std::min(reach, reaches[std::size_t(found - cells.begin())]);
 }
 
 template <int D>
 InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave,
                                      int reach, const RisesFrom<D>& rises_from,
                                      const SlotBefore<D>& slot_before, const TiltedFaces<D>& tilted,
-                                     const PartedLine<D>& parted, const SoftLine& soft)
+                                     const PartedLine<D>& parted, const ReachBounds& bounds)
     : wave_(wave) {
   const auto& grid = impedance.grid();
   const std::int64_t nx = grid.shape[0], lines = grid.size() / nx;
@@ -359,7 +349,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
   std::vector<std::int32_t> marks(std::size_t(nx), 0);
   for (std::int64_t line = 0; line < lines; ++line) {
     mark(impedance, line, axis, reach, marks);
-    for (const auto* cells : {&parted.near, &tilted.contrasts.near, &soft.near})
+    for (const auto* cells : {&parted.near, &tilted.contrasts.near, &bounds.cells})
       mark_these(*cells, line * nx, marks);
     for (std::int64_t x = 0; x < nx; ++x) {
       if (marks[std::size_t(x)] == 0) continue;
@@ -375,8 +365,7 @@ InterfaceStencils::InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D
       const Side low = side_of(down, extension_of(edges[axis][0], wave), reach);
       const Side high = side_of(up, extension_of(edges[axis][1], wave), reach);
       const int to_contrast = std::min(cells_to_contrast(down, reach), cells_to_contrast(up, reach));
-      const int at_most =
-          std::min(reach_beside_tilted(down, up, reach), reach_beside_soft(soft, grid, at, axis, reach));
+      const int at_most = bounds.at(line * nx + x, reach_beside_tilted(down, up, reach));
       // Cells with nothing but an edge of the grid near read the ghost cells beyond it.
       if (low.inside || high.inside) {
         const auto slot = [&](const Side& side, std::int64_t cells) {
@@ -467,10 +456,12 @@ template void extended_pair(const InterfaceStencil&, int, std::int64_t, const do
                             std::int64_t);
 template InterfaceStencils::InterfaceStencils(const Field<2>&, const EdgeLaws<2>&, int, Wave, int,
                                               const RisesFrom<2>&, const SlotBefore<2>&,
-                                              const TiltedFaces<2>&, const PartedLine<2>&, const SoftLine&);
+                                              const TiltedFaces<2>&, const PartedLine<2>&,
+                                              const ReachBounds&);
 template InterfaceStencils::InterfaceStencils(const Field<3>&, const EdgeLaws<3>&, int, Wave, int,
                                               const RisesFrom<3>&, const SlotBefore<3>&,
-                                              const TiltedFaces<3>&, const PartedLine<3>&, const SoftLine&);
+                                              const TiltedFaces<3>&, const PartedLine<3>&,
+                                              const ReachBounds&);
 template void InterfaceStencils::correct_line(int, std::int64_t, const IndexRange&, std::int64_t,
                                               const float*, const float*, const MaterialRows<float>&, float,
                                               float*, float*, const PairCorrections<float>&,

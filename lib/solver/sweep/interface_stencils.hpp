@@ -45,6 +45,9 @@ constexpr int most_reach_at_mirrors = 3;
 /// In cells of a cluster that carry next to no stress, where more of it fed motion between contrasts
 /// (theory.md, 2.6).
 constexpr int most_reach_in_soft_cells = 1;
+/// Along a fracture with a spring, in the cells next to it: with more, springs fed waves from order 9 on
+/// (theory.md, 2.8).
+constexpr int most_reach_along_springs = 2;
 /// Cells the reconstruction may reach in a cell with `cells` others up to what it may reach `beyond` cells
 /// across: the order rises away from it, since it may always reach up to it.
 constexpr int reach_up_to(int cells, int beyond, int reach) {
@@ -143,9 +146,14 @@ struct PartedLine {
   std::function<std::int32_t(const Index<D>& behind)> slot{};
 };
 
-/// Cells of clusters that carry next to no stress, and those within reach of them along one axis, ascending.
-struct SoftLine {
-  std::vector<std::int64_t> cells{}, near{};
+/// Cells whose reconstruction along one axis is bounded by something besides interfaces and contrasts in line
+/// with them, ascending, and how many cells it may reach there.
+struct ReachBounds {
+  std::vector<std::int64_t> cells{};
+  std::vector<int> reaches{};
+
+  /// At most `reach`.
+  int at(std::int64_t cell, int reach) const;
 };
 
 /// Such cells of all rows for one axis and wave; the bulk kernel runs over all cells without a branch, then
@@ -160,7 +168,7 @@ class InterfaceStencils {
   InterfaceStencils(const Field<D>& impedance, const EdgeLaws<D>& edges, int axis, Wave wave, int reach,
                     const RisesFrom<D>& rises_from, const SlotBefore<D>& slot_before,
                     const TiltedFaces<D>& tilted = {}, const PartedLine<D>& parted = {},
-                    const SoftLine& soft = {});
+                    const ReachBounds& bounds = {});
   /// That of a cell, null where the bulk kernel serves.
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 

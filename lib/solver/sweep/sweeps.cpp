@@ -86,17 +86,34 @@ PartedLine<D> parted_along(const Domain<D>& domain, int axis, int pair, int reac
   return line;
 }
 
-/// Where cells carry next to no stress.
+/// In cells that carry next to no stress and in line with them, and along fractures with springs.
 template <int D>
-SoftLine soft_along(const Domain<D>& domain, int axis, int reach) {
-  SoftLine line;
-  if (reach <= most_reach_in_soft_cells) return line;
-  line.cells = domain.soft;
+ReachBounds reach_bounds(const Domain<D>& domain, int axis, int reach) {
+  const auto& grid = domain.grid;
+  std::vector<std::pair<std::int64_t, int>> found;  // cell, reach
+  std::vector<std::int64_t> cells;
+  const auto bound = [&](const Index<D>& from, int along, std::int64_t offset, int to) {
+    cells.clear();
+    add_cells_along(grid, from, along, offset, offset, cells);
+    for (const auto cell : cells) found.emplace_back(cell, to);
+  };
   for (const auto cell : domain.soft)
-    add_cells_along(domain.grid, domain.grid.index(cell), axis, -reach, reach, line.near);
-  std::sort(line.near.begin(), line.near.end());
-  line.near.erase(std::unique(line.near.begin(), line.near.end()), line.near.end());
-  return line;
+    for (int offset = 1 - reach; offset < reach; ++offset)
+      bound(grid.index(cell), axis, offset, reach_up_to(std::abs(offset), most_reach_in_soft_cells, reach));
+  for (const auto& face : domain.parted) {
+    if (face.axis == axis || !face.springs()) continue;
+    for (int n = 0; most_reach_along_springs + n < reach; ++n)
+      for (const int offset : {-1 - n, n})
+        bound(face.behind, face.axis, offset, most_reach_along_springs + n);
+  }
+  std::sort(found.begin(), found.end());
+  ReachBounds bounds;
+  for (const auto& [cell, to] : found) {
+    if (!bounds.cells.empty() && bounds.cells.back() == cell) continue;
+    bounds.cells.push_back(cell);
+    bounds.reaches.push_back(to);
+  }
+  return bounds;
 }
 
 }  // namespace
@@ -132,8 +149,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
              s_waves(beside) > 0;
     };
   }
-  std::array<SoftLine, std::size_t(D)> soft;
-  for (int axis = 0; axis < D; ++axis) soft[std::size_t(axis)] = soft_along(domain, axis, reach_);
+  std::array<ReachBounds, std::size_t(D)> bounds;
+  for (int axis = 0; axis < D; ++axis) bounds[std::size_t(axis)] = reach_bounds(domain, axis, reach_);
   // Each reads all cells.
   if (domain.splits_shear()) distinct_pairs_ = D;
   parallel_for(std::int64_t(distinct_pairs_) * D, 1, [&](std::int64_t begin, std::int64_t end, int) {
@@ -148,7 +165,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       };
       stencils_[std::size_t(axis)][std::size_t(pair)] = InterfaceStencils(
           domain.impedance_of_pair(axis, pair), edges_, axis, wave, reach_, rises_from, slot_before,
-          tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), soft[std::size_t(axis)]);
+          tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), bounds[std::size_t(axis)]);
     }
   });
   if constexpr (D == 2) {
