@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "accuracy/beyond_sides.hpp"
 #include "accuracy/grazing.hpp"
 #include "accuracy/local_stack.hpp"
 #include "accuracy/upright_plane.hpp"
@@ -38,6 +39,9 @@ constexpr double shift_of_means = 0.13, shift_of_gentle_means = 0.087, shift_of_
 /// Fluid that stairs make resist motion of the solid along them, and at a free surface the solid itself, in
 /// cells.
 constexpr double drag_of_stairs = 1.5, drag_of_surface_stairs = 0.3;
+/// Apparent shift of interfaces that rows follow round bends, in cells over the square of the curvature times
+/// the cell.
+constexpr double shift_in_bends = 0.3;
 /// Of an interface known to lie beside its face, the share of the way that counts.
 constexpr double share_of_offset = 0.6;
 /// By how much near fields are worse at order 3, and in the pressure of a force, which is weak beside it.
@@ -51,6 +55,9 @@ constexpr double bent_water = 0.018, bent_rock = 0.018, bent_bound = 0.01;
 /// What comes back from where an interface becomes level beyond a side, by its slope and how well it
 /// reflects; and the share of it where rows follow it, which dip further (theory.md (F10)).
 constexpr double bent_interface = 0.055, bent_fitted = 0.6;
+/// What zones take of the amplitude that such an interface, straight on, would send back from beyond the
+/// side.
+constexpr double taken_by_sides = 0.5;
 /// Error per wavelength of waves bound to a free surface or to an interface of fluid and solid, in stairs and
 /// where it is corrected (theory.md (E11a)), at 24 cells per wavelength of the slower wave; it falls with
 /// their cube.
@@ -265,9 +272,10 @@ struct ErrorSources::Shot {
   std::vector<double> by_face, by_drag;  // squared error per squared metre, at nominal_hz
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
-  double fit_of_quality = 0;  // squared error, times the energy
-  double at_source = 0;       // change_at_source()
-  double unevenness = 0;      // unevenness_at_source()
+  double fit_of_quality = 0;             // squared error, times the energy
+  std::optional<Mechanisms> mechanisms;  // of rock that attenuates
+  double at_source = 0;                  // change_at_source()
+  double unevenness = 0;                 // unevenness_at_source()
   Point<2> source_m{};
   std::vector<Point<2>> receivers_m;  // in 3-D in the plane
   bool in_3d = false, x_is_known = true;
@@ -330,6 +338,10 @@ struct ErrorSources::Shot {
   double bent_sides(const LocalInterface& interface) const;
   /// Of an interface that bends where it leaves the model.
   double bent_interfaces(const LocalInterface& interface) const;
+  /// Of an interface that dips at a side: what it would reflect from beyond it.
+  double beyond_sides(std::size_t face) const;
+  /// Squared error, times the energy, of what relaxes at steps alone.
+  double relaxation_error(const Discretisation& cells) const;
   double weak_interfaces(const Discretisation& cells) const;
   /// Of a body of another matter beside the way of the waves.
   double body(const Discretisation& cells) const;
@@ -414,7 +426,45 @@ void ErrorSources::Shot::count(Recorded what, const std::optional<Attenuation>& 
   for (std::size_t r = 0; r < weights.size(); ++r) energies.push_back(energy_of(response.records(r), r));
   energy = std::accumulate(energies.begin(), energies.end(), 0.);
   for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
-  if (attenuation) fit_of_quality = quality_error(*attenuation);
+  if (attenuation) {
+    fit_of_quality = quality_error(*attenuation);
+    mechanisms = attenuation->mechanisms;
+  }
+}
+
+/// Waves as they are with relaxation at steps, and what is recorded and put in up to half a step of it early
+/// or late.
+double ErrorSources::Shot::relaxation_error(const Discretisation& cells) const {
+  if (!mechanisms) return 0;
+  const double interval_s = cells.time_order == 2 ? 2 * cells.time_step_s : cells.time_step_s;
+  double sum = 0;
+  // Factors on the speed by layer, wave and bin.
+  std::vector<std::vector<Complex>> faster(2 * stack.losses.size());
+  for (std::size_t n = 0; n < faster.size(); ++n) {
+    const double loss = stack.losses[n / 2][n % 2];
+    if (!(loss > 0)) continue;
+    const auto shares = mechanisms->shares(1 / loss);
+    for (std::size_t bin = 0; bin < response.bins(); ++bin) {
+      const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
+      faster[n].push_back(
+          std::sqrt(mechanisms->stepwise_modulus(shares, hz, interval_s) / mechanisms->modulus(shares, hz)) -
+          1.);
+    }
+  }
+  for (std::size_t r = 0; r < energies.size(); ++r) {
+    RecordSpectrum wrong(response.bins());
+    for (std::size_t n = 0; n < faster.size(); ++n) {
+      if (faster[n].empty()) continue;
+      const auto& change = response.by_speed(n / 2, int(n % 2), r);
+      for (std::size_t bin = 0; bin < wrong.size(); ++bin)
+        for (const std::size_t c : {0, 1, 2}) wrong[bin][c] += faster[n][bin] * change[bin][c];
+    }
+    sum += energy_of(wrong, r);
+  }
+  const auto& at_source = stack.losses[stack.places.source_layer()];
+  const double late = 2 * std::numbers::pi * nominal_hz * interval_s / 8 *
+                      std::max(at_source[0], source_is_force() ? at_source[1] : 0);
+  return sum + late * late * energy;
 }
 
 void ErrorSources::Shot::add_face(std::size_t face) {
@@ -535,8 +585,10 @@ double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& ce
   if (interface.representation == averaged && interface.stairs < 1e-3)
     by *= std::max(0.1, 4 * interface.cut * (1 - interface.cut));
   const double offset = share_of_offset * offset_m(face, cells),
+               bends = shift_in_bends * cells.spacing_m *
+                       std::pow(cells.spacing_m * interface.curvature_per_m, 2),
                drag = (interface.kind == Kind::surface ? drag_of_surface_stairs : drag_of_stairs) * h;
-  return by_face[face] * (by * by + offset * offset) + by_drag[face] * drag * drag;
+  return by_face[face] * (by * by + offset * offset + bends * bends) + by_drag[face] * drag * drag;
 }
 
 double ErrorSources::Shot::near_field(const Discretisation& cells) const {
@@ -655,6 +707,29 @@ double ErrorSources::Shot::bent_interfaces(const LocalInterface& interface) cons
 
 /// Each of them counts as moved like those that are followed, by what it reflects: a wave that meets it at
 /// the angle a from its normal is late by 2 d cos a of the way there, at the speed that rock has there.
+double ErrorSources::Shot::beyond_sides(std::size_t face) const {
+  const auto& places = stack.places;
+  const std::size_t first = places.free_surface ? 1 : 0;
+  if (in_3d || face < first) return 0;
+  const auto impedance = [&](std::size_t layer) {
+    return places.layers[layer].rho * places.layers[layer].vp;
+  };
+  const double above = impedance(face - first), below = impedance(face - first + 1);
+  const double speed = places.layers[places.source_layer()].vp;
+  double sum = 0;
+  for (const auto& side : stack.interfaces[face].sides) {
+    const LineBeyondSide line{side.at_m,
+                              side.at_m[0] > source_m[0],
+                              side.slope,
+                              std::abs(below - above) / (below + above),
+                              places.free_surface && face == first,
+                              places.free_surface ? source_m[1] + places.faces_m[0] : 0};
+    for (std::size_t r = 0; r < receivers_m.size(); ++r)
+      sum += energies[r] * reflected_from_beyond(line, source_m, receivers_m[r], speed * places.duration_s,
+                                                 speed / nominal_hz);
+  }
+  return taken_by_sides * taken_by_sides * sum;
+}
 double ErrorSources::Shot::weak_interfaces(const Discretisation& cells) const {
   const auto& places = stack.places;
   const bool from_fluid = !(places.layers[places.source_layer()].vs > 0);
@@ -987,9 +1062,12 @@ void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells,
       sums.add(
           {"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
           shot.bent_sides(interface));
-  for (const auto& interface : stack.interfaces) {
-    const double bent = shot.bent_interfaces(interface);
-    sums.sides += bent;
+  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) {
+    const double bent = shot.bent_interfaces(stack.interfaces[face]), beyond = shot.beyond_sides(face);
+    sums.sides += bent + beyond;
+    sums.add({"reflections from beyond the sides of the model, where interfaces dip", "move the sides away",
+              0, false},
+             beyond);
     sums.add({"interfaces that are level beyond the sides of the model, and bend there",
               "move the sides away", 0, false},
              bent);
@@ -1014,6 +1092,7 @@ void ErrorSources::add_all_else(const Shot& shot, const Discretisation& cells, S
   for (const auto& edge : shot.edges)
     sums.add({"waves that graze the " + edge.name + " absorbing edge", "move the edge away", 0, false},
              shot.edge_error(edge, cells));
+  sums.add({"attenuation, which acts once a step", "", 0, true}, shot.relaxation_error(cells));
   sums.add({"fit of Q by mechanisms", "--q-mechanisms, --q-band", 0, false}, shot.fit_of_quality);
   const double slip = shot.slip(cells);
   sums.slip += slip;

@@ -321,6 +321,18 @@ bool is_straight(const Followed& line) {
   return most - least < 0.2;
 }
 
+/// See LocalInterface::curvature_per_m.
+double curvature_of(const Columns& columns, const Followed& line) {
+  const auto depth = [&](std::size_t m) { return columns.depth(line.first + std::int64_t(m), line.rows[m]); };
+  const std::size_t count = line.rows.size();
+  if (count < 3) return 0;
+  double sum = 0;
+  for (std::size_t m = 1; m + 1 < count; ++m)
+    sum +=
+        std::pow((depth(m - 1) - 2 * depth(m) + depth(m + 1)) / (columns.spacing() * columns.spacing()), 4);
+  return std::pow(sum / double(count - 2), 0.25);
+}
+
 void describe(const Columns& columns, const Followed& line, LocalInterface& interface, bool rows_bend) {
   const auto count = line.rows.size();
   interface.dip_deg = degrees(slope_of(columns, line, 0, count));
@@ -342,6 +354,7 @@ void describe(const Columns& columns, const Followed& line, LocalInterface& inte
     interface.representation = rows_bend ? fitted : on_faces;
   else
     interface.representation = interface.kind == LocalInterface::Kind::inner ? averaged : staircase;
+  if (interface.representation == fitted) interface.curvature_per_m = curvature_of(columns, line);
 }
 
 /// Depths of the level tops of layers that a command line of sw-layers in a model's history names.
@@ -498,14 +511,16 @@ class Tracker {
     if (interface.representation == Representation::averaged && interface.stairs < 1e-3)
       interface.block = cells_cut(line.row(column_));
     if (interface.kind != LocalInterface::Kind::surface)
-      interface.sides = sides_of(Follower(columns_, upper, lower), double(row));
+      interface.sides = sides_of(Follower(columns_, upper, lower), double(row), interface.representation);
     stack_.interfaces.push_back(interface);
     lines_.push_back(std::move(line));
   }
 
   /// Where what begins at a row of the source's column leaves the model.
-  std::vector<LocalInterface::Side> sides_of(const Follower& follower, double row) const {
-    constexpr std::int64_t window = 16;
+  std::vector<LocalInterface::Side> sides_of(const Follower& follower, double row,
+                                             Representation representation) const {
+    // Cut cells and stairs show a slope over many columns, rows continue that of the last few.
+    const std::int64_t window = representation == Representation::fitted ? 4 : 16;
     const auto count = columns_.count();
     const auto line = follow(follower, column_, row, 0, count - 1);
     const auto size = std::int64_t(line.rows.size());

@@ -30,6 +30,8 @@ struct LocalInterface {
   double depth_m = 0;      // below the source
   double dip_deg = 0;      // of the straight line nearest to it
   double steepest_deg = 0;
+  /// Curvature d2z/dx2 of one that rows follow, 1/m: the fourth root of the mean of its fourth power.
+  double curvature_per_m = 0;
   double stairs = 0;  // rows of cells that it crosses
   double cut = 0;     // where it is level, the share of the cells it cuts that lies above it
   /// Cells a side that are alike, as after a model was split: what geometry is known to.

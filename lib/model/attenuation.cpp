@@ -31,6 +31,11 @@ std::complex<double> relaxed(double hz, double rate) {
   return 1. / std::complex<double>(1, 2 * std::numbers::pi * hz / rate);
 }
 
+/// A_l of (Q8).
+double part_relaxed(double half_interval) {
+  return half_interval > 0 ? std::tanh(half_interval) / half_interval : 1;
+}
+
 /// The P modulus is the bulk modulus and this many times the shear modulus.
 template <int D>
 constexpr double of_shear = D == 2 ? 1. : 4. / 3;
@@ -182,6 +187,18 @@ std::complex<double> Mechanisms::modulus(const RelaxedShares& shares, double hz)
   return modulus;
 }
 
+std::complex<double> Mechanisms::stepwise_modulus(const RelaxedShares& shares, double hz,
+                                                  double interval_s) const {
+  const double b = std::numbers::pi * hz * interval_s;
+  std::complex<double> modulus = 1;
+  for (std::size_t l = 0; l < std::size_t(count_); ++l) {
+    const double a = rates_[l] * interval_s / 2, part = part_relaxed(a);
+    modulus -= shares[l] *
+               (1 - part + part * std::sinh(a) * std::sin(b) / b / std::sinh(std::complex<double>(a, b)));
+  }
+  return modulus;
+}
+
 double Mechanisms::quality(const RelaxedShares& shares, double hz) const {
   const auto of = modulus(shares, hz);
   return of.real() / of.imag();
@@ -276,10 +293,8 @@ template <int D>
 StepwiseRelaxation<D>::StepwiseRelaxation(const Medium<D>& medium, const Mechanisms& mechanisms,
                                           double interval_s)
     : medium_(&medium), mechanisms_(mechanisms), interval_s_(interval_s) {
-  for (int l = 0; l < mechanisms.count(); ++l) {
-    const double half = mechanisms.rate(l) * interval_s / 2;
-    parts_[std::size_t(l)] = half > 0 ? std::tanh(half) / half : 1;
-  }
+  for (int l = 0; l < mechanisms.count(); ++l)
+    parts_[std::size_t(l)] = part_relaxed(mechanisms.rate(l) * interval_s / 2);
 }
 
 /// Those of a medium that relaxes all the time.

@@ -33,6 +33,8 @@ class Mechanisms {
   RelaxedShares shares(double q) const;
   /// The modulus at a frequency over the unrelaxed one (Q1).
   std::complex<double> modulus(const RelaxedShares& shares, double hz) const;
+  /// The same of a plane wave whose stress relaxes every `interval_s` only, as in the scheme (Q8a).
+  std::complex<double> stepwise_modulus(const RelaxedShares& shares, double hz, double interval_s) const;
   /// The quality factor at a frequency.
   double quality(const RelaxedShares& shares, double hz) const;
   /// The largest relative deviation of Q from the wanted one in the band.

@@ -52,6 +52,43 @@ TEST(Mechanisms, GiveTheQualityWantedWithinThreePercentOverTheBand) {
   }
 }
 
+// Steps of relaxation, as (Q7) and (Q8) take them under a strain that oscillates: stress of its frequency.
+TEST(Mechanisms, HaveTheModulusOfTheirStepsOfRelaxation) {
+  const Mechanisms mechanisms(3, 5, 62.5);
+  const auto shares = mechanisms.shares(20);
+  constexpr double hz = 25, omega = 2 * std::numbers::pi * hz;
+  constexpr int in_a_step = 400, steps = 2000;
+  for (const double interval_s : {0.005, 0.0013}) {
+    std::array<double, 3> parts{}, kept_parts{};
+    double left = 1;
+    for (std::size_t l = 0; l < 3; ++l) {
+      const double a = mechanisms.rate(int(l)) * interval_s / 2;
+      parts[l] = std::tanh(a) / a;
+      left -= shares[l] * (1 - parts[l]);
+    }
+    for (std::size_t l = 0; l < 3; ++l) kept_parts[l] = shares[l] * parts[l] / left;
+    std::array<std::complex<double>, 3> let_go{};
+    std::complex<double> sum = 0;
+    for (int step = 0; step < steps; ++step) {
+      const double start = step * interval_s;
+      for (std::size_t l = 0; l < 3; ++l)
+        let_go[l] += (1 - std::exp(-mechanisms.rate(int(l)) * interval_s)) *
+                     (kept_parts[l] * std::polar(1., omega * start) - let_go[l]);
+      if (step < steps / 2) continue;
+      for (int n = 0; n < in_a_step; ++n) {
+        const double time = start + (n + 0.5) * interval_s / in_a_step;
+        sum += left * (std::polar(1., omega * time) - let_go[0] - let_go[1] - let_go[2]) *
+               std::polar(1., -omega * time);
+      }
+    }
+    const auto found = sum / double(steps / 2 * in_a_step);
+    const auto stated = mechanisms.stepwise_modulus(shares, hz, interval_s);
+    EXPECT_LT(std::abs(found - stated), 0.05 * std::abs(found - mechanisms.modulus(shares, hz)))
+        << interval_s;
+    EXPECT_GT(std::abs(found - mechanisms.modulus(shares, hz)), interval_s > 0.002 ? 5e-4 : 5e-6);
+  }
+}
+
 TEST(Mechanisms, AreOfPositiveSharesBelowTheWholeModulus) {
   for (const int count : {2, 3, 4, 5}) {
     const Mechanisms mechanisms(count, 4, 50);

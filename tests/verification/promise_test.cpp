@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
+#include <numbers>
 
 #include "accuracy/choice.hpp"
 #include "accuracy/expected_error.hpp"
 #include "accuracy/finer_model.hpp"
+#include "fitted_scenes.hpp"
 #include "marmousi_parts.hpp"
 #include "promise_scenes.hpp"
 #include "solver/simulation.hpp"
@@ -232,6 +235,93 @@ TEST(Promise, CountsAFittedFloorThatBendsAtTheSidesOfTheModel) {
   const auto fine = *WavesOfScene(floor.scene).promised({7, time_step_s(floor.scene) / 4, 1.05});
   EXPECT_GT(cause_named(fine, "bend there"), 0.9 * fine.error);
   EXPECT_NEAR(fine.floor, cause_named(fine, "bend there"), 1e-3 * fine.floor);
+}
+
+/// Water under a free surface, 200 m deep, over rock, from x = `from_m` to `to_m`; in the middle of the
+/// surface an explosion, receivers beside it.
+Scene<2> below_waves(const std::function<double(double)>& floor_m, double spacing_m, double from_m,
+                     double to_m, double receivers_m) {
+  const Grid<2> grid{
+      {std::int64_t((to_m - from_m) / spacing_m), std::int64_t(600 / spacing_m)}, spacing_m, {from_m, 0}};
+  Scene<2> scene;
+  scene.model.medium = fitted_medium<2>(
+      grid, {water_above, below([&](double x, double) { return floor_m(x); }, {2000, 1000, 2000})});
+  scene.survey.sources = {{{500, 20}, Explosion{}, parse_wavelet("ricker:10"), 1e6}};
+  for (double away = 100; away <= receivers_m; away += 100)
+    for (const double side : {-1., 1.}) scene.survey.receivers_m.push_back({500 + side * away, 30});
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.edges[1][0] = EdgeLaw::free;
+  scene.recording = {{Component::vx, Component::vz, Component::p}, 1.2, 0.001};
+  return scene;
+}
+
+// A floor that is steep at the sides sends waves back from beyond them, in the water, which zones take away.
+// The reference is a model that goes on there.
+TEST(Promise, CountsWhatASteepFloorReflectsFromBeyondTheSides) {
+  constexpr double k = 2 * std::numbers::pi / 126, width = 1000;
+  for (const double height : {20., 10., 5.}) {
+    const auto inside = [&](double x) { return 200 + height * std::sin(k * x); };
+    // On straight by a third of the depth, then level.
+    const auto on = [&](double beyond, double slope) {
+      const double straight = std::min(66 / std::abs(slope), 700.), bend = 60,
+                   part = std::clamp((beyond - straight) / bend, 0., 1.);
+      return slope * (std::min(beyond, straight) + bend / 3 * (1 - std::pow(1 - part, 3)));
+    };
+    const auto floor = [&](double x) {
+      if (x < 0) return inside(0) + on(-x, -height * k);
+      if (x > width) return inside(width) + on(x - width, height * k * std::cos(k * width));
+      return inside(x);
+    };
+    const auto scene = below_waves(floor, 5, 0, width, 400);
+    const auto promise = *expected_error(scene).promise;
+    const double found = relative_error(traces_of(scene), traces_of(below_waves(floor, 5, -800, 1800, 400)));
+    if (std::getenv("SLIPWAVE_SHOW"))
+      GTEST_LOG_(INFO) << height << " m: promised " << promise.error << ", found " << found;
+    EXPECT_GT(promise.error, found / 2) << height;
+    EXPECT_LT(promise.error, found * 2) << height;
+    EXPECT_GT(cause_named(promise, "from beyond the sides"), (height > 5 ? 0.8 : 0.3) * promise.error);
+  }
+}
+
+// A floor with crests that cells hardly know, level at the sides: most of the error, and gone in cells of
+// half the size.
+TEST(Promise, CountsBendsOfAFloorThatAreSharpForTheirCells) {
+  const auto floor = [](double x) {
+    const double to_side = std::min(x + 300, 1300 - x), part = std::clamp((to_side - 200) / 300, 0., 1.);
+    return 200 + 30 * std::sin(2 * std::numbers::pi * (x - 500) / 100) *
+                     (1 - std::cos(std::numbers::pi * part)) / 2;
+  };
+  const auto scene = below_waves(floor, 5, -300, 1300, 400), fine = below_waves(floor, 2.5, -300, 1300, 400);
+  const double promised = expected_error(scene).promise->error,
+               found = relative_error(traces_of(scene), traces_of(fine));
+  if (std::getenv("SLIPWAVE_SHOW")) GTEST_LOG_(INFO) << "promised " << promised << ", found " << found;
+  EXPECT_GT(promised, found / 2);
+  EXPECT_LT(promised, found * 2);
+  EXPECT_LT(expected_error(fine).promise->error, promised / 4);
+}
+
+TEST(Promise, CountsAttenuationThatActsOnceAStep) {
+  Scene<2> scene;
+  scene.model.medium = uniform_medium(300, 120, 4, {1500, 0, 1000});
+  scene.model.medium[Property::qp] = Field<2>(scene.model.grid(), 20);
+  scene.survey.sources = {{{102, 242}, Explosion{}, parse_wavelet("ricker:25"), 1e6}};
+  scene.survey.receivers_m = {{402, 242}, {702, 242}, {1002, 242}};
+  scene.edges = edges_all(EdgeLaw::absorbing);
+  scene.recording = {{Component::vx, Component::p}, 0.8, 0.001};
+  set_attenuation(scene, {});
+  scene.numerics.order = 9;
+  scene.numerics.time_order = 4;
+  scene.numerics.cfl = 0.2;
+  const auto fine = traces_of(scene);
+  for (const double cfl : {1.9, 1.}) {
+    scene.numerics.cfl = cfl;
+    const double promised = cause_named(*expected_error(scene).promise, "once a step"),
+                 found = relative_error(traces_of(scene), fine);
+    if (std::getenv("SLIPWAVE_SHOW"))
+      GTEST_LOG_(INFO) << "Courant " << cfl << ": promised " << promised << ", found " << found;
+    EXPECT_GT(promised, found / 2) << cfl;
+    EXPECT_LT(promised, found * 2) << cfl;
+  }
 }
 
 TEST(Promise, SaysWhichReceiversLieInCornersOfAStaircase) {
