@@ -542,8 +542,9 @@ double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
         return std::pow(Complex(0, hz / attenuation.reference_hz), power);
       };
       const auto speed_at = [](const Complex& complex) { return 1 / (1. / complex).real(); };
-      const double scale =
-          speed_at(factor(attenuation.reference_hz)) / speed_at(constant(attenuation.reference_hz));
+      // Beside the band speeds are those of a constant Q.
+      const double alike_hz = attenuation.mechanisms.speed_known_at(attenuation.reference_hz);
+      const double scale = speed_at(factor(alike_hz)) / speed_at(constant(alike_hz));
       const auto& change = response.by_speed(n / 2, int(n % 2), r);
       for (std::size_t bin = 0; bin < wrong.size(); ++bin) {
         const double hz = response.omega(bin).real() / (2 * std::numbers::pi);

@@ -204,6 +204,16 @@ double Mechanisms::quality(const RelaxedShares& shares, double hz) const {
   return of.real() / of.imag();
 }
 
+double Mechanisms::unrelaxed_speed(double q, double hz) const {
+  const double known_hz = speed_known_at(hz);
+  const double factor = std::pow(modulus(shares(q), known_hz), -0.5).real();
+  return known_hz == hz ? factor : factor * faster_by_constant_quality(q, hz, known_hz);
+}
+
+double faster_by_constant_quality(double q, double from_hz, double to_hz) {
+  return std::pow(to_hz / from_hz, std::atan(1 / q) / std::numbers::pi);
+}
+
 double Mechanisms::largest_error(double q) const {
   const auto of = shares(q);
   double sum = 0;
@@ -241,7 +251,7 @@ void check_fit(const Medium<D>& medium, std::size_t cell, const Mechanisms& mech
               shown(100 * mechanisms.error_limit(), 2) + " % from " + shown(mechanisms.least_quality(), 3) +
               " up" +
               (mechanisms.count() < most_mechanisms
-                   ? "; raise it or use --q-mechanisms " + std::to_string(mechanisms.count() + 1)
+                   ? "; raise it or use --q-mechanisms " + std::to_string(most_mechanisms)
                    : "; raise it"));
 }
 
@@ -269,9 +279,7 @@ std::string unrelax(Medium<D>& medium, const Attenuation& attenuation) {
       first = "qp at " + place_of(medium.grid(), std::int64_t(cell)) + " is " + shown(given.p, 4) +
               ", more than its qs of " + shown(given.s, 4) + " allows: " + shown(most, 4);
     medium[Property::qp][cell] = float(std::min(given.p, most));
-    const auto factor = [&](double q) {
-      return std::pow(mechanisms.modulus(mechanisms.shares(q), reference_hz), -0.5).real();
-    };
+    const auto factor = [&](double q) { return mechanisms.unrelaxed_speed(q, reference_hz); };
     medium.vp[cell] = float(vp * factor(std::min(given.p, most)));
     medium.vs[cell] = float(vs * factor(given.s));
     if (!rock) continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <string>
 #include <vector>
@@ -37,6 +38,13 @@ class Mechanisms {
   std::complex<double> stepwise_modulus(const RelaxedShares& shares, double hz, double interval_s) const;
   /// The quality factor at a frequency.
   double quality(const RelaxedShares& shares, double hz) const;
+  /// Where (Q4) holds for a speed given at a frequency: there, or for one beside the band in its middle.
+  double speed_known_at(double hz) const {
+    return hz < low_hz_ || hz > high_hz_ ? std::sqrt(low_hz_ * high_hz_) : hz;
+  }
+  /// The speed of the unrelaxed medium over that at a frequency (Q4); from one beside the band to its middle
+  /// speeds change as those of a constant Q do (Q4a).
+  double unrelaxed_speed(double q, double hz) const;
   /// The largest relative deviation of Q from the wanted one in the band.
   double largest_error(double q) const;
   /// Largest deviation that is let through: 3 %, or twice that of weak attenuation where it is more.
@@ -55,6 +63,9 @@ class Mechanisms {
   Matrix squares_{}, products_{}, ones_{};
   RelaxedShares sum_of_losses_{}, sum_of_stores_{};
 };
+
+/// By how much phase speeds of a constant Q grow from a frequency to another (Kjartansson 1979).
+double faster_by_constant_quality(double q, double from_hz, double to_hz);
 
 /// How a medium attenuates: the mechanisms, and the frequency at which waves have the speeds given.
 struct Attenuation {

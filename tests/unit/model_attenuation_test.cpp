@@ -119,6 +119,22 @@ TEST(UnrelaxedMedium, HasTheSpeedsGivenAtTheReferenceFrequency) {
               std::log(8) / (100 * std::numbers::pi), 0.0008);
 }
 
+TEST(UnrelaxedMedium, HasTheSpeedsOfAConstantQOfALogAtKilohertz) {
+  const Mechanisms mechanisms(3, 4, 50);
+  for (const double log_hz : {0.5, 200., 1e4}) {
+    auto medium = one_cell(3000, 1600, 50, 25);
+    EXPECT_EQ(unrelax(medium, {mechanisms, log_hz}), "");
+    for (const double hz : {5., 14., 40.}) {
+      const auto lower = [&](double q) { return std::pow(hz / log_hz, std::atan(1 / q) / std::numbers::pi); };
+      const double p = medium.vp[0] * wave_of(mechanisms, mechanisms.shares(50), hz).speed,
+                   s = medium.vs[0] * wave_of(mechanisms, mechanisms.shares(25), hz).speed;
+      EXPECT_NEAR(p / (3000 * lower(50)), 1, 6e-4) << log_hz << ' ' << hz;
+      EXPECT_NEAR(s / (1600 * lower(25)), 1, 12e-4) << log_hz << ' ' << hz;
+    }
+  }
+  EXPECT_NEAR(faster_by_constant_quality(25, 1e4, 50), 0.935, 5e-4);
+}
+
 TEST(UnrelaxedMedium, LosesNoLessInPWavesThanShearDoes) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
   auto medium = one_cell(3000, 1500, 1000, 20);
