@@ -293,10 +293,17 @@ std::string cost_of_a_second(const Scene<D>& scene) {
   double cells = 1;
   for (const auto n : scene.model.grid().shape) cells *= double(n + zone);
   const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
-  const auto slowest = least_resolved(scene.model.medium);
+  const auto& medium = scene.model.medium;
+  const auto slowest = least_resolved(medium);
+  const bool attenuates = attenuating_cells(medium) > 0, turned = any_tilted_axes(medium);
+  const std::string more = !attenuates && !turned
+                               ? ""
+                               : std::string(", more with ") + (attenuates ? "attenuation" : "") +
+                                     (attenuates && turned ? " and " : "") + (turned ? "tilted axes" : "") +
+                                     " (sw-shoot --plan)";
   return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
          shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
-         " MiB; waves up to " +
+         " MiB" + more + "; waves up to " +
          shown(slowest.speed / (fewest_cells * longest_side_m(scene.model.grid(), slowest.cell)), 2) + " Hz";
 }
 
