@@ -11,7 +11,10 @@ std::string place_of(const Grid<D>& grid, std::int64_t flat_index) {
   for (int axis = 0; axis < D; ++axis) {
     if (axis) text += ' ';
     text += axis_names<D>()[axis];
-    text += '=' + shown(axis == D - 1 ? grid.depth(at) : grid.centre(axis, at[axis]));
+    const bool depth = axis == D - 1;
+    const double place = depth ? grid.depth(at) : grid.centre(axis, at[axis]);
+    // Of rows that bend it has many digits.
+    text += '=' + (depth && grid.rows ? shown(place, 6) : shown(place));
   }
   return text;
 }

@@ -247,9 +247,9 @@ void check_fit(const Medium<D>& medium, std::size_t cell, const Mechanisms& mech
                double q) {
   if (q >= mechanisms.least_quality()) return;
   throw Error(row_of(property).name + " at " + place_of(medium.grid(), std::int64_t(cell)) + " is " +
-              shown(q) + ", too low: " + std::to_string(mechanisms.count()) + " mechanisms give Q within " +
-              shown(100 * mechanisms.error_limit(), 2) + " % from " + shown(mechanisms.least_quality(), 3) +
-              " up" +
+              shown(q, 6) + ", too low: " + std::to_string(mechanisms.count()) +
+              " mechanisms give Q within " + shown(100 * mechanisms.error_limit(), 2) + " % from " +
+              shown(mechanisms.least_quality(), 3) + " up" +
               (mechanisms.count() < most_mechanisms
                    ? "; raise it or use --q-mechanisms " + std::to_string(most_mechanisms)
                    : "; raise it"));

@@ -47,25 +47,25 @@ TEST(BeyondASide, IsNothingOfALevelInterfaceOrOneThatFallsAway) {
 /// the interface; one that passes the receiver on the other side than its neighbour arrives there.
 double by_rays(const LineBeyondSide& line, const Point<2>& source, const Point<2>& receiver, double longest_m,
                double direct_m) {
-  struct Passage {
+  struct Arrival {
     double aside = 0, way = 0;
     int faces = 0;
     bool beyond = false;
     std::vector<bool> mirrors{};  // by which it came: true of the interface
   };
-  const auto passages = [&](double angle) {
-    std::vector<Passage> found;
+  const auto arrivals = [&](double angle) {
+    std::vector<Arrival> found;
     double x = source[0], z = source[1], dx = std::cos(angle), dz = std::sin(angle), way = 0;
-    Passage state;
+    Arrival state;
     while (way < longest_m) {
       const double to_surface = dz < -1e-12 ? (line.surface_m - z) / dz : 1e30;
       const double closing = dz - line.slope * dx, gap = line.at_m[1] + line.slope * (x - line.at_m[0]) - z;
       const double to_face = closing > 1e-12 ? gap / closing : 1e30, step = std::min(to_surface, to_face);
       const double along = (receiver[0] - x) * dx + (receiver[1] - z) * dz;
       if (along > 0 && along < step) {
-        auto passage = state;
-        passage.aside = (receiver[0] - x) * dz - (receiver[1] - z) * dx, passage.way = way + along;
-        found.push_back(passage);
+        auto arrival = state;
+        arrival.aside = (receiver[0] - x) * dz - (receiver[1] - z) * dx, arrival.way = way + along;
+        found.push_back(arrival);
       }
       if (step > 1e29) break;
       x += step * dx, z += step * dz, way += step;
@@ -84,9 +84,9 @@ double by_rays(const LineBeyondSide& line, const Point<2>& source, const Point<2
   };
   double sum = 0;
   constexpr int rays = 40000;
-  auto before = passages(0);
+  auto before = arrivals(0);
   for (int n = 1; n <= rays; ++n) {
-    auto now = passages(2 * std::numbers::pi * n / rays);
+    auto now = arrivals(2 * std::numbers::pi * n / rays);
     for (const auto& one : now)
       for (const auto& other : before)
         if (one.mirrors == other.mirrors && one.beyond && one.way < longest_m &&

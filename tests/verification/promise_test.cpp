@@ -256,7 +256,7 @@ Scene<2> below_waves(const std::function<double(double)>& floor_m, double spacin
 }
 
 // A floor that is steep at the sides sends waves back from beyond them, in the water, which zones take away.
-// The reference is a model that goes on there.
+// The reference is a model that continues there.
 TEST(Promise, CountsWhatASteepFloorReflectsFromBeyondTheSides) {
   constexpr double k = 2 * std::numbers::pi / 126, width = 1000;
   for (const double height : {20., 10., 5.}) {
