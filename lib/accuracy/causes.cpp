@@ -273,6 +273,7 @@ struct ErrorSources::Shot {
   double stable_speed = 0;               // of the fastest wave in the model
   bool slips = false;
   double fit_of_quality = 0;             // squared error, times the energy
+  double from_beyond = 0;                // of beyond_sides(), the same
   std::optional<Mechanisms> mechanisms;  // of rock that attenuates
   double at_source = 0;                  // change_at_source()
   double unevenness = 0;                 // unevenness_at_source()
@@ -412,6 +413,8 @@ struct ErrorSources::Shot {
   /// The absorbing edges, for the receivers that are followed.
   template <int D>
   void add_edges(const Scene<D>& scene, const Source<D>& source, const std::vector<Point<D>>& receivers);
+  template <class Of>
+  double error_of_speeds(const Of& of) const;
   double quality_error(const Attenuation& attenuation) const;
   /// What a step does to each wave: [direction][2 layer + wave][bin], the logarithm of the factor on it.
   using Steps = std::vector<std::vector<std::vector<Complex>>>;
@@ -425,32 +428,29 @@ void ErrorSources::Shot::count(Recorded what, const std::optional<Attenuation>& 
   by_drag.clear();
   for (std::size_t r = 0; r < weights.size(); ++r) energies.push_back(energy_of(response.records(r), r));
   energy = std::accumulate(energies.begin(), energies.end(), 0.);
-  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) add_face(face);
+  from_beyond = 0;
+  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) {
+    add_face(face);
+    from_beyond += beyond_sides(face);
+  }
   if (attenuation) {
     fit_of_quality = quality_error(*attenuation);
     mechanisms = attenuation->mechanisms;
   }
 }
 
-/// Waves as they are with relaxation at steps, and what is recorded and put in up to half a step of it early
-/// or late.
-double ErrorSources::Shot::relaxation_error(const Discretisation& cells) const {
-  if (!mechanisms) return 0;
-  const double interval_s = cells.time_order == 2 ? 2 * cells.time_step_s : cells.time_step_s;
-  double sum = 0;
-  // Factors on the speed by layer, wave and bin.
+/// Squared error, times the energy, of waves in layers that attenuate whose speeds are wrong by a factor of
+/// the frequency, of(2 layer + wave)(hz).
+template <class Of>
+double ErrorSources::Shot::error_of_speeds(const Of& of) const {
   std::vector<std::vector<Complex>> faster(2 * stack.losses.size());
   for (std::size_t n = 0; n < faster.size(); ++n) {
-    const double loss = stack.losses[n / 2][n % 2];
-    if (!(loss > 0)) continue;
-    const auto shares = mechanisms->shares(1 / loss);
-    for (std::size_t bin = 0; bin < response.bins(); ++bin) {
-      const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
-      faster[n].push_back(
-          std::sqrt(mechanisms->stepwise_modulus(shares, hz, interval_s) / mechanisms->modulus(shares, hz)) -
-          1.);
-    }
+    if (!(stack.losses[n / 2][n % 2] > 0)) continue;
+    const auto factor = of(n);
+    for (std::size_t bin = 0; bin < response.bins(); ++bin)
+      faster[n].push_back(factor(response.omega(bin).real() / (2 * std::numbers::pi)) - 1.);
   }
+  double sum = 0;
   for (std::size_t r = 0; r < energies.size(); ++r) {
     RecordSpectrum wrong(response.bins());
     for (std::size_t n = 0; n < faster.size(); ++n) {
@@ -461,10 +461,24 @@ double ErrorSources::Shot::relaxation_error(const Discretisation& cells) const {
     }
     sum += energy_of(wrong, r);
   }
+  return sum;
+}
+
+/// Waves as they are with relaxation at steps, and what is recorded and put in up to half a step of it early
+/// or late.
+double ErrorSources::Shot::relaxation_error(const Discretisation& cells) const {
+  if (!mechanisms) return 0;
+  const double interval_s = cells.time_order == 2 ? 2 * cells.time_step_s : cells.time_step_s;
+  const double of_waves = error_of_speeds([&](std::size_t n) {
+    return [&, shares = mechanisms->shares(1 / stack.losses[n / 2][n % 2])](double hz) {
+      return std::sqrt(mechanisms->stepwise_modulus(shares, hz, interval_s) /
+                       mechanisms->modulus(shares, hz));
+    };
+  });
   const auto& at_source = stack.losses[stack.places.source_layer()];
   const double late = 2 * std::numbers::pi * nominal_hz * interval_s / 8 *
                       std::max(at_source[0], source_is_force() ? at_source[1] : 0);
-  return sum + late * late * energy;
+  return of_waves + late * late * energy;
 }
 
 void ErrorSources::Shot::add_face(std::size_t face) {
@@ -530,31 +544,18 @@ LocalStack ErrorSources::Shot::stack_of(const Scene<2>& scene, std::size_t shot,
 /// Squared error, times the energy, of the difference between mechanisms and a Q that is the same at all
 /// frequencies (Kjartansson 1979), with the same speeds at the reference frequency.
 double ErrorSources::Shot::quality_error(const Attenuation& attenuation) const {
-  double sum = 0;
-  for (std::size_t r = 0; r < energies.size(); ++r) {
-    RecordSpectrum wrong(response.bins());
-    for (std::size_t n = 0; n < 2 * stack.losses.size(); ++n) {
-      const double loss = stack.losses[n / 2][n % 2];
-      if (!(loss > 0)) continue;
-      const auto& factor = stack.places.losses[n / 2][n % 2];
-      const double power = std::atan(loss) / std::numbers::pi;
-      const auto constant = [&](double hz) {
-        return std::pow(Complex(0, hz / attenuation.reference_hz), power);
-      };
-      const auto speed_at = [](const Complex& complex) { return 1 / (1. / complex).real(); };
-      // Beside the band speeds are those of a constant Q.
-      const double alike_hz = attenuation.mechanisms.speed_known_at(attenuation.reference_hz);
-      const double scale = speed_at(factor(alike_hz)) / speed_at(constant(alike_hz));
-      const auto& change = response.by_speed(n / 2, int(n % 2), r);
-      for (std::size_t bin = 0; bin < wrong.size(); ++bin) {
-        const double hz = response.omega(bin).real() / (2 * std::numbers::pi);
-        const auto faster = factor(hz) / (scale * constant(hz)) - 1.;
-        for (const std::size_t c : {0, 1, 2}) wrong[bin][c] += faster * change[bin][c];
-      }
-    }
-    sum += energy_of(wrong, r);
-  }
-  return sum;
+  return error_of_speeds([&](std::size_t n) {
+    const auto& factor = stack.places.losses[n / 2][n % 2];
+    const double power = std::atan(stack.losses[n / 2][n % 2]) / std::numbers::pi;
+    const auto constant = [power, hz_0 = attenuation.reference_hz](double hz) {
+      return std::pow(Complex(0, hz / hz_0), power);
+    };
+    const auto speed_at = [](const Complex& complex) { return 1 / (1. / complex).real(); };
+    // Beside the band speeds are those of a constant Q.
+    const double alike_hz = attenuation.mechanisms.speed_known_at(attenuation.reference_hz);
+    const double scale = speed_at(factor(alike_hz)) / speed_at(constant(alike_hz));
+    return [&factor, constant, scale](double hz) { return factor(hz) / (scale * constant(hz)); };
+  });
 }
 
 double ErrorSources::Shot::face_error(std::size_t face, const Discretisation& cells) const {
@@ -1063,12 +1064,13 @@ void ErrorSources::add_interfaces(const Shot& shot, const Discretisation& cells,
       sums.add(
           {"waves along the fitted surface that come back from the sides", "move the sides away", 0, false},
           shot.bent_sides(interface));
-  for (std::size_t face = 0; face < stack.interfaces.size(); ++face) {
-    const double bent = shot.bent_interfaces(stack.interfaces[face]), beyond = shot.beyond_sides(face);
-    sums.sides += bent + beyond;
-    sums.add({"reflections from beyond the sides of the model, where interfaces dip", "move the sides away",
-              0, false},
-             beyond);
+  sums.sides += shot.from_beyond;
+  sums.add({"reflections from beyond the sides of the model, where interfaces dip", "move the sides away", 0,
+            false},
+           shot.from_beyond);
+  for (const auto& interface : stack.interfaces) {
+    const double bent = shot.bent_interfaces(interface);
+    sums.sides += bent;
     sums.add({"interfaces that are level beyond the sides of the model, and bend there",
               "move the sides away", 0, false},
              bent);

@@ -295,12 +295,11 @@ std::string cost_of_a_second(const Scene<D>& scene) {
   const double steps = std::ceil(1 / time_step_s(scene)), bytes = double(memory_of_a_shot_bytes(scene));
   const auto& medium = scene.model.medium;
   const auto slowest = least_resolved(medium);
-  const bool attenuates = attenuating_cells(medium) > 0, turned = any_tilted_axes(medium);
-  const std::string more = !attenuates && !turned
-                               ? ""
-                               : std::string(", more with ") + (attenuates ? "attenuation" : "") +
-                                     (attenuates && turned ? " and " : "") + (turned ? "tilted axes" : "") +
-                                     " (sw-shoot --plan)";
+  std::vector<std::string> effects;
+  if (attenuating_cells(medium) > 0) effects.emplace_back("attenuation");
+  if (any_tilted_axes(medium)) effects.emplace_back("tilted axes");
+  const std::string more =
+      effects.empty() ? "" : ", more with " + joined(effects, " and ") + " (sw-shoot --plan)";
   return "1 s of traces: " + shown(steps) + " steps of " + shown(cells) + " cells, about " +
          shown(cells * steps / cells_per_s, 2) + " s of one processor and " + shown(bytes / (1 << 20), 2) +
          " MiB" + more + "; waves up to " +

@@ -14,19 +14,12 @@ namespace {
 /// millions, beside which all others would be of one colour.
 constexpr float next_to_elastic = 1000;
 
-/// From the least to the greatest value, and of quality factors below that where any are.
-Limits range_of(std::span<const ModelSection> sections) {
+/// From the least to the greatest value below a limit.
+Limits range_of(std::span<const ModelSection> sections, float below) {
   Limits range{INFINITY, -INFINITY};
-  const auto is_quality = [](const ModelSection& section) {
-    return section.property == "qp" || section.property == "qs";
-  };
-  const bool any_attenuates = std::any_of(sections.begin(), sections.end(), [&](const auto& section) {
-    return is_quality(section) && std::any_of(section.values.begin(), section.values.end(),
-                                              [](float value) { return value < next_to_elastic; });
-  });
   for (const auto& section : sections) {
     for (const float value : section.values) {
-      if (!std::isfinite(value) || (any_attenuates && value >= next_to_elastic)) continue;
+      if (!std::isfinite(value) || value >= below) continue;
       range.low = std::min(range.low, double(value));
       range.high = std::max(range.high, double(value));
     }
@@ -34,21 +27,16 @@ Limits range_of(std::span<const ModelSection> sections) {
   return range.low > range.high ? Limits{0, 1} : range;
 }
 
-double largest_of(std::span<const ModelSection> sections) {
-  double largest = -INFINITY;
-  for (const auto& section : sections)
-    for (const float value : section.values)
-      if (std::isfinite(value)) largest = std::max(largest, double(value));
-  return largest;
-}
-
 ColourBar bar_of(std::span<const ModelSection> sections, bool as_sets, const Look& look) {
   const auto& section = sections.front();
-  const Limits all = range_of(sections), range = look.colours.value_or(all);
+  const Limits all = range_of(sections, INFINITY);
+  const bool attenuates =
+      (section.property == "qp" || section.property == "qs") && all.low < double(next_to_elastic);
+  const Limits range = look.colours.value_or(attenuates ? range_of(sections, next_to_elastic) : all);
   ColourBar bar{map_of(look, as_sets ? "grey" : "uniform"),
                 {section.property, section.unit, range.low, range.high}};
   if (range.low == range.high) widen(bar.axis, 0);
-  bar.point_beyond(all.low, std::max(all.high, largest_of(sections)));
+  bar.point_beyond(all.low, all.high);
   return bar;
 }
 

@@ -91,11 +91,10 @@ template <int D>
 ReachBounds reach_bounds(const Domain<D>& domain, int axis, int reach) {
   const auto& grid = domain.grid;
   std::vector<std::pair<std::int64_t, int>> found;  // cell, reach
-  std::vector<std::int64_t> cells;
-  const auto bound = [&](const Index<D>& from, int along, std::int64_t offset, int to) {
-    cells.clear();
-    add_cells_along(grid, from, along, offset, offset, cells);
-    for (const auto cell : cells) found.emplace_back(cell, to);
+  const auto bound = [&](Index<D> at, int along, std::int64_t offset, int to) {
+    auto& place = at[std::size_t(along)];
+    place += offset;
+    if (place >= 0 && place < grid.shape[std::size_t(along)]) found.emplace_back(grid.flat(at), to);
   };
   for (const auto cell : domain.soft)
     for (int offset = 1 - reach; offset < reach; ++offset)
