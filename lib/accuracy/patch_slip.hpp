@@ -32,6 +32,13 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
                               const SymmetricTensor<2, double>& stress,
                               const SymmetricTensor<2, double>& prestress, const WaveHistory& history);
 
+/// Speeds of rock over those of waves along n in it with the springs of a cluster, P and S: what waves much
+/// longer than the spacing feel (Schoenberg & Sayers 1995; theory.md (S26)). Dashpots give less at `hz`.
+struct Slower {
+  double p = 1, s = 1;
+};
+Slower slower_in_springs(const FractureSet<2>& set, const UniformMedium& rock, const Point<2>& n, double hz);
+
 /// Part of a single fracture.
 struct FracturePiece {
   Point<2> normal{};

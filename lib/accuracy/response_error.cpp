@@ -38,6 +38,11 @@ constexpr double lost = -1e3;
 /// springs, and in first order of the others; and by the cells.
 constexpr double late_centred = 0.8, late_others = 0.6, late_springs = 1.6;
 constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
+/// Of what fractures send out behind them, which is a wave late by much less the one without them: its
+/// energy is that of two waves, of which one has the error.
+constexpr double of_transmitted = 0.7;
+/// How many times as much as the rock springs give that hardly let waves out again.
+constexpr double kept_in = 50;
 /// Friction that this is of, and the power of another; and the least that counts.
 constexpr double usual_friction = 0.3, friction_power = 0.65, least_friction = 0.05;
 /// Where planes carry little of the shear stress of a wave errors of all of it count, up to so many times.
@@ -94,6 +99,8 @@ struct Leg {
   WaveKind kind = WaveKind::p;
   double time_s = 0;
   Point<2> direction{};
+  double in_springs_s = 0;  // time in springs of clusters, times how much more than the rock they give
+  double slower = 1;        // at most, there
 };
 
 /// A wave that comes to a patch.
@@ -287,6 +294,7 @@ struct FractureResponse::Shot {
   double fastest = 0;   // P waves
   double across_m = 0;  // of the cluster
   double own_spacing_m = 0;
+  bool springs = false;  // of any cluster
   struct Edge {
     std::size_t axis;
     double place_m;
@@ -314,13 +322,36 @@ struct FractureResponse::Shot {
   SmearedMoment moment_of(const Patch& patch, const FractureSet<2>& set, const UniformMedium& rock,
                           const Tensor& stress, const Tensor& prestress) const;
   std::vector<Incoming> incoming(const Scene<2>& scene, const Source<2>& source, const Patch& patch);
-  std::optional<Leg> leg(const WayOfWave& way, WaveKind kind, const Point<2>& along);
+  /// From a place, or to it where waves are plane and come from outside.
+  std::optional<Leg> leg(const Scene<2>& scene, WayOfWave way, WaveKind kind, const Point<2>& along,
+                         const Point<2>& from, double length_m);
   double at_edges(const Contribution& of, const ResponseSetting& setting) const;
 };
 
-std::optional<Leg> FractureResponse::Shot::leg(const WayOfWave& way, WaveKind kind, const Point<2>& along) {
+std::optional<Leg> FractureResponse::Shot::leg(const Scene<2>& scene, WayOfWave way, WaveKind kind,
+                                               const Point<2>& along, const Point<2>& from, double length_m) {
   if (way.empty()) return std::nullopt;
-  Leg leg{{}, kind, way.time_s(), along};
+  Leg leg{{}, kind, 0, along};
+  const auto& model = scene.model;
+  const double h = model.grid().spacing_m;
+  const auto parts = springs ? std::int64_t(std::ceil(length_m / h)) : 0;
+  for (std::int64_t n = 0; n < parts; ++n) {
+    const double at_m = (double(n) + 0.5) / double(parts) * length_m;
+    const Point<2> at = {from[0] + at_m * along[0], from[1] + at_m * along[1]};
+    const auto cell = std::size_t(model.grid().flat(cell_of(model.grid(), at)));
+    if (!is_of_cluster(model, cell)) continue;
+    const auto rock = rock_at(model.medium, at);
+    const auto slower =
+        slower_in_springs(model.fracture_sets[model.fracture[cell] - 1U], rock, along, nominal_hz);
+    const double times = kind == WaveKind::p ? slower.p : slower.s;
+    if (times == 1) continue;
+    const double rock_s = length_m / double(parts) / (kind == WaveKind::p ? rock.vp : rock.vs);
+    // What springs add; the way through the rock is there.
+    way.add(rock.vp / slower.p, rock.vs / slower.s, rock_s * (times - 1));
+    leg.in_springs_s += rock_s * times * (times * times - 1);
+    leg.slower = std::max(leg.slower, times);
+  }
+  leg.time_s = way.time_s();
   for (const auto& medium : way.media())
     leg.media.emplace_back(media.index_of(medium.vp, medium.vs), medium.time_s);
   return leg;
@@ -337,9 +368,12 @@ std::vector<Incoming> FractureResponse::Shot::incoming(const Scene<2>& scene, co
   if (const auto* plane = std::get_if<PlaneWave<2>>(&source.mechanism)) {
     const auto kind = plane->shear ? WaveKind::s : WaveKind::p;
     const auto& n = plane->direction;
-    if (const auto in = leg(way_in_of_plane_wave(scene, source, *plane, patch.middle_m), kind, n))
-      waves.push_back(
-          {*in, dot(way_m, n) / plane->speed(here.vp, here.vs), stress_of(here, kind, n, source.amplitude)});
+    const auto way = way_in_of_plane_wave(scene, source, *plane, patch.middle_m);
+    const double inside_m = way_in_model_m(scene.model.grid(), patch.middle_m, n);
+    const Point<2> entry = {patch.middle_m[0] - inside_m * n[0], patch.middle_m[1] - inside_m * n[1]};
+    if (const auto in = leg(scene, way, kind, n, entry, inside_m))
+      waves.push_back({*in, dot(way_m, n) / plane->speed(here.vp, here.vs) + in->time_s - way.time_s(),
+                       stress_of(here, kind, n, source.amplitude)});
     return waves;
   }
   const double r = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
@@ -349,7 +383,7 @@ std::vector<Incoming> FractureResponse::Shot::incoming(const Scene<2>& scene, co
   const auto pull = times(injection.moment_rate, n);
   for (const auto kind : {WaveKind::p, WaveKind::s}) {
     const double c = kind == WaveKind::p ? there.vp : there.vs;
-    const auto in = leg(straight_way(medium, at, patch.middle_m, kind), kind, n);
+    const auto in = leg(scene, straight_way(medium, at, patch.middle_m, kind), kind, n, at, r);
     if (!in || !(c > 0)) continue;
     const auto moves = kind == WaveKind::p ? n : across(n);
     // Far field of (A4) and (A5): |H0(2)(k r)|/4, and a factor k of a moment.
@@ -405,7 +439,8 @@ void FractureResponse::Shot::add_contributions(const Scene<2>& scene, std::size_
       const double length_m = std::max(std::hypot(way_m[0], way_m[1]), 1e-3);
       const Point<2> n = {way_m[0] / length_m, way_m[1] / length_m};
       for (const auto kind : {WaveKind::p, WaveKind::s}) {
-        const auto out = leg(straight_way(scene.model.medium, patch.middle_m, receivers_m[r], kind), kind, n);
+        const auto out = leg(scene, straight_way(scene.model.medium, patch.middle_m, receivers_m[r], kind),
+                             kind, n, patch.middle_m, length_m);
         if (!out || waves[in].arrives_s + out->time_s > scene.recording.duration_s) continue;
         const double c = kind == WaveKind::p ? rock.vp : rock.vs;
         const auto& d = waves[in].leg.direction;
@@ -457,6 +492,9 @@ FractureResponse::Shot::Shot(const Scene<2>& scene, std::size_t shot)
   patches = patches_of(model, patch_m);
   for (const auto& patch : patches)
     if (patch.rows > 0) across_m += patch.rows / of_clusters * own_spacing_m;
+  for (const auto& set : model.fracture_sets)
+    for (const auto& system : set.systems)
+      springs = springs || (set.traces.empty() && system.compliance.gives());
   const auto all = scene.survey.receivers_of(shot + 1);
   const auto stride = std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   for (std::size_t n = stride / 2; n < all.size(); n += stride) receivers_m.push_back(all[n].point_m);
@@ -515,6 +553,21 @@ class Dispersion {
   std::vector<std::array<Complex, frequencies>> all_;
 };
 
+/// What comes to springs of a cluster and from them, of waves that are so many times slower there than in the
+/// rock beside: the amplitude that rims let through, at right angles, and out of very soft ones hardly any.
+double let_through_by_rims(double slower_in, double slower_out) {
+  const auto rim = [](double slower) { return 2 * std::sqrt(slower) / (1 + slower); };
+  const double least = std::min(slower_in, slower_out), give = (least * least - 1) / kept_in;
+  return rim(slower_in) * rim(slower_out) / (1 + give * give);
+}
+
+/// The logarithm of the factor on waves of the time step in springs (S32a).
+Complex late_in_springs(const Leg& leg, const ResponseSetting& setting, double omega) {
+  const double angle = omega * setting.cells.time_step_s, radians = omega * leg.in_springs_s;
+  return setting.correction == SlipCorrection::first ? Complex(-radians * angle / 4)
+                                                     : Complex(0, -radians * angle * angle / 6);
+}
+
 /// The error of what planes send out by the time step, at an angular frequency (S32).
 double late_error(const Planes& planes, const ResponseSetting& setting, double omega) {
   if (planes.single) return 0;
@@ -565,6 +618,7 @@ enum Part : std::size_t {
   s_waves,
   dispersion,
   late,
+  late_on_way,
   in_cells,
   shared,
   at_rim,
@@ -615,19 +669,24 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
     const auto& in = exponents[of.in];
     const auto& out = exponents[of.out];
     const bool p = legs[of.out].kind == WaveKind::p, single = planes[of.planes].single;
+    const double let_through = let_through_by_rims(legs[of.in].slower, legs[of.out].slower);
     auto& spectra = all[of.receiver];
     double size = 0;
     for (std::size_t f = 0; f < frequencies; ++f) {
       const double omega = 2 * std::numbers::pi * hz[f], wave_number = omega / slowest;
       const auto wave = of.wave[f] * sinc(omega * of.slowness[0] * patch_m / 2) *
                         sinc(omega * of.slowness[1] * patch_m / 2);
-      const auto way_out = std::exp(out[f]) - 1.;
+      const auto way_out = let_through * (std::exp(out[f]) - 1.);
       const std::array<Complex, parts> by = {1.,
-                                             std::exp(in[f]) - 1.,
+                                             let_through * (std::exp(in[f]) - 1.),
                                              p ? way_out : 0.,
                                              p ? 0. : way_out,
-                                             std::exp(in[f] + out[f]) - 1.,
+                                             let_through * (std::exp(in[f] + out[f]) - 1.),
                                              late_error(planes[of.planes], setting, omega),
+                                             of_transmitted * let_through *
+                                                 (std::exp(late_in_springs(legs[of.in], setting, omega) +
+                                                           late_in_springs(legs[of.out], setting, omega)) -
+                                                  1.),
                                              cell_error(planes[of.planes], setting, wave_number),
                                              single ? 1 - left_of_shared(of, omega, h) : 0.,
                                              rim_error(planes[of.planes].rim, of_rows, omega, h)};
@@ -654,7 +713,8 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   const double left = sums.contributions > 0 ? sums.energy / sums.contributions : 0;
   sums.sliding *= left;
   sums.edges *= left;
-  sums.late = energy(late), sums.cells = energy(in_cells) + energy(shared) + energy(at_rim);
+  sums.late = energy(late) + energy(late_on_way),
+  sums.cells = energy(in_cells) + energy(shared) + energy(at_rim);
   if (sums.sliding > 0) sums.rows = sums.sliding * std::pow(of_rows * h / across_m, 2);
   return sums;
 }

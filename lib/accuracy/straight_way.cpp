@@ -28,9 +28,7 @@ WayOfWave straight_way(const Medium<2>& medium, const Point<2>& from, const Poin
   return way;
 }
 
-WayOfWave way_in_of_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneWave<2>& wave,
-                               const Point<2>& to) {
-  const auto& grid = scene.model.grid();
+double way_in_model_m(const Grid<2>& grid, const Point<2>& to, const Point<2>& direction) {
   double length = std::numeric_limits<double>::infinity();
   for (std::size_t axis = 0; axis < 2; ++axis) {
     double low = grid.origin_m[axis], high = low + double(grid.shape[axis]) * grid.spacing_m;
@@ -39,10 +37,17 @@ WayOfWave way_in_of_plane_wave(const Scene<2>& scene, const Source<2>& source, c
       low = depths[0];
       high = depths[1];
     }
-    if (std::abs(wave.direction[axis]) < 1e-9) continue;
-    const double edge = wave.direction[axis] > 0 ? to[axis] - low : high - to[axis];
-    length = std::min(length, edge / std::abs(wave.direction[axis]));
+    if (std::abs(direction[axis]) < 1e-9) continue;
+    const double edge = direction[axis] > 0 ? to[axis] - low : high - to[axis];
+    length = std::min(length, edge / std::abs(direction[axis]));
   }
+  return length;
+}
+
+WayOfWave way_in_of_plane_wave(const Scene<2>& scene, const Source<2>& source, const PlaneWave<2>& wave,
+                               const Point<2>& to) {
+  const auto& grid = scene.model.grid();
+  const double length = way_in_model_m(grid, to, wave.direction);
   const Point<2> entry = {to[0] - length * wave.direction[0], to[1] - length * wave.direction[1]};
   auto way = straight_way(scene.model.medium, entry, to, wave.shear ? WaveKind::s : WaveKind::p);
   const auto [vp, vs] = speeds_at(scene.model.medium, entry);

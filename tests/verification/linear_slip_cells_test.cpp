@@ -479,6 +479,23 @@ TEST(SpringMedium, ConvergesWithSecondOrder) {
   EXPECT_LT(error(30, SlipCorrection::second), 0.1 * error(30, SlipCorrection::first));
 }
 
+TEST(SpringMedium, IsLateByWhatItsSpringsGive) {
+  // (S32a): level planes that give as much as the rock, and three times as much, in S waves along their
+  // normal.
+  constexpr int cells = 40;
+  for (const double give : {1., 3.}) {
+    const std::vector systems{spring<2>({0, 1}, 0.1 / mu, give / mu)};
+    const double speed = waves_in(systems).speed[0];
+    // Of a radian's way, at the time step of travel().
+    const double angle = 2 * pi / cells * speed * 0.9 / rock.vp;
+    const double late = give * angle * angle / 6, lost = give * angle / 4;
+    const auto second = travel(systems, 0, cells, SlipCorrection::second),
+               first = travel(systems, 0, cells, SlipCorrection::first);
+    EXPECT_NEAR(1 - second.speed / speed, late, 0.15 * late) << give;
+    EXPECT_NEAR(-std::log(first.left) / (12 * pi), lost, 0.15 * lost) << give;
+  }
+}
+
 TEST(SpringMedium, HasThomsensParametersOfWeakFractures) {
   // Of level planes, in first order of their weaknesses (epsilon = 2 g (1 - g) D_N, delta = 2 g (D_N - D_T)):
   // g = (vs/vp)^2.
