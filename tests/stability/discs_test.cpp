@@ -142,8 +142,8 @@ TEST(Discs, NeverAddEnergyHoweverStiffOrSoft) {
   constexpr int orders[] = {5, 7, 3, 1, 9};
   constexpr double courant[] = {1, 0.9, 0.45};
   unsigned number = 0;
-  for (const auto& compliances :
-       std::vector<std::vector<double>>{{1e-6}, {0.01}, {1}, {30}, {1e9}, {1e9, 1e-3}, {30, 1, 0.1}})
+  for (const auto& compliances : std::vector<std::vector<double>>{
+           {1e-6}, {0.01}, {1}, {30}, {1e9}, {1e9, 1e-3}, {1e19, 1e19}, {30, 1, 0.1}})
     for (const bool lumps : {false, true}) {
       ++number;
       const auto edge = edges[number % 3];
