@@ -290,8 +290,9 @@ FractureNetwork network_of(const Settings& s) {
   FractureNetwork of;
   if (!s.network.empty()) {
     const auto count = in_place("--network", [&] { return parse_integer(s.network); });
-    if (count < 1 || count > 1'000'000)
-      refuse("--network: found " + std::to_string(count) + ", expected 1 to 1000000");
+    if (count < 1 || count > most_fractures)
+      refuse("--network: found " + std::to_string(count) + ", expected 1 to " +
+             std::to_string(most_fractures));
     of.count = int(count);
   }
   of.intensity_per_m = s.intensity.value_or(0);

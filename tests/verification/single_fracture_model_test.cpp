@@ -165,6 +165,28 @@ TEST(FractureNetwork, HasTheLengthsAndDipsItIsDrawnFrom) {
   EXPECT_NE(drawn_fractures(grid, region, of), few);
 }
 
+TEST(FractureNetwork, HasNoMoreFracturesByIntensityThanByCount) {
+  const Grid<2> grid{{100, 100}, 10, {0, 0}};
+  const auto error = [&](double intensity, double least_m, double most_m, double exponent) -> std::string {
+    try {
+      drawn_fractures(grid, region_of_box<2>({{0, 0}, {1000, 1000}}),
+                      {0, intensity, least_m, most_m, exponent, 30, {}, 1});
+    } catch (const Error& found) {
+      return found.what();
+    }
+    return "";
+  };
+  // Mean lengths: (MAX - MIN)/ln(MAX/MIN) of an exponent of 1, ln(MAX/MIN)/(1/MIN - 1/MAX) of one of 2.
+  EXPECT_NE(error(1000, 10, 50, 1).find("about 4e+07 fractures"), std::string::npos)
+      << error(1000, 10, 50, 1);
+  EXPECT_NE(error(1000, 10, 50, 2).find("about 5e+07 fractures"), std::string::npos)
+      << error(1000, 10, 50, 2);
+  EXPECT_NE(error(1000, 20, 20, 2).find("about 5e+07 fractures"), std::string::npos);
+  EXPECT_NE(error(1e-9, 10, 50, 2).find("about 5e-05 fractures"), std::string::npos);
+  // The model cuts off what is longer than it.
+  EXPECT_EQ(error(0.01, 1e5, 1e6, 1.5), "");
+}
+
 TEST(FractureNetwork, HasTheIntensityAskedForAndEndsWithTheModel) {
   const Grid<2> grid{{100, 100}, 10, {0, 0}};
   const FractureNetwork of{0, 0.02, 50, 300, 2, -40, {}, 3};
