@@ -9,6 +9,7 @@
 #include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "model/anisotropic_fractures.hpp"
 #include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
 #include "model/fracture_network.hpp"
@@ -469,6 +470,7 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
                      : settings.effective ? change_rock<D>(settings, model, systems, region)
                                           : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
+  if (const auto fault = fault_in_anisotropic_rock(model)) throw Error(fault->text);
   if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left && single(settings)) {
     context.warn("fractures end where rock does: " + std::to_string(count.left) +
