@@ -76,6 +76,8 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
   return normals;
 }
 
+std::uint64_t seed_of(const Settings& settings) { return std::uint64_t(settings.seed.value_or(1)); }
+
 template <int D>
 RegionIn<D> region_of(const Settings& settings) {
   const int given =
@@ -106,7 +108,7 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
   const auto& high = region.bounds.high_m;
   Scatter scatter;
   scatter.count = settings.count;
-  scatter.seed = std::uint64_t(settings.seed);
+  scatter.seed = seed_of(settings);
   if constexpr (D == 2) scatter.dip_deg = dip_of_normal(normal);
   if constexpr (D == 3) {
     const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
@@ -204,6 +206,8 @@ void check_viscosity_of_single(const Settings& s) {
         "planes of which it is one, m");
   if (s.compliance.spacing_m && !(*s.compliance.spacing_m > 0))
     refuse("--spacing: found " + shown(*s.compliance.spacing_m) + ", expected it above zero");
+  if (s.friction && s.viscosity_s && !flows && s.compliance.spacing_m)
+    refuse("--spacing needs a --viscosity above zero: without it a single fracture slips by itself");
 }
 
 /// Throws a usage Error where single fractures are given what belongs to clusters.
@@ -297,7 +301,7 @@ FractureNetwork network_of(const Settings& s) {
     of.count = int(count);
   }
   of.intensity_per_m = s.intensity.value_or(0);
-  of.seed = std::uint64_t(s.seed);
+  of.seed = seed_of(s);
   of.concentration = s.concentration;
   const auto normal = in_place("--dip", [&] { return normal_of<D>(s.dips[0]); });
   if constexpr (D == 2) of.dip_deg = dip_of_normal(normal);
@@ -492,6 +496,8 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   if (settings.model == "-" && std::count(settings.traces.begin(), settings.traces.end(), "-") > 0)
     refuse("--trace: standard input holds the model already, expected a file");
+  if (settings.seed && settings.count == 0 && !drawn(settings))
+    refuse("--seed needs --count, --network or --intensity");
   check_single(settings);
   check_friction(settings);
   check_effective(settings);
