@@ -180,6 +180,10 @@ void check_effective(const Settings& s) {
 }
 
 template <int D>
+  for (const auto& [name, value] :
+       {std::pair{"friction", s.friction}, {"viscosity", s.viscosity_s}, {"strength", s.strength_pa}})
+    if (value && !(*value >= 0))
+      refuse("--" + std::string(name) + ": found " + shown(*value) + ", expected it not below zero");
 SlipSystem<D> system_of(const Settings& settings, const Point<D>& normal) {
   SlipSystem<D> system = {normal, settings.friction.value_or(0), settings.viscosity_s.value_or(0),
                           settings.strength_pa.value_or(0), settings.opening};
@@ -236,6 +240,20 @@ void check_single(const Settings& s) {
         "found more than one of --segment, --trace, --network and --intensity, give one (--segment and "
         "--trace may stand together, in 3-D --disc, --rectangle and --trace)");
   if (!s.compliance.given() && !s.open && !s.friction)
+/// Single fractures open, and have a prestress, only where friction holds them.
+void check_opening_of_single(const Settings& s) {
+  if (s.friction || (!s.opening && s.prestress.empty())) return;
+  const std::string found = s.opening ? "--opening" : "--prestress";
+  if (s.open)
+    refuse("found --open and " + found +
+           ", give one of both: an open fracture carries no traction; one that parts only under tension has "
+           "--faces --friction --opening");
+  refuse("found " + found + " with single fractures " +
+         (s.faces ? "without friction, expected --friction" : "in cells, expected --faces --friction") +
+         (s.faces ? "" : " (in 2-D)") +
+         ": they open and have a prestress where they stick and slide on the faces between cells");
+}
+
     refuse(
         "--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT, --open, or --faces and "
         "--friction");
@@ -249,14 +267,12 @@ void check_single(const Settings& s) {
                                                  {"--count", s.count != 0},
                                                  {"--body", !s.body.empty()},
                                                  {"--block", s.block},
-                                                 {"--opening", s.opening && !s.friction},
                                                  {"--spacing", of.spacing_m && !s.friction},
                                                  {"--law", !s.law.empty()},
                                                  {"--for-frequency", s.for_hz.has_value()},
                                                  {"--dashpot", !of.dashpot.empty()},
                                                  {"--crack-density", of.crack_density.has_value()},
-                                                 {"--effective", s.effective},
-                                                 {"--prestress", !s.prestress.empty() && !s.friction}};
+                                                 {"--effective", s.effective}};
   for (const auto& [name, given] : others)
     if (given)
       refuse("found " + std::string(name) +
@@ -266,6 +282,7 @@ void check_single(const Settings& s) {
 
 /// Throws a usage Error where single fractures are given what belongs to models of other dimensions.
 template <int D>
+  check_opening_of_single(s);
 void check_single_in(const Settings& s) {
   if (!single(s)) return;
   const std::pair<const char*, bool> flat[] = {{"segment", !s.segments.empty()},
