@@ -136,6 +136,20 @@ TEST(FractureTraces, AreReadFromTextWithEmptyLinesBetweenThem) {
   std::filesystem::remove(path);
 }
 
+TEST(FractureTraces, ThatLieOnEachOtherAreFound) {
+  const FractureTrace<2> dipping = {{10, 20}, {110, 70}}, back = {{0, 0}, {0, 80}, {0, 50}},
+                         half = {{60, 45}, {160, 95}};
+  EXPECT_EQ(doubled_size({dipping}), 0);
+  EXPECT_NEAR(doubled_size({dipping, dipping}), std::hypot(100, 50), 1e-9);
+  EXPECT_NEAR(doubled_size({back, dipping}), 30, 1e-9);
+  EXPECT_NEAR(doubled_size({half, dipping}), std::hypot(50, 25), 1e-9);
+  // Those that cross, touch or lie beside each other do not.
+  EXPECT_EQ(doubled_size({dipping, {{10, 70}, {110, 20}}, {{110, 70}, {210, 120}}, {{10, 21}, {110, 71}}}),
+            0);
+  const FractureTrace<3> flat = {{0, 0, 1}, {5, 0, 1}, {5, 5, 1}}, other = {{0, 0, 2}, {5, 0, 2}, {5, 5, 2}};
+  EXPECT_EQ(doubled_size({flat, other, flat}), 12.5);
+}
+
 TEST(FractureNetwork, HasTheLengthsAndDipsItIsDrawnFrom) {
   const Grid<2> grid{{400, 400}, 10, {0, 0}};
   FractureNetwork of{4000, 0, 10, 200, 2.5, 30, 8, 7};
