@@ -48,6 +48,13 @@ TEST_F(ShootOptions, AreListedWithEveryEffectAndEachDefaultOnce) {
     EXPECT_TRUE(has(listed, effect)) << effect;
 }
 
+TEST_F(ShootOptions, OfAttenuationAreWarnedAboutInElasticRock) {
+  const auto said = [&](const std::string& options) { return run(shoot + at + options + "-o q.sgy").err; };
+  EXPECT_EQ(said("--q-frequency 20 "),
+            "sw-shoot: warning: --q-frequency has no effect: no cell of the model has a finite qp or qs\n");
+  EXPECT_EQ(said("--q-frequency 20 --without attenuation "), "");
+}
+
 TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {
   done(shoot + at +
        "--kind explosion --amplitude 1 --record vz,vx,p --dt 0.001 --top free --sides absorbing --bottom "
