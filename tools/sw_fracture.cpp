@@ -533,8 +533,9 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
-  if (!single(settings) && !check_region(whole, model.grid()))
-    context.warn("the region at " + shown_box(whole.bounds) + " leaves the model, which is at " +
+  // Ellipses and slabs are often meant to reach through the whole model, and their bounds beyond it.
+  if (!single(settings) && !check_region(whole, model.grid()) && !settings.box.empty())
+    context.warn("the box at " + shown_box(whole.bounds) + " leaves the model, which is at " +
                  shown_box(box_of_grid(model.grid())) + ": planes end there");
   warn_of_dense_cracks(settings, context);
   const auto count = single(settings)     ? put_single(settings, model, context)

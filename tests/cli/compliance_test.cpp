@@ -112,7 +112,7 @@ TEST_F(Compliance, OfWhatIsRarelyMeantIsWarnedAbout) {
   const std::string region = "sw-fracture m.nc --box 50:900,100:200 --dip 30 --friction 0.1 --viscosity 1 ";
   const auto said = [&](const std::string& line) { return run(line + " -o w.nc").err; };
   EXPECT_EQ(said(region),
-            "sw-fracture: warning: the region at x=50..900 z=100..200 leaves the model, which is at x=0..300 "
+            "sw-fracture: warning: the box at x=50..900 z=100..200 leaves the model, which is at x=0..300 "
             "z=0..300: planes end there\n");
   EXPECT_EQ(said("sw-fracture m.nc --box 0:300,100:300 --dip 30 --friction 0.1 --viscosity 1"), "");
   const std::string cracks = "sw-fracture m.nc --box 50:250,100:200 --dip 30 --crack-density ";
