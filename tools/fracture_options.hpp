@@ -16,7 +16,8 @@ struct FractureSettings {
   std::vector<std::string> segments, traces, discs, rectangles;
   std::optional<double> intensity, concentration;
   std::string network, length, radius;
-  int count = 0, seed = 1;
+  int count = 0;
+  std::optional<int> seed;
   std::string body;
   std::vector<std::string> dips, normals;
   std::optional<double> friction, viscosity_s, strength_pa;
@@ -108,7 +109,7 @@ inline void declare(cli::Options& options, FractureSettings& settings) {
               "fracture only N small slabs in the region, parallel to the planes");
   options.add("body", settings.body, "L,T",
               "mean length and thickness of the slabs [1/10 of the region's longer side, 1/10 of that]");
-  options.add("seed", settings.seed, "S", "random seed of the slabs or of the network");
+  options.add("seed", settings.seed, "S", "random seed of the slabs or of the network [1]");
   options.add(
       "dip", settings.dips, "DEG[:AZIMUTH]",
       "dip of the planes from the horizontal, deepening towards +x, in 3-D towards AZIMUTH degrees from +x "

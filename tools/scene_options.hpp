@@ -51,7 +51,7 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
               "width of the absorbing zones outside the model; 0: 20, for plane waves 2/3 wavelength");
   options.add("without", s.without, "LIST",
               "effects to switch off: slip, friction, viscosity, cohesion, opening, prestress, attenuation, "
-              "anisotropy");
+              "anisotropy, compliance");
   options.add("q-frequency", s.q_frequency_hz, "F",
               "with qp, qs: frequency of the model's speeds, Hz [that of the wavelet]");
   options.add("q-band", s.q_band, "F1,F2",

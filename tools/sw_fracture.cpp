@@ -6,9 +6,11 @@
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "fracture_options.hpp"
+#include "grid/extent.hpp"
 #include "grid/longest_side.hpp"
 #include "io/netcdf_file.hpp"
 #include "io/output_file.hpp"
+#include "model/anisotropic_fractures.hpp"
 #include "model/effective_medium.hpp"
 #include "model/fracture.hpp"
 #include "model/fracture_network.hpp"
@@ -75,6 +77,8 @@ std::vector<Point<D>> normals_of(const Settings& settings) {
   return normals;
 }
 
+std::uint64_t seed_of(const Settings& settings) { return std::uint64_t(settings.seed.value_or(1)); }
+
 template <int D>
 RegionIn<D> region_of(const Settings& settings) {
   const int given =
@@ -94,6 +98,23 @@ RegionIn<D> region_of(const Settings& settings) {
   return in_place("--box", [&] { return region_of_box<D>(parse_box<D>(settings.box)); });
 }
 
+/// Refuses a region outside the model; whether all of it is inside.
+template <int D>
+bool check_region(const RegionIn<D>& region, const Grid<D>& grid) {
+  const auto model = box_of_grid(grid);
+  const double near_m = 1e-6 * grid.spacing_m;
+  bool inside = true;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    const double low_m = region.bounds.low_m[axis], high_m = region.bounds.high_m[axis];
+    if (low_m >= model.high_m[axis] || high_m <= model.low_m[axis])
+      throw Error("the region at " + shown_box(region.bounds) + " lies outside the model, which is at " +
+                      shown_box(model),
+                  ErrorKind::usage);
+    inside = inside && low_m >= model.low_m[axis] - near_m && high_m <= model.high_m[axis] + near_m;
+  }
+  return inside;
+}
+
 /// The region itself, or slabs in it that lie along planes of this normal.
 template <int D>
 RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const Point<D>& normal) {
@@ -105,7 +126,7 @@ RegionIn<D> bodies_of(const Settings& settings, const RegionIn<D>& region, const
   const auto& high = region.bounds.high_m;
   Scatter scatter;
   scatter.count = settings.count;
-  scatter.seed = std::uint64_t(settings.seed);
+  scatter.seed = seed_of(settings);
   if constexpr (D == 2) scatter.dip_deg = dip_of_normal(normal);
   if constexpr (D == 3) {
     const auto [dip_deg, azimuth_deg] = dip_and_azimuth_of(normal);
@@ -133,6 +154,14 @@ void warn_of_large_cells(const Model<D>& model, const cli::Context& context) {
                " m (--step of the model) or a longer slip distance (--law)");
 }
 
+void warn_of_dense_cracks(const Settings& settings, const cli::Context& context) {
+  constexpr double densest = 0.2;
+  const double density = settings.compliance.crack_density.value_or(0);
+  if (density > densest)
+    context.warn("a crack density of " + shown(density) + " is above " + shown(densest) +
+                 ", to which Hudson's theory of first order holds; usual are 0.01 to 0.1");
+}
+
 void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
 bool drawn(const Settings& s) { return !s.network.empty() || s.intensity; }
@@ -151,6 +180,10 @@ void check_friction(const Settings& s) {
       refuse("--" + std::string(name) + ": found " + shown(*value) + ", expected it above zero");
   if (s.friction && !s.viscosity_s && !proposed)
     refuse("--viscosity is missing; expected --viscosity ETA, or --for-frequency HZ --strain-rate RATE");
+  for (const auto& [name, value] :
+       {std::pair{"friction", s.friction}, {"viscosity", s.viscosity_s}, {"strength", s.strength_pa}})
+    if (value && !(*value >= 0))
+      refuse("--" + std::string(name) + ": found " + shown(*value) + ", expected it not below zero");
   if (s.friction) return;
   if (!s.compliance.given() && !s.open)
     refuse(
@@ -203,6 +236,22 @@ void check_viscosity_of_single(const Settings& s) {
         "planes of which it is one, m");
   if (s.compliance.spacing_m && !(*s.compliance.spacing_m > 0))
     refuse("--spacing: found " + shown(*s.compliance.spacing_m) + ", expected it above zero");
+  if (s.friction && s.viscosity_s && !flows && s.compliance.spacing_m)
+    refuse("--spacing needs a --viscosity above zero: without it a single fracture slips by itself");
+}
+
+/// Single fractures open, and have a prestress, only where friction holds them.
+void check_opening_of_single(const Settings& s) {
+  if (s.friction || (!s.opening && s.prestress.empty())) return;
+  const std::string found = s.opening ? "--opening" : "--prestress";
+  if (s.open)
+    refuse("found --open and " + found +
+           ", give one of both: an open fracture carries no traction; one that parts only under tension has "
+           "--faces --friction --opening");
+  refuse("found " + found + " with single fractures " +
+         (s.faces ? "without friction, expected --friction" : "in cells, expected --faces --friction") +
+         (s.faces ? "" : " (in 2-D)") +
+         ": they open and have a prestress where they stick and slide on the faces between cells");
 }
 
 /// Throws a usage Error where single fractures are given what belongs to clusters.
@@ -235,6 +284,7 @@ void check_single(const Settings& s) {
         "--compliance is missing; expected --compliance ZN,ZT, --stiffness KN,KT, --open, or --faces and "
         "--friction");
   check_viscosity_of_single(s);
+  check_opening_of_single(s);
   if (drawn(s) && s.dips.size() != 1) refuse("--network and --intensity need one --dip");
   const auto& of = s.compliance;
   const bool region = !s.box.empty() || !s.polygon.empty() || !s.ellipse.empty() || !s.slab.empty();
@@ -244,14 +294,12 @@ void check_single(const Settings& s) {
                                                  {"--count", s.count != 0},
                                                  {"--body", !s.body.empty()},
                                                  {"--block", s.block},
-                                                 {"--opening", s.opening && !s.friction},
                                                  {"--spacing", of.spacing_m && !s.friction},
                                                  {"--law", !s.law.empty()},
                                                  {"--for-frequency", s.for_hz.has_value()},
                                                  {"--dashpot", !of.dashpot.empty()},
                                                  {"--crack-density", of.crack_density.has_value()},
-                                                 {"--effective", s.effective},
-                                                 {"--prestress", !s.prestress.empty() && !s.friction}};
+                                                 {"--effective", s.effective}};
   for (const auto& [name, given] : others)
     if (given)
       refuse("found " + std::string(name) +
@@ -290,12 +338,13 @@ FractureNetwork network_of(const Settings& s) {
   FractureNetwork of;
   if (!s.network.empty()) {
     const auto count = in_place("--network", [&] { return parse_integer(s.network); });
-    if (count < 1 || count > 1'000'000)
-      refuse("--network: found " + std::to_string(count) + ", expected 1 to 1000000");
+    if (count < 1 || count > most_fractures)
+      refuse("--network: found " + std::to_string(count) + ", expected 1 to " +
+             std::to_string(most_fractures));
     of.count = int(count);
   }
   of.intensity_per_m = s.intensity.value_or(0);
-  of.seed = std::uint64_t(s.seed);
+  of.seed = seed_of(s);
   of.concentration = s.concentration;
   const auto normal = in_place("--dip", [&] { return normal_of<D>(s.dips[0]); });
   if constexpr (D == 2) of.dip_deg = dip_of_normal(normal);
@@ -314,9 +363,17 @@ FractureNetwork network_of(const Settings& s) {
   return of;
 }
 
+template <int D>
+std::vector<FractureTrace<D>> network_in(const Settings& settings, const Grid<D>& grid) {
+  const auto region = region_of<D>(settings);
+  const auto network = network_of<D>(settings);
+  check_region(region, grid);
+  return drawn_fractures(grid, region, network);
+}
+
 /// The traces that are given or drawn.
 std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>& grid, const cli::Context&) {
-  if (drawn(settings)) return drawn_fractures(grid, region_of<2>(settings), network_of<2>(settings));
+  if (drawn(settings)) return network_in(settings, grid);
   std::vector<FractureTrace<2>> all;
   for (const auto& text : settings.segments) {
     all.push_back(in_place("--segment", [&] { return parse_segment(text); }));
@@ -333,13 +390,14 @@ std::vector<FractureTrace<2>> traces_of(const Settings& settings, const Grid<2>&
 /// The same of polygons, which end with the model.
 std::vector<FractureTrace<3>> traces_of(const Settings& settings, const Grid<3>& grid,
                                         const cli::Context& context) {
-  if (drawn(settings)) return drawn_fractures(grid, region_of<3>(settings), network_of<3>(settings));
+  if (drawn(settings)) return network_in(settings, grid);
   std::vector<FractureTrace<3>> all;
   double outside_m2 = 0;
   const auto add = [&](const FractureTrace<3>& polygon) {
     if (const auto fault = fault_of_polygon(polygon); !fault.empty()) refuse(fault);
     all.push_back(clipped(polygon, box_of_grid(grid)));
-    if (all.back().empty()) refuse("found no part of the fracture in the model, which is " + shown(grid));
+    if (all.back().empty())
+      refuse("found no part of the fracture in the model, which is at " + shown_box(box_of_grid(grid)));
     outside_m2 += std::max(0., area_of(polygon) - area_of(all.back()));
   };
   for (const auto& text : settings.discs) in_place("--disc", [&] { add(parse_disc(text)); });
@@ -380,6 +438,16 @@ std::string size_of(const FractureSet<3>& set) {
   return shown(area_m2, 4) + " m2";
 }
 
+/// Of fractures that lie on each other, which is rarely meant; drawn ones may.
+template <int D>
+void warn_of_doubled(const Settings& settings, const FractureSet<D>& set, const cli::Context& context) {
+  const double doubled = drawn(settings) ? 0 : doubled_size(set.traces);
+  if (!(doubled > 0)) return;
+  context.warn(shown(doubled, 4) + (D == 2 ? " m" : " m2") +
+               " of the fractures lie on others, and have the compliance of both there; if that is not "
+               "meant, give each of them once");
+}
+
 /// Puts single fractures into the model, and says how many cells they lie in, or faces on.
 template <int D>
 FractureCount put_single(const Settings& settings, Model<D>& model, const cli::Context& context) {
@@ -399,6 +467,7 @@ FractureCount put_single(const Settings& settings, Model<D>& model, const cli::C
   context.note(std::to_string(set.traces.size()) + " single fracture" + (set.traces.size() == 1 ? "" : "s") +
                " of set '" + set.name + "', " + size_of(set) + " in all, " + (set.on_faces ? "on " : "in ") +
                std::to_string(count.marked) + (set.on_faces ? " faces" : " cells"));
+  warn_of_doubled(settings, set, context);
   if (count.taken > 0)
     context.warn(std::to_string(count.taken) +
                  " cells of earlier clusters have only the single fractures now");
@@ -458,16 +527,22 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
   std::vector<SlipSystem<D>> systems;
   if (!single(settings))
     for (const auto& normal : normals_of<D>(settings)) systems.push_back(system_of<D>(settings, normal));
-  const auto region =
-      single(settings) ? RegionIn<D>{} : bodies_of<D>(settings, region_of<D>(settings), systems[0].normal);
+  const auto whole = single(settings) ? RegionIn<D>{} : region_of<D>(settings);
+  const auto region = single(settings) ? whole : bodies_of<D>(settings, whole, systems[0].normal);
   auto model = read_model<D>(file);
   const auto input = settings.model == "-" ? "standard input" : settings.model;
   // Whoever built the model decided about vs > vp/sqrt(2).
   in_place(input, [&] { check(model, {.allow_auxetic = true, .allow_slow = true}); });
+  // Ellipses and slabs are often meant to reach through the whole model, and their bounds beyond it.
+  if (!single(settings) && !check_region(whole, model.grid()) && !settings.box.empty())
+    context.warn("the box at " + shown_box(whole.bounds) + " leaves the model, which is at " +
+                 shown_box(box_of_grid(model.grid())) + ": planes end there");
+  warn_of_dense_cracks(settings, context);
   const auto count = single(settings)     ? put_single(settings, model, context)
                      : settings.effective ? change_rock<D>(settings, model, systems, region)
                                           : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
+  if (const auto fault = fault_in_anisotropic_rock(model)) throw Error(fault->text);
   if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left && single(settings)) {
     context.warn("fractures end where rock does: " + std::to_string(count.left) +
@@ -489,6 +564,8 @@ void run(const Settings& settings, const cli::Context& context) {
   }
   if (settings.model == "-" && std::count(settings.traces.begin(), settings.traces.end(), "-") > 0)
     refuse("--trace: standard input holds the model already, expected a file");
+  if (settings.seed && settings.count == 0 && !drawn(settings))
+    refuse("--seed needs --count, --network or --intensity");
   check_single(settings);
   check_friction(settings);
   check_effective(settings);

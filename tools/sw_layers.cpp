@@ -49,6 +49,19 @@ void declare(cli::Options& options, Settings& settings) {
   for (const char* name : {"size", "step", "layer"}) options.require(name);
 }
 
+/// Of properties that no wave in a section meets.
+void warn_of_three_dimensions(const std::vector<Layer>& layers, const cli::Context& context) {
+  for (const auto property :
+       {Property::gamma, Property::epsilon1, Property::delta1, Property::delta3, Property::gamma2})
+    for (const auto& layer : layers)
+      for (const auto& [given, value] : layer.others) {
+        if (given != property) continue;
+        context.warn(row_of(property).name +
+                     " has no effect in 2-D, where waves travel and move in the section; it counts in 3-D");
+        return;
+      }
+}
+
 template <int D>
 void build(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
@@ -70,6 +83,7 @@ void build(const Settings& settings, const cli::Context& context) {
     return layered_medium(fit.grid, layers, settings.no_average ? Average::none : average, fit.rows);
   });
   check(model, settings.limits);
+  if (D == 2) warn_of_three_dimensions(layers, context);
   if (!fit.summary.empty()) context.say(fit.summary);
   for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit says what to follow");
   for (const auto& sentence : cut_off_layers(grid, layers))

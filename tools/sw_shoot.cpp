@@ -15,7 +15,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("error", s.wanted_error, "SHARE",
               "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
   options.add("of", s.error_of, "WHAT",
-              "what --error is of: traces, or response (what fractures add to them) [traces]");
+              "what --error is of: traces, or response (what fractures add to them)");
   options.add("plan", s.plan, "print expected error, time and memory, and stop; with -v all details");
   options.add("json", s.json, "with --plan: print all of it as one JSON object");
   options.add("output,o", s.output.traces, "GATHER",

@@ -315,6 +315,8 @@ struct FractureResponse::Shot {
   Sums sums(const ResponseSetting& setting) const;
   /// Whether anything of it comes to a receiver in time.
   bool is_heard() const;
+  /// Whether a wave would, if the planes slipped or gave way under the waves that come to them.
+  bool is_in_time() const { return !contributions.empty(); }
 
  private:
   void add_contributions(const Scene<2>& scene, std::size_t patch, const std::vector<Incoming>& waves);
@@ -768,8 +770,17 @@ FractureResponse::FractureResponse(const Scene<2>& scene) : why_not_(why_not_at_
   }
   std::size_t media = 0;
   for (const auto& shot : shots_) media = std::max(media, shot->media.speeds().size());
-  if (shots_.empty()) why_not_ = "no wave of the fractures is expected at a receiver before the traces end";
+  if (shots_.empty()) why_not_ = why_silent(scene.model.fracture_sets);
   not_covered_ = left_out_of(scene, media);
+}
+
+std::string FractureResponse::why_silent(const std::vector<FractureSet<2>>& sets) const {
+  if (!any_in_time_) return "no wave of the fractures is expected at a receiver before the traces end";
+  const auto any = [&](const auto& is) { return std::any_of(sets.begin(), sets.end(), is); };
+  if (any(slides<2>) && !any(gives<2>))
+    return "the fractures do not slip: the waves bring their planes no shear traction above the strength; "
+           "see --amplitude here, --prestress, --friction and --strength of sw-fracture";
+  return "the waves make the planes of the fractures neither slip nor give way";
 }
 
 void FractureResponse::add_shots(const Scene<2>& scene) {
@@ -777,6 +788,7 @@ void FractureResponse::add_shots(const Scene<2>& scene) {
   const auto stride = std::max<std::size_t>(1, (count + shots_followed - 1) / shots_followed);
   for (std::size_t n = stride / 2; n < count; n += stride) {
     auto shot = std::make_unique<Shot>(scene, n);
+    any_in_time_ = any_in_time_ || shot->is_in_time();
     if (shot->is_heard()) shots_.push_back(std::move(shot));
   }
 }

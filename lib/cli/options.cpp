@@ -82,6 +82,12 @@ void Options::add(const std::string& name, std::optional<double>& to, const std:
   option.store = [&to](const auto& values) { to = parse_number(values.back()); };
 }
 
+void Options::add(const std::string& name, std::optional<int>& to, const std::string& placeholder,
+                  const std::string& help) {
+  auto& option = declare(name, placeholder, help);
+  option.store = [&to](const auto& values) { to = int_of(values.back()); };
+}
+
 void Options::add(const std::string& name, std::vector<std::string>& to, const std::string& placeholder,
                   const std::string& help) {
   auto& option = declare(name, placeholder, help);

@@ -236,6 +236,13 @@ void Parser::store() {
     next += count;
   }
   if (next < arguments_.size()) {
+    const auto& options = options_.options_;
+    const auto with_properties = std::find_if(options.begin(), options.end(), [](const auto& option) {
+      return option.placeholder.find("NAME=VALUE") != std::string::npos;
+    });
+    if (with_properties != options.end() && arguments_[next].find('=') != std::string::npos)
+      refuse("unexpected argument '" + arguments_[next] + "'; quote it together with what it is of: --" +
+             with_properties->name + " '" + with_properties->placeholder + "'");
     refuse("unexpected argument '" + arguments_[next] + "'; usage: " + info_.name + " " + info_.synopsis);
   }
 }

@@ -34,6 +34,8 @@ class Options {
   /// A number without a default.
   void add(const std::string& name, std::optional<double>& to, const std::string& placeholder,
            const std::string& help);
+  void add(const std::string& name, std::optional<int>& to, const std::string& placeholder,
+           const std::string& help);
   /// May be given several times.
   void add(const std::string& name, std::vector<std::string>& to, const std::string& placeholder,
            const std::string& help);

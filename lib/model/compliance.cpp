@@ -39,6 +39,8 @@ LinearCompliance of_cracks(const ComplianceText& text) {
   if (text.aspect) of.aspect = above_zero("--aspect", text.aspect, "");
   if (of.aspect > 1) refuse("--aspect: found " + shown(of.aspect) + ", expected it at most 1");
   if (of.fill_pa > 0 && !text.aspect) refuse("--fill needs --aspect: thin cracks are stiffer when filled");
+  if (text.aspect && !(of.fill_pa > 0))
+    refuse("--aspect needs a --fill above zero: dry cracks give way alike whatever their thickness");
   return of;
 }
 

@@ -37,6 +37,39 @@ Point<2> cut_off(const Grid<2>& grid, const Point<2>& centre, const Point<2>& en
   return at(inside);
 }
 
+/// The integral of x^power from 1 to `ratio`.
+double integral_of_power(double ratio, double power) {
+  const double above = power + 1;
+  return std::abs(above) < 1e-9 ? std::log(ratio) : (std::pow(ratio, above) - 1) / above;
+}
+
+/// The mean length, in 3-D area, of the fractures of a network before the model cuts any off (S31).
+template <int D>
+double mean_size(const FractureNetwork& of) {
+  const double ratio = of.most_m / of.least_m,
+               size = D == 2 ? of.least_m : std::numbers::pi * of.least_m * of.least_m;
+  if (ratio == 1) return size;
+  return size * integral_of_power(ratio, D - 1 - of.exponent) / integral_of_power(ratio, -of.exponent);
+}
+
+/// No fracture is larger when the model has cut it off: the diagonal, in 3-D its square.
+template <int D>
+double largest_size(const Grid<D>& grid) {
+  double square = std::pow(grid.end(D - 1) - grid.origin_m[D - 1], 2);
+  for (int axis = 0; axis + 1 < D; ++axis)
+    square += std::pow(grid.end(axis) - grid.origin_m[std::size_t(axis)], 2);
+  return D == 2 ? std::sqrt(square) : square;
+}
+
+/// Throws a usage Error where an intensity means more fractures than a network may have, or none.
+void check_number(const FractureNetwork& of, double expected) {
+  const bool many = expected > most_fractures;
+  if (!many && !(expected < 0.5)) return;
+  refuse("--intensity: found " + shown(of.intensity_per_m) + ", which is about " + shown(expected, 2) +
+         " fractures in the region, expected 1 to " + std::to_string(most_fractures) + "; choose a " +
+         (many ? "lower intensity or larger fractures" : "higher intensity or a larger region"));
+}
+
 /// Of the cells whose centres are in the region, m2, in 3-D m3.
 template <int D>
 double size_of(const Grid<D>& grid, const RegionIn<D>& region) {
@@ -59,6 +92,7 @@ std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& regi
                                     const Draw& draw, const Size& size) {
   check<D>(of);
   const double wanted = of.count > 0 ? 0 : of.intensity_per_m * size_of(grid, region);
+  if (of.count == 0) check_number(of, wanted / std::min(mean_size<D>(of), largest_size(grid)));
   const auto &low = region.bounds.low_m, &high = region.bounds.high_m;
   constexpr std::int64_t numbers_a_try = std::int64_t{2} * D, tries_a_fracture = 10000;
   std::vector<FractureTrace<D>> all;
@@ -74,6 +108,8 @@ std::vector<FractureTrace<D>> drawn(const Grid<D>& grid, const RegionIn<D>& regi
     auto fracture = draw(centre, n + D);
     const double larger = size(fracture);
     if (of.count == 0 && !all.empty() && sum + larger / 2 > wanted) break;
+    if (of.count == 0 && all.size() == std::size_t(most_fractures))
+      check_number(of, wanted / sum * most_fractures);
     sum += larger;
     all.push_back(std::move(fracture));
   }

@@ -9,6 +9,9 @@
 
 namespace slipwave {
 
+/// More would take minutes and be smaller than cells.
+constexpr int most_fractures = 1'000'000;
+
 /// Straight single fractures, in 3-D discs, drawn from a seed.
 struct FractureNetwork {
   int count = 0;                        // how many; 0: by intensity
@@ -35,7 +38,8 @@ double drawn_cosine(double concentration, double share);
 
 /// Fractures whose centres are drawn evenly from a region, cut off at the border of the model; the first ones
 /// of a seed are the same for any count. By intensity, as many as come nearest to it, of the part of the
-/// region that is in the model. Throws an Error when hardly any point of the bounds is in the region.
+/// region that is in the model. Throws a usage Error where an intensity means none or more than
+/// most_fractures, an Error when hardly any point of the bounds is in the region.
 std::vector<FractureTrace<2>> drawn_fractures(const Grid<2>& grid, const Region& region,
                                               const FractureNetwork& network);
 /// The same of discs; in a fitted grid they are cut off at the box of the model.

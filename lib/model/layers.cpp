@@ -12,6 +12,7 @@
 #include "base/parse.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cut_cell.hpp"
+#include "model/property_range.hpp"
 #include "model/stiffness_input.hpp"
 #include "model/tilted_mean.hpp"
 
@@ -145,6 +146,10 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
   for (std::size_t n = 1; n < parts.size();) {
     const auto words = split(parts[n], ' ');
     const bool all = words.front().find('=') != std::string::npos;
+    if (!all && !named.empty())
+      throw Error("found '" + parts[n] + "' behind " + named.back() +
+                      ", expected NAME=VALUE there; DIP stands before",
+                  ErrorKind::usage);
     for (std::size_t w = all ? 0 : 1; w < words.size(); ++w)
       if (!words[w].empty()) named.emplace_back(words[w]);
     if (all) {
@@ -229,6 +234,8 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     const auto& row = row_of(*property);
     const double value = number == "inf" && row.if_absent == PropertyRow::infinite ? PropertyRow::infinite
                                                                                    : parse_number(number);
+    if (!is_in_range(row, value))
+      throw Error(row.name + " is " + shown(value) + ", expected " + expected_values(row), ErrorKind::usage);
     layer.others.emplace_back(*property, value);
     if (property == Property::epsilon) layer.material.epsilon = value;
     if (property == Property::delta) layer.material.delta = value;
@@ -395,7 +402,7 @@ double Layer::value(Property property) const {
 
 Layer parse_layer(std::string_view text, const InputUnits& units) {
   auto parts = split(text, ':');
-  auto named = take_named(parts);
+  auto named = in_place('\'' + std::string(text) + "'", [&] { return take_named(parts); });
   if (parts.size() != 4 && parts.size() != 5) {
     throw Error("found '" + std::string(text) + "', expected DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]",
                 ErrorKind::usage);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -9,6 +8,7 @@
 #include "model/model.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/prestress.hpp"
+#include "model/property_range.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -17,27 +17,11 @@ namespace {
 // Room for the rounding of vp and vs to float.
 constexpr double slack = 1 + 1e-6;
 
-/// Values of a model are floats: the shortest number that reads back as that float.
-std::string shown_float(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, float(value));
-  return std::string(text, end.ptr);
-}
-
 /// "vs at x=1200 z=45 is NaN, expected ..."
 template <int D>
 [[noreturn]] void refuse(const Grid<D>& grid, std::size_t cell, const std::string& name,
                          const std::string& rest) {
   throw Error(name + " at " + place_of(grid, std::int64_t(cell)) + " " + rest);
-}
-
-std::string expected_values(const PropertyRow& row) {
-  const std::string finite = "a finite number";
-  if (std::isinf(row.largest) && row.if_absent == PropertyRow::infinite)
-    return "a number of at least " + shown(row.least) + ", or inf";
-  if (std::isinf(row.largest))
-    return finite + (row.least == 0 ? " not below zero" : " of at least " + shown(row.least));
-  return finite + " from " + shown(row.least) + " to " + shown(row.largest);
 }
 
 template <int D>
@@ -46,11 +30,9 @@ void check_values(const Medium<D>& medium, Property property) {
   const auto& field = medium[property];
   for (std::size_t cell = 0; cell < field.size(); ++cell) {
     const double value = double(field[cell]);
-    if (value >= row.least && value <= row.largest && (std::isfinite(value) || value == row.if_absent))
-      continue;
+    if (is_in_range(row, value)) continue;
     if (row.if_absent && medium.is_void(cell)) continue;
-    const std::string found = std::isnan(value) ? "NaN" : shown_float(value);
-    refuse(field.grid(), cell, row.name, "is " + found + ", expected " + expected_values(row));
+    refuse(field.grid(), cell, row.name, "is " + shown_float(value) + ", expected " + expected_values(row));
   }
 }
 

@@ -200,19 +200,6 @@ std::string fault_of_polygon(const FractureTrace<3>& polygon) {
   return "";
 }
 
-Box<3> box_of_grid(const Grid<3>& grid) {
-  Box<3> box;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    box.low_m[axis] = grid.origin_m[axis] + double(grid.first[axis]) * grid.spacing_m;
-    box.high_m[axis] = grid.end(int(axis));
-  }
-  if (!grid.rows) return box;
-  const auto corners = grid.rows->corners_m();
-  const auto [top, bottom] = std::minmax_element(corners.begin(), corners.end());
-  box.low_m[2] = *top, box.high_m[2] = *bottom;
-  return box;
-}
-
 FractureTrace<3> clipped(FractureTrace<3> polygon, const Box<3>& box) {
   FractureTrace<3> left;
   for (std::size_t axis = 0; axis < 3; ++axis)

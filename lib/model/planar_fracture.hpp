@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/parse.hpp"
+#include "grid/extent.hpp"
 #include "model/model.hpp"
 
 /// Single fractures in 3-D (docs/theory.md 2.8): plane polygons, closed, of the vertices of a trace.
@@ -29,8 +30,6 @@ double area_of(const FractureTrace<3>& polygon);
 /// lie in a plane within a thousandth of their distance, and edges must not cross.
 std::string fault_of_polygon(const FractureTrace<3>& polygon);
 
-/// The box of a grid: of a fitted one from its highest to its deepest corner.
-Box<3> box_of_grid(const Grid<3>& grid);
 /// What of it lies in a box; empty where nothing does.
 FractureTrace<3> clipped(FractureTrace<3> polygon, const Box<3>& box);
 

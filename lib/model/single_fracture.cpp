@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "grid/extent.hpp"
 #include "io/input_bytes.hpp"
 #include "model/parted_faces.hpp"
 #include "model/planar_fracture.hpp"
@@ -171,6 +172,58 @@ double length_of(const FractureTrace<2>& trace) {
   return sum;
 }
 
+namespace {
+
+/// A straight piece of a fracture, its end of the smaller x first.
+struct Piece {
+  Point<2> from, to;
+};
+
+/// Metres that two pieces of the same line have in common.
+double common_m(const Piece& one, const Piece& other) {
+  const auto length_of_piece = [](const Piece& piece) {
+    return std::hypot(piece.to[0] - piece.from[0], piece.to[1] - piece.from[1]);
+  };
+  const bool first_longer = length_of_piece(one) >= length_of_piece(other);
+  const auto &longer = first_longer ? one : other, &shorter = first_longer ? other : one;
+  const double length_m = length_of_piece(longer), near_m = 1e-6 * length_m;
+  const Point<2> along = {(longer.to[0] - longer.from[0]) / length_m,
+                          (longer.to[1] - longer.from[1]) / length_m};
+  double low = length_m, high = 0;
+  for (const auto& end : {shorter.from, shorter.to}) {
+    const double x = end[0] - longer.from[0], z = end[1] - longer.from[1];
+    if (std::abs(x * along[1] - z * along[0]) > near_m) return 0;
+    low = std::min(low, x * along[0] + z * along[1]), high = std::max(high, x * along[0] + z * along[1]);
+  }
+  const double common = std::min(high, length_m) - std::max(low, 0.);
+  return common > near_m ? common : 0;
+}
+
+}  // namespace
+
+double doubled_size(const std::vector<FractureTrace<2>>& traces) {
+  std::vector<Piece> pieces;
+  for (const auto& trace : traces)
+    for (std::size_t n = 1; n < trace.size(); ++n)
+      pieces.push_back({std::min(trace[n - 1], trace[n]), std::max(trace[n - 1], trace[n])});
+  std::sort(pieces.begin(), pieces.end(),
+            [](const Piece& one, const Piece& other) { return one.from[0] < other.from[0]; });
+  double sum = 0;
+  for (std::size_t n = 0; n < pieces.size(); ++n)
+    for (std::size_t k = n + 1; k < pieces.size() && pieces[k].from[0] <= pieces[n].to[0]; ++k)
+      sum += common_m(pieces[n], pieces[k]);
+  return sum;
+}
+
+double doubled_size(const std::vector<FractureTrace<3>>& polygons) {
+  auto sorted = polygons;
+  std::sort(sorted.begin(), sorted.end());
+  double sum = 0;
+  for (std::size_t n = 1; n < sorted.size(); ++n)
+    if (sorted[n] == sorted[n - 1]) sum += area_of(sorted[n]);
+  return sum;
+}
+
 template <>
 std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
   if (set.traces.empty()) return {};
@@ -233,9 +286,9 @@ void check_trace(const Grid<2>& grid, const FractureTrace<2>& trace) {
     const auto place = grid.row_coordinates(trace[n]);
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (!(place[axis] >= grid.origin_m[axis] && place[axis] <= grid.end(int(axis))))
-        throw Error(
-            "found the point " + shown_point(trace[n]) + " outside the model, which is " + shown(grid),
-            ErrorKind::usage);
+        throw Error("found the point " + shown_point(trace[n]) + " outside the model, which is at " +
+                        shown_box(box_of_grid(grid)),
+                    ErrorKind::usage);
     if (n > 0 && trace[n] == trace[n - 1])
       throw Error(
           "found the point " + shown_point(trace[n]) + " twice in a row, expected a piece of some length",
@@ -250,7 +303,7 @@ void check_trace(const Grid<3>& grid, const FractureTrace<3>& polygon) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (!(vertex[axis] >= box.low_m[axis] && vertex[axis] <= box.high_m[axis]))
         throw Error("found the point " + shown(vertex[0]) + "," + shown(vertex[1]) + "," + shown(vertex[2]) +
-                        " outside the model, which is " + shown(grid),
+                        " outside the model, which is at " + shown_box(box),
                     ErrorKind::usage);
 }
 

@@ -25,6 +25,11 @@ Point<2> normal_between_tips(const FractureTrace<2>& trace);
 /// Metres from tip to tip, along the trace.
 double length_of(const FractureTrace<2>& trace);
 
+/// How much of fractures lies on others or, of a trace that goes back, on itself, where it has the compliance
+/// of both: m; in 3-D m2 of polygons that stand there twice.
+double doubled_size(const std::vector<FractureTrace<2>>& traces);
+double doubled_size(const std::vector<FractureTrace<3>>& polygons);
+
 /// What single fractures do to a cell.
 template <int D>
 struct CrossedCell {

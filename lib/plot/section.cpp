@@ -10,11 +10,21 @@
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/planar_fracture.hpp"
+#include "model/property_range.hpp"
 #include "plot/derived_property.hpp"
 #include "plot/ticks.hpp"
 
 namespace slipwave::plot {
 namespace {
+
+/// Refuses what check(model) would.
+template <int D>
+void check_range(const NetcdfFile& file, const Field<D>& field, const PropertyRow& row) {
+  for (std::size_t cell = 0; cell < field.size(); ++cell)
+    if (!is_in_range(row, double(field[cell])))
+      throw Error(file.shown_name() + ": " + row.name + " at " + place_of(field.grid(), std::int64_t(cell)) +
+                  " is " + shown_float(double(field[cell])) + ", expected " + expected_values(row));
+}
 
 template <int D>
 Field<D> read_stored(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
@@ -30,6 +40,9 @@ Field<D> read_stored(const NetcdfFile& file, const Grid<D>& grid, const std::str
   const auto values = file.get_physical(name);
   Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
+  const auto property = find_property(name);
+  // Where rock is missing the others are not asked for.
+  if (property && !row_of(*property).if_absent) check_range(file, field, row_of(*property));
   return field;
 }
 

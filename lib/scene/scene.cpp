@@ -262,10 +262,6 @@ void check_parted(const Scene<D>& scene) {
   if (scene.numerics.monotone) refuse("--monotone", "it without");
   if (scene.numerics.time_order != 2)
     refuse("--time-order " + std::to_string(scene.numerics.time_order), "--time-order 2");
-  const auto& grid = scene.model.grid();
-  for (const auto& face : parted_faces(scene.model))
-    if (is_anisotropic(scene.model.medium, std::size_t(grid.flat(face.behind))))
-      refuse("anisotropic rock at " + place_of(grid, grid.flat(face.behind)), "isotropic rock there");
 }
 
 template <int D>

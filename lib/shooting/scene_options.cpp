@@ -178,6 +178,12 @@ template <int D>
 std::vector<std::string> SceneOptions::read_model_into(Scene<D>& scene, const NetcdfFile& file) const {
   scene.model = read_model<D>(file);
   auto warnings = prepare_model(scene);
+  const auto without_effects = effects_without();
+  const bool left_out = std::find(without_effects.begin(), without_effects.end(), ModelEffect::attenuation) !=
+                        without_effects.end();
+  if ((q_frequency_hz || !q_band.empty()) && !scene.attenuation && !left_out)
+    warnings.push_back(std::string(q_frequency_hz ? "--q-frequency" : "--q-band") +
+                       " has no effect: no cell of the model has a finite qp or qs");
   place_on_model(scene);
   check(scene);
   return warnings;

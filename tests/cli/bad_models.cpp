@@ -8,6 +8,10 @@
 #include <vector>
 
 #include "io/netcdf_file.hpp"
+#include "io/output_file.hpp"
+#include "model/model_netcdf.hpp"
+#include "model/planar_fracture.hpp"
+#include "model/single_fracture.hpp"
 
 namespace {
 
@@ -98,6 +102,21 @@ void write(const std::string& path, const Contents& model) {
   file.close();
 }
 
+/// Single fractures in a shale, in a way that is not computed.
+template <int D>
+void write_in_shale(const std::string& path, const slipwave::Grid<D>& grid,
+                    const slipwave::FractureSet<D>& set) {
+  using slipwave::Field, slipwave::Property;
+  slipwave::Model<D> model;
+  model.medium.vp = Field<D>(grid, 3000), model.medium.vs = Field<D>(grid, 1500);
+  model.medium.rho = Field<D>(grid, 2200);
+  model.medium[Property::epsilon] = Field<D>(grid, 0.2F),
+  model.medium[Property::delta] = Field<D>(grid, 0.1F);
+  add_single_fractures(model, set);
+  slipwave::OutputFile out(path, slipwave::OutputFile::Content::binary);
+  write_model(model, out);
+}
+
 }  // namespace
 
 void write_bad_models(const std::string& directory) {
@@ -167,6 +186,12 @@ void write_bad_models(const std::string& directory) {
   fractured("pushing", [](Contents& model) { model.friction = {-0.1}; });
   fractured("nan-viscosity", [](Contents& model) { model.viscosity = {std::nan("")}; });
   fractured("weak", [](Contents& model) { model.strength = {-1}; });
+  slipwave::FractureSet<2> slit{"slit", {{{0, 1}, 0.5, 0, 0}}, {{{50, 50}, {150, 50}}}, true};
+  write_in_shale<2>(directory + "/vti-faulted.nc", {{40, 20}, 5, {0, 0}}, slit);
+  slipwave::FractureSet<3> disc{"disc", {{{0, 0, 1}, 0, 0, 0, false, slipwave::FrictionLaw::none}}};
+  disc.systems[0].compliance.normal_m_per_pa = disc.systems[0].compliance.tangential_m_per_pa = 1e-10;
+  disc.traces = {slipwave::parse_disc("50,50,50:30")};
+  write_in_shale<3>(directory + "/vti-disc.nc", {{10, 10, 10}, 10, {0, 0, 0}}, disc);
   fractured("three-systems", [](Contents& model) {
     model.slip_set = {0, 0, 0};
     model.normal = {0, 1, 1, 0, 0.6, 0.8};

@@ -107,6 +107,26 @@ TEST_F(Compliance, OfDiscsGoesFromTheCommandLineToTraces) {
   done(drawn + "--intensity 0.02 --compliance 1e-10,1e-10 -o p.nc && sw-plot p.nc -o p.png");
 }
 
+TEST_F(Compliance, OfWhatIsRarelyMeantIsWarnedAbout) {
+  done(model + "-o m.nc");
+  const std::string region = "sw-fracture m.nc --box 50:900,100:200 --dip 30 --friction 0.1 --viscosity 1 ";
+  const auto said = [&](const std::string& line) { return run(line + " -o w.nc").err; };
+  EXPECT_EQ(said(region),
+            "sw-fracture: warning: the box at x=50..900 z=100..200 leaves the model, which is at x=0..300 "
+            "z=0..300: planes end there\n");
+  EXPECT_EQ(said("sw-fracture m.nc --box 0:300,100:300 --dip 30 --friction 0.1 --viscosity 1"), "");
+  const std::string cracks = "sw-fracture m.nc --box 50:250,100:200 --dip 30 --crack-density ";
+  EXPECT_EQ(said(cracks + "0.3"),
+            "sw-fracture: warning: a crack density of 0.3 is above 0.2, to which Hudson's theory of first "
+            "order holds; usual are 0.01 to 0.1\n");
+  EXPECT_EQ(said(cracks + "0.2"), "");
+  const std::string lines = "sw-fracture m.nc --compliance 1e-11,1e-11 --segment 50,100:150,100 --segment ";
+  EXPECT_EQ(said(lines + "150,100:50,100"),
+            "sw-fracture: warning: 100 m of the fractures lie on others, and have the compliance of both "
+            "there; if that is not meant, give each of them once\n");
+  EXPECT_EQ(said(lines + "150,100:250,100"), "");
+}
+
 TEST_F(Compliance, ThatContradictsItselfIsRefusedInOneLine) {
   done(model + "-o m.nc");
   expect_misuse("--compliance -1e-12,1e-12 --spacing 1",

@@ -70,6 +70,17 @@ TEST_F(ModelGeology, OfLayersWarnsWhereACurveCutsALayerOff) {
   done(line + " -q");
 }
 
+TEST_F(ModelGeology, OfLayersWarnsOfWhatOnlyCountsInThreeDimensions) {
+  const std::string layer = " --step 10 --layer '0:3000:1500:2200 epsilon=0.1 gamma=0.2' -o g.nc";
+  EXPECT_EQ(run("sw-layers --size 100x50" + layer).err,
+            "sw-layers: warning: gamma has no effect in 2-D, where waves travel and move in the section; it "
+            "counts in 3-D\n");
+  EXPECT_NE(run("sw-layers --size 100x50 --step 10 --layer '0:3000:1500:2200 epsilon1=0.2' -o g.nc")
+                .err.find("epsilon1 has no effect"),
+            std::string::npos);
+  EXPECT_EQ(run("sw-layers --size 100x50x50" + layer).err, "");
+}
+
 TEST_F(ModelGeology, OfLayersIsTakenFromAFileOfOptions) {
   write(
       "m.ini",

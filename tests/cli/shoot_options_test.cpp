@@ -1,5 +1,6 @@
 #include <cstdlib>
 #include <filesystem>
+#include <regex>
 
 #include "shell.hpp"
 
@@ -35,6 +36,23 @@ TEST_F(ShootOptions, EachChangesTheTraces) {
     // Past the headers, which hold the command line.
     EXPECT_NE(run("cmp -s <(tail -c +3601 base.sgy) <(tail -c +3601 other.sgy)").code, 0) << option;
   }
+}
+
+TEST_F(ShootOptions, AreListedWithEveryEffectAndEachDefaultOnce) {
+  const auto help = done("sw-shoot --help-all");
+  EXPECT_FALSE(std::regex_search(help, std::regex("(\\[[a-z]+\\])\\s+\\1"))) << help;
+  const auto begin = help.find("effects to switch off");
+  const auto listed = help.substr(begin, help.find("--", begin) - begin);
+  for (const std::string effect : {"slip", "friction", "viscosity", "cohesion", "opening", "prestress",
+                                   "attenuation", "anisotropy", "compliance"})
+    EXPECT_TRUE(has(listed, effect)) << effect;
+}
+
+TEST_F(ShootOptions, OfAttenuationAreWarnedAboutInElasticRock) {
+  const auto said = [&](const std::string& options) { return run(shoot + at + options + "-o q.sgy").err; };
+  EXPECT_EQ(said("--q-frequency 20 "),
+            "sw-shoot: warning: --q-frequency has no effect: no cell of the model has a finite qp or qs\n");
+  EXPECT_EQ(said("--q-frequency 20 --without attenuation "), "");
 }
 
 TEST_F(ShootOptions, DefaultsAreWhatHelpSays) {

@@ -36,7 +36,7 @@ typed_and_wanted = [
     ("sw-shoot mo\t--top=mi\t", "<model.nc><--top=mirror>"),
     ("sw-shoot --record vx,sz\t", "<--record><vx,szz>"),
     ("sw-shoot --fields=vx,slip_\t,cu\t", "<--fields=vx,slip_rate,curl>"),
-    ("sw-shoot --without co\t", "<--without><cohesion>"),
+    ("sw-shoot --without coh\t", "<--without><cohesion>"),
     ("sw-shoot -o sho\t", "<-o><shots.sgy>"),
     ("sw-shoot --output=sho\t", "<--output=shots.sgy>"),
     ("sw-shoot --time mod\t", "<--time><mod>"),

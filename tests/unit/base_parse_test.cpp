@@ -27,9 +27,17 @@ TEST(Parse, ReadsANumberAndNothingAfterIt) {
   EXPECT_EQ(parse_number("-1.5e3"), -1500);
   EXPECT_EQ(parse_number("+2"), 2);
   EXPECT_EQ(parse_number("0"), 0);
-  for (const char* text : {"", " 1", "1 ", "1m", "one", "1,5", "--1", "+-1", "0x10", "nan", "inf", "1e999"}) {
+  for (const char* text : {"", " 1", "1 ", "1m", "one", "1,5", "--1", "+-1", "0x10", "nan", "inf"}) {
     EXPECT_EQ(refusal([&] { parse_number(text); }), "found '" + std::string(text) + "', expected a number");
   }
+}
+
+TEST(Parse, TellsNumbersThatNoDoubleHoldsFromWords) {
+  for (const char* text : {"1e999", "-1e400", "1e-400"})
+    EXPECT_EQ(refusal([&] { parse_number(text); }),
+              "found '" + std::string(text) + "', expected a number from 1e-307 to 1e308 in size");
+  EXPECT_EQ(refusal([] { parse_point<2>("1,1e400"); }),
+            "found '1,1e400', expected a point X,Z ('1e400' is too large or too small)");
 }
 
 TEST(Parse, ReadsWholeNumbersExactly) {

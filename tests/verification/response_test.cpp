@@ -230,6 +230,19 @@ TEST(ResponsePromise, ChoosesWiderEdgesWhereTheResponseGrazesThem) {
   EXPECT_GT(share(grazing, 20), 0.01);
 }
 
+TEST(ResponsePromise, TellsPlanesThatCanNotSlipFromTracesThatEndTooEarly) {
+  auto scene = plane_wave_scene(10);
+  const auto why = [&] { return FractureResponse(scene).why_not(); };
+  auto& system = scene.model.fracture_sets[0].systems[0];
+  system.strength_pa = 1e12;
+  EXPECT_NE(why().find("the fractures do not slip"), std::string::npos) << why();
+  EXPECT_EQ(why().find("before the traces end"), std::string::npos) << why();
+  system.law = FrictionLaw::none;
+  EXPECT_NE(why().find("neither slip nor give way"), std::string::npos) << why();
+  scene.recording.duration_s = 0.001;
+  EXPECT_NE(why().find("before the traces end"), std::string::npos) << why();
+}
+
 TEST(ResponsePromise, SaysWhatItDoesNotKnow) {
   auto scene = plane_wave_scene(10);
   const auto why = [&] { return expected_error(scene).response_unknown; };

@@ -136,6 +136,20 @@ TEST(FractureTraces, AreReadFromTextWithEmptyLinesBetweenThem) {
   std::filesystem::remove(path);
 }
 
+TEST(FractureTraces, ThatLieOnEachOtherAreFound) {
+  const FractureTrace<2> dipping = {{10, 20}, {110, 70}}, back = {{0, 0}, {0, 80}, {0, 50}},
+                         half = {{60, 45}, {160, 95}};
+  EXPECT_EQ(doubled_size({dipping}), 0);
+  EXPECT_NEAR(doubled_size({dipping, dipping}), std::hypot(100, 50), 1e-9);
+  EXPECT_NEAR(doubled_size({back, dipping}), 30, 1e-9);
+  EXPECT_NEAR(doubled_size({half, dipping}), std::hypot(50, 25), 1e-9);
+  // Those that cross, touch or lie beside each other do not.
+  EXPECT_EQ(doubled_size({dipping, {{10, 70}, {110, 20}}, {{110, 70}, {210, 120}}, {{10, 21}, {110, 71}}}),
+            0);
+  const FractureTrace<3> flat = {{0, 0, 1}, {5, 0, 1}, {5, 5, 1}}, other = {{0, 0, 2}, {5, 0, 2}, {5, 5, 2}};
+  EXPECT_EQ(doubled_size({flat, other, flat}), 12.5);
+}
+
 TEST(FractureNetwork, HasTheLengthsAndDipsItIsDrawnFrom) {
   const Grid<2> grid{{400, 400}, 10, {0, 0}};
   FractureNetwork of{4000, 0, 10, 200, 2.5, 30, 8, 7};
@@ -163,6 +177,28 @@ TEST(FractureNetwork, HasTheLengthsAndDipsItIsDrawnFrom) {
   EXPECT_TRUE(std::equal(few.begin(), few.end(), all.begin()));
   of.seed = 8;
   EXPECT_NE(drawn_fractures(grid, region, of), few);
+}
+
+TEST(FractureNetwork, HasNoMoreFracturesByIntensityThanByCount) {
+  const Grid<2> grid{{100, 100}, 10, {0, 0}};
+  const auto error = [&](double intensity, double least_m, double most_m, double exponent) -> std::string {
+    try {
+      drawn_fractures(grid, region_of_box<2>({{0, 0}, {1000, 1000}}),
+                      {0, intensity, least_m, most_m, exponent, 30, {}, 1});
+    } catch (const Error& found) {
+      return found.what();
+    }
+    return "";
+  };
+  // Mean lengths: (MAX - MIN)/ln(MAX/MIN) of an exponent of 1, ln(MAX/MIN)/(1/MIN - 1/MAX) of one of 2.
+  EXPECT_NE(error(1000, 10, 50, 1).find("about 4e+07 fractures"), std::string::npos)
+      << error(1000, 10, 50, 1);
+  EXPECT_NE(error(1000, 10, 50, 2).find("about 5e+07 fractures"), std::string::npos)
+      << error(1000, 10, 50, 2);
+  EXPECT_NE(error(1000, 20, 20, 2).find("about 5e+07 fractures"), std::string::npos);
+  EXPECT_NE(error(1e-9, 10, 50, 2).find("about 5e-05 fractures"), std::string::npos);
+  // The model cuts off what is longer than it.
+  EXPECT_EQ(error(0.01, 1e5, 1e6, 1.5), "");
 }
 
 TEST(FractureNetwork, HasTheIntensityAskedForAndEndsWithTheModel) {

@@ -7,12 +7,10 @@ sw-layers --size 200x100 --step 5 --layer 0:3000:2500:2200 --allow-auxetic -o au
 sw-layers --size 200x100 --step 5 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti.nc
 sw-layers --size 100x100x100 --step 10 --layer '0:3000:1500:2200 epsilon=0.2 delta=0.1' -o vti-cube.nc
 sw-layers --size 100x80x60 --step 10 --layer 0:3000:1500:2200 -o cube.nc
-sw-fracture vti-cube.nc --disc 50,50,50:30 --compliance 1e-10,1e-10 -o vti-disc.nc
 printf '0 0 10\n50 0 10\n50 50 30\n0 50 10\n' > bent.txt
 sw-layers --size 300x100 --step 10 --layer 0:2000:1000:2000 -o rock.nc
 sw-layers --size 100x50 --step 5 --layer 0:2000:1000:2000 -o small.nc
 sw-fracture rock.nc --segment 50,50:250,50 --faces --friction 0.5 --viscosity 0 --prestress=-1e4,-1e4,4e3 -o faulted.nc
-sw-fracture vti.nc --segment 50,50:150,50 --faces --friction 0.5 --viscosity 0 -o vti-faulted.nc
 printf '0 50\n200 70\n' > sloping.txt
 sw-layers -q --size 200x100 --step 5 --layer 0:1500:0:1000 --layer @sloping.txt:3000:1500:2200 -o sloping.nc
 sw-layers -q --size 200x100 --step 5 --fit none --layer 0:2000:1000:2000 --layer @sloping.txt:3000:1500:2200 -o cut.nc

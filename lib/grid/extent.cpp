@@ -1,0 +1,39 @@
+#include "grid/extent.hpp"
+
+#include <algorithm>
+
+#include "base/error.hpp"
+
+namespace slipwave {
+
+template <int D>
+Box<D> box_of_grid(const Grid<D>& grid) {
+  Box<D> box;
+  for (std::size_t axis = 0; axis < D; ++axis) {
+    box.low_m[axis] = grid.origin_m[axis] + double(grid.first[axis]) * grid.spacing_m;
+    box.high_m[axis] = grid.end(int(axis));
+  }
+  if (!grid.rows) return box;
+  const auto corners = grid.rows->corners_m();
+  const auto [top, bottom] = std::minmax_element(corners.begin(), corners.end());
+  box.low_m[D - 1] = *top, box.high_m[D - 1] = *bottom;
+  return box;
+}
+
+template <int D>
+std::string shown_box(const Box<D>& box) {
+  // Depths of corners of a fitted grid have many digits.
+  constexpr int digits = 7;
+  std::string text;
+  for (std::size_t axis = 0; axis < D; ++axis)
+    text += std::string(axis == 0 ? "" : " ") + axis_names<D>()[axis] + "=" + shown(box.low_m[axis], digits) +
+            ".." + shown(box.high_m[axis], digits);
+  return text;
+}
+
+template Box<2> box_of_grid(const Grid<2>&);
+template Box<3> box_of_grid(const Grid<3>&);
+template std::string shown_box(const Box<2>&);
+template std::string shown_box(const Box<3>&);
+
+}  // namespace slipwave
