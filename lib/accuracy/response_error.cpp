@@ -570,6 +570,12 @@ Complex late_in_springs(const Leg& leg, const ResponseSetting& setting, double o
                                                      : Complex(0, -radians * angle * angle / 6);
 }
 
+/// What that changes of a wave that fractures send out.
+Complex late_on_ways(const Leg& in, const Leg& out, const ResponseSetting& setting, double omega) {
+  const auto both = late_in_springs(in, setting, omega) + late_in_springs(out, setting, omega);
+  return of_transmitted * (std::exp(both) - 1.);
+}
+
 /// The error of what planes send out by the time step, at an angular frequency (S32).
 double late_error(const Planes& planes, const ResponseSetting& setting, double omega) {
   if (planes.single) return 0;
@@ -679,19 +685,17 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
       const auto wave = of.wave[f] * sinc(omega * of.slowness[0] * patch_m / 2) *
                         sinc(omega * of.slowness[1] * patch_m / 2);
       const auto way_out = let_through * (std::exp(out[f]) - 1.);
-      const std::array<Complex, parts> by = {1.,
-                                             let_through * (std::exp(in[f]) - 1.),
-                                             p ? way_out : 0.,
-                                             p ? 0. : way_out,
-                                             let_through * (std::exp(in[f] + out[f]) - 1.),
-                                             late_error(planes[of.planes], setting, omega),
-                                             of_transmitted * let_through *
-                                                 (std::exp(late_in_springs(legs[of.in], setting, omega) +
-                                                           late_in_springs(legs[of.out], setting, omega)) -
-                                                  1.),
-                                             cell_error(planes[of.planes], setting, wave_number),
-                                             single ? 1 - left_of_shared(of, omega, h) : 0.,
-                                             rim_error(planes[of.planes].rim, of_rows, omega, h)};
+      const std::array<Complex, parts> by = {
+          1.,
+          let_through * (std::exp(in[f]) - 1.),
+          p ? way_out : 0.,
+          p ? 0. : way_out,
+          let_through * (std::exp(in[f] + out[f]) - 1.),
+          late_error(planes[of.planes], setting, omega),
+          let_through * late_on_ways(legs[of.in], legs[of.out], setting, omega),
+          cell_error(planes[of.planes], setting, wave_number),
+          single ? 1 - left_of_shared(of, omega, h) : 0.,
+          rim_error(planes[of.planes].rim, of_rows, omega, h)};
       for (std::size_t part = 0; part < parts; ++part)
         for (const std::size_t c : {0, 1}) spectra[part][f][c] += wave * of.moves[c] * by[part];
       if (single)
