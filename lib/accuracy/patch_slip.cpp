@@ -1,11 +1,13 @@
 #include "accuracy/patch_slip.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "base/fft.hpp"
+#include "model/plane_motion.hpp"
+#include "model/plane_strain.hpp"
+#include "model/spline_shares.hpp"
 
 namespace slipwave {
 namespace {
@@ -115,7 +117,7 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
     Point<2> tau{}, tau_before{};
     const double normal = resolve<2, double>(n, stress, tau), along = tau[0] * t[0] + tau[1] * t[1];
     const double before = resolve<2, double>(n, prestress, tau_before);
-    const auto springs = compliance_in(system.compliance, lambda, mu);
+    const auto springs = slip::bounded(compliance_in(system.compliance, lambda, mu), lambda, mu);
     const double soft_n = springs.normal / (1 + (lambda + 2 * mu) * springs.normal) * normal,
                  soft_t = springs.tangential / (1 + mu * springs.tangential) * along;
     std::vector<Complex> slip(history.hz.size());
@@ -129,55 +131,29 @@ MomentSpectrum moment_rate_of(const FractureSet<2>& set, const UniformMedium& ro
   return moment;
 }
 
-namespace {
-
-/// A symmetric matrix of three rows: 0 0, 1 1, 2 2, 0 1, 0 2, 1 2.
-using Symmetric = std::array<double, 6>;
-
-Symmetric inverse_of(const Symmetric& m) {
-  const auto [a, b, c, d, e, f] = m;
-  const Symmetric cofactors = {b * c - f * f, a * c - e * e, a * b - d * d,
-                               e * f - c * d, d * f - b * e, d * e - a * f};
-  const double determinant = a * cofactors[0] + d * cofactors[3] + e * cofactors[4];
-  Symmetric inverse;
-  for (std::size_t n = 0; n < inverse.size(); ++n) inverse[n] = cofactors[n] / determinant;
-  return inverse;
-}
-
-/// Adds a compliance times the square of a row of strains xx, zz and 2 xz.
-void add_square(Symmetric& compliance, double size, const std::array<double, 3>& row) {
-  for (std::size_t n = 0; n < 3; ++n) compliance[n] += size * row[n] * row[n];
-  compliance[3] += size * row[0] * row[1];
-  compliance[4] += size * row[0] * row[2];
-  compliance[5] += size * row[1] * row[2];
-}
-
-}  // namespace
-
 Slower slower_in_springs(const FractureSet<2>& set, const UniformMedium& rock, const Point<2>& n, double hz) {
   const double mu = rock.mu(), lambda = rock.lambda(), whole = 4 * mu * (lambda + mu);
   if (!(mu > 0)) return {};
-  Symmetric compliance = {
-      (lambda + 2 * mu) / whole, (lambda + 2 * mu) / whole, 1 / mu, -lambda / whole, 0, 0};
+  // Compliances of rock and planes add up; Hooke's law the other way round then gives the stiffness.
+  PlaneStiffness compliance{
+      (lambda + 2 * mu) / whole, -lambda / whole, 0, (lambda + 2 * mu) / whole, 0, 1 / mu};
   for (const auto& system : set.systems) {
-    const double x = system.normal[0], z = system.normal[1];
-    const auto springs = compliance_in(system.compliance, lambda, mu);
+    const auto springs = slip::bounded(compliance_in(system.compliance, lambda, mu), lambda, mu);
     const auto give = [&](double of, double damping) {
       return of / std::hypot(1, 2 * std::numbers::pi * hz * of * damping);
     };
-    add_square(compliance, give(springs.normal, springs.normal_damping), {x * x, z * z, 2 * x * z});
-    add_square(compliance, give(springs.tangential, springs.tangential_damping),
-               {x * z, -x * z, z * z - x * x});
+    const auto of = strain_of_plane<2>(system.normal, give(springs.normal, springs.normal_damping),
+                                       give(springs.tangential, springs.tangential_damping));
+    compliance.c11 += of[0], compliance.c13 += of[1], compliance.c15 += of[2];
+    compliance.c33 += of[4], compliance.c35 += of[5], compliance.c55 += 2 * of[8];
   }
-  const auto [c11, c33, c55, c13, c15, c35] = inverse_of(compliance);
-  const double x = n[0], z = n[1];
-  const double xx = c11 * x * x + 2 * c15 * x * z + c55 * z * z,
-               zz = c55 * x * x + 2 * c35 * x * z + c33 * z * z,
-               xz = c15 * x * x + (c13 + c55) * x * z + c35 * z * z;
-  const double mean = (xx + zz) / 2, apart = std::hypot((xx - zz) / 2, xz);
-  const double slowest = std::max(mean - apart, 1e-12 * mean);
-  return {std::max(1., rock.vp / std::sqrt((mean + apart) / rock.rho)),
-          std::max(1., rock.vs / std::sqrt(slowest / rock.rho))};
+  const auto xx = strain_of_stress(compliance, {1, 0, 0}), zz = strain_of_stress(compliance, {0, 1, 0}),
+             xz = strain_of_stress(compliance, {0, 0, 1});
+  const PlaneStiffness stiffness{xx[0], xx[1], xx[2], zz[1], zz[2], xz[2]};
+  const auto times = [&](double speed, bool shear) {
+    return std::max(1., speed / plane_motion(stiffness, rock.rho, n[0], n[1], shear).speed);
+  };
+  return {times(rock.vp, false), times(rock.vs, true)};
 }
 
 SmearedMoment moment_rate_of_single(const LinearCompliance& compliance, const FracturePiece& piece,

@@ -38,8 +38,8 @@ constexpr double lost = -1e3;
 /// springs, and in first order of the others; and by the cells.
 constexpr double late_centred = 0.8, late_others = 0.6, late_springs = 1.6;
 constexpr double of_cells = 0.156, of_cells_springs = 0.08, cells_power = 1.5;
-/// Of what fractures send out behind them, which is a wave late by much less the one without them: its
-/// energy is that of two waves, of which one has the error.
+/// Behind springs that slow a wave down fractures add the late wave less the one without them: the energy of
+/// two waves, of which one has the error of the time step.
 constexpr double of_transmitted = 0.7;
 /// How many times as much as the rock springs give that hardly let waves out again.
 constexpr double kept_in = 50;
@@ -494,9 +494,8 @@ FractureResponse::Shot::Shot(const Scene<2>& scene, std::size_t shot)
   patches = patches_of(model, patch_m);
   for (const auto& patch : patches)
     if (patch.rows > 0) across_m += patch.rows / of_clusters * own_spacing_m;
-  for (const auto& set : model.fracture_sets)
-    for (const auto& system : set.systems)
-      springs = springs || (set.traces.empty() && system.compliance.gives());
+  springs = std::any_of(model.fracture_sets.begin(), model.fracture_sets.end(),
+                        [](const auto& set) { return set.traces.empty() && gives(set); });
   const auto all = scene.survey.receivers_of(shot + 1);
   const auto stride = std::max<std::size_t>(1, (all.size() + receivers_followed - 1) / receivers_followed);
   for (std::size_t n = stride / 2; n < all.size(); n += stride) receivers_m.push_back(all[n].point_m);
@@ -719,7 +718,7 @@ FractureResponse::Shot::Sums FractureResponse::Shot::sums(const ResponseSetting&
   const double left = sums.contributions > 0 ? sums.energy / sums.contributions : 0;
   sums.sliding *= left;
   sums.edges *= left;
-  sums.late = energy(late) + energy(late_on_way),
+  sums.late = energy(late) + energy(late_on_way);
   sums.cells = energy(in_cells) + energy(shared) + energy(at_rim);
   if (sums.sliding > 0) sums.rows = sums.sliding * std::pow(of_rows * h / across_m, 2);
   return sums;
@@ -761,25 +760,10 @@ std::vector<std::string> left_out_of(const Scene<2>& scene, std::size_t media) {
   return sentences;
 }
 
-}  // namespace
-
-FractureResponse::FractureResponse(const Scene<2>& scene) : why_not_(why_not_at_all(scene)) {
-  if (!why_not_.empty()) return;
-  if (anisotropic_cells(scene.model.medium) > 0) {
-    auto isotropic = scene;
-    isotropic.model.medium = in_slowest_directions(scene.model.medium);
-    add_shots(isotropic);
-  } else {
-    add_shots(scene);
-  }
-  std::size_t media = 0;
-  for (const auto& shot : shots_) media = std::max(media, shot->media.speeds().size());
-  if (shots_.empty()) why_not_ = why_silent(scene.model.fracture_sets);
-  not_covered_ = left_out_of(scene, media);
-}
-
-std::string FractureResponse::why_silent(const std::vector<FractureSet<2>>& sets) const {
-  if (!any_in_time_) return "no wave of the fractures is expected at a receiver before the traces end";
+/// Why nothing is heard of fractures that have been followed: `in_time`, whether anything would be if they
+/// slipped or gave way.
+std::string why_silent(bool in_time, const std::vector<FractureSet<2>>& sets) {
+  if (!in_time) return "no wave of the fractures is expected at a receiver before the traces end";
   const auto any = [&](const auto& is) { return std::any_of(sets.begin(), sets.end(), is); };
   if (any(slides<2>) && !any(gives<2>))
     return "the fractures do not slip: the waves bring their planes no shear traction above the strength; "
@@ -787,14 +771,34 @@ std::string FractureResponse::why_silent(const std::vector<FractureSet<2>>& sets
   return "the waves make the planes of the fractures neither slip nor give way";
 }
 
-void FractureResponse::add_shots(const Scene<2>& scene) {
+}  // namespace
+
+FractureResponse::FractureResponse(const Scene<2>& scene) : why_not_(why_not_at_all(scene)) {
+  if (!why_not_.empty()) return;
+  bool in_time = false;
+  if (anisotropic_cells(scene.model.medium) > 0) {
+    auto isotropic = scene;
+    isotropic.model.medium = in_slowest_directions(scene.model.medium);
+    in_time = add_shots(isotropic);
+  } else {
+    in_time = add_shots(scene);
+  }
+  std::size_t media = 0;
+  for (const auto& shot : shots_) media = std::max(media, shot->media.speeds().size());
+  if (shots_.empty()) why_not_ = why_silent(in_time, scene.model.fracture_sets);
+  not_covered_ = left_out_of(scene, media);
+}
+
+bool FractureResponse::add_shots(const Scene<2>& scene) {
+  bool in_time = false;
   const auto count = scene.survey.sources.size();
   const auto stride = std::max<std::size_t>(1, (count + shots_followed - 1) / shots_followed);
   for (std::size_t n = stride / 2; n < count; n += stride) {
     auto shot = std::make_unique<Shot>(scene, n);
-    any_in_time_ = any_in_time_ || shot->is_in_time();
+    in_time = in_time || shot->is_in_time();
     if (shot->is_heard()) shots_.push_back(std::move(shot));
   }
+  return in_time;
 }
 
 ResponseError FractureResponse::promised(const ResponseSetting& setting) const {

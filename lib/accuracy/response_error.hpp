@@ -51,11 +51,9 @@ class FractureResponse {
 
  private:
   struct Shot;
-  void add_shots(const Scene<2>& scene);
-  /// Why nothing is heard of fractures that have been followed.
-  std::string why_silent(const std::vector<FractureSet<2>>& sets) const;
+  /// Returns whether waves of the fractures would come to a receiver in time, if there were any.
+  bool add_shots(const Scene<2>& scene);
   std::vector<std::unique_ptr<Shot>> shots_;
-  bool any_in_time_ = false;
   std::string why_not_;
   std::vector<std::string> not_covered_;
 };

@@ -38,10 +38,9 @@ double number_of(std::string_view text, std::string_view whole, const std::strin
   const auto [stop, failed] = std::from_chars(digits.data(), end, value);
   if (failed == std::errc() && stop == end && std::isfinite(value)) return value;
   const bool beyond = failed == std::errc::result_out_of_range && stop == end;
-  const std::string fault = beyond ? "is too large or too small" : "is not a number";
-  if (whole == text && !beyond) refuse(whole, notation);
-  refuse(whole, notation + (whole == text ? " from 1e-307 to 1e308 in size"
-                                          : " ('" + excerpt(std::string(text)) + "' " + fault + ")"));
+  if (whole == text) refuse(whole, notation + (beyond ? " from 1e-307 to 1e308 in size" : ""));
+  refuse(whole, notation + " ('" + excerpt(std::string(text)) + "' " +
+                    (beyond ? "is too large or too small" : "is not a number") + ")");
 }
 
 std::int64_t integer_of(std::string_view text, std::string_view whole, const std::string& notation) {

@@ -53,6 +53,13 @@ namespace slip {
 /// Softer planes than this, times the stiffness of the rock, count as free.
 inline constexpr double most_compliance = 1e7;
 
+/// Springs of planes that give at most so many times as much as the rock.
+inline CellCompliance bounded(CellCompliance of, double lambda, double mu, double most = most_compliance) {
+  of.normal = std::min(of.normal, most / (lambda + 2 * mu));
+  of.tangential = std::min(of.tangential, most / mu);
+  return of;
+}
+
 /// What a spring, with a dashpot beside it, in rock of modulus m takes off the traction at the end of a step
 /// in which the load grows steadily (S20): r' = left r + of_start t_s + of_end t_s', where t_s is the
 /// traction that welded planes would carry. Exact.

@@ -67,10 +67,15 @@ template std::array<Complex, 3> stress_of_motion(const Material&, double, Comple
 PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear) {
   if (!rock.is_anisotropic())
     return shear ? PlaneMotion{rock.vs, down, -across} : PlaneMotion{rock.vp, across, down};
-  const Inertia<double> of(plane_stiffness_of(rock), 0, across, down);
+  return plane_motion(plane_stiffness_of(rock), rock.rho, across, down, shear);
+}
+
+PlaneMotion plane_motion(const PlaneStiffness& stiffness, double rho, double across, double down,
+                         bool shear) {
+  const Inertia<double> of(stiffness, 0, across, down);
   const double mean = (of.xx + of.zz) / 2, half = std::hypot((of.xx - of.zz) / 2, of.xz),
                angle = std::atan2(of.xz, (of.xx - of.zz) / 2) / 2;
-  PlaneMotion motion{std::sqrt((mean + (shear ? -half : half)) / rock.rho), std::cos(angle), std::sin(angle)};
+  PlaneMotion motion{std::sqrt((mean + (shear ? -half : half)) / rho), std::cos(angle), std::sin(angle)};
   if (shear) motion.x = -std::sin(angle), motion.z = std::cos(angle);
   if (shear ? motion.x * down - motion.z * across < 0 : motion.x * across + motion.z * down < 0)
     motion.x = -motion.x, motion.z = -motion.z;

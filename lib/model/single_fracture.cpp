@@ -224,6 +224,22 @@ double doubled_size(const std::vector<FractureTrace<3>>& polygons) {
   return sum;
 }
 
+namespace {
+
+/// Softer single fractures than this, times the cell, count as free: any rock gives less than a
+/// ten-thousandth of what a cell with them does, and strains times moduli stay in the range of numbers.
+constexpr double most_give_per_pa = 1e-4;
+
+/// The strain of a cell by a fracture that crosses all of it, times the cell.
+template <int D>
+auto strain_of_fracture(const Point<D>& normal, const LinearCompliance& of, double spacing_m) {
+  const double most = most_give_per_pa * spacing_m;
+  return strain_of_plane<D>(normal, std::min(of.normal_m_per_pa, most),
+                            std::min(of.tangential_m_per_pa, most));
+}
+
+}  // namespace
+
 template <>
 std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet<2>& set) {
   if (set.traces.empty()) return {};
@@ -235,7 +251,7 @@ std::vector<CrossedCell<2>> cells_crossed(const Grid<2>& grid, const FractureSet
       const Point<2> along = {trace[n][0] - trace[n - 1][0], trace[n][1] - trace[n - 1][1]};
       const double length_m = std::hypot(along[0], along[1]);
       const Point<2> normal = {-along[1] / length_m, along[0] / length_m};
-      const auto strain = strain_of_plane<2>(normal, of.normal_m_per_pa, of.tangential_m_per_pa);
+      const auto strain = strain_of_fracture<2>(normal, of, grid.spacing_m);
       const auto points = std::ceil(points_a_cell * length_m / grid.spacing_m);
       const auto [begin, end] = shares_within(bounds, trace[n - 1], along);
       for (double k = std::floor(begin * points) + 0.5; k < std::min(end * points + 1, points); ++k)
@@ -253,8 +269,7 @@ std::vector<CrossedCell<3>> cells_crossed(const Grid<3>& grid, const FractureSet
   std::map<std::size_t, CrossedCell<3>> cells;
   const auto& of = set.systems.at(0).compliance;
   for (const auto& polygon : set.traces) {
-    const auto strain =
-        strain_of_plane<3>(normal_of_polygon(polygon), of.normal_m_per_pa, of.tangential_m_per_pa);
+    const auto strain = strain_of_fracture<3>(normal_of_polygon(polygon), of, grid.spacing_m);
     for (const auto& [number, density] : densities_of(grid, polygon)) {
       auto& cell = cells[number];
       cell.cell = number;

@@ -323,27 +323,13 @@ void LinearSlip<D, Real>::add_crossing(Group& group) const {
   });
 }
 
-/// Softer single fractures than this count as free: any rock gives less than a ten-thousandth of what a cell
-/// with them does, and strains times moduli stay in the range of numbers.
-constexpr double most_give_per_pa = 1e-4;
-
-/// Those fractures with springs that give no more.
-template <int D>
-FractureSet<D> with_bounded_springs(FractureSet<D> set, double spacing_m) {
-  for (auto& system : set.systems)
-    for (double* const of : {&system.compliance.normal_m_per_pa, &system.compliance.tangential_m_per_pa})
-      *of = std::min(*of, most_give_per_pa * spacing_m);
-  return set;
-}
-
 /// Compliances of fractures of all sets add up where they cross (S30).
 template <int D, class Real>
 void LinearSlip<D, Real>::add_single(Group& group) const {
   constexpr std::size_t n = CrossedCell<D>::components;
   std::unordered_map<std::size_t, CrossedCell<D>> cells;
-  const auto& grid = model_.grid();
   for (const auto& set : model_.fracture_sets)
-    for (const auto& crossed : cells_crossed(grid, with_bounded_springs(set, grid.spacing_m))) {
+    for (const auto& crossed : cells_crossed(model_.grid(), set)) {
       auto& sum = cells[crossed.cell];
       for (std::size_t k = 0; k < n * n; ++k) sum.strain[k] += crossed.strain[k];
     }

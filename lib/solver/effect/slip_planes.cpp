@@ -75,11 +75,8 @@ SlipPlanes<Real> planes_of(const std::vector<SlipSystem<D>>& systems, double uni
 
 template <int D>
 CellCompliance compliance_of(const SlipSystem<D>& system, bool below_friction, double lambda, double mu) {
-  auto of = compliance_in(system.compliance, lambda, mu);
   const double most = below_friction ? 1e3 : slip::most_compliance;
-  of.normal = std::min(of.normal, most / (lambda + 2 * mu));
-  of.tangential = std::min(of.tangential, most / mu);
-  return of;
+  return slip::bounded(compliance_in(system.compliance, lambda, mu), lambda, mu, most);
 }
 
 template std::array<Point<2>, 1> tangents_of<2>(const Point<2>&);
