@@ -85,12 +85,15 @@ configure_build() {
       rm -rf "$build/CMakeCache.txt" "$build/CMakeFiles"
     fi
   fi
-  # Later changes of the CMake files are seen by the build itself. First builds are what counts here: whoever changes
-  # sources often configures a build where each is compiled by itself.
-  if [ ! -f "$build/CMakeCache.txt" ] || [ ! -f "$build/build.ninja" ]; then
+  # Later changes of the CMake files are seen by the build itself; packages installed since then (MPI, which tests want)
+  # are not. First builds are what counts here: whoever changes sources often configures a build where each is compiled by
+  # itself.
+  if [ ! -f "$build/CMakeCache.txt" ] || [ ! -f "$build/build.ninja" ] || [ ! -f "$build/configured" ] ||
+    [ -n "$(find /var/lib/dpkg/status -newer "$build/configured" 2>/dev/null)" ]; then
     # shellcheck disable=SC2086
     cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DSLIPWAVE_UNITY=ON ${SLIPWAVE_CMAKE_ARGS-} >&2 ||
       fail "cmake could not configure the build in $build"
+    : >"$build/configured"
   fi
 }
 
