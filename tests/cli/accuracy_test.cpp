@@ -264,8 +264,7 @@ m['vs'][2, 3] = float('nan')
   EXPECT_FALSE(exists("t.nc"));
 }
 
-TEST_F(Accuracy, OfAFullSpaceIsBelowAPercentAfterTwentyWavelengths) {
-  if (!std::getenv("SLIPWAVE_LONG")) GTEST_SKIP() << "SLIPWAVE_LONG is not set: this takes a minute";
+TEST_F(Accuracy, OfAFullSpaceIsBelowAPercentAfterTwentyWavelengthsLong) {
   const auto text =
       done("sw-accuracy --case full-space --steps 5,4 --orders 7 --cfls 0.4 --error 0.01 -o t.nc");
   EXPECT_TRUE(has(text, "against the closed form")) << text;

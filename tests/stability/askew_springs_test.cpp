@@ -133,7 +133,6 @@ TEST(TiltedBlocks, LoseMotionHoweverSoftTheirPlanesAre) {
 }
 
 TEST(TiltedBlocks, LoseEnergyInTheLongRun) {
-  if (!long_form()) GTEST_SKIP() << "takes tens of thousands of steps";
   const ThreadLimit one_thread(1);
   for (const int order : {5, 11}) {
     Lab<double> lab(tilted_blocks(1, order));

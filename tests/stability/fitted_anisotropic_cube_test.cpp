@@ -137,9 +137,11 @@ TEST_P(FittedAnisotropyInSpace, StaysBoundedInThePml) {
   EXPECT_TRUE(lab.energy() < 1.001 * early) << lab.energy() << ", it was " << early;
 }
 
-INSTANTIATE_TEST_SUITE_P(HardMedia, FittedAnisotropyInSpace, ::testing::Range(0, 8), [](const auto& info) {
-  return kinds({12, 10, 34})[std::size_t(info.param)].name;
-});
+INSTANTIATE_TEST_SUITE_P(HardMedia, FittedAnisotropyInSpace,
+                         ::testing::ValuesIn(share_of(std::vector{0, 1, 2, 3, 4, 5, 6, 7}, 1)),
+                         [](const auto& info) {
+                           return kinds({12, 10, 34})[std::size_t(info.param)].name;
+                         });
 
 }  // namespace
 }  // namespace slipwave

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "media.hpp"
@@ -25,6 +26,27 @@ namespace slipwave {
 
 /// Whether SLIPWAVE_LONG asks for the long form.
 bool long_form();
+
+/// Of a list of cases the short form takes each third from `first` on. Suites that go through the same list
+/// begin at different ones: together they have all of it.
+template <class Case>
+std::vector<Case> share_of(const std::vector<Case>& cases, std::size_t first = 0) {
+  std::vector<Case> taken;
+  for (std::size_t n = long_form() ? 0 : first; n < cases.size(); n += long_form() ? 1 : 3)
+    taken.push_back(cases[n]);
+  return taken;
+}
+
+/// All pairs of two lists; in the short form a third of them, in which each of either list stands.
+template <class First, class Second>
+std::vector<std::tuple<First, Second>> share_of_pairs(const std::vector<First>& firsts,
+                                                      const std::vector<Second>& seconds) {
+  std::vector<std::tuple<First, Second>> taken;
+  for (std::size_t n = 0; n < firsts.size(); ++n)
+    for (std::size_t m = 0; m < seconds.size(); ++m)
+      if (long_form() || (n + m) % 3 == 0) taken.emplace_back(firsts[n], seconds[m]);
+  return taken;
+}
 
 /// All orders, or in the short form one low, the usual one and the highest.
 std::vector<int> orders_tried();

@@ -37,15 +37,13 @@ TEST_P(EnergyIn, NeverRisesInFloat) {
   expect_no_growth_in<float>(medium, order, EdgeLaw::free, length());
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    HardMedia, EnergyIn,
-    ::testing::Combine(::testing::ValuesIn(medium_names()),
-                       ::testing::ValuesIn(long_form()
-                                               ? std::vector<int>(std::begin(orders), std::end(orders))
-                                               : std::vector<int>{1, 3, 5, 7, 11})),
-    [](const auto& info) {
-      return std::get<0>(info.param) + "AtOrder" + std::to_string(std::get<1>(info.param));
-    });
+INSTANTIATE_TEST_SUITE_P(HardMedia, EnergyIn,
+                         ::testing::ValuesIn(share_of_pairs(
+                             medium_names(), std::vector<int>(std::begin(orders), std::end(orders)))),
+                         [](const auto& info) {
+                           return std::get<0>(info.param) + "AtOrder" +
+                                  std::to_string(std::get<1>(info.param));
+                         });
 
 TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
   const ThreadLimit one_thread(1);

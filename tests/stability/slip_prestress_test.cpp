@@ -118,8 +118,7 @@ TEST_P(SlipUnderStress, OfAnyKindNeverAddsEnergyButForTheWorkOfThatStress) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PlanesAndCorrections, SlipUnderStress,
-                         ::testing::Combine(::testing::ValuesIn(kinds_of_planes()),
-                                            ::testing::ValuesIn(corrections())),
+                         ::testing::ValuesIn(share_of_pairs(kinds_of_planes(), corrections())),
                          [](const auto& info) { return std::apply(name_of_case, info.param); });
 
 TEST(StaticStress, DoesWorkOnSlipThatTheWavesKeep) {

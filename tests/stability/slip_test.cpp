@@ -123,8 +123,7 @@ TEST_P(Slip, NeverAddsEnergyInThousandsOfSteps) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PlanesAndCorrections, Slip,
-                         ::testing::Combine(::testing::ValuesIn(kinds_of_planes()),
-                                            ::testing::ValuesIn(corrections())),
+                         ::testing::ValuesIn(share_of_pairs(kinds_of_planes(), corrections())),
                          [](const auto& info) { return std::apply(name_of_case, info.param); });
 
 /// The centred rule takes off ahead what it may have to give back: energy wavers from step to step, within
@@ -238,7 +237,7 @@ TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWithWhereEdgesCutCells) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Planes, CentredSlip, ::testing::ValuesIn(kinds_of_planes()),
+INSTANTIATE_TEST_SUITE_P(Planes, CentredSlip, ::testing::ValuesIn(share_of(kinds_of_planes())),
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(SlipInEveryDirection, NeverAddsEnergyAtAnyOrder) {

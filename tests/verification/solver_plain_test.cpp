@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "cube.hpp"
@@ -36,15 +37,16 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
 }
 
 TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
-  for (const int order : orders)
-    for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
-                                  SlipCorrection::centred}) {
-      auto scene = sea();
-      scene.numerics.order = order;
-      scene.numerics.correction = correction;
-      scene.numerics.double_precision = order == 3;
-      expect_same(scene);
-    }
+  const std::array corrections = {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
+                                  SlipCorrection::centred};
+  // Orders and corrections meet in different places of the code: each order with one of them.
+  for (std::size_t n = 0; n < std::size(orders); ++n) {
+    auto scene = sea();
+    scene.numerics.order = orders[n];
+    scene.numerics.correction = corrections[n % corrections.size()];
+    scene.numerics.double_precision = orders[n] == 3;
+    expect_same(scene);
+  }
 }
 
 TEST(PlainExecutor, GivesTheBitsOfTilesWhereWavesStayMonotone) {
@@ -78,16 +80,20 @@ TEST(PlainExecutor, GivesTheBitsOfTilesWithOpeningUnderStaticStress) {
 }
 
 TEST(PlainExecutor, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
-  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing})
-    for (const int time_order : {2, 4}) {
-      SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
-      auto scene = sea();
-      scene.edges[0] = {sides, sides};
-      scene.numerics.time_order = time_order;
-      scene.numerics.order = time_order == 4 ? 7 : 5;
-      scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
-      expect_same(scene);
-    }
+  // Edges other than absorbing ones are filled alike at both orders in time.
+  for (const auto& [sides, time_order] : {std::pair{EdgeLaw::free, 4},
+                                          {EdgeLaw::rigid, 2},
+                                          {EdgeLaw::mirror, 4},
+                                          {EdgeLaw::absorbing, 2},
+                                          {EdgeLaw::absorbing, 4}}) {
+    SCOPED_TRACE(std::to_string(int(sides)) + ", order " + std::to_string(time_order) + " in time");
+    auto scene = sea();
+    scene.edges[0] = {sides, sides};
+    scene.numerics.time_order = time_order;
+    scene.numerics.order = time_order == 4 ? 7 : 5;
+    scene.survey.sources[0].mechanism = parse_mechanism<2>("force:1,2");
+    expect_same(scene);
+  }
 }
 
 TEST(PlainExecutor, GivesTheBitsOfTilesUnderPlaneWaves) {
