@@ -49,6 +49,5 @@ TEST(CubeComputedShare, IsAsExpected) {
   };
   compare(shares_of(slab, 3, 1200, 0.2, apart), 0.1, 0.25);
   compare(shares_of(slab, 5, 1200, 0.2, near), 0.05, 0.2);
-  compare(shares_of(slab, 3, 1200, 0.4, near), 0.3, 0.5);
   compare(shares_of(cube, 5, 320, 0.2, {{5, 5, 5}, {635, 635, 635}}), 0.3, 0.7);
 }

@@ -123,11 +123,13 @@ TEST(DiscRadiation, IsThatOfTheClosedFormsItIsMadeOf) {
 
 TEST(Disc, ScattersAsTheMomentOfItsJumpRadiates) {
   // Little compliance, in shear and in tension: waves that the disc sends to itself are a tenth of a percent.
-  DiscScene level{dipping(0, 2e-12, 2e-12), true, 16, {0, 0, -90}},
-      dips{dipping(30, 2e-12, 1e-12), false, 12};
+  EXPECT_LT((DiscScene{dipping(30, 2e-12, 1e-12), false, 12}.error()), 0.05);
+}
+
+TEST(Disc, ThatIsLevelScattersAsTheMomentOfItsJumpRadiatesLong) {
+  DiscScene level{dipping(0, 2e-12, 2e-12), true, 16, {0, 0, -90}};
   level.disc.centre_m[0] = 0;
   EXPECT_LT(level.error(), 0.03);
-  EXPECT_LT(dips.error(), 0.05);
 }
 
 // The table of docs/slip.md: dip, and whether planes shear or part.
@@ -240,6 +242,7 @@ TEST(Disc, ThatIsLevelWithoutEndReflectsAsSchoenbergsInterface) {
 
 TEST(Discs, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
   for (const int time_order : {2, 4}) {
+    if (time_order == 4 && !std::getenv("SLIPWAVE_LONG")) continue;
     auto scene = crossing_scene({22, 21, 80});
     scene.numerics.time_order = time_order;
     scene.snapshot_every_s = 0.03;

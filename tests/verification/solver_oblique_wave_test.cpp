@@ -181,7 +181,7 @@ TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   for (const auto& [kind, top] : {std::pair{std::string("plane:50"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane-s:40"), EdgeLaw::absorbing},
                                   std::pair{std::string("plane:155"), EdgeLaw::free}})
-    EXPECT_LT(relative_error(gather(40, kind, top), gather(100, kind, top)), 0.01) << kind;
+    EXPECT_LT(relative_error(gather(40, kind, top), gather(70, kind, top)), 0.01) << kind;
 }
 
 TEST(ObliquePlaneWave, NeedsTheSameLayersAtBothSides) {
@@ -217,8 +217,7 @@ TEST(ObliquePlaneWave, GivesTheBitsOfTilesInLayersToo) {
 TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
   const auto flat = two_layers(24, 40, 5, 100);
   for (const auto& [kind, flanks] :
-       {std::pair{"plane:0", EdgeLaw::mirror}, std::pair{"plane:20", EdgeLaw::mirror},
-        std::pair{"plane-s:-30", EdgeLaw::absorbing}}) {
+       {std::pair{"plane:20", EdgeLaw::mirror}, std::pair{"plane-s:-30", EdgeLaw::absorbing}}) {
     auto scene = scene_of(flat, kind, {60, -80}, 0.2);
     scene.numerics.zone_cells = 12;
     scene.survey.receivers_m = {{62.5, 52.5}, {32.5, 152.5}};
