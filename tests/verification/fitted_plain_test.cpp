@@ -49,10 +49,10 @@ TEST(FittedPlain, GivesTheBitsOfTilesWithSnapshotsADiaryAndOpening) {
 }
 
 TEST(FittedPlain, GivesTheBitsOfTilesInThreeDimensions) {
-  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
+  for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::absorbing}) {
     auto scene = fitted_sea_3d();
     for (int axis = 0; axis < 3; ++axis) scene.edges[axis] = {sides, sides};
-    scene.numerics.order = sides == EdgeLaw::rigid ? 7 : 5;
+    scene.numerics.order = sides == EdgeLaw::free ? 7 : 5;
     scene.numerics.time_order = sides == EdgeLaw::free ? 4 : 2;
     scene.numerics.double_precision = sides == EdgeLaw::absorbing;
     scene.slip_diary = true;
