@@ -17,6 +17,7 @@ namespace {
 struct Texts {
   TraceInput traces;
   std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density", at;
+  bool interpolate = false, nearest = false;
 };
 
 void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
@@ -32,7 +33,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
   options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
-  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
+  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...; vx,vz: both; or all");
   options.add("shot", settings.shot, "N", "gather: this shot only");
   options.add_choice("axis", texts.axis, plot::trace_axis_names(), "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
@@ -60,8 +61,9 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
   options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
   options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
-  options.add("interpolate", settings.look.interpolate,
-              "linearly between traces and cells wider than pixels");
+  options.add("interpolate", texts.interpolate,
+              "linearly between cells wider than pixels, as between traces");
+  options.add("nearest", texts.nearest, "gather: no interpolation between traces");
   texts.traces.declare(options);
 }
 
@@ -92,9 +94,12 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   else if (!texts.slice.empty())
     settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
   if (!texts.component.empty())
-    settings.component = in_place("--component", [&] { return component_named(texts.component); });
+    settings.of = in_place("--component", [&] { return plot::parse_components(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
+  if (texts.interpolate && texts.nearest)
+    throw Error("--interpolate and --nearest exclude each other", ErrorKind::usage);
+  if (texts.interpolate || texts.nearest) settings.look.interpolate = texts.interpolate;
   settings.gather.axis = plot::trace_axis_named(texts.axis);
   if (settings.overlay && texts.style == "both")
     throw Error("--overlay: draws lines, which --style both does not go with", ErrorKind::usage);
@@ -106,7 +111,8 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   settings.traces = texts.traces;
   if (settings.movie) {
     plot::take_movie_name(settings);
-    for (const auto& note : plot::draw_movie(settings, context.progress("frames"))) context.warn(note);
+    for (const auto& note : plot::draw_movie(settings, context.progress("movie", "frames")))
+      context.warn(note);
     return;
   }
 
