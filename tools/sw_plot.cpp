@@ -33,7 +33,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
   options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
-  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...; vx,vz: both; or all");
+  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...; vx,vz; all");
   options.add("shot", settings.shot, "N", "gather: this shot only");
   options.add_choice("axis", texts.axis, plot::trace_axis_names(), "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
@@ -61,8 +61,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
   options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
   options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
-  options.add("interpolate", texts.interpolate,
-              "linearly between cells wider than pixels, as between traces");
+  options.add("interpolate", texts.interpolate, "linearly between cells wider than pixels");
   options.add("nearest", texts.nearest, "gather: no interpolation between traces");
   texts.traces.declare(options);
 }
