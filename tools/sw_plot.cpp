@@ -29,7 +29,7 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("title", settings.page.title, "TEXT", "title above the picture");
   options.add("map", texts.map, "NAME", "colours: " + joined(plot::ColourMap::names()));
   options.add("clip", settings.look.clip_percent, "PERCENT",
-              "colours saturate at this percentile of absolute amplitude");
+              "colours saturate at this percentile of amplitude");
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
   options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
@@ -48,17 +48,15 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
               "model: instead, speeds over angle of the rock there, and Q over frequency");
   options.add("q-frequency", settings.reference_hz, "F",
               "with --at, qp, qs: frequency of the model's speeds, Hz");
-  options.add("survey", settings.survey, "GATHER",
-              "model, snapshot: mark sources and receivers of this gather");
+  options.add("survey", settings.survey, "GATHER", "model, snapshot: mark the survey of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie,
-              "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
+  options.add("movie", settings.movie, "snapshots: all, as NAME.mp4 or, numbered, NAME.png");
   options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
-  options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
+  options.add("overlay", settings.overlay, "gathers, errors: several in one panel, as lines");
   options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
   options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
   options.add("interpolate", texts.interpolate, "linearly between cells wider than pixels");
