@@ -6,6 +6,7 @@ COMPONENT = vz# what the pictures of traces and waves show
 WAVE_TIME = 1# the time of the waves' pictures, s
 MODEL_LOOK =# options of sw-plot for the model,
 WAVE_LOOK =# for the waves over it,
+WAVE_RESPONSE_LOOK = $(WAVE_LOOK)# for the response in them,
 GATHER_LOOK =# for the traces,
 RESPONSE_LOOK = $(GATHER_LOOK)# for those of the response
 
@@ -41,7 +42,7 @@ $(OUT)/wave.png: $(OUT)/fractured.nc $(OUT)/model.nc $(BIN)/sw-plot## the wave f
 	$(PLOT) $< --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
 
 $(OUT)/wave-response.png: $(OUT)/fractured.nc $(OUT)/elastic.nc $(OUT)/model.nc $(BIN)/sw-plot## the response in it
-	$(PLOT) $< --minus $(OUT)/elastic.nc --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_LOOK) -o $@
+	$(PLOT) $< --minus $(OUT)/elastic.nc --field $(COMPONENT) --time $(WAVE_TIME) --over $(OUT)/model.nc $(WAVE_RESPONSE_LOOK) -o $@
 
 $(OUT)/traces.png: $(OUT)/fractured.sgy $(BIN)/sw-plot## the traces
 	$(PLOT) -q $< --component $(COMPONENT) $(GATHER_LOOK) -o $@

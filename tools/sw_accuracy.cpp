@@ -159,11 +159,11 @@ void run(const Settings& s, const cli::Context& context) {
     const auto reference = reference_of(s, ladder);
     table.reference = name_of(reference, scene);
     context.note("reference: " + table.reference);
-    table.rows.push_back(measured(scene, reference, {}, context.progress("reference"), &exact));
+    table.rows.push_back(measured(scene, reference, {}, context.progress("reference", "steps"), &exact));
   }
   for (const auto& setting : ladder) {
     const auto name = name_of(setting, scene);
-    table.rows.push_back(measured(scene, setting, exact, context.progress(name)));
+    table.rows.push_back(measured(scene, setting, exact, context.progress(name, "steps")));
     context.note(name + ": done");
   }
   if (s.wanted) table.chosen = cheapest(table.rows, *s.wanted);

@@ -17,6 +17,7 @@ namespace {
 struct Texts {
   TraceInput traces;
   std::string map = "auto", slice, range, x, y, component, axis = "auto", style = "density", at;
+  bool interpolate = false, nearest = false;
 };
 
 void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
@@ -28,11 +29,11 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
   options.add("title", settings.page.title, "TEXT", "title above the picture");
   options.add("map", texts.map, "NAME", "colours: " + joined(plot::ColourMap::names()));
   options.add("clip", settings.look.clip_percent, "PERCENT",
-              "colours saturate at this percentile of absolute amplitude");
+              "colours saturate at this percentile of amplitude");
   options.add("range", texts.range, "LOW:HIGH", "colours saturate at these values instead");
   options.add("x", texts.x, "LOW:HIGH", "part of the horizontal axis");
   options.add("y", texts.y, "LOW:HIGH", "part of the vertical axis");
-  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...");
+  options.add("component", texts.component, "NAME", "gather, spectra: vx, vz, p, ...; vx,vz; all");
   options.add("shot", settings.shot, "N", "gather: this shot only");
   options.add_choice("axis", texts.axis, plot::trace_axis_names(), "gather: position of the traces");
   options.add_choice("style", texts.style, {"density", "wiggle", "both"}, "gather: colours, lines or both");
@@ -47,21 +48,19 @@ void declare(cli::Options& options, plot::PlotOptions& settings, Texts& texts) {
               "model: instead, speeds over angle of the rock there, and Q over frequency");
   options.add("q-frequency", settings.reference_hz, "F",
               "with --at, qp, qs: frequency of the model's speeds, Hz");
-  options.add("survey", settings.survey, "GATHER",
-              "model, snapshot: mark sources and receivers of this gather");
+  options.add("survey", settings.survey, "GATHER", "model, snapshot: mark the survey of this gather");
   options.add("field", settings.field, "NAME", "snapshot: vz, p, div, ... (the first)");
   options.add("time", settings.time_s, "T", "snapshot: the one nearest to T (the last)");
   options.add("over", settings.over, "MODEL", "snapshot: over this model");
   options.add("minus", settings.minus, "FILE", "snapshot: subtract that of this file at the same time");
-  options.add("movie", settings.movie,
-              "snapshots: all, as NAME.mp4 (or -o NAME.mp4), or -o NAME.png numbered");
+  options.add("movie", settings.movie, "snapshots: all, as NAME.mp4 or, numbered, NAME.png");
   options.add("fps", settings.frames_per_s, "N", "movie: frames per second");
   options.add("log", settings.log, "spectrum: amplitudes on a log axis, colours in dB");
-  options.add("overlay", settings.overlay, "gathers: lines of several in one panel; errors likewise");
+  options.add("overlay", settings.overlay, "gathers, errors: several in one panel, as lines");
   options.add("difference", settings.gather.difference, "gathers: of two, also the first less the second");
   options.add("difference-gain", settings.gather.difference_gain, "G", "gathers: multiply the difference");
-  options.add("interpolate", settings.look.interpolate,
-              "linearly between traces and cells wider than pixels");
+  options.add("interpolate", texts.interpolate, "linearly between cells wider than pixels");
+  options.add("nearest", texts.nearest, "gather: no interpolation between traces");
   texts.traces.declare(options);
 }
 
@@ -92,9 +91,12 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   else if (!texts.slice.empty())
     settings.slice = in_place("--slice", [&] { return parse_slice(texts.slice); });
   if (!texts.component.empty())
-    settings.component = in_place("--component", [&] { return component_named(texts.component); });
+    settings.of = in_place("--component", [&] { return plot::parse_components(texts.component); });
   if (settings.shot && (*settings.shot != std::floor(*settings.shot) || std::fabs(*settings.shot) > 1e15))
     throw Error("--shot: found " + shown(*settings.shot) + ", expected a whole number", ErrorKind::usage);
+  if (texts.interpolate && texts.nearest)
+    throw Error("--interpolate and --nearest exclude each other", ErrorKind::usage);
+  if (texts.interpolate || texts.nearest) settings.look.interpolate = texts.interpolate;
   settings.gather.axis = plot::trace_axis_named(texts.axis);
   if (settings.overlay && texts.style == "both")
     throw Error("--overlay: draws lines, which --style both does not go with", ErrorKind::usage);
@@ -106,7 +108,8 @@ void run(plot::PlotOptions& settings, const Texts& texts, const cli::Context& co
   settings.traces = texts.traces;
   if (settings.movie) {
     plot::take_movie_name(settings);
-    for (const auto& note : plot::draw_movie(settings, context.progress("frames"))) context.warn(note);
+    for (const auto& note : plot::draw_movie(settings, context.progress("movie", "frames")))
+      context.warn(note);
     return;
   }
 

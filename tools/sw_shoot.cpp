@@ -39,6 +39,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("keep-unstable", s.output.keep_unstable,
               "keep the output of an unstable run, in files unstable-NAME");
   options.require("time");
+  options.add_log();
   options.add_threads();
   options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",

@@ -1,5 +1,7 @@
 #include "base/interruption.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
 #include <csignal>
 
@@ -9,7 +11,8 @@ namespace {
 constexpr int nobody_looks = -1;
 // A signal handler can reach nothing but static storage.
 std::atomic<int> noted_signal{nobody_looks};
-static_assert(std::atomic<int>::is_always_lock_free);
+std::atomic<bool> line_is_open{false};
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 }  // namespace
 
@@ -24,7 +27,10 @@ bool note_signal(int signal_number) noexcept {
   return signal_number != SIGPIPE && noted_signal.compare_exchange_strong(none, signal_number);
 }
 
+void leave_line_open(bool open) noexcept { line_is_open = open; }
+
 void die_of(int signal_number) {
+  if (line_is_open.exchange(false) && write(STDERR_FILENO, "\n", 1) != 1) line_is_open = false;
   std::signal(signal_number, SIG_DFL);
   raise(signal_number);
 }

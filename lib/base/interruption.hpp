@@ -23,6 +23,10 @@ class SignalWatch {
 /// For signal handlers: whether the signal was noted by a living SignalWatch and has no other effect.
 bool note_signal(int signal_number) noexcept;
 
+/// Says whether a line stands unfinished on standard error, as a progress bar does: die_of() finishes it, so
+/// that the shell's next line has its own.
+void leave_line_open(bool open) noexcept;
+
 /// Ends the process by the signal, so that the shell sees 128 + N.
 void die_of(int signal_number);
 

@@ -8,11 +8,14 @@
 namespace slipwave {
 
 /// What a long computation says meanwhile; what becomes of it is the caller's business (cli writes it to
-/// standard error). All three are set.
+/// standard error). All are set.
 struct Messages {
   std::function<void(const std::string&sentence)> say, warn;
-  /// Of a loop with this title ("shot 3").
-  std::function<Progress(const std::string& title)> progress;
+  /// What it took and gave, at its end: for who watches, or keeps a log. `sentence` is asked for only where
+  /// there is such a one.
+  std::function<void(const std::function<std::string()>& sentence)> close;
+  /// Of a loop with this title ("shot 3") over things of this name ("steps").
+  std::function<Progress(const std::string& title, const std::string& things)> progress;
 };
 
 }  // namespace slipwave

@@ -148,6 +148,12 @@ void Options::positional(std::vector<std::string>& to, const std::string& placeh
 
 void Options::add_threads() { declare("threads", "N", "").store = nullptr; }
 
+void Options::add_log() {
+  auto& option = declare("log", "FILE", "append what is said, with the time, to this file");
+  option.provenance = false;
+  option.store = nullptr;
+}
+
 std::string quoted(const std::string& word) {
   const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+./,:@%^";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;

@@ -72,6 +72,9 @@ void Parser::declare_common() {
       };
     }
   }
+  for (auto& option : options_.options_)
+    if (!option.provenance && !option.store)
+      option.store = [this](const auto& values) { common_.log = values.back(); };
   const bool has_more = this->has_more();
   options_.add("config", common_.config, "FILE", "read further options from this INI file");
   options_.add("quiet,q", common_.quiet, "suppress warnings and progress");
@@ -149,9 +152,15 @@ void Parser::read_command_line(int argc, const char* const* argv) {
       values.insert(values.end(), option.value.begin(), option.value.end());
       if (option.value.empty()) values.emplace_back();
     }
-    if (without_effect.count(option.string_key)) continue;
+    if (!is_provenance(option.string_key)) continue;
     for (const auto& token : option.original_tokens) command_line_ += ' ' + quoted(token);
   }
+}
+
+bool Parser::is_provenance(const std::string& name) const {
+  return !without_effect.count(name) &&
+         std::none_of(options_.options_.begin(), options_.options_.end(),
+                      [&](const auto& option) { return option.name == name && !option.provenance; });
 }
 
 bool Parser::is_declared(const std::string& word) const {

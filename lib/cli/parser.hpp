@@ -20,6 +20,7 @@ struct Options::Option {
   bool common = false;  // shown by --help where not all are
   bool many = false;
   bool required = false;
+  bool provenance = true;                                      // the bytes of the output may depend on it
   std::function<void(const std::vector<std::string>&)> store;  // throws Error "found .., expected .."
 };
 
@@ -35,7 +36,7 @@ struct Options::Positional {
 struct CommonSettings {
   bool quiet = false, verbose = false, help = false, help_all = false, version = false;
   int threads = 0;
-  std::string config;
+  std::string config, log;
 };
 
 /// Reads a command line and the --config file into the bound settings. All errors are usage Errors of one
@@ -61,6 +62,7 @@ class Parser {
   void store();
   bool is_declared(const std::string& word) const;
   bool has_more() const;
+  bool is_provenance(const std::string& name) const;
   [[noreturn]] void refuse_without_value(const std::string& name) const;
   std::string nearest(const std::string& name, bool config) const;
 

@@ -1,22 +1,23 @@
+#include "cli/progress_bar.hpp"
+
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
+#include "base/interruption.hpp"
+#include "base/parse.hpp"
 #include "cli/tool.hpp"
 
 namespace slipwave::cli {
-namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// "7 s", "2 min 05 s", "3 h 10 min".
-std::string duration(double seconds) {
+std::string duration_in_words(double seconds) {
   char text[40];
   const long whole = std::lround(seconds);
-  if (whole < 60) {
+  if (seconds < 9.95) {
+    std::snprintf(text, sizeof text, "%.*f s", seconds < 0.995 ? 2 : 1, seconds);
+  } else if (whole < 60) {
     std::snprintf(text, sizeof text, "%ld s", whole);
   } else if (whole < 3600) {
     std::snprintf(text, sizeof text, "%ld min %02ld s", whole / 60, whole % 60);
@@ -26,33 +27,58 @@ std::string duration(double seconds) {
   return text;
 }
 
-/// A line drawn over itself: "sw-shoot: steps [#####.....]  50 % 210/s, 7 s left".
+std::string bytes_in_words(double bytes) {
+  const char* units[] = {"B", "KiB", "MiB", "GiB", "TiB"};
+  std::size_t unit = 0;
+  for (; bytes >= 1024 && unit + 1 < std::size(units); ++unit) bytes /= 1024;
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g %s", bytes, units[unit]);
+  return text;
+}
+
+std::string ProgressRate::words(std::int64_t done, std::int64_t total, double now_s) {
+  if (!begun_) begun_ = Start{done, now_s};
+  const double part = double(done - begun_->done), seconds = now_s - begun_->at_s;
+  if (!(part > 0) || !(seconds > 0)) return "";
+  const double a_second = part / seconds;
+  char number[32];
+  std::snprintf(number, sizeof number, "%.3g ", a_second);
+  const std::string rate = (things_ == bytes ? bytes_in_words(a_second) : number + things_) + "/s";
+  return done >= total ? rate : rate + ", " + duration_in_words(double(total - done) / a_second) + " left";
+}
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A line drawn over itself: "sw-shoot: shot 1 [#####.....]  50 % 210 steps/s, 7 s left".
 class Bar {
  public:
-  explicit Bar(std::string title) : title_(std::move(title)), start_(Clock::now()) {}
+  Bar(std::string title, const std::string& things)
+      : title_(std::move(title)), rate_(things), start_(Clock::now()) {}
 
   void operator()(std::int64_t done, std::int64_t total) {
     const auto now = Clock::now();
     const bool last = done >= total;
-    if (finished_ || (!last && now - drawn_ < std::chrono::milliseconds(200))) return;
+    const double seconds = std::chrono::duration<double>(now - start_).count();
+    const bool first = drawn_ == Clock::time_point();
+    if (finished_ || (!last && !first && now - drawn_ < std::chrono::milliseconds(200))) return;
     drawn_ = now;
     finished_ = last;
     constexpr int width = 30;
     const double share = total > 0 ? std::min(1.0, double(done) / double(total)) : 1.0;
-    const double seconds = std::chrono::duration<double>(now - start_).count();
     const std::string bar = std::string(std::size_t(share * width), '#');
-    char rate[32] = "";
-    if (seconds > 0) std::snprintf(rate, sizeof rate, "%.3g/s, ", double(done) / seconds);
-    const std::string rest = last        ? duration(seconds)
-                             : share > 0 ? duration(seconds / share - seconds) + " left"
-                                         : "";
-    std::fprintf(stderr, "\r%s [%-*s] %3d %% %s%s\033[K%s", title_.c_str(), width, bar.c_str(),
-                 int(share * 100), rate, rest.c_str(), last ? "\n" : "");
+    std::string words = rate_.words(done, total, seconds);
+    if (last) words += (words.empty() ? "" : ", ") + duration_in_words(seconds);
+    std::fprintf(stderr, "\r%s [%-*s] %3d %% %s\033[K%s", title_.c_str(), width, bar.c_str(),
+                 int(share * 100), words.c_str(), last ? "\n" : "");
     std::fflush(stderr);
+    leave_line_open(!last);
   }
 
  private:
   std::string title_;
+  ProgressRate rate_;
   Clock::time_point start_;
   Clock::time_point drawn_{};
   bool finished_ = false;
@@ -61,28 +87,40 @@ class Bar {
 /// A line each time another tenth is done.
 class Lines {
  public:
-  explicit Lines(std::string title) : title_(std::move(title)) {}
+  Lines(std::string title, const std::string& things, std::function<void(const std::string&)> write)
+      : title_(std::move(title)), rate_(things), start_(Clock::now()), write_(std::move(write)) {}
 
   void operator()(std::int64_t done, std::int64_t total) {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    const std::string rate = rate_.words(done, total, seconds);
     const int tenth = total > 0 ? int(done * 10 / total) : 10;
     if (tenth <= said_) return;
     said_ = tenth;
-    std::fprintf(stderr, "%s %d %%\n", title_.c_str(), tenth * 10);
+    write_(title_ + " " + std::to_string(tenth * 10) + " %" + (rate.empty() ? "" : ", " + rate));
   }
 
  private:
   std::string title_;
+  ProgressRate rate_;
+  Clock::time_point start_;
+  std::function<void(const std::string&)> write_;
   int said_ = 0;
 };
 
 }  // namespace
 
-Progress Context::progress(const std::string& what) const {
-  if (quiet) return {};
-  const std::string title = tool + ": " + what;
-  if (isatty(STDERR_FILENO)) return Bar(title);
-  if (verbose) return Lines(title);
-  return {};
+Progress Context::progress(const std::string& what, const std::string& things) const {
+  std::vector<Progress> all;
+  if (!quiet && isatty(STDERR_FILENO))
+    all.emplace_back(Bar(tool + ": " + what, things));
+  else if (!quiet && verbose)
+    all.emplace_back(Lines(tool + ": " + what, things,
+                           [](const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }));
+  if (log) all.emplace_back(Lines(what, things, [own = log](const std::string& line) { own->write(line); }));
+  if (all.size() < 2) return all.empty() ? Progress() : all.front();
+  return [all](std::int64_t done, std::int64_t total) mutable {
+    for (auto& one : all) one(done, total);
+  };
 }
 
 }  // namespace slipwave::cli

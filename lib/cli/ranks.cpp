@@ -22,6 +22,7 @@ void run_on_ranks(const Context& context, Ranks& ranks, const std::function<void
   Context own = context;
   own.quiet = context.quiet || !first;
   own.verbose = context.verbose && first;
+  if (!first) own.log = nullptr;
   try {
     return body(own);
   } catch (const CollectiveError& error) {

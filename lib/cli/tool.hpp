@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,6 +61,8 @@ class Options {
   void pass_over(std::vector<std::string> names) { passed_over_ = std::move(names); }
   /// Declares --threads (only for tools that compute).
   void add_threads();
+  /// Declares --log: for tools whose runs are long.
+  void add_log();
 
  private:
   friend class Parser;
@@ -74,6 +78,23 @@ class Options {
   std::vector<std::string> passed_over_;
 };
 
+/// A file of all that is said, with the time of each line: one that is there is continued.
+class Log {
+ public:
+  /// `first`: what stands before all else, once there is anything. Throws Error where the file can not be
+  /// written.
+  Log(const std::string& path, std::string first);
+  ~Log();
+  Log(const Log&) = delete;
+  Log& operator=(const Log&) = delete;
+  /// "2026-11-25 23:05:41 sentence".
+  void write(const std::string& sentence);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// What run() gets beside its settings.
 struct Context {
   /// Provenance: program name without path, arguments quoted as a shell needs them. What does not change the
@@ -84,7 +105,9 @@ struct Context {
   std::string version;  // "slipwave 0.2.0"
   bool quiet = false;
   bool verbose = false;
-  int threads = 0;  // 0: not given
+  int threads = 0;     // 0: not given
+  Log* log = nullptr;  // of --log: takes all sentences, those of --verbose too
+  std::chrono::steady_clock::time_point began = std::chrono::steady_clock::now();
 
   /// One line on stderr "sw-x: warning: ..." unless --quiet.
   void warn(const std::string& sentence) const;
@@ -92,9 +115,13 @@ struct Context {
   void say(const std::string& sentence) const;
   /// One line on stderr under --verbose.
   void note(const std::string& sentence) const;
+  /// The last line of a run, on a terminal or under --verbose: this sentence, the time since the tool began
+  /// and the largest memory that it took.
+  void close(const std::function<std::string()>& sentence) const;
   /// A bar with rate and ETA on a terminal, a line every 10 % under --verbose without one, else nothing.
-  Progress progress(const std::string& what) const;
-  /// The three for what knows nothing of tools; they hold a copy of this.
+  /// `things` is what is counted, "steps" or "bytes".
+  Progress progress(const std::string& what, const std::string& things = "bytes") const;
+  /// These for what knows nothing of tools; they hold a copy of this.
   Messages messages() const;
 };
 

@@ -20,10 +20,7 @@ Division division_of(const Axis& axis) {
   if (axis.log || axis.whole) return {0, axis.unit};
   if (axis.unit == "m" && largest >= 9999) return {3, "km"};
   const int exponent = axis_exponent(largest);
-  if (exponent == 0) return {0, axis.unit};
-  if (axis.unit == "Pa" && exponent == 3) return {3, "kPa"};
-  if (axis.unit == "Pa" && exponent == 6) return {6, "MPa"};
-  return {exponent, power_of_ten(exponent) + (axis.unit.empty() ? "" : " " + axis.unit)};
+  return {exponent, multiplied_unit(exponent, axis.unit)};
 }
 
 /// Are labels `gap_pt` apart from each other, at least?

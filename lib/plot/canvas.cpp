@@ -4,10 +4,13 @@
 #include <cairo/cairo-svg.h>
 #include <cairo/cairo.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <new>
 #include <numbers>
+#include <string_view>
 
 #include "base/error.hpp"
 #include "plot/provenance.hpp"
@@ -79,6 +82,21 @@ void trace(cairo_t* to, const std::vector<Spot>& spots) {
   }
 }
 
+/// An element of SVG: a line of text that programs find and change as such, which cairo draws as outlines.
+/// The typeface's next of kin stand in where it is not installed.
+std::string svg_text(const Spot& at, double y, const std::string& text, const TextStyle& style) {
+  const char* anchors[] = {"start", "middle", "end"};
+  const auto byte = [](double part) { return int(std::lround(255 * part)); };
+  char attributes[400];
+  std::snprintf(attributes, sizeof attributes,
+                "<text transform=\"translate(%.3f,%.3f)%s\" y=\"%.3f\" text-anchor=\"%s\" "
+                "font-family=\"%s, Verdana, sans-serif\" font-size=\"%.3f\"%s fill=\"#%02x%02x%02x\">",
+                at.x, at.y, style.upwards ? " rotate(-90)" : "", y, anchors[int(style.across)], typeface_name,
+                style.size_pt, style.bold ? " font-weight=\"bold\"" : "", byte(style.colour.red),
+                byte(style.colour.green), byte(style.colour.blue));
+  return attributes + xml_text(legible(text)) + "</text>\n";
+}
+
 /// Of equal area to the eye: a corner stands farther out than a round edge.
 std::vector<Spot> outline(Marker shape, double size) {
   const double radius = size * (shape == Marker::circle ? 0.88 : 1.1);
@@ -114,6 +132,7 @@ struct Canvas::Impl {
   std::vector<char> bytes;  // outlives the surface, which writes its end here
   Surface surface;
   Drawing drawing;
+  std::string svg_texts;
 };
 
 Canvas::Canvas(const Page& page) : page_(page), impl_(std::make_unique<Impl>()) {
@@ -130,10 +149,6 @@ Canvas::~Canvas() = default;
 
 void Canvas::text(const Spot& at, const std::string& text, const TextStyle& style) {
   if (text.empty()) return;
-  cairo_t* to = impl_->drawing.get();
-  cairo_save(to);
-  use_typeface(to, style.size_pt, style.bold);
-  set_colour(to, style.colour);
   const double width = text_width(text, style.size_pt, style.bold);
   double x = 0, y = 0;
   if (style.across != Across::begin) x = style.across == Across::middle ? -width / 2 : -width;
@@ -143,10 +158,17 @@ void Canvas::text(const Spot& at, const std::string& text, const TextStyle& styl
   const double top = y - cap_height * style.size_pt, high = cap_height * style.size_pt;
   words_.push_back(style.upwards ? Rect{at.x + top, at.y - x - width, high, width}
                                  : Rect{at.x + x, at.y + top, width, high});
+  if (page_.format == Format::svg) {
+    impl_->svg_texts += svg_text(at, y, text, style);
+    return;
+  }
+  cairo_t* to = impl_->drawing.get();
+  cairo_save(to);
+  set_colour(to, style.colour);
   cairo_translate(to, at.x, at.y);
   if (style.upwards) cairo_rotate(to, -std::numbers::pi / 2);
   cairo_move_to(to, x, y);
-  cairo_show_text(to, legible(text).c_str());
+  draw_text(to, text, style.size_pt, style.bold);
   cairo_restore(to);
 }
 
@@ -247,6 +269,12 @@ std::vector<char> Canvas::finish() {
   cairo_surface_finish(impl_->surface.get());
   check(cairo_surface_status(impl_->surface.get()));
   impl_->surface.reset();
+  if (page_.format == Format::svg) {
+    constexpr std::string_view closing = "</svg>";
+    auto& bytes = impl_->bytes;
+    const auto end = std::find_end(bytes.begin(), bytes.end(), closing.begin(), closing.end());
+    bytes.insert(end, impl_->svg_texts.begin(), impl_->svg_texts.end());
+  }
   return with_provenance(std::move(impl_->bytes), page_);
 }
 

@@ -44,19 +44,35 @@ std::string name_beside_others(const std::string& path) {
 Picture gather_picture(std::vector<InputFile>& inputs, const PlotOptions& options, const Page& page) {
   std::vector<NamedGather> gathers;
   std::string text;
-  auto component = options.component;
+  TraceChoice choice{options.of};
+  if (options.shot) choice.shot = std::int64_t(*options.shot);
   for (auto& input : inputs) {
     segy::Reader reader(input.path, options.traces.read_options(), {input.taken.begin(), input.taken.end()});
-    TraceChoice choice{component, std::nullopt};
-    if (options.shot) choice.shot = std::int64_t(*options.shot);
-    gathers.push_back({name_beside_others(input.path), read_section(reader, choice)});
-    component = gathers.front().section.component;  // of the others, too
+    auto sections = read_sections(reader, choice);
+    if (gathers.empty()) {  // of the others, too
+      choice.of = {};
+      for (const auto& section : sections) choice.of.components.push_back(section.component);
+    }
+    for (auto& section : sections) gathers.push_back({name_beside_others(input.path), std::move(section)});
     if (reader.header().su) continue;
     for (const auto& line : segy::shown_lines(reader.header().text)) text += line + "\n";
   }
   auto style = options.gather;
   style.overlay = options.overlay;
   return draw_gathers(std::move(gathers), style, options.look, with_history(page, text));
+}
+
+/// Those of a choice. Throws a usage Error for several where a picture shows one.
+Spectra spectra_of(const NetcdfFile& file, const ComponentChoice& choice) {
+  const auto& wanted = choice.components;
+  if (wanted.size() < 2) return read_spectra(file, wanted.empty() ? std::nullopt : std::optional(wanted[0]));
+  Spectra all = read_spectra(file, wanted[0]);
+  if (all.each())
+    throw Error("--component: found several, expected one for spectra of each trace or wavenumber",
+                ErrorKind::usage);
+  for (std::size_t n = 1; n < wanted.size(); ++n)
+    for (auto& line : read_spectra(file, wanted[n]).lines) all.lines.push_back(std::move(line));
+  return all;
 }
 
 WantedPlanes wanted_planes(const PlotOptions& options) {
@@ -249,7 +265,7 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
   if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), options, page);
   if (kind == Kind::spectra) {
     std::vector<Spectra> files;
-    for (const auto& input : inputs) files.push_back(read_spectra(*input.file, options.component));
+    for (const auto& input : inputs) files.push_back(spectra_of(*input.file, options.of));
     return draw_spectra(files, options.log, options.look, page);
   }
   std::vector<AccuracyTable> tables;

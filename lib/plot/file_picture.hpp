@@ -22,8 +22,8 @@ struct PlotOptions {
   PageSettings page;
   Look look;
   segy::InputOptions traces;
-  // gathers
-  std::optional<Component> component;
+  // gathers and spectra
+  ComponentChoice of;
   std::optional<double> shot;
   GatherStyle gather;
   // models and snapshots

@@ -9,6 +9,14 @@ namespace {
 double key_width(double text_pt) { return 2.2 * text_pt; }
 double row_height(double text_pt) { return 1.45 * text_pt; }
 
+/// A row of colours from one to another.
+Image graded(const Colour& from, const Colour& to) {
+  Image image(64, 1);
+  for (int n = 0; n < image.width; ++n)
+    image.at(n, 0) = pixel_of(blend(from, to, double(n) / (image.width - 1)));
+  return image;
+}
+
 }  // namespace
 
 double extra_height_pt(std::size_t legend_entries) {
@@ -45,6 +53,7 @@ void Legend::draw(Canvas& canvas, const Spot& top_left) const {
     if (entry.patch) {
       const Rect patch{x, y - 0.4 * text_pt_, key, 0.8 * text_pt_};
       canvas.fill(patch, entry.colour);
+      if (entry.graded) canvas.image(graded(entry.colour, entry.to), patch);
       canvas.frame(patch, {black, 0.4});
     }
     if (entry.line) canvas.line({x, y}, {x + key, y}, *entry.line);

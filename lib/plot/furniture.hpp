@@ -30,8 +30,10 @@ struct LegendEntry {
   std::optional<Stroke> line = {};
   std::optional<Marker> marker = {};
   bool filled = true;  // the marker
-  bool patch = false;  // a small area of the colour
-  bool ring = false;   // round what is chosen
+  bool patch = false;  // a small area of the colour,
+  Colour to = {};      // which goes over to this one where it is `graded`
+  bool graded = false;
+  bool ring = false;  // round what is chosen
 };
 
 /// Height to add to a page whose size is free, so that a long legend does not press the data together.

@@ -3,133 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "gather/difference.hpp"
+#include "plot/gather_content.hpp"
 #include "plot/magnitudes.hpp"
 #include "plot/panel.hpp"
-#include "plot/raster.hpp"
 #include "plot/ticks.hpp"
 #include "plot/wiggle.hpp"
 
 namespace slipwave::plot {
 namespace {
 
-/// What one panel shows.
-struct Content {
-  std::string title;
-  GatherSection section;
-  TracePlaces traces;
-  std::vector<double> edges;  // between the places
-
-  /// In the order of the axis, gained.
-  Content(std::string name, GatherSection of, const GatherStyle& style)
-      : title(std::move(name)),
-        section(std::move(of)),
-        traces(order_traces(section, style.axis)),
-        edges(edges_between(traces.places)) {
-    apply_gain(section, style.gain_power);
-  }
+/// A gather, or the difference of the two before it.
+struct Item {
+  NamedGather gather;
+  bool is_difference = false;
 };
-
-Axis axis_of(const Content& content) {
-  Axis axis;
-  switch (content.traces.axis) {
-    case TraceAxis::x:
-      axis = {"receiver x", "m"};
-      break;
-    case TraceAxis::y:
-      axis = {"receiver y", "m"};
-      break;
-    case TraceAxis::midpoint:
-      axis = {"midpoint x", "m"};
-      break;
-    case TraceAxis::offset:
-      axis = {"offset", "m"};
-      break;
-    case TraceAxis::depth:
-      axis = {"receiver depth", "m"};
-      break;
-    default:
-      axis = {"trace", "", 0, 1, false, true};
-      break;
-  }
-  axis.low = content.edges.front();
-  axis.high = content.edges.back();
-  return axis;
-}
-
-/// What colours stand for. A gain of t^2 turns m/s into m/s s^2.
-Axis value_axis(const GatherSection& section, double gain_power) {
-  const std::string name = section.component == Component::other ? "amplitude" : name_of(section.component);
-  const std::string unit = typeset_unit(unit_of(section.component));
-  if (gain_power == 0) return {name, unit};
-  const std::string power = gain_power == 1 ? "" : raised(shown(gain_power));
-  return {name + " t" + power, unit.empty() ? "s" + power : unit + " s" + power};
-}
-
-Bands bands_of(const Content& content) {
-  Bands bands{content.traces.run_name, {}, {}, {}};
-  for (const auto& run : content.traces.runs) {
-    bands.edges.push_back(content.edges[run.first]);
-    bands.labels.push_back(run.label);
-  }
-  if (!bands.edges.empty()) bands.edges.push_back(content.edges.back());
-  for (const auto first : content.traces.line_starts) bands.minor.push_back(content.edges[first]);
-  return bands;
-}
-
-Raster density_raster(const Content& content, const Panel& panel, const Page& page, const Look& look) {
-  const auto& section = content.section;
-  const Rect& plot = panel.plot();
-  const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
-  const auto times = even_edges(section.axis.start_s - section.axis.interval_s / 2, section.axis.interval_s,
-                                section.axis.count);
-  // Samples of a trace lie side by side: the raster is made lying on its side.
-  const auto trace = [&](std::int64_t n) { return section.trace(std::size_t(n)); };
-  if (!look.interpolate) {
-    const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, content.edges);
-    const auto rows = cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height, times);
-    return reduced<float>(trace, rows, columns, Take::extreme);
-  }
-  auto columns =
-      mixes_of_pixels(panel.x_scale(), plot.x, plot.right(), width, content.edges, content.traces.places);
-  for (auto& mix : columns) {  // nothing is mixed across shots or lines
-    const auto begins = [&](std::size_t first) { return std::int64_t(first) == mix.cells.first + 1; };
-    const auto& [runs, starts] = std::tie(content.traces.runs, content.traces.line_starts);
-    if (!mix.share || (std::none_of(runs.begin(), runs.end(), [&](auto& run) { return begins(run.first); }) &&
-                       std::none_of(starts.begin(), starts.end(), begins)))
-      continue;
-    const auto nearest = mix.cells.first + (*mix.share < 0.5 ? 0 : 1);
-    mix = {{nearest, nearest + 1}, {}};
-  }
-  const auto rows = mixes_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height, times, middles_of(times));
-  return interpolated(trace, rows, columns, Take::extreme);
-}
-
-void draw_density(Canvas& canvas, const Panel& panel, const Content& content, const ColourBar& bar,
-                  const Look& look) {
-  const auto raster = density_raster(content, panel, canvas.page(), look);
-  Image image(raster.height, raster.width);
-  const double low = bar.axis.low, span = bar.axis.high - bar.axis.low;
-  for (int column = 0; column < image.width; ++column) {
-    for (int row = 0; row < image.height; ++row) {
-      const double value = double(raster.at(row, column));
-      if (!std::isnan(value)) image.at(column, row) = bar.map.pixel((value - low) / span);
-    }
-  }
-  canvas.image(image, panel.plot());
-}
-
-/// Several gathers must show the same quantity.
-void check_components(const std::vector<NamedGather>& gathers) {
-  for (const auto& other : gathers) {
-    const auto& first = gathers.front();
-    if (other.section.component != first.section.component)
-      throw Error(other.name + ": is " + name_of(other.section.component) + ", " + first.name + " is " +
-                  name_of(first.section.component) + "; choose a --component that both have");
-  }
-}
 
 NamedGather difference_of(const NamedGather& a, const NamedGather& b, double gain) {
   const auto refuse = [&](std::string differs, std::size_t trace) {
@@ -150,51 +42,102 @@ NamedGather difference_of(const NamedGather& a, const NamedGather& b, double gai
   return less;
 }
 
-void add_difference(std::vector<NamedGather>& gathers, const GatherStyle& style) {
-  if (gathers.size() != 2)
-    throw Error("--difference: found " + std::to_string(gathers.size()) + " gather" +
-                    (gathers.size() == 1 ? "" : "s") + ", expected two: FILE less FILE",
-                ErrorKind::usage);
-  gathers.push_back(difference_of(gathers[0], gathers[1], style.difference_gain));
+/// Gathers of a component beside each other and, where it is wanted, behind each two their difference.
+std::vector<Item> items_of(std::vector<NamedGather> gathers, const GatherStyle& style) {
+  std::vector<Component> order;
+  for (const auto& gather : gathers)
+    if (std::find(order.begin(), order.end(), gather.section.component) == order.end())
+      order.push_back(gather.section.component);
+  std::vector<Item> items;
+  for (const auto component : order) {
+    const std::size_t first = items.size();
+    for (auto& gather : gathers)
+      if (gather.section.component == component) items.push_back({std::move(gather)});
+    if (!style.difference) continue;
+    const std::size_t count = items.size() - first;
+    if (count != 2)
+      throw Error("--difference: found " + std::to_string(count) + " gather" + (count == 1 ? "" : "s") +
+                      ", expected two: FILE less FILE",
+                  ErrorKind::usage);
+    items.push_back(
+        {difference_of(items[first].gather, items[first + 1].gather, style.difference_gain), true});
+  }
+  return items;
 }
 
-/// Everything of a picture that its panels share.
-struct Drawing {
-  std::vector<Content> contents;
-  PanelSpec spec;  // axes of the first
-  ColourBar bar;
+/// What a panel is called: its file where there are several, and its component likewise.
+std::string title_of(const NamedGather& gather, bool several_files, bool several_components) {
+  const std::string component = name_of(gather.section.component);
+  if (!several_components) return gather.name;
+  return several_files ? gather.name + ": " + component : component;
+}
+
+/// Colours and lengths of lines of all panels whose samples have one unit.
+struct CommonScale {
+  std::string unit;
+  std::vector<std::string> names;  // of components
+  Magnitudes magnitudes;
+  std::optional<ColourBar> bar = {};
   double full = 1;  // of lines
+
+  void add(const GatherContent& content, bool is_difference) {
+    const std::string name =
+        content.section.component == Component::other ? "amplitude" : name_of(content.section.component);
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    if (!is_difference) magnitudes.add(content.section.samples);
+  }
+  /// A gain is by the number of seconds: the unit stays.
+  void finish(double gain_power, const Look& look) {
+    const std::string power = gain_power == 1 ? "" : raised(shown(gain_power));
+    const std::string gain = gain_power == 0 ? "" : " \u00b7 t" + power;
+    full = magnitudes.percentile(look.clip_percent);
+    if (full == 0) full = 1;  // silence
+    const Limits limits = look.colours.value_or(Limits{-full, full});
+    bar = ColourBar{map_of(look, "blue-red"), {joined(names) + gain, unit, limits.low, limits.high}};
+    bar->point_beyond(magnitudes.lowest(), magnitudes.highest());
+    if (look.colours) full = std::max(std::fabs(limits.low), std::fabs(limits.high));
+  }
+};
+
+/// Everything of a picture: panels that share a scale stand beside each other.
+struct Drawing {
+  std::vector<GatherContent> contents;
+  std::vector<CommonScale> scales;
+  std::vector<std::size_t> scale_of;  // of each content
+
+  const CommonScale& scale(std::size_t content) const { return scales[scale_of[content]]; }
+  /// Is it the last one of its scale, which has the bar?
+  bool has_bar(std::size_t content) const {
+    return content + 1 == contents.size() || scale_of[content] != scale_of[content + 1];
+  }
 };
 
 Drawing drawing_of(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look) {
-  Drawing drawing{{}, {}, {map_of(look, "blue-red"), value_axis(gathers.front().section, style.gain_power)}};
-  Magnitudes magnitudes;
-  const std::size_t given = gathers.size() - (style.difference ? 1 : 0);
-  for (auto& gather : gathers) {
-    drawing.contents.emplace_back(gather.name, std::move(gather.section), style);
-    if (drawing.contents.size() <= given) magnitudes.add(drawing.contents.back().section.samples);
+  std::set<std::string> files;
+  std::set<Component> components;
+  for (const auto& gather : gathers) {
+    files.insert(gather.name);
+    components.insert(gather.section.component);
   }
-  drawing.full = magnitudes.percentile(look.clip_percent);
-  if (drawing.full == 0) drawing.full = 1;  // silence
-  auto& bar = drawing.bar;
-  bar.axis.low = look.colours ? look.colours->low : -drawing.full;
-  bar.axis.high = look.colours ? look.colours->high : drawing.full;
-  bar.point_beyond(magnitudes.lowest(), magnitudes.highest());
-  if (look.colours) drawing.full = std::max(std::fabs(bar.axis.low), std::fabs(bar.axis.high));
+  auto items = items_of(std::move(gathers), style);
+  const auto unit = [](const Item& item) { return typeset_unit(unit_of(item.gather.section.component)); };
+  Drawing drawing;
+  for (const auto& item : items)
+    if (std::none_of(drawing.scales.begin(), drawing.scales.end(),
+                     [&](const CommonScale& scale) { return scale.unit == unit(item); }))
+      drawing.scales.push_back({unit(item), {}, {}});
+  for (std::size_t n = 0; n < drawing.scales.size(); ++n) {
+    auto& scale = drawing.scales[n];
+    for (auto& item : items) {
+      if (unit(item) != scale.unit) continue;
+      const std::string title = title_of(item.gather, files.size() > 1, components.size() > 1);
+      drawing.contents.emplace_back(title, std::move(item.gather.section), style.axis, style.gain_power);
+      drawing.scale_of.push_back(n);
+      scale.add(drawing.contents.back(), item.is_difference);
+    }
+    scale.finish(style.gain_power, look);
+  }
   return drawing;
-}
-
-PanelSpec spec_of(const Content& content, const Look& look) {
-  const auto& axis = content.section.axis;
-  PanelSpec spec{content.title, axis_of(content), {"time", "s"}, {}, {}};
-  spec.y.low = axis.start_s;
-  spec.y.high = axis.start_s + double(axis.count - 1) * axis.interval_s;
-  spec.y.upwards = false;
-  if (axis.count == 1) widen(spec.y, 0);
-  narrow(spec.x, look.x, "--x");
-  narrow(spec.y, look.y, "--y");
-  spec.bands = bands_of(content);
-  return spec;
 }
 
 void note_thinning(Picture& picture, std::size_t every) {
@@ -204,31 +147,35 @@ void note_thinning(Picture& picture, std::size_t every) {
 }
 
 /// The data of a panel; gives of how many traces one line is drawn.
-std::size_t draw_content(Canvas& canvas, const Panel& panel, const Content& content, const Drawing& drawing,
-                         const GatherStyle& style, const Look& look) {
+std::size_t draw_content(Canvas& canvas, const Panel& panel, const GatherContent& content,
+                         const CommonScale& scale, const GatherStyle& style, const Look& look) {
   std::size_t every = 1;
   canvas.within(panel.plot(), [&] {
-    if (style.density) draw_density(canvas, panel, content, drawing.bar, look);
+    if (style.density) draw_density(canvas, panel, content, *scale.bar, look);
     if (style.wiggle)
-      every = draw_wiggles(canvas, panel, content.section, content.traces.places,
-                           {.full = drawing.full, .fill = !style.density});
+      every = draw_wiggles(canvas, panel, content, {.full = scale.full, .fill = !style.density});
   });
   return every;
 }
 
-/// The rooms of `count` panels whose data are equally wide; the last has the colour bar.
-std::vector<Rect> rooms_of(const PanelSpec& spec, const std::optional<ColourBar>& bar, const Rect& all,
-                           std::size_t count, const Page& page) {
-  double bar_pt = 0;
-  if (bar && count > 1) {
-    PanelSpec with = spec;
-    with.bar = bar;
-    bar_pt = Panel(spec, all, page).plot().width - Panel(with, all, page).plot().width;
+/// The rooms of panels whose data are equally wide; some have a colour bar.
+std::vector<Rect> rooms_of(const std::vector<PanelSpec>& specs, const Rect& all, const Page& page) {
+  std::vector<double> bars_pt;
+  double free = all.width;
+  for (const auto& spec : specs) {
+    PanelSpec without = spec;
+    without.bar.reset();
+    bars_pt.push_back(!spec.bar || specs.size() == 1
+                          ? 0
+                          : Panel(without, all, page).plot().width - Panel(spec, all, page).plot().width);
+    free -= bars_pt.back();
   }
   std::vector<Rect> rooms;
-  const double width = (all.width - bar_pt) / double(count);
-  for (std::size_t n = 0; n < count; ++n)
-    rooms.push_back({all.x + double(n) * width, all.y, width + (n + 1 == count ? bar_pt : 0), all.height});
+  double x = all.x;
+  for (const double bar_pt : bars_pt) {
+    rooms.push_back({x, all.y, free / double(specs.size()) + bar_pt, all.height});
+    x = rooms.back().right();
+  }
   return rooms;
 }
 
@@ -243,23 +190,20 @@ Picture draw_side_by_side(const Drawing& drawing, const GatherStyle& style, cons
   double top_pt = 0;
   if (count > 1 && !page.title.empty()) top_pt = draw_title(canvas, page.title);
   std::vector<PanelSpec> specs;
-  for (const auto& content : drawing.contents) {
-    specs.push_back(spec_of(content, look));
-    if (count == 1) specs.back().title = page.title;
-  }
-  const std::optional<ColourBar> bar = style.density ? std::optional(drawing.bar) : std::nullopt;
-  const auto rooms =
-      rooms_of(specs.front(), bar, {0, top_pt, page.width_pt, page.height_pt - top_pt}, count, page);
-  double tallest = 0;  // some have bands above the data
   for (std::size_t n = 0; n < count; ++n) {
-    if (n + 1 == count) specs[n].bar = bar;
-    tallest = std::max(tallest, Panel(specs[n], rooms[n], page).plot().y - rooms[n].y);
+    specs.push_back(spec_of(drawing.contents[n], look));
+    if (count == 1) specs.back().title = page.title;
+    if (style.density && drawing.has_bar(n)) specs.back().bar = drawing.scale(n).bar;
   }
+  const auto rooms = rooms_of(specs, {0, top_pt, page.width_pt, page.height_pt - top_pt}, page);
+  double tallest = 0;  // some have bands above the data
+  for (std::size_t n = 0; n < count; ++n)
+    tallest = std::max(tallest, Panel(specs[n], rooms[n], page).plot().y - rooms[n].y);
   std::size_t every = 1;
   for (std::size_t n = 0; n < count; ++n) {
     specs[n].least_top_pt = tallest;
     const Panel panel(specs[n], rooms[n], page);
-    every = std::max(every, draw_content(canvas, panel, drawing.contents[n], drawing, style, look));
+    every = std::max(every, draw_content(canvas, panel, drawing.contents[n], drawing.scale(n), style, look));
     panel.draw(canvas);
   }
   note_thinning(picture, every);
@@ -268,17 +212,28 @@ Picture draw_side_by_side(const Drawing& drawing, const GatherStyle& style, cons
   return picture;
 }
 
+/// Refuses what has no common axes.
+void check_overlaid(const Drawing& drawing) {
+  if (drawing.scales.size() > 1)
+    throw Error("--overlay: found components in " + drawing.scales[0].unit + " and in " +
+                    drawing.scales[1].unit + ", expected one unit; choose a --component",
+                ErrorKind::usage);
+  const auto& first = drawing.contents.front();
+  for (const auto& content : drawing.contents)
+    if (content.traces.axis != first.traces.axis)
+      throw Error(content.title + ": its traces stand along another axis than those of " + first.title +
+                  "; choose an --axis");
+}
+
 /// Lines of all gathers in one panel, a colour each.
 Picture draw_overlaid(const Drawing& drawing, const Look& look, Page page) {
+  check_overlaid(drawing);
   Picture picture;
   if (page.height_pt == 0) page.height_pt = 13 * points_per_cm;
   PanelSpec spec = spec_of(drawing.contents.front(), look);
   spec.title = page.title;
   for (std::size_t n = 0; n < drawing.contents.size(); ++n) {
     const auto& content = drawing.contents[n];
-    if (content.traces.axis != drawing.contents.front().traces.axis)
-      throw Error(content.title + ": its traces stand along another axis than those of " +
-                  drawing.contents.front().title + "; choose an --axis");
     const auto other = spec_of(content, look);
     spec.x.low = std::min(spec.x.low, other.x.low);
     spec.x.high = std::max(spec.x.high, other.x.high);
@@ -291,11 +246,10 @@ Picture draw_overlaid(const Drawing& drawing, const Look& look, Page page) {
   Canvas canvas(page);
   std::size_t every = 1;
   canvas.within(panel.plot(), [&] {
-    for (std::size_t n = 0; n < drawing.contents.size(); ++n) {
-      const auto& content = drawing.contents[n];
-      every = std::max(every, draw_wiggles(canvas, panel, content.section, content.traces.places,
-                                           {.full = drawing.full, .fill = false, .colour = line_colour(n)}));
-    }
+    for (std::size_t n = 0; n < drawing.contents.size(); ++n)
+      every = std::max(
+          every, draw_wiggles(canvas, panel, drawing.contents[n],
+                              {.full = drawing.scale(n).full, .fill = false, .colour = line_colour(n)}));
   });
   panel.draw(canvas);
   note_thinning(picture, every);
@@ -308,8 +262,6 @@ Picture draw_overlaid(const Drawing& drawing, const Look& look, Page page) {
 
 Picture draw_gathers(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look,
                      Page page) {
-  check_components(gathers);
-  if (style.difference) add_difference(gathers, style);
   const auto component = gathers.front().section.component;
   const bool others = std::any_of(gathers.begin(), gathers.end(),
                                   [](const auto& gather) { return gather.section.others_unasked; });

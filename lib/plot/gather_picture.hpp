@@ -28,13 +28,14 @@ struct NamedGather {
 };
 
 /// Time down, traces side by side: as colours, as lines whose excursions to the right (positive) are filled,
-/// or both. Colours and lines are full at the clip (Look); where a pixel has several samples it shows the one
-/// farthest from zero, and where lines would touch each other only some are drawn. Shots, and lines of
-/// receivers of a single shot, are separated and labelled where traces stand by number.
+/// or both. Traces by the depth of their receivers stand above each other instead, time to the right. Colours
+/// and lines are full at the clip (Look); where a pixel has several samples it shows the one farthest from
+/// zero, and where lines would touch each other only some are drawn. Shots, and lines of receivers of a
+/// single shot, are separated and labelled where traces stand by number.
 ///
-/// Several gathers of one component stand side by side on one scale, each under its name. Throws Error when
-/// components differ or, for a difference, sampling or geometry, a usage Error for the difference of any
-/// number but two.
+/// Several gathers stand side by side, each under its name or, where they differ, its component; those of one
+/// unit on one scale. Throws Error when for a difference sampling or geometry differ, a usage Error for the
+/// difference of any number but two of a component, and for lines of different units in one panel.
 Picture draw_gathers(std::vector<NamedGather> gathers, const GatherStyle& style, const Look& look, Page page);
 
 /// The same of one gather.

@@ -14,15 +14,24 @@ class Reader;
 namespace slipwave::plot {
 
 /// What stands along the axis of traces.
-enum class TraceAxis { automatic, x, y, midpoint, offset, depth, number };
-/// "auto", "x", "y", "midpoint", "offset", "depth", "trace"; throws a usage Error that lists them.
+enum class TraceAxis { automatic, x, y, midpoint, offset, azimuth, depth, number };
+/// "auto", "x", "y", "midpoint", "offset", "azimuth", "depth", "trace"; throws a usage Error that lists them.
 TraceAxis trace_axis_named(const std::string& name);
 std::vector<std::string> trace_axis_names();
 
+/// Components by name: "vz", several as "vx,vz", or "all".
+struct ComponentChoice {
+  std::vector<Component> components = {};  // none: that of the first trace
+  bool all = false;
+  bool has(Component component) const;
+};
+/// Throws a usage Error for an unknown name or one given twice.
+ComponentChoice parse_components(const std::string& text);
+
 /// Which traces of a file are drawn.
 struct TraceChoice {
-  std::optional<Component> component;  // none: that of the first trace
-  std::optional<std::int64_t> shot;    // none: all
+  ComponentChoice of = {};
+  std::optional<std::int64_t> shot = {};  // none: all
 };
 
 /// Traces of one component and sampling, side by side.
@@ -38,9 +47,10 @@ struct GatherSection {
   const float* trace(std::size_t n) const { return samples.data() + n * std::size_t(axis.count); }
 };
 
-/// Reads the chosen traces. Throws Error when there are none, naming what the file has instead, or when
-/// traces differ in sampling.
-GatherSection read_section(segy::Reader& reader, const TraceChoice& choice);
+/// Reads the chosen traces, a section for each component: in the order of the choice or, of all, of the file.
+/// Throws Error when there are none of one, naming what the file has instead, or when traces differ in
+/// sampling.
+std::vector<GatherSection> read_sections(segy::Reader& reader, const TraceChoice& choice);
 
 /// Multiplies the samples by (t / 1 s)^power; times at or before 0 become zero.
 void apply_gain(GatherSection& section, double power);
@@ -52,9 +62,12 @@ struct TraceRun {
 };
 
 /// Puts the traces in ascending order of `axis` and gives their places on it: one each, strictly ascending.
-/// automatic: x, y or depth of the receivers of a single shot where these differ, else the number. offset: x
-/// of the receiver less that of the source, or their horizontal distance with this sign where they differ in
-/// y. Throws a usage Error when two traces share a place.
+/// automatic, of a single shot: the azimuth of receivers on a ring about the source; that one of their x, y
+/// and depth which differs for all, and most; the offset where that does; of a trace of each of several shots
+/// the midpoint, or the offset where they share one or their receiver; else the number. offset: x of the
+/// receiver less that of the source, or their horizontal distance with this sign where they differ in y.
+/// azimuth: of the receiver from the source, degrees from +x towards +y. Throws a usage Error when two traces
+/// share a place.
 struct TracePlaces {
   TraceAxis axis = TraceAxis::number;
   std::vector<double> places;
@@ -63,6 +76,7 @@ struct TracePlaces {
   std::string run_name = {};
   std::vector<TraceRun> runs = {};
   std::vector<std::size_t> line_starts = {};
+  std::string in_each_run = {};  // "receiver x 20 to 580 m" where all runs have that; else empty
 };
 TracePlaces order_traces(GatherSection& section, TraceAxis axis);
 

@@ -23,7 +23,8 @@ struct Look {
   double clip_percent = 99;              // colours and wiggles are full at this percentile of magnitudes
   std::optional<Limits> colours = {};    // instead, in the unit of the data
   std::optional<Limits> x = {}, y = {};  // what part of the axes is shown
-  bool interpolate = false;              // between cells and traces wider than pixels, linearly
+  // Linearly between cells and traces wider than pixels; unsaid, between traces only.
+  std::optional<bool> interpolate = {};
 };
 
 /// Narrows the axis to the limits, where there are any. Throws a usage Error naming `option` when nothing of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "base/error.hpp"
@@ -10,34 +11,29 @@
 namespace slipwave::plot {
 namespace {
 
-/// Quality factors from which rock is next to elastic: cells that hold a little of rock that attenuates have
-/// millions, beside which all others would be of one colour.
-constexpr float next_to_elastic = 1000;
-
-/// From the least to the greatest value below a limit.
-Limits range_of(std::span<const ModelSection> sections, float below) {
-  Limits range{INFINITY, -INFINITY};
-  for (const auto& section : sections) {
-    for (const float value : section.values) {
-      if (!std::isfinite(value) || value >= below) continue;
-      range.low = std::min(range.low, double(value));
-      range.high = std::max(range.high, double(value));
-    }
-  }
-  return range.low > range.high ? Limits{0, 1} : range;
-}
-
 ColourBar bar_of(std::span<const ModelSection> sections, bool as_sets, const Look& look) {
   const auto& section = sections.front();
-  const Limits all = range_of(sections, INFINITY);
-  const bool attenuates =
-      (section.property == "qp" || section.property == "qs") && all.low < double(next_to_elastic);
-  const Limits range = look.colours.value_or(attenuates ? range_of(sections, next_to_elastic) : all);
+  const auto found = range_of(sections);
+  const Limits range = look.colours.value_or(found.shown);
   ColourBar bar{map_of(look, as_sets ? "grey" : "uniform"),
                 {section.property, section.unit, range.low, range.high}};
-  if (range.low == range.high) widen(bar.axis, 0);
-  bar.point_beyond(all.low, all.high);
+  if (range.low == range.high) {  // in the middle of its colours; sets stand on a light grey
+    widen(bar.axis, 0);
+    if (as_sets) bar.axis.low -= 3 * (bar.axis.high - bar.axis.low);
+  }
+  bar.point_beyond(found.all.low, found.all.high);
   return bar;
+}
+
+/// A colour that stands for one value alone needs no bar, but a word.
+std::vector<LegendEntry> take_needless_bar(std::optional<ColourBar>& bar,
+                                           std::span<const ModelSection> sections, const Look& look) {
+  const auto range = range_of(sections).all;
+  if (look.colours || range.low < range.high) return {};
+  const auto& axis = bar->axis;
+  const auto colour = bar->map.at((range.low - axis.low) / (axis.high - axis.low));
+  bar.reset();
+  return {{.text = range_in_words(sections.front(), range), .colour = colour, .patch = true}};
 }
 
 void colour_sets(Image& image, const ModelSection& section, const GridPixels& pixels) {
@@ -80,13 +76,15 @@ Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks&
                    Page page) {
   const auto axes = axes_of(section.grid(), look, section.axes);
   PanelSpec spec{page.title, axes.x, axes.depth, bar_of(std::span(&section, 1), as_sets, look), {}};
-  if (as_sets) spec.legend = legend_of_sets(section);
-  const auto places = legend_of(marks);
-  spec.legend.insert(spec.legend.end(), places.begin(), places.end());
+  const auto bar = *spec.bar;
+  spec.legend = take_needless_bar(spec.bar, std::span(&section, 1), look);
+  for (const auto& entries :
+       {as_sets ? legend_of_sets(section) : std::vector<LegendEntry>(), legend_of(marks)})
+    spec.legend.insert(spec.legend.end(), entries.begin(), entries.end());
   if (page.height_pt == 0) Panel::fit_page(page, spec, height_per_width(spec.x, spec.y));
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
   Canvas canvas(page);
-  draw_section(canvas, panel, *spec.bar, section, as_sets, look);
+  draw_section(canvas, panel, bar, section, as_sets, look);
   panel.draw(canvas);
   draw_survey(canvas, panel, marks);
   return {canvas.finish(), canvas.words()};
@@ -95,17 +93,20 @@ Picture draw_model(const ModelSection& section, bool as_sets, const SurveyMarks&
 Picture draw_model_volume(const std::vector<ModelSection>& sections, const std::vector<Slice>& planes,
                           bool as_sets, const std::vector<SurveyMarks>& marks, const Look& look, Page page) {
   const auto bar = bar_of(sections, as_sets, look);
+  std::optional<ColourBar> shown_bar = bar;
+  auto legend = take_needless_bar(shown_bar, sections, look);
   std::array<SlicePanel, 3> slices;
   for (std::size_t n = 0; n < slices.size(); ++n) {
     const auto axes = axes_of(sections[n].grid(), look, sections[n].axes);
-    slices[n] = {planes[n], {"", axes.x, axes.depth, bar, {}}, [&, n](Canvas& canvas, const Panel& panel) {
-                   draw_section(canvas, panel, bar, sections[n], as_sets, look);
-                   draw_survey(canvas, panel, marks[n]);
-                 }};
+    slices[n] = {
+        planes[n], {"", axes.x, axes.depth, shown_bar, {}}, [&, n](Canvas& canvas, const Panel& panel) {
+          draw_section(canvas, panel, bar, sections[n], as_sets, look);
+          draw_survey(canvas, panel, marks[n]);
+        }};
   }
-  auto legend = as_sets ? legend_of_sets(sections.front()) : std::vector<LegendEntry>();
-  const auto places = legend_of(marks.front());
-  legend.insert(legend.end(), places.begin(), places.end());
+  for (const auto& entries :
+       {as_sets ? legend_of_sets(sections.front()) : std::vector<LegendEntry>(), legend_of(marks.front())})
+    legend.insert(legend.end(), entries.begin(), entries.end());
   return draw_three_slices(std::move(slices), legend, std::move(page));
 }
 

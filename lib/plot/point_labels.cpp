@@ -1,12 +1,15 @@
 #include "plot/point_labels.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace slipwave::plot {
 namespace {
 
 constexpr int most_crossings = 1;  // more would make a text hard to read
+constexpr double apart_pt = 1.5;   // of two texts
+constexpr double far_pt = 10;      // from its point a text needs a line to it
 
 /// Does the line from a to b pass through the rectangle? (Liang and Barsky: the part of it inside is not
 /// empty.)
@@ -45,7 +48,7 @@ bool PointLabels::label(Canvas& canvas, const Spot& point, double size_pt, const
   const double width = text_width(text, text_pt_) + 1, height = text_pt_;
   std::optional<Rect> best;
   int fewest = most_crossings + 1;
-  for (const double off : {size_pt / 2 + 1, size_pt / 2 + 4}) {
+  for (const double off : {size_pt / 2 + 1, size_pt / 2 + 4, size_pt / 2 + far_pt}) {
     const double right = point.x + off, left = point.x - off - width;
     const double above = point.y - off - height, below = point.y + off;
     const double middle_x = point.x - width / 2, middle_y = point.y - height / 2;
@@ -61,7 +64,15 @@ bool PointLabels::label(Canvas& canvas, const Spot& point, double size_pt, const
     }
   }
   if (!best) return false;
-  taken_.push_back(*best);
+  taken_.push_back({best->x - apart_pt, best->y - apart_pt, width + 2 * apart_pt, height + 2 * apart_pt});
+  const Spot nearest{std::clamp(point.x, best->x, best->right()),
+                     std::clamp(point.y, best->y, best->bottom())};
+  const double distance = std::hypot(nearest.x - point.x, nearest.y - point.y);
+  if (distance > size_pt / 2 + far_pt / 2) {
+    const double begin = size_pt / 2 / distance;
+    canvas.line({point.x + begin * (nearest.x - point.x), point.y + begin * (nearest.y - point.y)}, nearest,
+                {colour, 0.4});
+  }
   if (fewest > 0) canvas.fill(*best, white, 0.7);
   canvas.text({best->x + 0.5, best->y + height / 2}, text,
               {.size_pt = text_pt_, .colour = colour, .down = Down::middle});

@@ -50,24 +50,27 @@ std::string in_png(const Page& page) {
 
 std::string in_svg(const Page& page) {
   const auto element = [](const std::string& name, const std::string& text) {
-    if (text.empty()) return std::string();
-    std::string escaped;
-    for (const char c : text) {
-      if (c == '&')
-        escaped += "&amp;";
-      else if (c == '<')
-        escaped += "&lt;";
-      else if (c == '>')
-        escaped += "&gt;";
-      else
-        escaped += c;
-    }
-    return "<" + name + ">" + escaped + "</" + name + ">\n";
+    return text.empty() ? std::string() : "<" + name + ">" + xml_text(text) + "</" + name + ">\n";
   };
   return element("title", page.title) + element("desc", page.history);
 }
 
 }  // namespace
+
+std::string xml_text(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    if (c == '&')
+      escaped += "&amp;";
+    else if (c == '<')
+      escaped += "&lt;";
+    else if (c == '>')
+      escaped += "&gt;";
+    else
+      escaped += c;
+  }
+  return escaped;
+}
 
 std::vector<char> with_provenance(std::vector<char> bytes, const Page& page) {
   if (page.format == Format::png) {

@@ -28,12 +28,41 @@ std::vector<double> even_edges(double low, double step, std::int64_t count) {
   return edges;
 }
 
-std::vector<double> edges_between(const std::vector<double>& places) {
-  if (places.size() == 1) return {places[0] - 0.5, places[0] + 0.5};
-  std::vector<double> edges{places[0] - (places[1] - places[0]) / 2};
-  for (std::size_t n = 1; n < places.size(); ++n) edges.push_back((places[n - 1] + places[n]) / 2);
-  edges.push_back(places.back() + (places.back() - edges.back()));
-  return edges;
+std::vector<double> usual_distances(const std::vector<double>& places) {
+  constexpr std::size_t reach = 4;
+  std::vector<double> usual;
+  for (std::size_t n = 0; n + 1 < places.size(); ++n) {
+    std::vector<double> near;
+    const std::size_t end = std::min(n + reach + 1, places.size() - 1);
+    for (std::size_t k = n < reach ? 0 : n - reach; k < end; ++k) near.push_back(places[k + 1] - places[k]);
+    const auto middle = near.begin() + std::ptrdiff_t((near.size() - 1) / 2);
+    std::nth_element(near.begin(), middle, near.end());
+    usual.push_back(*middle);
+  }
+  return usual;
+}
+
+PlaceCells cells_round(const std::vector<double>& places) {
+  constexpr double far = 1.5;  // half way from the next place to the one after it
+  const auto usual = usual_distances(places);
+  const double first = usual.empty() ? 1 : usual.front(), last = usual.empty() ? 1 : usual.back();
+  PlaceCells cells{{places[0] - first / 2}, {}, {}};
+  const auto add = [&](double edge, double middle, std::int64_t place) {
+    cells.edges.push_back(edge);
+    cells.middles.push_back(middle);
+    cells.place.push_back(place);
+  };
+  for (std::size_t n = 0; n < places.size(); ++n) {
+    const bool ends = n + 1 == places.size();
+    const double next = ends ? places[n] + last : places[n + 1], usually = ends ? last : usual[n];
+    if (next - places[n] <= far * usually) {
+      add((places[n] + next) / 2, places[n], std::int64_t(n));
+      continue;
+    }
+    add(places[n] + usually / 2, places[n], std::int64_t(n));
+    add(next - usually / 2, (places[n] + next) / 2, PlaceCells::gap);
+  }
+  return cells;
 }
 
 std::vector<double> middles_of(const std::vector<double>& edges) {
@@ -71,7 +100,9 @@ std::vector<Mix> mixes_of_pixels(const Scale& scale, double begin_pt, double end
   for (const auto& cells : cells_of_pixels(scale, begin_pt, end_pt, pixels, edges)) {
     const double at = scale.value(begin_pt + (double(found.size()) + 0.5) * pixel);
     found.push_back({cells, {}});
-    if (cells.last - cells.first != 1) continue;
+    const auto own = std::size_t(cells.first);
+    const bool narrow = std::fabs(scale.place(edges[own + 1]) - scale.place(edges[own])) <= std::fabs(pixel);
+    if (cells.last - cells.first != 1 || narrow) continue;
     const auto first = at < middles[std::size_t(cells.first)] ? cells.first - 1 : cells.first;
     if (first < 0 || first + 1 >= std::int64_t(middles.size())) continue;  // outside the outermost middles
     const double low = middles[std::size_t(first)], high = middles[std::size_t(first) + 1];

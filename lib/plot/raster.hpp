@@ -21,8 +21,8 @@ struct Cells {
 std::vector<Cells> cells_of_pixels(const Scale& scale, double begin_pt, double end_pt, int pixels,
                                    const std::vector<double>& edges);
 
-/// What a pixel takes where values between cells are wanted: some cells, as above, or, where these are wider
-/// than pixels, of two neighbours the second with this share.
+/// What a pixel takes where values between cells are wanted: some cells, as above, or, of one that is wider
+/// than a pixel and its neighbour, the second with this share.
 struct Mix {
   Cells cells;
   std::optional<double> share = {};
@@ -36,8 +36,20 @@ std::vector<double> middles_of(const std::vector<double>& edges);
 /// count + 1 edges of equal cells.
 std::vector<double> even_edges(double low, double step, std::int64_t count);
 
-/// Edges of cells round ascending places, half way to their neighbours.
-std::vector<double> edges_between(const std::vector<double>& places);
+/// Cells round ascending places, half way to their neighbours; but where a neighbour is farther than one and
+/// a half times what is usual there, half the usual distance: what lies between was not recorded, and is a
+/// cell without a place.
+struct PlaceCells {
+  static constexpr std::int64_t gap = -1;
+  std::vector<double> edges;        // one more than there are cells
+  std::vector<double> middles;      // the place, or the middle of a gap
+  std::vector<std::int64_t> place;  // index of the place, or gap
+  bool is_gap(std::int64_t cell) const { return place[std::size_t(cell)] == gap; }
+};
+PlaceCells cells_round(const std::vector<double>& places);
+
+/// The distance of places to their next ones that is usual round each: the lower median of nine of them.
+std::vector<double> usual_distances(const std::vector<double>& places);
 
 /// What a pixel takes of its cells: the value farthest from zero (nothing of a wave is lost), the mean, or
 /// the greatest (codes). NaN does not count.

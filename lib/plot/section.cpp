@@ -157,6 +157,40 @@ std::vector<ModelSection> sections_of(const NetcdfFile& file, const Grid<3>& gri
 
 }  // namespace
 
+namespace {
+
+/// Quality factors from which rock is next to elastic: cells that hold a little of rock that attenuates have
+/// millions, beside which all others would be of one colour.
+constexpr float next_to_elastic = 1000;
+
+/// From the least to the greatest value below a limit.
+Limits range_below(std::span<const ModelSection> sections, float limit) {
+  Limits range{INFINITY, -INFINITY};
+  for (const auto& section : sections) {
+    for (const float value : section.values) {
+      if (!std::isfinite(value) || value >= limit) continue;
+      range.low = std::min(range.low, double(value));
+      range.high = std::max(range.high, double(value));
+    }
+  }
+  return range.low > range.high ? Limits{0, 1} : range;
+}
+
+}  // namespace
+
+ValueRange range_of(std::span<const ModelSection> sections) {
+  const auto& property = sections.front().property;
+  const Limits all = range_below(sections, INFINITY);
+  const bool attenuates = (property == "qp" || property == "qs") && all.low < double(next_to_elastic);
+  return {all, attenuates ? range_below(sections, next_to_elastic) : all};
+}
+
+std::string range_in_words(const ModelSection& section, const Limits& range) {
+  std::string words = section.property + " " + shown(range.low, 4);
+  if (range.low < range.high) words += " to " + shown(range.high, 4);
+  return words + (section.unit.empty() ? "" : " " + section.unit);
+}
+
 std::vector<ModelSection> read_model_sections(const NetcdfFile& file, const std::string& property,
                                               std::span<const Slice> planes) {
   const auto grid = read_grid<3>(file);
@@ -275,7 +309,7 @@ Raster interpolated_bent(const Field<2>& field, const Panel& panel, const std::v
 Raster shown_values(const Field<2>& field, const Panel& panel, const Page& page, Take take,
                     const Look& look) {
   const auto& grid = field.grid();
-  if (!look.interpolate) return reduced(field, pixels_of(panel, page, grid), take);
+  if (!look.interpolate.value_or(false)) return reduced(field, pixels_of(panel, page, grid), take);
   const Rect& plot = panel.plot();
   const int width = pixels_along(plot.width, page), height = pixels_along(plot.height, page);
   const auto mixes = [&](const Scale& scale, double begin, double end, int pixels, std::size_t axis) {

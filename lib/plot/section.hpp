@@ -32,6 +32,16 @@ struct ModelSection {
   const Grid<2>& grid() const { return values.grid(); }
 };
 
+/// From the least to the greatest value of sections, and of those that colours show: without quality factors
+/// of rock that is next to elastic where other rock is not.
+struct ValueRange {
+  Limits all, shown;
+};
+ValueRange range_of(std::span<const ModelSection> sections);
+
+/// "vp 1500 to 4500 m/s", "vp 4500 m/s".
+std::string range_in_words(const ModelSection& section, const Limits& range);
+
 /// Reads a property by its name, and nothing else that is large, from a model file; of a model in 3-D what
 /// lies on a plane. Throws Error naming the file.
 ModelSection read_model_section(const NetcdfFile& file, const std::string& property,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.hpp"
@@ -40,9 +41,11 @@ std::vector<Group> groups_of(const std::vector<Spectra>& files) {
   return groups;
 }
 
+/// What of the greatest value still counts where axes end at the last that does.
+constexpr double least_share = 0.01;
+
 /// Frequencies from 0 to the end, or to where nothing is left, or what was asked for.
-Axis frequency_axis(const std::vector<Spectra>& files, bool all, const std::optional<Limits>& wanted,
-                    const std::string& option) {
+Axis frequency_axis(const std::vector<Spectra>& files, bool all, const std::optional<Limits>& wanted) {
   Axis axis{"frequency", "Hz", 0, 0};
   double last = 0;
   for (const auto& file : files) {
@@ -50,13 +53,13 @@ Axis frequency_axis(const std::vector<Spectra>& files, bool all, const std::opti
     for (const auto& line : file.lines) {
       const double greatest = *std::max_element(line.values.begin(), line.values.end());
       for (std::size_t n = 0; n < line.values.size(); ++n) {
-        if (line.values[n] > 0.01 * greatest) last = std::max(last, file.frequencies_hz[n]);
+        if (line.values[n] > least_share * greatest) last = std::max(last, file.frequencies_hz[n]);
       }
     }
   }
   if (axis.high == 0) axis.high = 1;
   if (wanted)
-    narrow(axis, wanted, option);
+    narrow(axis, wanted, "--x");
   else if (last > 0 && !all)
     axis.high = std::min(axis.high, 1.05 * last);
   return axis;
@@ -102,8 +105,8 @@ Picture draw_lines(const std::vector<Spectra>& files, bool log, const Look& look
   std::vector<PanelSpec> specs;
   double left = 0, right = 0;  // so that the panels' frequencies stand above each other
   for (const auto& group : groups) {
-    specs.push_back({specs.empty() ? page.title : "", frequency_axis(files, log, look.x, "--x"),
-                     value_axis(group, log, look)});
+    specs.push_back(
+        {specs.empty() ? page.title : "", frequency_axis(files, log, look.x), value_axis(group, log, look)});
     for (std::size_t n = 0; n < group.members.size(); ++n) {
       const auto& member = group.members[n];
       const std::string name =
@@ -132,13 +135,17 @@ struct Shown {
   Axis quantity;
 };
 
+constexpr double floor_db = -60;
+
+/// Of a power of ten.
+double decibels(const Spectra& spectra) { return spectra.quantity == "amplitude" ? 20 : 10; }
+
 /// In dB of the greatest value.
 Shown in_decibels(const Spectra& spectra) {
-  constexpr double floor_db = -60;
   double greatest = 0;
   for (const auto& line : spectra.lines)
     for (const double value : line.values) greatest = std::max(greatest, value);
-  const double factor = spectra.quantity == "amplitude" ? 20 : 10;
+  const double factor = decibels(spectra);
   Shown shown{{}, {spectra.quantity + " of " + spectra.lines[0].name, "dB", floor_db, 0}};
   for (const auto& line : spectra.lines) {
     shown.traces.emplace_back();
@@ -161,10 +168,38 @@ Shown as_they_are(const Spectra& spectra, const Look& look) {
   return shown;
 }
 
-Axis place_axis(const Spectra& spectra, const std::vector<double>& edges) {
-  if (spectra.place == Spectra::Place::wavenumber) return {"wavenumber", "1/m", edges.front(), edges.back()};
+/// The places and frequencies beyond which nothing of the least share that counts is left, of energy of its
+/// square.
+struct Band {
+  double first_place = 0, last_place = 0, last_hz = 0;
+};
+
+Band band_of(const Spectra& spectra) {
+  const double share = spectra.quantity == "amplitude" ? least_share : least_share * least_share;
+  double greatest = 0;
+  for (const auto& line : spectra.lines)
+    for (const double value : line.values) greatest = std::max(greatest, value);
+  Band band{spectra.places.back(), spectra.places.front(), 0};
+  for (std::size_t k = 0; k < spectra.lines.size(); ++k) {
+    for (std::size_t n = 0; n < spectra.frequencies_hz.size(); ++n) {
+      if (!(spectra.lines[k].values[n] > share * greatest)) continue;
+      band.first_place = std::min(band.first_place, spectra.places[k]);
+      band.last_place = std::max(band.last_place, spectra.places[k]);
+      band.last_hz = std::max(band.last_hz, spectra.frequencies_hz[n]);
+    }
+  }
+  return band;
+}
+
+/// Of traces all; of wavenumbers those of the band, as far to both sides.
+Axis place_axis(const Spectra& spectra, const std::vector<double>& edges, const Band& band) {
   if (spectra.place == Spectra::Place::receiver_x) return {"receiver x", "m", edges.front(), edges.back()};
-  return {"trace", "", edges.front(), edges.back(), false, true};
+  if (spectra.place == Spectra::Place::trace_number)
+    return {"trace", "", edges.front(), edges.back(), false, true};
+  Axis axis{"wavenumber", "1/m", edges.front(), edges.back()};
+  const double reach = 1.1 * std::max(std::fabs(band.first_place), std::fabs(band.last_place));
+  if (reach > 0) axis.low = std::max(axis.low, -reach), axis.high = std::min(axis.high, reach);
+  return axis;
 }
 
 Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page) {
@@ -175,16 +210,23 @@ Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page)
     shown.quantity.high = look.colours->high;
   }
   const Limits limits{shown.quantity.low, shown.quantity.high};
-  const auto edges = edges_between(spectra.places);
+  const auto cells = cells_round(spectra.places);
+  const auto band = band_of(spectra);
+  Axis frequency{"frequency", "Hz", 0, std::max(spectra.frequencies_hz.back(), 1.)};
+  if (band.last_hz > 0) frequency.high = std::min(frequency.high, 1.1 * band.last_hz);
   PanelSpec spec{page.title,
-                 place_axis(spectra, edges),
-                 frequency_axis({spectra}, false, look.y, "--y"),
+                 place_axis(spectra, cells.edges, band),
+                 frequency,
                  ColourBar{map_of(look, "uniform"), shown.quantity},
                  {}};
   Magnitudes magnitudes;
   for (const auto& trace : traces) magnitudes.add(trace);
   spec.bar->point_beyond(magnitudes.lowest(), magnitudes.highest());
+  const double nyquist = spectra.frequencies_hz.back();
+  if (look.x) spec.x.low = cells.edges.front(), spec.x.high = cells.edges.back();
+  if (look.y && nyquist > 0) spec.y.high = nyquist;
   narrow(spec.x, look.x, "--x");
+  narrow(spec.y, look.y, "--y");
   if (page.height_pt == 0) page.height_pt = 10 * points_per_cm;
   const Panel panel(spec, {0, 0, page.width_pt, page.height_pt}, page);
   const Rect& plot = panel.plot();
@@ -192,15 +234,17 @@ Picture draw_each(const Spectra& spectra, bool log, const Look& look, Page page)
   const double step = spectra.frequencies_hz.size() > 1 ? spectra.frequencies_hz[1] : 1;
   const auto rows = cells_of_pixels(panel.y_scale(), plot.y, plot.bottom(), height,
                                     even_edges(-step / 2, step, std::int64_t(spectra.frequencies_hz.size())));
-  const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, edges);
-  const auto raster = reduced<float>([&](std::int64_t n) { return traces[std::size_t(n)].data(); }, rows,
-                                     columns, log ? Take::greatest : Take::extreme);
+  const auto columns = cells_of_pixels(panel.x_scale(), plot.x, plot.right(), width, cells.edges);
+  const std::vector<float> nothing(spectra.frequencies_hz.size(), std::numeric_limits<float>::quiet_NaN());
+  const auto line = [&](std::int64_t cell) {
+    return cells.is_gap(cell) ? nothing.data() : traces[std::size_t(cells.place[std::size_t(cell)])].data();
+  };
+  const auto raster = reduced<float>(line, rows, columns, log ? Take::greatest : Take::extreme);
   Image image(width, height);
   for (int column = 0; column < width; ++column) {
     for (int row = 0; row < height; ++row) {
       const double value = double(raster.at(row, column));
-      if (!std::isnan(value))
-        image.at(column, row) = spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
+      image.at(column, row) = spec.bar->map.pixel((value - limits.low) / (limits.high - limits.low));
     }
   }
   Canvas canvas(page);

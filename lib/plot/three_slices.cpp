@@ -81,7 +81,8 @@ void draw_cuts(Canvas& canvas, const Panel& panel, const SlicePanel& slice,
 }  // namespace
 
 std::string name_of(const Slice& plane) {
-  return std::string(1, axis_names<3>()[std::size_t(plane.axis)]) + " = " + shown(plane.at_m) + " m";
+  return std::string(1, axis_names<3>()[std::size_t(plane.axis)]) + " = " +
+         shown(std::round(10 * plane.at_m) / 10) + " m";
 }
 
 Picture draw_three_slices(std::array<SlicePanel, 3> slices, const std::vector<LegendEntry>& legend,

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <iterator>
+#include <utility>
 
 namespace slipwave::plot {
 namespace {
@@ -111,6 +113,21 @@ std::string typeset_unit(std::string unit) {
 
 std::string power_of_ten(int exponent) {
   return exponent == 0 ? "" : "10" + raised(std::to_string(exponent));
+}
+
+std::string multiplied_unit(int exponent, const std::string& unit) {
+  if (exponent == 0) return unit;
+  const std::pair<int, const char*> prefixes[] = {
+      {-15, "f"}, {-12, "p"}, {-9, "n"}, {-6, "\u00b5"}, {-3, "m"}, {3, "k"}, {6, "M"}, {9, "G"}, {12, "T"}};
+  const auto prefix = std::find_if(std::begin(prefixes), std::end(prefixes),
+                                   [&](const auto& row) { return row.first == exponent; });
+  for (const std::string base : {"m", "s", "Pa", "Hz"}) {
+    const bool alone = unit == base || unit.starts_with(base + "/") || unit.starts_with(base + " ");
+    const bool usual = exponent < 0 || base == "Pa" || base == "Hz" || (base == "m" && exponent == 3);
+    if (alone && usual && prefix != std::end(prefixes)) return prefix->second + unit;
+  }
+  if (unit.starts_with("1/")) return power_of_ten(exponent) + unit.substr(1);
+  return power_of_ten(exponent) + (unit.empty() ? "" : " " + unit);
 }
 
 std::string log_label(double tick) {

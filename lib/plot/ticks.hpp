@@ -36,6 +36,10 @@ std::string typeset_unit(std::string unit);
 /// "10⁻⁹"; "" for exponent 0.
 std::string power_of_ten(int exponent);
 
+/// 10^exponent times a unit: "nm/s" for 10^-9 m/s, "kPa", "10⁻⁶/s" for 10^-6 1/s; with the power before it
+/// where that has no prefix, or the unit takes none: "10⁶ kg/(m² s)".
+std::string multiplied_unit(int exponent, const std::string& unit);
+
 /// The exponent, a multiple of 3, by which an axis whose numbers reach `largest` is best divided; 0 from
 /// 0.01 up to below 100000.
 int axis_exponent(double largest);

@@ -1,6 +1,6 @@
 #include "plot/typeface.hpp"
 
-#include <cairo/cairo.h>
+#include <pango/pangocairo.h>
 
 #include <algorithm>
 #include <memory>
@@ -14,31 +14,46 @@ namespace slipwave::plot {
 namespace {
 
 struct Destroy {
-  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
-  void operator()(cairo_t* context) const { cairo_destroy(context); }
   void operator()(cairo_font_options_t* options) const { cairo_font_options_destroy(options); }
+  void operator()(PangoFontDescription* typeface) const { pango_font_description_free(typeface); }
+  void operator()(PangoContext* context) const { g_object_unref(context); }
+  void operator()(PangoLayout* layout) const { g_object_unref(layout); }
 };
+template <class Thing>
+using Owned = std::unique_ptr<Thing, Destroy>;
 
-}  // namespace
-
-void use_typeface(_cairo* drawing, double size_pt, bool bold) {
-  cairo_select_font_face(drawing, "DejaVu Sans", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(drawing, size_pt);
-  const std::unique_ptr<cairo_font_options_t, Destroy> options(cairo_font_options_create());
+/// The text as one line of shaped glyphs.
+Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold) {
+  const Owned<PangoContext> context(pango_font_map_create_context(pango_cairo_font_map_get_default()));
+  const Owned<cairo_font_options_t> options(cairo_font_options_create());
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
   cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
   cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(drawing, options.get());
+  pango_cairo_context_set_font_options(context.get(), options.get());
+  pango_context_set_round_glyph_positions(context.get(), FALSE);
+  const Owned<PangoFontDescription> typeface(pango_font_description_new());
+  pango_font_description_set_family_static(typeface.get(), typeface_name);
+  pango_font_description_set_weight(typeface.get(), bold ? PANGO_WEIGHT_BOLD : PANGO_WEIGHT_NORMAL);
+  pango_font_description_set_absolute_size(typeface.get(), size_pt * PANGO_SCALE);
+  Owned<PangoLayout> layout(pango_layout_new(context.get()));
+  pango_layout_set_font_description(layout.get(), typeface.get());
+  pango_layout_set_single_paragraph_mode(layout.get(), TRUE);
+  const std::string line = legible(text);
+  pango_layout_set_text(layout.get(), line.data(), int(line.size()));
+  return layout;
+}
+
+}  // namespace
+
+void draw_text(_cairo* drawing, const std::string& text, double size_pt, bool bold) {
+  const auto layout = layout_of(text, size_pt, bold);
+  pango_cairo_show_layout_line(drawing, pango_layout_get_line_readonly(layout.get(), 0));
 }
 
 double text_width(const std::string& text, double size_pt, bool bold) {
-  const std::unique_ptr<cairo_surface_t, Destroy> surface(cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1));
-  const std::unique_ptr<cairo_t, Destroy> drawing(cairo_create(surface.get()));
-  use_typeface(drawing.get(), size_pt, bold);
-  cairo_text_extents_t extents{};
-  cairo_text_extents(drawing.get(), legible(text).c_str(), &extents);
-  return extents.x_advance;
+  int width = 0;
+  pango_layout_get_size(layout_of(text, size_pt, bold).get(), &width, nullptr);
+  return double(width) / PANGO_SCALE;
 }
 
 std::string shortened(const std::string& text, double width_pt, double size_pt, bool bold) {

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <string>
+
 struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library calls it so
 
 namespace slipwave::plot {
 
-/// Sets the typeface of all pictures, DejaVu Sans, with everything by which machines differ (hinting,
-/// subpixels) switched off.
-void use_typeface(_cairo* drawing, double size_pt, bool bold);
+/// The typeface of all pictures; scripts that it lacks take another one of the system.
+inline constexpr const char* typeface_name = "DejaVu Sans";
+
+/// Draws a line of text in it from the current point on along the baseline, with everything by which machines
+/// differ (hinting, subpixels) switched off.
+void draw_text(_cairo* drawing, const std::string& text, double size_pt, bool bold);
 
 }  // namespace slipwave::plot

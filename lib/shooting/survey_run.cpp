@@ -127,9 +127,9 @@ template <int D>
 Progress SurveyRun<D>::progress_of(std::span<const std::size_t> some) {
   const auto round = std::int64_t(round_++);
   if (rounds_ == 1)
-    return messages_.progress("shot " + number(some.front()) +
-                              (some.size() > 1 ? " to " + number(some.back()) : ""));
-  if (!progress_) progress_ = messages_.progress(std::to_string(shots_to_do_) + " shots");
+    return messages_.progress(
+        "shot " + number(some.front()) + (some.size() > 1 ? " to " + number(some.back()) : ""), "steps");
+  if (!progress_) progress_ = messages_.progress(std::to_string(shots_to_do_) + " shots", "steps");
   if (!progress_) return {};  // silent
   return [this, round](std::int64_t done, std::int64_t total) {
     progress_(round * total + done, std::int64_t(rounds_) * total);

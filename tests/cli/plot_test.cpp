@@ -33,9 +33,10 @@ TEST_F(Plot, DrawsEveryKindInEveryFormatTheSameTwice) {
   std::string lines;
   for (const auto& input : inputs) {
     for (const std::string format : {"png", "pdf", "svg"})
-      lines += "sw-plot " + input + " --title 'A < B & C' -o $1/" + input.substr(0, 1) + "." + format + "\n";
+      lines += "sw-plot " + input + " --size 12x9cm --dpi 60 --title 'A < B & C' -o $1/" +
+               input.substr(0, 1) + "." + format + " &\n";
   }
-  write("draw.sh", lines);
+  write("draw.sh", lines + "for job in $(jobs -p); do wait $job || exit 1; done\n");
   // Files that know the time of their making differ after a second.
   done("mkdir one two; bash draw.sh one; next_second; bash draw.sh two; diff -r one two");
   for (const auto& input : inputs) {
@@ -158,6 +159,30 @@ TEST_F(Plot, GathersStandTogether) {
       "all errors");
 }
 
+TEST_F(Plot, ComponentsStandTogether) {
+  done(everything + "sw-plot g.sgy --component all -o all.svg; sw-plot g.sgy --component vz,p -o two.svg");
+  for (const std::string name : {"all.svg", "two.svg"})
+    for (const std::string word : {">vz<", ">p<", ">p (", ">vz ("})
+      EXPECT_TRUE(has(content(name), word)) << name << word;
+  EXPECT_LT(content("all.svg").find(">p<"), content("all.svg").find(">vz<"));  // as in the file
+  EXPECT_GT(content("two.svg").find(">p<"), content("two.svg").find(">vz<"));  // as they are named
+  done(
+      "sw-plot g.sgy g.sgy --component p,vz --difference -o six.png; sw-plot a.nc --component vz,p -o a.svg");
+  done("cat g.sgy | sw-plot - --component all -o piped.svg");
+  EXPECT_TRUE(has(content("piped.svg"), ">vz<"));
+}
+
+TEST_F(Plot, NearestTracesAreInterpolatedUnlessThatIsUnwanted) {
+  done(everything + "sw-plot g.sgy --component p -o a.png; sw-plot g.sgy --component p --nearest -o b.png");
+  EXPECT_NE(content("a.png"), content("b.png"));
+  done("sw-plot m.nc -o c.png; sw-plot m.nc --nearest -o d.png; sw-plot m.nc --interpolate -o e.png");
+  const auto pixels = [&](const std::string& file) {
+    return done("tail -c +$(grep -abo IDAT " + file + " | head -n 1 | cut -d : -f 1) " + file + " | cksum");
+  };
+  EXPECT_EQ(pixels("c.png"), pixels("d.png"));
+  EXPECT_NE(pixels("c.png"), pixels("e.png"));
+}
+
 TEST_F(Plot, APlaneWaveIsNoPoint) {
   done("sw-layers --size 600x400 --step 10 --layer 0:4000:2000:2400 -o m.nc");
   const std::string wave =
@@ -238,6 +263,11 @@ TEST_F(Plot, SaysInALineWhatIsWrongAndLeavesNothing) {
           "--overlay: draws lines, which --style both does not go with");
   refused("g.sgy g.sgy --component p --difference --difference-gain 0 -o x.png", 2,
           "--difference-gain: found 0, expected a number other than 0");
+  refused("g.sgy --component p,vx -o x.png", 1, "g.sgy: has no vx, it holds vz, p of shots 1 to 1");
+  refused("g.sgy --component p,p -o x.png", 2, "--component: found p twice, expected it once");
+  refused("g.sgy --component p,vz --overlay --style wiggle -o x.png", 2,
+          "--overlay: found components in Pa and in m/s, expected one unit; choose a --component");
+  refused("m.nc --nearest --interpolate -o x.png", 2, "--interpolate and --nearest exclude each other");
   refused("s.nc --movie x.mp4 -o y.mp4", 2, "--movie: found x.mp4 and -o y.mp4, expected one of them");
   refused("s.nc -o x.mp4", 2,
           "--output: found 'x.mp4', expected a name that ends with .png, .pdf or .svg, or --movie");

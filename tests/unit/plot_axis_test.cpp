@@ -70,7 +70,11 @@ TEST(PlotAxis, LabelsShowTheirValuesInTheUnitOfTheCaption) {
     const char* caption;
   } cases[] = {{0, 2500, "m", 1, "a (m)"},
                {0, 17000, "m", 1e3, "a (km)"},
-               {-3e-9, 5e-9, "m/s", 1e-9, "a (10\u207b\u2079 m/s)"},
+               {-3e-9, 5e-9, "m/s", 1e-9, "a (nm/s)"},
+               {0, 4e-5, "s", 1e-6, "a (\u00b5s)"},
+               {-3e-6, 5e-6, "1/s", 1e-6, "a (10\u207b\u2076/s)"},
+               {0, 3e-6, "m\u00b2/s/Hz", 1e-6, "a (10\u207b\u2076 m\u00b2/s/Hz)"},
+               {0, 2e-20, "m/s", 1e-21, "a (10\u207b\u00b2\u00b9 m/s)"},
                {-2e6, 2e6, "Pa", 1e6, "a (MPa)"},
                {0.2, 0.9, "s", 1, "a (s)"},
                {1e7, 3e7, "", 1e6, "a (10\u2076)"},

@@ -43,7 +43,9 @@ Patch frame_of(const Pixels& pixels) {
   return {0, frame.left + line, frame.right - line, frame.top + line, frame.bottom - line};
 }
 
-std::vector<char> drawn(GatherSection section, const GatherStyle& style, const Look& look = {}) {
+const Look nearest{.interpolate = false};
+
+std::vector<char> drawn(GatherSection section, const GatherStyle& style, const Look& look = nearest) {
   return draw_gather(std::move(section), style, look, page_of_size("900x700px")).bytes;
 }
 
@@ -69,6 +71,115 @@ TEST(PlotGather, ASampleStandsAtItsTimeAndReceiverInTheColourOfItsSign) {
     EXPECT_NEAR(spike.right - spike.left + 1, trace, 1.5);
     EXPECT_NEAR((spike.top + spike.bottom + 1) / 2.0, frame.top + 0.25 * (frame.bottom - frame.top), 2);
   }
+}
+
+/// Columns of pixels within the frame all of whose pixels have this colour.
+std::vector<int> columns_of(const Pixels& pixels, std::uint32_t colour) {
+  const auto frame = frame_of(pixels);
+  std::vector<int> found;
+  for (int x = frame.left; x <= frame.right; ++x) {
+    bool all = true;
+    for (int y = frame.top + 3; y < frame.bottom - 3; ++y) all = all && pixels.at(x, y) == colour;
+    if (all) found.push_back(x);
+  }
+  return found;
+}
+
+TEST(PlotGather, GapsBetweenTracesStayBlankInEveryStyle) {
+  auto section = with_spike(20, 0, 0, 0);
+  for (std::size_t n = 0; n < section.samples.size(); ++n)
+    section.samples[n] = float(std::sin(0.7 * double(n % 101)) + 0.1);
+  for (std::size_t n = 10; n < 20; ++n) section.headers[n].receiver_m[0] += 500;  // 525 m to the one before
+  const double extent = 475 + 500 + 25;
+  for (const std::string style : {"density", "interpolated", "both", "wiggle"}) {
+    const bool lines = style == "wiggle";
+    const auto pixels = decoded(drawn(section, {.density = !lines, .wiggle = lines || style == "both"},
+                                      {.interpolate = style != "density"}));
+    const auto frame = frame_of(pixels);
+    const double metre = (frame.right - frame.left + 2 * line) / extent;
+    const auto blank = columns_of(pixels, lines ? 0xffffff : pixel_of(no_data) & 0xffffff);
+    // From half a spacing, or as far as a line swings out, behind the one to as far before the other.
+    const double beside = style == "density" || style == "interpolated" ? 12.5 : 1.4 * 25;
+    ASSERT_FALSE(blank.empty()) << style;
+    EXPECT_NEAR(double(blank.size()), (525 - 2 * beside) * metre, 6) << style;
+    EXPECT_NEAR((blank.front() + blank.back()) / 2.0, (frame.left + frame.right) / 2.0, 6) << style;
+    EXPECT_EQ(blank.back() - blank.front() + 1, int(blank.size())) << style;
+  }
+}
+
+TEST(PlotGather, BetweenTwoTracesColoursGoOverIntoEachOther) {
+  auto section = with_spike(2, 0, 0, 0);
+  for (std::size_t n = 0; n < section.samples.size(); ++n) section.samples[n] = n < 101 ? 1.0f : 0.0f;
+  const auto pixels = decoded(drawn(section, {}, {.clip_percent = 100}));
+  const auto frame = frame_of(pixels);
+  const int y = (frame.top + frame.bottom) / 2;
+  const auto map = ColourMap("blue-red");
+  EXPECT_EQ(pixels.at(frame.left + 20, y), strongest);  // outside the outermost places they stay
+  EXPECT_EQ(pixels.at(frame.right - 20, y), 0xffffffu);
+  EXPECT_TRUE(alike(pixels.at((frame.left + frame.right) / 2, y), map.pixel(0.75) & 0xffffff));
+}
+
+TEST(PlotGather, DepthsOfReceiversRunDownAndTimeToTheRight) {
+  auto section = with_spike(40, 30, 25, 1);  // at 0.25 s
+  for (std::size_t n = 0; n < 40; ++n) section.headers[n].receiver_m = {100, 0, 10.0 * double(n)};
+  for (const bool wiggle : {false, true}) {
+    const auto pixels = decoded(drawn(section, {.density = !wiggle, .wiggle = wiggle}));
+    const auto frame = frame_of(pixels);
+    const double left = frame.left - line, width = frame.right - frame.left + 2 * line;
+    const double top = frame.top - line, trace = (frame.bottom - frame.top + 2 * line) / 40.0;
+    Patch spike{0, 900, -1, 700, -1};
+    for (int y = frame.top; y <= frame.bottom; ++y)
+      for (int x = frame.left; x <= frame.right; ++x) {
+        // A line that swings out upwards stands between its place and that of the trace above.
+        const bool found = wiggle
+                               ? is_dark(pixels.at(x, y)) && y < top + 30.2 * trace && y > top + 29.7 * trace
+                               : pixels.at(x, y) == strongest;
+        if (!found) continue;
+        spike = {spike.count + 1, std::min(spike.left, x), std::max(spike.right, x), std::min(spike.top, y),
+                 std::max(spike.bottom, y)};
+      }
+    ASSERT_GT(spike.count, 3);
+    EXPECT_NEAR((spike.left + spike.right + 1) / 2.0, left + 0.25 * width, 3);
+    if (!wiggle) {
+      EXPECT_NEAR((spike.top + spike.bottom + 1) / 2.0, top + 30.5 * trace, 2);
+    }
+  }
+}
+
+/// A gather as SVG, whose words can be read.
+std::string svg_of(std::vector<NamedGather> gathers, const GatherStyle& style = {}) {
+  const auto bytes =
+      draw_gathers(std::move(gathers), style, {}, page_of(Format::svg, {"", {}, "", ""})).bytes;
+  return {bytes.begin(), bytes.end()};
+}
+
+GatherSection of_component(Component component, float value) {
+  auto section = with_spike(5, 2, 50, value);
+  section.component = component;
+  for (auto& header : section.headers) header.component = component;
+  return section;
+}
+
+TEST(PlotGather, ComponentsOfOneUnitShareAScaleAndOthersHaveTheirOwn) {
+  const auto svg = svg_of({{"a", of_component(Component::vx, 1e-6f)},
+                           {"a", of_component(Component::vz, 2e-6f)},
+                           {"a", of_component(Component::p, 300)}});
+  for (const char* word : {">vx<", ">vz<", ">p<", ">vx, vz (\u00b5m/s)<", ">p (Pa)<"})
+    EXPECT_NE(svg.find(word), std::string::npos) << word;
+  GatherStyle overlaid;
+  overlaid.overlay = true;
+  EXPECT_THROW(
+      svg_of({{"a", of_component(Component::vx, 1)}, {"a", of_component(Component::p, 1)}}, overlaid), Error);
+  EXPECT_NE(svg_of({{"a", of_component(Component::vx, 1)}, {"a", of_component(Component::vz, 1)}}, overlaid)
+                .find(">vz<"),
+            std::string::npos);
+}
+
+TEST(PlotGather, AGainLeavesTheUnit) {
+  GatherStyle style;
+  style.gain_power = 2;
+  EXPECT_NE(svg_of({{"a", of_component(Component::vz, 1)}}, style).find(">vz \u00b7 t\u00b2 (m/s)<"),
+            std::string::npos);
 }
 
 TEST(PlotGather, OneSampleAmongMillionsIsSeen) {
@@ -142,6 +253,40 @@ TEST(PlotGather, TracesStandInTheOrderOfTheirAxis) {
   EXPECT_EQ(order_traces(section, TraceAxis::depth).places, (std::vector<double>{5, 20, 30}));
 }
 
+TEST(PlotGather, TheAutomaticAxisIsTheOneAGeophysicistWouldTake) {
+  const auto axis_of = [](const GatherSection& section) {
+    auto copy = section;
+    return order_traces(copy, TraceAxis::automatic);
+  };
+  auto ring = with_spike(8, 0, 0, 0);
+  for (std::size_t n = 0; n < 8; ++n) {
+    const double angle = 0.1 + 0.7853981634 * double((n + 3) % 8);
+    ring.headers[n].receiver_m = {50 + 100 * std::cos(angle), 100 * std::sin(angle), 5};
+    ring.headers[n].source_m = {50, 0, 5};
+  }
+  const auto by_azimuth = axis_of(ring);
+  EXPECT_EQ(by_azimuth.axis, TraceAxis::azimuth);
+  EXPECT_NEAR(by_azimuth.places[0], 0.1 * 180 / 3.14159265, 1e-6);
+  EXPECT_NEAR(by_azimuth.places[7] - by_azimuth.places[0], 315, 1e-6);
+  // A well that is not quite upright, and a line that is not quite along y.
+  auto well = with_spike(8, 0, 0, 0), crooked = well;
+  for (std::size_t n = 0; n < 8; ++n) {
+    well.headers[n].receiver_m = {3.0 * double(n), 0, 50.0 * double(n)};
+    crooked.headers[n].receiver_m = {3.0 * double(n), 50.0 * double(n), 0};
+  }
+  EXPECT_EQ(axis_of(well).axis, TraceAxis::depth);
+  EXPECT_EQ(axis_of(crooked).axis, TraceAxis::y);
+  // A trace of each shot: a section by midpoint; of one midpoint or one receiver by offset.
+  auto section = with_spike(8, 0, 0, 0);
+  section.shots = 8;
+  for (std::size_t n = 0; n < 8; ++n) section.headers[n].source_m[0] = 25 * double(n) - 100;
+  EXPECT_EQ(axis_of(section).axis, TraceAxis::midpoint);
+  for (std::size_t n = 0; n < 8; ++n) section.headers[n].receiver_m[0] = 300 - section.headers[n].source_m[0];
+  EXPECT_EQ(axis_of(section).axis, TraceAxis::offset);
+  for (auto& header : section.headers) header.receiver_m[0] = 300;
+  EXPECT_EQ(axis_of(section).axis, TraceAxis::offset);
+}
+
 TEST(PlotGather, SeveralShotsStandByNumber) {
   auto section = with_spike(4, 0, 10, 1);
   section.shots = 2;
@@ -195,6 +340,8 @@ TEST(PlotGather, ShotsAndLinesOfReceiversAreKeptApart) {
   EXPECT_EQ(lines.run_name, "y (m)");
   ASSERT_EQ(lines.runs.size(), 2u);
   EXPECT_EQ(lines.runs[1].label, "5");
+  EXPECT_EQ(lines.in_each_run, "receiver x 0 to 100 m");
+  EXPECT_EQ(shots.in_each_run, "offset 0 to 225 m");
   // A trace of each shot is a section, not a row of gathers.
   auto section = with_spike(10, 0, 0, 0);
   for (std::size_t n = 0; n < 10; ++n) section.headers[n].shot = std::int64_t(n);
@@ -230,7 +377,8 @@ TEST(PlotGather, TheDifferenceOfTwoGathersIsWhereTheyDiffer) {
   style.difference = true;
   const auto panels_with = [&](float second) {
     std::vector<NamedGather> gathers = {{"a", with_spike(9, 4, 50, 1)}, {"b", with_spike(9, 4, 50, second)}};
-    const auto pixels = decoded(draw_gathers(std::move(gathers), style, {.clip_percent = 100}, page).bytes);
+    const auto pixels = decoded(
+        draw_gathers(std::move(gathers), style, {.clip_percent = 100, .interpolate = false}, page).bytes);
     std::array<int, 3> full{};  // pixels of the strongest colour in each third, less the bar
     for (int y = 0; y < 600; ++y)
       for (int x = 0; x < 1350; ++x) full[std::size_t(x / 450)] += pixels.at(x, y) == strongest;
@@ -274,7 +422,7 @@ TEST(PlotGather, OverlaidLinesHaveAColourEach) {
 TEST(PlotGather, InterpolationIsNotAcrossShots) {
   auto section = shots_and_lines(2, 10);
   for (std::size_t n = 0; n < section.samples.size(); ++n) section.samples[n] = n < 10 * 101 ? 1.0f : -1.0f;
-  const auto pixels = decoded(drawn(section, {}, {.clip_percent = 100, .interpolate = true}));
+  const auto pixels = decoded(drawn(section, {}, {.clip_percent = 100}));
   const auto frame = frame_of(pixels);
   for (int x = frame.left; x <= frame.right; ++x) {
     const auto colour = pixels.at(x, (frame.top + frame.bottom) / 2);

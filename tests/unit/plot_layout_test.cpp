@@ -106,7 +106,19 @@ std::vector<std::pair<std::string, std::function<Picture(const Page&)>>> wide_ki
     planes.push_back({axis, 105});
   }
   const std::vector<SurveyMarks> marks(3, SurveyMarks{{{200, 20}}, {{0, 10}, {100, 10}}});
+  auto well = with_spike(41, 3, 3, 1);
+  for (std::size_t n = 0; n < well.traces(); ++n) well.headers[n].receiver_m = {5, 0, 10.0 * double(n)};
+  const auto components = [] {
+    std::vector<NamedGather> gathers;
+    for (const auto component : {Component::vx, Component::vz, Component::p}) {
+      gathers.push_back({"a", with_spike(41, 3, 3, 1e-7f)});
+      gathers.back().section.component = component;
+    }
+    return gathers;
+  };
   return {
+      {"well", [=](const Page& page) { return draw_gather(well, {}, {}, page); }},
+      {"components", [=](const Page& page) { return draw_gathers(components(), {}, {}, page); }},
       {"shots", [=](const Page& page) { return draw_gather(shots, {}, {.clip_percent = 50}, page); }},
       {"overlay", [=](const Page& page) { return draw_gathers(pair(), overlaid, {}, page); }},
       {"difference", [=](const Page& page) { return draw_gathers(pair(), difference, {}, page); }},

@@ -126,6 +126,19 @@ TEST(PlotModel, FracturesAreMarkedWhereTheyAreAndNowhereElse) {
   EXPECT_LT(inside, (changed.right - changed.left) / 2);
 }
 
+TEST(PlotModel, OneValueAloneHasAWordInsteadOfABar) {
+  const auto svg_of = [](const ModelSection& section, const Look& look) {
+    const auto bytes = draw_model(section, true, {}, look, page_of(Format::svg, {})).bytes;
+    return std::string(bytes.begin(), bytes.end());
+  };
+  auto alike = fractured_blocks();
+  for (auto& value : alike.values) value = std::isnan(value) ? value : 2000;
+  EXPECT_NE(svg_of(alike, {}).find(">vp 2000 m/s<"), std::string::npos);
+  EXPECT_EQ(svg_of(alike, {}).find(">vp (m/s)<"), std::string::npos);
+  EXPECT_NE(svg_of(alike, {.colours = Limits{1000, 3000}}).find(">vp (m/s)<"), std::string::npos);
+  EXPECT_NE(svg_of(fractured_blocks(), {}).find(">vp (m/s)<"), std::string::npos);
+}
+
 TEST(PlotModel, SetsHaveColoursOfTheirOwn) {
   const auto picture = draw_model(fractured_blocks(), true, {}, {}, page_of_size("800x600px"));
   const auto set = patch_of(decoded(picture.bytes), pixel_of(line_colour(0)) & 0xffffff);

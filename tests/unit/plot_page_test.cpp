@@ -118,6 +118,23 @@ TEST(PlotPage, TextsOfFilesAreDrawnAsFarAsTheyCanBe) {
   }
 }
 
+TEST(PlotPage, LettersAreShapedAsTheirScriptAsks) {
+  EXPECT_LT(text_width("AVAVAV", 9), 3 * (text_width("A", 9) + text_width("V", 9)) - 0.5);  // kerning
+  // Lam and alef are one letter together, and others reach to their neighbours.
+  EXPECT_LT(text_width("\u0644\u0627", 9), text_width("\u0644", 9) + text_width("\u0627", 9) - 0.5);
+}
+
+TEST(PlotPage, AnSvgHoldsItsTextAsText) {
+  const auto page = page_of(Format::svg, {"", {}, "A < B & \u00e9t\u00e9", ""});
+  const auto bytes = draw_model(three_blocks(), false, {}, {}, page).bytes;
+  const std::string svg(bytes.begin(), bytes.end());
+  EXPECT_NE(svg.find(">A &lt; B &amp; \u00e9t\u00e9</text>"), std::string::npos);
+  EXPECT_NE(svg.find(">depth (m)</text>"), std::string::npos);
+  EXPECT_NE(svg.find("rotate(-90)"), std::string::npos);
+  EXPECT_EQ(svg.find("<symbol"), std::string::npos) << "letters as outlines";
+  EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+}
+
 TEST(PlotPage, TextsAreShortenedToTheirRoom) {
   const std::string text = "\u00e4\u00f6\u00fc\u00e4\u00f6\u00fc and so on";
   EXPECT_EQ(shortened(text, 1000, 9), text);

@@ -94,8 +94,20 @@ TEST(PlotRaster, WhatIsNoNumberDoesNotCount) {
 }
 
 TEST(PlotRaster, UnevenPlacesReachHalfWayToTheirNeighbours) {
-  EXPECT_EQ(edges_between({0, 10, 40}), (std::vector<double>{-5, 5, 25, 55}));
-  EXPECT_EQ(edges_between({3}), (std::vector<double>{2.5, 3.5}));
+  EXPECT_EQ(cells_round({0, 10, 24}).edges, (std::vector<double>{-5, 5, 17, 29}));
+  EXPECT_EQ(cells_round({3}).edges, (std::vector<double>{2.5, 3.5}));
+  // A spread may be wider farther out.
+  const auto wider = cells_round({0, 10, 20, 30, 40, 50, 60, 100, 140, 180, 220, 260, 300});
+  EXPECT_EQ(wider.place.size(), 13u);
+  EXPECT_EQ(wider.edges[7], 80);
+}
+
+TEST(PlotRaster, WhereAPlaceIsMissingThereIsAGap) {
+  const auto cells = cells_round({0, 10, 20, 40, 50, 350, 360});
+  const auto gap = PlaceCells::gap;
+  EXPECT_EQ(cells.place, (std::vector<std::int64_t>{0, 1, 2, gap, 3, 4, gap, 5, 6}));
+  EXPECT_EQ(cells.edges, (std::vector<double>{-5, 5, 15, 25, 35, 45, 55, 345, 355, 365}));
+  EXPECT_EQ(cells.middles[6], 200);
 }
 
 TEST(PlotMagnitudes, PercentilesAreThoseOfSortedMagnitudes) {

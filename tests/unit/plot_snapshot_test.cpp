@@ -110,6 +110,8 @@ TEST_F(PlotSnapshot, WhatIsStillShowsTheModelBelow) {
   const auto slow = patch_of(pixels, 0xb3b3b3), middle = patch_of(pixels, 0xd9d9d9);
   EXPECT_GT(slow.count, 15000);
   EXPECT_NEAR(double(middle.count) / double(slow.count), 2, 0.05);
+  const auto svg = plot::draw_snapshot(still, 1, model, {}, {}, plot::page_of(plot::Format::svg, {})).bytes;
+  EXPECT_NE(std::string(svg.begin(), svg.end()).find(">vp 1000 to 3000 m/s<"), std::string::npos);
   plot::Snapshot loud = still;
   for (auto& value : loud.values) value = 1;
   const auto covered = decoded(plot::draw_snapshot(loud, 1, model, {}, {}, page).bytes);

@@ -147,6 +147,29 @@ TEST_F(PlotSpectrum, FkSpectraHaveALineForEachWavenumber) {
   EXPECT_THROW(read_spectra(open(), Component::vx), Error);
 }
 
+TEST_F(PlotSpectrum, WavenumbersAndFrequenciesEndWithTheBandOfTheData) {
+  // Waves up to 30 Hz and 0.01 1/m, and a ten thousandth of them everywhere.
+  Spectra spectra{"a.nc", "amplitude", {}, {}, {}, Spectra::Place::wavenumber};
+  for (int n = 0; n <= 500; ++n) spectra.frequencies_hz.push_back(n);
+  for (int j = -50; j < 50; ++j) {
+    spectra.places.push_back(0.001 * j);
+    spectra.lines.push_back({"vz", "m/s/Hz", std::vector<double>(501, 1e-4)});
+    for (int n = 5; n <= 30 && std::abs(j) <= 10; ++n) spectra.lines.back().values[std::size_t(n)] = 1;
+  }
+  const auto map = ColourMap("uniform");
+  const auto share = [&](const Look& look) {  // of the panel that has the colour of the waves
+    const auto pixels = decoded(draw_spectra({spectra}, false, look, page_of_size("1000x800px")).bytes);
+    std::array<int, 2> count{};
+    for (int y = 0; y < 800; ++y)
+      for (int x = 0; x < 860; ++x)  // less the bar
+        for (const int end : {0, 1})
+          count[std::size_t(end)] += pixels.at(x, y) == (map.pixel(end) & 0xffffff);
+    return double(count[1]) / (count[0] + count[1]);
+  };
+  EXPECT_NEAR(share({}), (0.021 / 0.022) * (26 / 33.0), 0.05);
+  EXPECT_NEAR(share({.x = Limits{-0.0505, 0.0495}, .y = Limits{0, 500}}), 0.21 * (26 / 500.0), 0.005);
+}
+
 TEST_F(PlotSpectrum, AWavenumberStandsWhereItBelongsWithItsDecibels) {
   // 1 at k = 0.02 and f = 30, a hundredth (-40 dB) at k = -0.04 and f = 80, nothing elsewhere
   Spectra spectra{"a.nc", "amplitude", {}, {}, {}, Spectra::Place::wavenumber};
