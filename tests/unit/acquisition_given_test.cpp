@@ -8,8 +8,9 @@
 #include "acquisition/ground.hpp"
 #include "acquisition/place.hpp"
 #include "acquisition/sps.hpp"
-#include "acquisition/table.hpp"
+#include "acquisition/survey_table.hpp"
 #include "base/error.hpp"
+#include "io/table.hpp"
 
 namespace slipwave {
 namespace {
@@ -115,6 +116,26 @@ TEST(ReceiverCollector, HoldsSpreadsThatRollAlongOnce) {
   std::size_t count = 0;
   for (const auto& run : survey.runs_of(49)) count += run.count;
   EXPECT_EQ(count, 100U);
+}
+
+TEST(SourceTable, HasUnitsInItsHeader) {
+  GivenSurvey survey;
+  Table table("s", "X.FT;Z (ft);Delay (ms)\n100;surface+10;20\n");
+  read_sources(table, 2, survey);
+  const auto& source = survey.shots.at(0).sources.at(0);
+  EXPECT_DOUBLE_EQ(source.place.at_m[0], 30.48);
+  EXPECT_EQ(source.place.depth_from, DepthFrom::surface);
+  EXPECT_DOUBLE_EQ(source.place.at_m[2], 3.048);
+  EXPECT_DOUBLE_EQ(source.delay_s, 0.02);
+}
+
+TEST(SourceTable, SaysWhatToAddToNegativeDelays) {
+  GivenSurvey survey;
+  Table table("s", "x,z,delay\n100,10,-0.25\n");
+  EXPECT_EQ(refusal([&] { read_sources(table, 2, survey); }),
+            "s: line 2: column delay: found a delay of -0.25 s, expected 0 or more, as records begin with "
+            "time 0: add "
+            "0.25 s or more to all delays of the record");
 }
 
 /// The columns of SPS 2.1, filled from the left as the standard has them.
