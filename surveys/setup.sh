@@ -10,7 +10,7 @@ fail() { say "$*"; exit 1; }
 
 # A program that stands on PATH counts, wherever it came from; "-" means that only the package itself does.
 build_needs='cmake=cmake ninja-build=ninja make=make g++=g++ pkg-config=pkg-config
-  libboost-program-options-dev=- libtbb-dev=- libfftw3-dev=- libnetcdf-dev=- libpango1.0-dev=-
+  libboost-program-options-dev=- libtbb-dev=- libfftw3-dev=- libnetcdf-dev=- libudunits2-dev=- libpango1.0-dev=-
   fonts-dejavu-core=- libgtest-dev=-'
 
 # missing_of PACKAGE=PROGRAM ... : prints the packages that are not there.

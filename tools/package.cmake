@@ -8,7 +8,7 @@ if(CPACK_GENERATOR)
   set(CPACK_PACKAGE_VERSION ${version})
   set(CPACK_DEBIAN_PACKAGE_VERSION ${version})
   set(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS
-      "libboost-program-options-dev, libtbb-dev, libfftw3-dev, libnetcdf-dev, libpango1.0-dev, pkg-config")
+      "libboost-program-options-dev, libtbb-dev, libfftw3-dev, libnetcdf-dev, libudunits2-dev, libpango1.0-dev, pkg-config")
   return()
 endif()
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
@@ -19,6 +21,7 @@
 #include "model/stiffness_input.hpp"
 #include "segy/reader.hpp"
 #include "segy/sniff.hpp"
+#include "traces/section_input.hpp"
 
 using namespace slipwave;
 
@@ -52,14 +55,16 @@ void declare(cli::Options& options, Settings& settings) {
       options.add(row_of(property).name, settings.files[std::size_t(property)], "F", row_of(property).help);
   for (std::size_t n = 0; n < modulus_count; ++n)
     options.add(modulus_names()[n], settings.stiffness_files[n], "F", row_of(Modulus(n)).help);
-  options.add("shape", settings.shape, "NXxNZ", "number of cells of raw files (little-endian float32)");
+  options.add("shape", settings.shape, "NXxNZ",
+              "number of cells of raw files (little-endian float32), of volumes NXxNYxNZ");
   options.add_choice("order", settings.order, {"z-fast", "x-fast"}, "fastest axis in raw files");
   options.add("step", settings.step_m, "H", "cell size, m, of raw files and SEG-Y");
   options.add(
       "units", settings.units, "LIST",
       "units of numbers that name none (raw, SEG-Y, constants) instead of m/s, kg/m3 and Pa: km/s,g/cm3,GPa");
   options.add("allow-rough", settings.allow_rough,
-              "take --shape though columns then do not continue each other");
+              "take --shape though columns then do not continue each other, and traces of SEG-Y as columns "
+              "whatever their headers say");
   options.add_choice("vs-from-vp", settings.vs_from, {"castagna"}, "vs = (vp - 1360)/1.16 in solids");
   options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
   options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
@@ -70,8 +75,9 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("resample", settings.resample_m, "H",
               "new cell size: averages in larger cells, interpolates for smaller ones; kinds are not mixed");
   options.add("no-average", settings.no_average, "interpolate also for larger cells");
-  options.add("crop", settings.crop, "X0:X1,Z0:Z1",
-              "keep only this box, after resampling; its top becomes the surface");
+  options.add(
+      "crop", settings.crop, "X0:X1,Z0:Z1",
+      "keep only this box (of a volume X0:X1,Y0:Y1,Z0:Z1), after resampling; its top becomes the surface");
   options.add(
       "surface", settings.surface, "FILE",
       "let rows of cells follow this surface, lines \"X Z\" or a horizon as of sw-layers; void above it is "
@@ -138,12 +144,18 @@ void check_choices(const Settings& settings) {
   }
 }
 
-Field<2> read_raw(const Settings& settings, const std::string& path) {
-  const auto shape = in_place("--shape", [&] { return parse_shape<2>(settings.shape); });
+InputUnits units_of(const Settings& settings) {
+  if (settings.units.empty()) return {};
+  return in_place("--units", [&] { return InputUnits::parse(settings.units); });
+}
+
+template <int D>
+Field<D> read_raw(const Settings& settings, const std::string& path) {
+  const auto shape = in_place("--shape", [&] { return parse_shape<D>(settings.shape); });
   const double step = *settings.step_m;
-  const auto grid = in_place("--shape", [&] {
-    return grid_of_size<2>({double(shape[0]) * step, double(shape[1]) * step}, step);
-  });
+  Point<D> size{};
+  for (std::size_t axis = 0; axis < D; ++axis) size[axis] = double(shape[axis]) * step;
+  const auto grid = in_place("--shape", [&] { return grid_of_size<D>(size, step); });
   // A file's size is told as it is; a stream may have no end.
   const auto most = is_regular_input(path) ? 0 : std::size_t(grid.size()) * sizeof(float);
   const auto bytes = read_all(path, {}, most);
@@ -154,31 +166,56 @@ Field<2> read_raw(const Settings& settings, const std::string& path) {
   return field;
 }
 
-Field<2> read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken) {
+ImportedField read_raw(const Settings& settings, const std::string& path) {
+  const bool is_section = split(settings.shape, 'x').size() != 3;
+  auto field =
+      is_section ? imported_from(read_raw<2>(settings, path)) : imported_from(read_raw<3>(settings, path));
+  field.placed = false;
+  return field;
+}
+
+/// What numbers of a property are in, where their file does not say it.
+struct NumberUnit {
+  std::optional<double> given;  // by --units
+  bool is_speed = false;
+  double factor() const { return given.value_or(1); }
+};
+
+NumberUnit unit_of(const Settings& settings, Property property) {
+  return {units_of(settings).given(property), row_of(property).units == row_of(Property::vp).units};
+}
+
+void scale(ImportedField& field, double factor) {
+  for (auto& value : field.values)
+    if (factor != 1) value = float(double(value) * factor);
+}
+
+ImportedField read_segy(const Settings& settings, const std::string& path, const std::vector<char>& taken,
+                        const NumberUnit& unit) {
   if (!settings.step_m) {
     throw Error(shown_input(path) + ": a SEG-Y model has no cell size; give --step", ErrorKind::usage);
   }
   segy::Reader reader(path, {}, {taken.begin(), taken.end()});
-  std::vector<std::vector<double>> columns;
-  for (segy::Trace trace; reader.next(trace);) columns.push_back(trace.samples);
-  return in_place(shown_input(path), [&] { return field_from_columns(columns, *settings.step_m); });
-}
-
-InputUnits units_of(const Settings& settings) {
-  if (settings.units.empty()) return {};
-  return in_place("--units", [&] { return InputUnits::parse(settings.units); });
+  auto field = in_place(shown_input(path),
+                        [&] { return read_section(reader, *settings.step_m, !settings.allow_rough); });
+  const bool in_feet = reader.header().feet && unit.is_speed && !unit.given;
+  if (in_feet)
+    field.said.emplace_back(
+        "the measurement system is feet (byte 3255): speeds are taken in ft/s; --units m/s says otherwise");
+  constexpr double foot_m = 0.3048;
+  scale(field, in_feet ? foot_m : unit.factor());
+  return field;
 }
 
 /// A property or stiffness from a file of any kind; `history` is what a netCDF file says of its own. Only
 /// netCDF is in SI for sure.
-Field<2> read_file(const Settings& settings, const std::string& given, const PropertyRow& row, double unit,
-                   std::string& history) {
-  const auto in_si = [unit](Field<2> field) {
-    for (auto& value : field)
-      if (unit != 1) value = float(double(value) * unit);
+ImportedField read_file(const Settings& settings, const std::string& given, const PropertyRow& row,
+                        const NumberUnit& unit, std::string& history) {
+  if (!settings.shape.empty()) {
+    auto field = read_raw(settings, given);
+    scale(field, unit.factor());
     return field;
-  };
-  if (!settings.shape.empty()) return in_si(read_raw(settings, given));
+  }
   std::string path = given, variable;
   std::error_code failed;
   if (const auto colon = given.rfind(':');
@@ -192,49 +229,105 @@ Field<2> read_file(const Settings& settings, const std::string& given, const Pro
     const auto file = start.is_regular() ? NetcdfFile::open(path)
                                          : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
     history = file.text_attribute("", "history").value_or("");
-    return field_from_netcdf(file, row, variable, settings.step_m, unit);
+    return field_from_netcdf(file, row, variable, settings.step_m, unit.factor());
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
-  if (segy::looks_like_segy(bytes)) return in_si(read_segy(settings, path, start.taken()));
+  if (segy::looks_like_segy(bytes)) return read_segy(settings, path, start.taken(), unit);
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
+}
+
+bool is_number(const std::string& text) {
+  try {
+    parse_number(text);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 /// The number that stands in place of a file, in SI.
 std::optional<double> constant_of(const Settings& settings, Property property) {
   const auto& given = settings.file(property);
   if (row_of(property).if_absent && given == "inf") return PropertyRow::infinite;
-  try {
-    return parse_number(given) * units_of(settings).factor(property);
-  } catch (const Error&) {
-    return {};
+  if (!is_number(given)) return {};
+  return parse_number(given) * units_of(settings).factor(property);
+}
+
+/// What is read of all files.
+struct Inputs {
+  std::vector<std::optional<ImportedField>> fields =
+      std::vector<std::optional<ImportedField>>(all_properties().size());  // by property
+  std::array<std::optional<ImportedField>, modulus_count> stiffness;       // by Modulus
+  std::string history;                                                     // of the first netCDF file
+  std::vector<std::string> said;
+
+  std::vector<std::pair<std::string, ImportedField*>> all() {
+    std::vector<std::pair<std::string, ImportedField*>> all;
+    for (const Property property : all_properties())
+      if (auto& field = fields[std::size_t(property)]) all.emplace_back(row_of(property).name, &*field);
+    for (std::size_t n = 0; n < modulus_count; ++n)
+      if (stiffness[n]) all.emplace_back(modulus_names()[n], &*stiffness[n]);
+    return all;
+  }
+};
+
+/// All files must be of one model. Those that do not say where they begin begin where the others do.
+void check_places(Inputs& inputs) {
+  const auto all = inputs.all();
+  const auto& [first_name, first] = all.front();
+  const auto placed = std::find_if(all.begin(), all.end(), [](const auto& of) { return of.second->placed; });
+  const auto* const from = placed == all.end() ? first : placed->second;
+  const auto where = [](const Grid<3>& grid, bool is_section) {
+    return "x=" + shown(grid.origin_m[0]) + (is_section ? "" : " y=" + shown(grid.origin_m[1])) +
+           " z=" + shown(grid.origin_m[2]);
+  };
+  const auto begin = from->values.grid();
+  for (const auto& [name, field] : all) {
+    if (field->is_section != first->is_section)
+      throw Error(name + ": found a " + (field->is_section ? "section" : "volume") + ", expected a " +
+                  (first->is_section ? "section" : "volume") + " as of " + first_name);
+    const auto grid = field->values.grid();
+    bool same = true;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      same = same && std::abs(grid.origin_m[axis] - begin.origin_m[axis]) <= 1e-3 * grid.spacing_m;
+    if (field->placed && !same)
+      throw Error(name + ": begins at " + where(grid, field->is_section) + ", expected " +
+                  where(begin, field->is_section) + " as of " + placed->first);
+    place_at(*field, begin.origin_m);
   }
 }
 
-/// What is given of each property; constants that every model has, on the grid of the first file. `history`
-/// is that of the file.
-std::vector<std::optional<Field<2>>> read_given(const Settings& settings, std::string& history) {
-  const auto units = units_of(settings);
-  std::vector<std::optional<Field<2>>> fields(all_properties().size());
-  std::optional<Grid<2>> grid;
-  for (const Property property : all_properties()) {
-    if (settings.file(property).empty() || constant_of(settings, property)) continue;
+Inputs read_inputs(const Settings& settings) {
+  Inputs inputs;
+  bool any = false;
+  const auto read = [&](const std::string& file, const PropertyRow& row, const NumberUnit& unit) {
     std::string other;
-    fields[std::size_t(property)] = read_file(settings, settings.file(property), row_of(property),
-                                              units.factor(property), grid ? other : history);
-    if (!grid) grid = fields[std::size_t(property)]->grid();
-  }
-  if (!grid && settings.of_stiffness()) return fields;
-  if (!grid) throw Error("found constants only, expected a file of at least one property", ErrorKind::usage);
-  for (const Property property : all_properties()) {
-    if (row_of(property).if_absent || settings.file(property).empty()) continue;
-    if (!fields[std::size_t(property)])
-      fields[std::size_t(property)] = Field<2>(*grid, float(*constant_of(settings, property)));
-  }
-  return fields;
+    auto field = read_file(settings, file, row, unit, any ? other : inputs.history);
+    any = true;
+    for (const auto& sentence : field.said)
+      if (std::find(inputs.said.begin(), inputs.said.end(), sentence) == inputs.said.end())
+        inputs.said.push_back(shown_input(file) + ": " + sentence);
+    return field;
+  };
+  for (const Property property : all_properties())
+    if (!settings.file(property).empty() && !constant_of(settings, property))
+      inputs.fields[std::size_t(property)] =
+          read(settings.file(property), row_of(property), unit_of(settings, property));
+  const NumberUnit of_stiffness{units_of(settings).of_stiffness(), false};
+  for (std::size_t n = 0; n < modulus_count; ++n)
+    if (const auto& file = settings.stiffness_files[n]; !file.empty() && !is_number(file))
+      inputs.stiffness[n] = read(file, row_of(Modulus(n)), of_stiffness);
+  if (!any)
+    throw Error("found constants only, expected a file of at least one " +
+                    std::string(settings.of_stiffness() ? "of them" : "property"),
+                ErrorKind::usage);
+  check_places(inputs);
+  return inputs;
 }
 
 /// Speeds are 0 in void (rho 0); a constant can not say so.
-void clear_void(Medium<2>& medium, const Settings& settings) {
+template <int D>
+void clear_void(Medium<D>& medium, const Settings& settings) {
   for (const Property property : {Property::vp, Property::vs}) {
     if (!constant_of(settings, property)) continue;
     for (std::size_t cell = 0; cell < std::size_t(medium.grid().size()); ++cell)
@@ -243,42 +336,43 @@ void clear_void(Medium<2>& medium, const Settings& settings) {
 }
 
 /// Of stiffnesses and densities, files or numbers.
-Medium<2> read_stiffness(const Settings& settings, const std::optional<Field<2>>& given_rho,
-                         std::string& history) {
+Medium<2> read_stiffness(const Settings& settings, const Inputs& inputs, const Grid<2>& grid,
+                         const std::optional<Field<2>>& given_rho) {
   std::array<std::optional<Field<2>>, modulus_count> fields;
-  std::array<std::optional<double>, modulus_count> numbers;
-  std::optional<Grid<2>> grid;
-  if (given_rho) grid = given_rho->grid();
+  const double unit = units_of(settings).of_stiffness();
   for (std::size_t n = 0; n < modulus_count; ++n) {
     const auto& given = settings.stiffness_files[n];
     if (given.empty()) continue;
-    const double unit = units_of(settings).of_stiffness();
-    try {
-      numbers[n] = parse_number(given) * unit;
-      continue;
-    } catch (const Error&) {
-      std::string other;
-      fields[n] = read_file(settings, given, row_of(Modulus(n)), unit, grid ? other : history);
-    }
-    if (!grid) grid = fields[n]->grid();
-    if (fields[n]->grid() == *grid) continue;
-    throw Error(modulus_names()[n] + ": found " + shown(fields[n]->grid()) + ", expected " + shown(*grid) +
+    fields[n] = inputs.stiffness[n] ? field_of<2>(*inputs.stiffness[n])
+                                    : Field<2>(grid, float(parse_number(given) * unit));
+    if (fields[n]->grid() == grid) continue;
+    throw Error(modulus_names()[n] + ": found " + shown(fields[n]->grid()) + ", expected " + shown(grid) +
                 " as of the first file");
   }
-  if (!grid) throw Error("found constants only, expected a file of at least one of them", ErrorKind::usage);
-  for (std::size_t n = 0; n < modulus_count; ++n)
-    if (numbers[n]) fields[n] = Field<2>(*grid, float(*numbers[n]));
   return medium_of_stiffness(
-      fields, given_rho ? *given_rho : Field<2>(*grid, float(*constant_of(settings, Property::rho))));
+      fields, given_rho ? *given_rho : Field<2>(grid, float(*constant_of(settings, Property::rho))));
 }
 
-Medium<2> read_medium(const Settings& settings, std::string& history) {
-  auto fields = read_given(settings, history);
-  const auto taken = [&](Property property) { return std::move(fields[std::size_t(property)]); };
-  auto medium = settings.of_stiffness() ? read_stiffness(settings, taken(Property::rho), history)
-                                        : medium_of<2>(*taken(Property::vp), taken(Property::vs),
-                                                       taken(Property::rho), settings.fluid_vp);
-  if (!settings.of_stiffness()) clear_void(medium, settings);
+template <int D>
+Medium<D> read_medium(const Settings& settings, Inputs& inputs) {
+  const auto grid = grid_of<D>(*inputs.all().front().second);
+  const auto taken = [&](Property property) -> std::optional<Field<D>> {
+    auto& field = inputs.fields[std::size_t(property)];
+    if (field) return field_of<D>(*std::exchange(field, std::nullopt));
+    if (row_of(property).if_absent || settings.file(property).empty()) return {};
+    return Field<D>(grid, float(*constant_of(settings, property)));
+  };
+  Medium<D> medium;
+  if (!settings.of_stiffness()) {
+    auto vp = taken(Property::vp), vs = taken(Property::vs), rho = taken(Property::rho);
+    medium = medium_of<D>(std::move(*vp), std::move(vs), std::move(rho), settings.fluid_vp);
+    clear_void(medium, settings);
+  } else if constexpr (D == 2) {
+    medium = read_stiffness(settings, inputs, grid, taken(Property::rho));
+  } else {
+    throw Error("found volumes of stiffnesses, expected sections, or speeds: --vp F --vs F --rho F",
+                ErrorKind::usage);
+  }
   for (const Property property : all_properties()) {
     if (!row_of(property).if_absent || settings.file(property).empty()) continue;
     if (const auto value = constant_of(settings, property))
@@ -318,27 +412,57 @@ void write(Model<D> model, const Settings& settings, const cli::Context& context
   context.note(shown(model.grid()));
 }
 
-void run(const Settings& settings, const cli::Context& context) {
-  check_choices(settings);
-  OutputFile out(settings.output, OutputFile::Content::binary);
-  Model<2> model;
-  model.medium = read_medium(settings, model.history);
+/// A model begins at the surface: says which depth of the files that is.
+void begin_at_surface(Inputs& inputs, const cli::Context& context) {
+  for (const auto& sentence : inputs.said) context.say(sentence);
+  const auto begin = inputs.all().front().second->values.grid().origin_m;
+  if (begin[2] == 0) return;
+  context.say("depth " + shown(begin[2]) + " m of the files" +
+              (begin[2] < 0 ? " (a height of " + shown(-begin[2]) + " m)" : "") +
+              " became 0, the surface of the model");
+  for (const auto& [name, field] : inputs.all()) place_at(*field, {begin[0], begin[1], 0});
+}
+
+template <int D>
+void build(const Settings& settings, const cli::Context& context, Inputs inputs, OutputFile& out) {
+  Model<D> model;
+  model.history = inputs.history;
+  model.medium = read_medium<D>(settings, inputs);
   auto limits = settings.limits;
-  limits.in_space = settings.extrude_m.has_value();
+  limits.in_space = D == 3 || settings.extrude_m.has_value();
   check(model, limits);
   const double sampled_m = model.grid().spacing_m;
   if (settings.resample_m)
     model =
         in_place("--resample", [&] { return resampled(model, *settings.resample_m, !settings.no_average); });
   if (!settings.crop.empty()) {
-    model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
+    model = in_place("--crop", [&] { return cropped(model, parse_box<D>(settings.crop)); });
   }
-  fit(model, settings, sampled_m, context);
-  if (!settings.extrude_m) return write(std::move(model), settings, context, out);
-  Model<3> deep;
-  deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });
-  deep.history = std::move(model.history);
-  write(std::move(deep), settings, context, out);
+  if constexpr (D == 2) {
+    fit(model, settings, sampled_m, context);
+    if (settings.extrude_m) {
+      Model<3> deep;
+      deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });
+      deep.history = std::move(model.history);
+      return write(std::move(deep), settings, context, out);
+    }
+  }
+  write(std::move(model), settings, context, out);
+}
+
+void run(const Settings& settings, const cli::Context& context) {
+  check_choices(settings);
+  OutputFile out(settings.output, OutputFile::Content::binary);
+  auto inputs = read_inputs(settings);
+  begin_at_surface(inputs, context);
+  if (inputs.all().front().second->is_section) return build<2>(settings, context, std::move(inputs), out);
+  for (const auto& [given, name] :
+       {std::pair(settings.extrude_m.has_value(), "--extrude"),
+        std::pair(!settings.surface.empty(), "--surface"), std::pair(!settings.floor.empty(), "--floor")})
+    if (given)
+      throw Error(std::string("found ") + name + " and a volume, expected a section with it",
+                  ErrorKind::usage);
+  build<3>(settings, context, std::move(inputs), out);
 }
 
 }  // namespace

@@ -1,9 +1,12 @@
+#include <algorithm>
+
 #include "base/error.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "io/output_file.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/well_log.hpp"
 
 using namespace slipwave;
 
@@ -14,6 +17,10 @@ struct Settings {
   double step_m = 0;
   std::vector<std::string> layers;
   std::string fit, units;
+  std::string log, vs_from, rho_from;
+  double fluid_vp = 1500;
+  std::optional<double> block_m;
+  bool backus = false;
   std::string average = "tilted";
   bool no_average = false;
   MediumLimits limits;
@@ -33,6 +40,18 @@ void declare(cli::Options& options, Settings& settings) {
       "by name: 'qp=80 qs=40 epsilon=0.2 delta=0.1 gamma=0.1 tilt=20'; or "
       "stiffnesses: '0:-:-:2300 c11=26e9 ...'");
   options.add(
+      "log", settings.log, "FILE",
+      "a well log as a layer from its first depth on: LAS 2.0, or columns below a header as \"DEPTH.M "
+      "VP.M/S VS.M/S RHO.G/CC\"; sonics count too. Each cell is the average of its samples");
+  options.add("block", settings.block_m, "H", "average the log over blocks of H m instead");
+  options.add("backus", settings.backus,
+              "average the log in each cell as flat layers (Backus), with the anisotropy of their average");
+  options.add_choice("vs-from-vp", settings.vs_from, {"castagna"},
+                     "of a log without vs: vs = (vp - 1360)/1.16 in solids");
+  options.add("fluid-vp", settings.fluid_vp, "VP", "with --vs-from-vp: fluid where vp is at most this");
+  options.add_choice("rho-from-vp", settings.rho_from, {"gardner"},
+                     "of a log without density: rho = 310 vp^0.25");
+  options.add(
       "fit", settings.fit, "surface,floor|all|none",
       "which tops rows of cells follow where they lie on no faces: all of them that rows can, unless given");
   options.add("units", settings.units, "LIST",
@@ -46,7 +65,9 @@ void declare(cli::Options& options, Settings& settings) {
               "allow speeds and densities that no rock or fluid has");
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
-  for (const char* name : {"size", "step", "layer"}) options.require(name);
+  for (const char* name : {"size", "step"}) options.require(name);
+  options.common({"size", "step", "layer", "log", "block", "backus", "fit", "units", "average", "title",
+                  "allow-slow", "allow-auxetic", "output"});
 }
 
 /// Of properties that no wave in a section meets.
@@ -62,6 +83,42 @@ void warn_of_three_dimensions(const std::vector<Layer>& layers, const cli::Conte
       }
 }
 
+void check_log_options(const Settings& settings) {
+  const auto refuse = [](const std::string& sentence) { throw Error(sentence, ErrorKind::usage); };
+  if (settings.layers.empty() && settings.log.empty())
+    refuse("--layer is missing; expected --layer DEPTH:VP:VS:RHO[:DIP] [NAME=VALUE...]");
+  for (const auto& [given, name] :
+       {std::pair(settings.block_m.has_value(), "--block"), std::pair(settings.backus, "--backus"),
+        std::pair(!settings.vs_from.empty(), "--vs-from-vp"),
+        std::pair(!settings.rho_from.empty(), "--rho-from-vp")})
+    if (given && settings.log.empty()) refuse(std::string("found ") + name + " without --log, expected both");
+  if (settings.block_m && settings.backus) refuse("found --block and --backus, expected one of them");
+}
+
+/// Puts the log among the layers: below those whose tops are not deeper than its own.
+template <int D>
+void add_log(const Settings& settings, const InputUnits& units, std::vector<Layer>& layers,
+             const cli::Context& context) {
+  if (settings.log.empty()) return;
+  const LogChoice choice{units,
+                         !settings.vs_from.empty(),
+                         !settings.rho_from.empty(),
+                         settings.fluid_vp,
+                         settings.block_m,
+                         settings.backus};
+  const auto log = in_place("--log", [&] { return read_well_log(settings.log, choice); });
+  auto layer = in_place(settings.block_m ? "--block" : "--log",
+                        [&] { return layer_of_log(log, settings.step_m, D == 3, choice); });
+  const auto after = std::find_if(layers.begin(), layers.end(),
+                                  [&](const Layer& other) { return other.top.at(0) > layer.top.depth_m(); });
+  if (after == layers.begin() && layer.top.depth_m() > 0)
+    throw Error("--log: begins " + shown(layer.top.depth_m()) +
+                    " m deep, expected a --layer above it, as --layer 0:VP:VS:RHO",
+                ErrorKind::usage);
+  context.say(report_of_log(log, layer, choice));
+  layers.insert(after, std::move(layer));
+}
+
 template <int D>
 void build(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
@@ -73,6 +130,7 @@ void build(const Settings& settings, const cli::Context& context) {
   for (const auto& text : settings.layers) {
     layers.push_back(in_place("--layer", [&] { return parse_layer(text, units); }));
   }
+  add_log<D>(settings, units, layers, context);
   const auto choice =
       settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });
   const auto fit = in_place("--layer", [&] { return fit_layers(grid, layers, choice); });
@@ -96,6 +154,7 @@ void build(const Settings& settings, const cli::Context& context) {
 }
 
 void run(const Settings& settings, const cli::Context& context) {
+  check_log_options(settings);
   if (split(settings.size, 'x').size() == 3) return build<3>(settings, context);
   build<2>(settings, context);
 }

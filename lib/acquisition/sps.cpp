@@ -125,12 +125,13 @@ class SpsReader {
     if (kind == 'R') receivers_.add(record);
   }
   void take_relation(const Record& record);
-  void check_header(const Record& record) const;
+  void take_header(const Record& record);
+  double metres_of_unit() const;
   void expect_points(const std::string& names) const;
   GivenSurvey finish(const std::string& names) &&;
 
   /// After all points were taken: relations use them by number.
-  void settle() { survey_.places = receivers_.places; }
+  void settle();
 
  private:
   struct ShotRuns {
@@ -147,7 +148,17 @@ class SpsReader {
   GivenSurvey survey_;
   std::vector<ShotRuns> shots_;
   std::unordered_map<std::int64_t, std::size_t> by_number_;
+  std::optional<double> factor_;  // metres in the unit of lengths (H201)
+  std::string unit_name_, factor_place_, unit_place_;
 };
+
+void SpsReader::settle() {
+  const double unit_m = metres_of_unit();
+  for (auto* points : {&sources_, &receivers_})
+    for (auto& place : points->places)
+      for (double& part : place.at_m) part *= unit_m;
+  survey_.places = receivers_.places;
+}
 
 std::uint32_t SpsReader::point(const Points& points, const PointName& name, const Record& record,
                                const Columns& columns, const char* kind) const {
@@ -208,14 +219,89 @@ void SpsReader::take_relation(const Record& record) {
                 {0, std::uint32_t((to - from) / step + 1), std::int32_t(from), std::int32_t(step), -1});
 }
 
-void SpsReader::check_header(const Record& record) const {
-  constexpr Columns code{1, 3, "header code"}, version{4, 80, "format version"};
-  if (record.text(code) != "H00") return;
-  const auto text = record.text(version);
-  const bool names_version =
-      text.find("SPS") != std::string_view::npos || text.find("sps") != std::string_view::npos;
-  if (names_version && text.find('2') == std::string_view::npos)
-    record.refuse(version, "found '" + excerpt(std::string(text)) + "', expected SPS 2.1");
+/// The version that a text names: "SPS 2.1;", "SPS2.1", "2.1"; nothing where it names none. The names of the
+/// files before them, "SPS001,10.10.90", have a running number.
+std::optional<double> version_in(std::string_view text) {
+  if (const auto word = text.find("SPS"); word != std::string_view::npos) text.remove_prefix(word + 3);
+  const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  const auto first = std::find_if(text.begin(), text.end(), is_digit);
+  const auto last = std::find_if(first, text.end(), [&](char c) { return !is_digit(c) && c != '.'; });
+  if (first == last) return {};
+  const std::string number(first, last);
+  if (number.size() > 1 && number[0] == '0') return 1;
+  return parse_number(number.back() == '.' ? number.substr(0, number.size() - 1) : number);
+}
+
+std::string upper(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = char(std::toupper(static_cast<unsigned char>(c)));
+  while (!result.empty() && (result.back() == ';' || result.back() == ' ')) result.pop_back();
+  return result;
+}
+
+/// Metres in a unit by its name in H20; nothing where it may be several ("FEET" of a survey or international)
+/// or is none of length.
+std::optional<double> metres_in(const std::string& name) {
+  const auto holds = [&](const char* part) { return name.find(part) != std::string::npos; };
+  const bool feet = holds("FEET") || holds("FOOT") || name == "FT";
+  if (feet && (holds("SURVEY") || holds("US"))) return 1200. / 3937;
+  if (feet && holds("INTERNATIONAL")) return 0.3048;
+  if (!feet && (holds("METRE") || holds("METER") || name == "M")) return 1;
+  return {};
+}
+
+void SpsReader::take_header(const Record& record) {
+  constexpr Columns code{1, 3, "header code"}, long_code{1, 4, "header code"}, value{33, 80, "value"},
+      version{33, 80, "format version"}, unit{33, 56, "description of grid units"},
+      factor{33, 46, "factor to metre"};
+  const auto of = record.text(long_code);
+  if (record.text(code) == "H00" && !record.text(version).empty()) {
+    const auto found = version_in(upper(record.text(version)));
+    if (!found || *found < 2 || *found >= 3)
+      record.refuse(version,
+                    "found '" + excerpt(std::string(record.text(version))) +
+                        "', expected SPS 2.1, whose lines and points have other columns than those of "
+                        "SPS 1; export it as SPS 2.1");
+  } else if (of == "H201") {
+    auto text = upper(record.text(value));
+    const double found = in_place(record.place() + ": columns 33-46 (factor to metre)", [&] {
+      try {
+        return parse_number(text);
+      } catch (const Error& error) {
+        throw Error(error.what());
+      }
+    });
+    if (!(found > 0)) record.refuse(factor, "found " + slipwave::shown(found) + ", expected it above 0");
+    if (factor_ && *factor_ != found)
+      record.refuse(factor, "found " + slipwave::shown(found) + " metres, expected " +
+                                slipwave::shown(*factor_) + " as before (" + factor_place_ + ")");
+    if (!factor_) factor_place_ = record.place();
+    factor_ = found;
+  } else if (of == "H20" || (record.text(code) == "H20" && of.size() == 4 && std::isdigit(of[3]) == 0)) {
+    const auto name = upper(record.text(unit));
+    if (name.empty()) return;
+    if (!unit_name_.empty() && unit_name_ != name)
+      record.refuse(unit, "found '" + excerpt(name) + "', expected '" + excerpt(unit_name_) +
+                              "' as before (" + unit_place_ + ")");
+    if (unit_name_.empty()) unit_place_ = record.place();
+    unit_name_ = name;
+  }
+}
+
+/// Metres in the unit of all lengths: H201, which must agree with the name in H20.
+double SpsReader::metres_of_unit() const {
+  if (unit_name_.empty()) return factor_.value_or(1);
+  const auto named = metres_in(unit_name_);
+  if (!factor_ && !named)
+    throw Error(unit_place_ + ": columns 33-56 (description of grid units): found '" + excerpt(unit_name_) +
+                "' without a factor to metre (H201), expected metres, or H201: 0.3048 of international feet, "
+                "0.30480061 of US survey feet");
+  // International and US survey feet differ by 2 in a million; factors are written with 7 digits or more.
+  if (factor_ && named && std::abs(*factor_ / *named - 1) > 1e-5)
+    throw Error(factor_place_ + ": columns 33-46 (factor to metre): found " + slipwave::shown(*factor_) +
+                ", expected " + slipwave::shown(*named, 8) + ", as the grid units are '" +
+                excerpt(unit_name_) + "' (" + unit_place_ + ")");
+  return factor_.value_or(named.value_or(1));
 }
 
 /// Channels of the runs of a shot that another run has, too.
@@ -299,7 +385,7 @@ GivenSurvey survey_of_sps(const std::vector<std::string>& names, const std::vect
   bool relations = false;
   for (std::size_t n = 0; n < texts.size(); ++n)
     each_record(names[n], texts[n], [&](const Record& record, char kind) {
-      if (kind == 'H') return reader.check_header(record);
+      if (kind == 'H') return reader.take_header(record);
       if (std::string_view("SRX").find(kind) == std::string_view::npos)
         throw Error(record.place() + ": column 1: found '" + printable(std::string(1, kind)) +
                     "', expected a record H, S, R or X");

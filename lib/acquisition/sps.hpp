@@ -13,7 +13,8 @@ bool looks_like_sps(std::string_view first);
 
 /// A survey from SPS 2.1 files: sources (S), receivers (R) and relations (X), in any order and in as many
 /// files as there are. Shots are the field records of X in the order of the file. z is the point depth below
-/// the surface elevation. Throws Error naming file, line and columns.
+/// the surface elevation. Lengths are in the grid unit of the header records (H201 metres, H20 its name),
+/// else in metres. Throws Error naming file, line and columns.
 GivenSurvey read_sps(const std::vector<std::string>& paths);
 
 /// The same of texts; `names` are those of the files.

@@ -36,7 +36,7 @@ class PlaceColumns {
       if (!z_ && depth.from != DepthFrom::datum)
         throw Error("found '" + excerpt(std::string(table_.text(*depth_))) + "', expected a number");
       place.depth_from = z_ ? depth.from : DepthFrom::surface;
-      place.at_m[2] = depth.below_m;
+      place.at_m[2] = table_.in_unit(z_ ? *z_ : *depth_, depth.below_m);
     } catch (const Error& error) {
       table_.refuse(z_ ? *z_ : *depth_, error.what());
     }
@@ -52,7 +52,7 @@ class PlaceColumns {
       place.relative |= std::uint8_t(1U << axis);
     }
     try {
-      place.at_m[axis] = parse_number(text);
+      place.at_m[axis] = table_.in_unit(column, parse_number(text));
     } catch (const Error& error) {
       table_.refuse(column, error.what());
     }
@@ -76,8 +76,8 @@ void name_plain_columns(Table& table, int dimension, const std::vector<std::stri
                   " or names above the columns");
     return table.name_columns(names);
   }
-  std::vector<std::string> known = {"x", "y", "z", "depth", "shot"};
-  known.insert(known.end(), more.begin(), more.end());
+  std::vector<Table::Known> known = {{"x", "m"}, {"y", "m"}, {"z", "m"}, {"depth", "m"}, {"shot"}};
+  for (const auto& name : more) known.push_back({name, name == "delay" ? "s" : ""});
   table.expect_columns(known);
 }
 
@@ -90,7 +90,10 @@ std::int64_t positive(const Table& table, std::size_t column, const std::string&
 
 double delay_of(const Table& table, std::size_t column) {
   const double delay = table.number(column);
-  if (!(delay >= 0)) table.refuse(column, "found a delay of " + shown(delay) + " s, expected 0 or more");
+  if (!(delay >= 0))
+    table.refuse(column, "found a delay of " + shown(delay) +
+                             " s, expected 0 or more, as records begin with time 0: add " + shown(-delay) +
+                             " s or more to all delays of the record");
   return delay;
 }
 
@@ -164,7 +167,11 @@ struct ShotRows {
 GivenSurvey read_survey(Table& table, int dimension) {
   if (table.columns().empty())
     throw Error(table.name() + ": found no header line, expected names above the columns: sx, sz, gx, gz");
-  table.expect_columns({"sx", "sy", "sz", "sdepth", "gx", "gy", "gz", "gdepth", "shot", "channel", "cdp"});
+  std::vector<Table::Known> known;
+  for (const char* place : {"sx", "sy", "sz", "sdepth", "gx", "gy", "gz", "gdepth"})
+    known.push_back({place, "m"});
+  for (const char* number : {"shot", "channel", "cdp"}) known.push_back({number});
+  table.expect_columns(known);
   const PlaceColumns sources(table, "s", dimension, false), receivers(table, "g", dimension, false);
   const auto shot = table.find("shot"), channel = table.find("channel"), bin = table.find("cdp");
   std::vector<ShotRows> shots;
@@ -233,7 +240,7 @@ void blend(Table& table, GivenSurvey& survey) {
   if (table.columns().empty())
     throw Error(table.name() +
                 ": found no header line, expected names above the columns: record, shot, delay");
-  table.expect_columns({"record", "shot", "delay", "amplitude"});
+  table.expect_columns({{"record"}, {"shot"}, {"delay", "s"}, {"amplitude"}});
   const auto record = table.find("record"), shot = table.find("shot"), delay = table.find("delay"),
              amplitude = table.find("amplitude");
   for (const auto& [column, name] : {std::pair(record, "record"), std::pair(shot, "shot")})

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "acquisition/given_survey.hpp"
-#include "acquisition/table.hpp"
+#include "io/table.hpp"
 
 namespace slipwave {
 

@@ -111,10 +111,10 @@ Wavelet parse_wavelet(const std::string& text);
 shape::Sampled sampled_wavelet(std::vector<double> times_s, std::vector<double> values);
 
 /// Reads samples: two columns, time in s and value, or one column of values with a line "# dt=SECONDS"
-/// somewhere before the first (the first value is at t = 0). Columns are separated by blanks, tabs or a
-/// comma; empty lines and lines that begin with # are skipped. Times must grow, by 1e-15 s and 1e-12 of the
-/// whole at least, and lie within 1e9 s of 0; values are at most 1e100. What becomes of them:
-/// sampled_wavelet().
+/// somewhere before the first (the first value is at t = 0). A header line may name the columns, in any
+/// order, and the unit of time ("time.ms"). Columns are separated by blanks, tabs, a comma or a semicolon;
+/// empty lines and lines that begin with # are skipped. Times must grow, by 1e-15 s and 1e-12 of the whole at
+/// least, and lie within 1e9 s of 0; values are at most 1e100. What becomes of them: sampled_wavelet().
 shape::Sampled read_wavelet(const std::string& path);
 
 }  // namespace slipwave

@@ -6,6 +6,7 @@
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "io/column_header.hpp"
 #include "io/input_bytes.hpp"
 
 namespace slipwave {
@@ -38,15 +39,15 @@ std::string_view trimmed(std::string_view line) {
   return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
-/// Columns between blanks, tabs or one comma with blanks round it.
+/// Columns between blanks, tabs or one comma or semicolon with blanks round it.
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;
   for (;;) {
-    const auto end = line.find_first_of(" \t,");
+    const auto end = line.find_first_of(" \t,;");
     columns.push_back(line.substr(0, end));
     if (end == std::string_view::npos) return columns;
     line = trimmed(line.substr(end));
-    if (line.starts_with(',')) line = trimmed(line.substr(1));
+    if (line.starts_with(',') || line.starts_with(';')) line = trimmed(line.substr(1));
   }
 }
 
@@ -84,17 +85,19 @@ class SampleReader {
       return;
     }
     const auto columns = columns_of(line);
+    if (values_.empty() && !header_ && are_headers(columns)) return take_header(column_headers(columns));
     const std::size_t expected = interval_ ? 1 : 2;
     if (columns.size() != expected)
       throw Error("found " + std::to_string(columns.size()) + (columns.size() == 1 ? " column" : " columns") +
                   ", expected " +
                   (interval_ ? "one (a value, as dt= is given)"
                              : "two (time and value; or a line '# dt=SECONDS' and one column)"));
-    const double time = interval_ ? double(values_.size()) * *interval_ : parse_number(columns.front());
+    const double time =
+        interval_ ? double(values_.size()) * *interval_ : in_seconds_(parse_number(columns[time_column_]));
     if (!times_.empty() && !(time > times_.back()))
       throw Error("found time " + shown(time) + " s after " + shown(times_.back()) +
                   " s, expected growing times");
-    const double value = parse_number(columns.back());
+    const double value = parse_number(columns[interval_ ? 0 : 1 - time_column_]);
     check_sample(time, value);
     times_.push_back(time);
     values_.push_back(value);
@@ -103,6 +106,23 @@ class SampleReader {
   shape::Sampled finish() && { return sampled_wavelet(std::move(times_), std::move(values_)); }
 
  private:
+  /// Names above the columns: of the time, in any unit of time, and of the values.
+  void take_header(const std::vector<ColumnHeader>& headers) {
+    header_ = true;
+    if (interval_) return;
+    const auto time = std::find_if(headers.begin(), headers.end(), [](const ColumnHeader& header) {
+      return header.name == "time" || header.name == "t";
+    });
+    if (headers.size() != 2 || time == headers.end())
+      throw Error("found " + std::to_string(headers.size()) +
+                  " columns with names, expected two, one of them time (or t)");
+    time_column_ = std::size_t(time - headers.begin());
+    in_seconds_ = time->conversion("s");
+  }
+
+  bool header_ = false;
+  std::size_t time_column_ = 0;
+  UnitConversion in_seconds_;
   std::optional<double> interval_;
   std::vector<double> times_, values_;
 };

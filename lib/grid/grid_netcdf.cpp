@@ -10,6 +10,7 @@
 
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
+#include "io/netcdf_units.hpp"
 
 namespace slipwave {
 namespace {
@@ -25,7 +26,7 @@ std::vector<double> centres(std::int64_t count, double origin_m, double spacing_
 bool is_even(const std::vector<double>& values, double spacing_m) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double expected = values[0] + double(i) * spacing_m;
-    if (!(std::abs(values[i] - expected) <= 1e-4 * spacing_m)) return false;
+    if (!(std::abs(values[i] - expected) <= 1e-4 * std::abs(spacing_m))) return false;
   }
   return true;
 }
@@ -34,10 +35,13 @@ bool is_even(const std::vector<double>& values, double spacing_m) {
 /// so that 0.1 m comes back as 0.1 m. Throws when they are not even.
 double spacing_of(const std::string& name, const std::vector<double>& values) {
   const double raw = (values.back() - values.front()) / double(values.size() - 1);
-  if (!(raw > 0) || !std::isfinite(raw) || !is_even(values, raw)) {
-    throw Error(name +
-                ": found unevenly spaced or descending values, expected cell centres a constant step apart");
-  }
+  if (!std::isfinite(raw) || !is_even(values, raw))
+    throw Error(name + ": found unevenly spaced values, expected cell centres a constant step apart");
+  if (!(raw > 0))
+    throw Error(name + ": found cells from " + shown(values.front()) + " to " + shown(values.back()) + " m" +
+                (name == "z" ? " deep" : "") + ", expected " +
+                (name == "z" ? "them from the top down" : "ascending ones") + ": ncpdq -a -" + name +
+                " FILE reverses them");
   const double last = values.back();
   for (int digits = 6; digits <= 17; ++digits) {
     char text[40];
@@ -78,6 +82,10 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+[[noreturn]] void refuse(const NetcdfFile& file, const std::string& sentence) {
+  throw Error(file.shown_name() + ": " + sentence);
+}
+
 /// The horizons that rows of a file follow, from the top down.
 std::vector<FittedHorizon> read_horizons(const NetcdfFile& file, std::int64_t rows) {
   std::vector<FittedHorizon> horizons;
@@ -86,12 +94,12 @@ std::vector<FittedHorizon> read_horizons(const NetcdfFile& file, std::int64_t ro
     const auto role = file.text_attribute(variable.name, "role");
     const auto row = file.number_attribute(variable.name, "row");
     if (!role || (*role != "surface" && *role != "floor" && *role != "layer")) {
-      throw Error(variable.name + ": found role '" + role.value_or("") +
-                  "', expected surface, floor or layer");
+      refuse(file,
+             variable.name + ": found role '" + role.value_or("") + "', expected surface, floor or layer");
     }
     if (!row || row->size() != 1 || !(row->front() >= 0 && row->front() <= double(rows))) {
-      throw Error(variable.name + ": found no row from 0 to " + std::to_string(rows) +
-                  " that follows it, expected the attribute row");
+      refuse(file, variable.name + ": found no row from 0 to " + std::to_string(rows) +
+                       " that follows it, expected the attribute row");
     }
     horizons.push_back({variable.name.substr(horizon_prefix.size()), *role, std::int64_t(row->front())});
   }
@@ -105,20 +113,56 @@ template <int D>
 void check_depths(const NetcdfFile& file, const Grid<D>& grid) {
   if (!file.has_variable("depth")) return;
   if (file.variable("depth").dimensions != field_dimensions<D>())
-    throw Error("depth: expected it over (" + listed(field_dimensions<D>()) + ")");
+    refuse(file, "depth: expected it over (" + listed(field_dimensions<D>()) + ")");
   std::vector<std::size_t> start(D, 0), count;
   for (int axis = D - 1; axis >= 0; --axis) count.push_back(std::size_t(grid.shape[std::size_t(axis)]));
   count[0] = 1;
   const std::int64_t a_row = grid.size() / grid.shape[D - 1];
+  const double sign = vertical_sense(file, "depth") == VerticalSense::up ? -1 : 1;
   for (std::int64_t row = 0; row < grid.shape[D - 1]; ++row) {
     start[0] = std::size_t(row);
-    const auto depths = file.get<double>("depth", start, count);
+    const auto depths = values_in(file, "depth", "m", start, count);
     for (std::int64_t n = 0; n < a_row; ++n) {
       const std::int64_t cell = row * a_row + n;
       const double expected = grid.depth(grid.index(cell));
-      if (std::abs(depths[std::size_t(n)] - expected) <= 0.01 * grid.spacing_m) continue;
-      throw Error("depth is " + shown(depths[std::size_t(n)]) + " m in the cell at " + place_of(grid, cell) +
-                  ", but " + bounds_name + " has its corners about " + shown(expected) + " m");
+      const double found = sign * depths[std::size_t(n)];
+      if (std::abs(found - expected) <= 0.01 * grid.spacing_m) continue;
+      refuse(file, "depth is " + shown(found) + " m in the cell at " + place_of(grid, cell) + ", but " +
+                       bounds_name + " has its corners about " + shown(expected) + " m");
+    }
+  }
+}
+
+/// Depths of a horizon at the centres of columns, m.
+template <int D>
+std::vector<double> depths_of_horizon(const Grid<D>& grid, const FittedHorizon& horizon) {
+  std::vector<double> depths;
+  for (std::int64_t n = 0; n < grid.size() / grid.shape[D - 1]; ++n) {
+    const auto at = grid.index(n);
+    std::array<double, std::size_t(D)> position{};
+    for (std::size_t axis = 0; axis + 1 < D; ++axis) position[axis] = double(at[axis]) + 0.5;
+    position[D - 1] = double(horizon.row);
+    depths.push_back(grid.rows->depth(position));
+  }
+  return depths;
+}
+
+/// A horizon must lie where its row of faces does.
+template <int D>
+void check_horizons(const NetcdfFile& file, const Grid<D>& grid) {
+  for (const auto& horizon : grid.rows->horizons()) {
+    const auto name = horizon_prefix + horizon.name;
+    if (file.variable(name).dimensions != column_dimensions<D>())
+      refuse(file, name + ": expected it over (" + listed(column_dimensions<D>()) + ")");
+    const double sign = vertical_sense(file, name) == VerticalSense::up ? -1 : 1;
+    const auto found = values_in(file, name, "m");
+    const auto expected = depths_of_horizon(grid, horizon);
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      if (std::abs(sign * found[n] - expected[n]) <= 0.01 * grid.spacing_m) continue;
+      refuse(file, name + " is " + shown(sign * found[n]) +
+                       " m deep at x=" + shown(grid.centre(0, std::int64_t(n) % grid.shape[0])) +
+                       ", but row " + std::to_string(horizon.row) + ", which follows it, is " +
+                       shown(expected[n], 6) + " m deep there");
     }
   }
 }
@@ -132,12 +176,12 @@ RowDepths<D> read_rows(const NetcdfFile& file, const Grid<D>& grid) {
     std::string found, expected;
     for (const auto length : variable.shape) found += (found.empty() ? "" : " x ") + std::to_string(length);
     for (const auto length : shape) expected += (expected.empty() ? "" : " x ") + std::to_string(length);
-    throw Error(bounds_name + ": found " + found + " corners, expected " + expected +
-                ", one more than cells along each axis");
+    refuse(file, bounds_name + ": found " + found + " corners, expected " + expected +
+                     ", one more than cells along each axis");
   }
-  auto corners = file.get<double>(bounds_name);
+  auto corners = depths_of(file, bounds_name);
   auto horizons = read_horizons(file, grid.shape[D - 1]);
-  return in_place(bounds_name,
+  return in_place(file.shown_name() + ": " + bounds_name,
                   [&] { return RowDepths<D>(grid.shape, std::move(corners), std::move(horizons)); });
 }
 
@@ -212,18 +256,8 @@ void put_depths(NetcdfFile& file, const Grid<D>& grid) {
   for (std::size_t axis = 0; axis + 1 < D; ++axis)
     file.put(axis_name(axis_names<D>()[axis]) + "_face",
              centres(grid.shape[axis] + 1, grid.origin_m[axis] - grid.spacing_m / 2, grid.spacing_m).data());
-  const std::int64_t columns = grid.size() / grid.shape[D - 1];
-  for (const auto& horizon : grid.rows->horizons()) {
-    std::vector<double> of_columns;
-    for (std::int64_t n = 0; n < columns; ++n) {
-      const auto at = grid.index(n);
-      std::array<double, std::size_t(D)> position{};
-      for (std::size_t axis = 0; axis + 1 < D; ++axis) position[axis] = double(at[axis]) + 0.5;
-      position[D - 1] = double(horizon.row);
-      of_columns.push_back(grid.rows->depth(position));
-    }
-    file.put(horizon_prefix + horizon.name, of_columns.data());
-  }
+  for (const auto& horizon : grid.rows->horizons())
+    file.put(horizon_prefix + horizon.name, depths_of_horizon(grid, horizon).data());
 }
 
 }  // namespace
@@ -263,7 +297,7 @@ Grid<D> read_grid(const NetcdfFile& file, bool whole) {
       throw Error(file.shown_name() + ": " + name + ": expected a coordinate variable " + name + "(" + name +
                   ")");
     }
-    values[axis] = file.get<double>(name);
+    values[axis] = axis == D - 1 ? depths_of(file, name) : values_in(file, name, "m");
     if (values[axis].empty()) throw Error(file.shown_name() + ": " + name + ": found no values");
     grid.shape[axis] = std::int64_t(values[axis].size());
   }
@@ -290,10 +324,9 @@ Grid<D> read_grid(const NetcdfFile& file, bool whole) {
   double& top = grid.origin_m[D - 1];
   const bool begins_below = std::abs(top) > 1e-4 * grid.spacing_m;
   if (file.has_variable(bounds_name)) {
-    in_place(file.shown_name(), [&] {
-      grid.rows = std::make_shared<const RowDepths<D>>(read_rows(file, grid));
-      check_depths(file, grid);
-    });
+    grid.rows = std::make_shared<const RowDepths<D>>(read_rows(file, grid));
+    check_depths(file, grid);
+    check_horizons(file, grid);
   } else if (begins_below && whole) {
     throw Error(file.shown_name() + ": z begins at " + shown(values[D - 1].front()) + ", expected " +
                 shown(grid.spacing_m / 2) + ", half a step below the surface");

@@ -4,8 +4,8 @@
 
 #include "base/error.hpp"
 #include "io/netcdf_file.hpp"
+#include "io/netcdf_units.hpp"
 #include "model/depth_grid.hpp"
-#include "model/units_netcdf.hpp"
 
 namespace slipwave {
 namespace {
@@ -27,12 +27,6 @@ NetcdfFile::Variable depth_variable(const NetcdfFile& file) {
               " with two dimensions, expected depth, z or one alone");
 }
 
-bool is_axis(const NetcdfFile& file, const std::string& dimension, const std::string& lower,
-             const std::string& upper) {
-  if (dimension == lower || dimension == upper) return true;
-  return file.has_variable(dimension) && file.text_attribute(dimension, "axis") == upper;
-}
-
 /// Coordinates in m, ascending, and whether they stood the other way round.
 struct Axis {
   std::vector<double> at_m;
@@ -46,9 +40,7 @@ Axis axis_of(const NetcdfFile& file, const std::string& variable, const std::str
     throw Error(place + variable + ": found no coordinates along " + dimension + ", expected a variable " +
                 dimension + "(" + dimension + ")");
   }
-  Axis axis{file.get<double>(dimension)};
-  const double factor = length_factor(file, dimension);
-  for (auto& value : axis.at_m) value *= factor;
+  Axis axis{values_in(file, dimension, "m")};
   axis.turned = length > 1 && axis.at_m.front() > axis.at_m.back();
   if (axis.turned) std::reverse(axis.at_m.begin(), axis.at_m.end());
   for (std::size_t n = 0; n < length; ++n) {
@@ -64,20 +56,21 @@ Axis axis_of(const NetcdfFile& file, const std::string& variable, const std::str
 DepthGrid depth_grid_from_netcdf(const NetcdfFile& file) {
   const auto variable = depth_variable(file);
   const auto& names = variable.dimensions;
-  const bool x_first = !is_axis(file, names[1], "x", "X") &&
-                       (is_axis(file, names[0], "x", "X") || is_axis(file, names[1], "y", "Y"));
+  const bool x_first = !is_horizontal(file, names[1], 'x') &&
+                       (is_horizontal(file, names[0], 'x') || is_horizontal(file, names[1], 'y'));
   const std::size_t of_x = x_first ? 0 : 1, columns = variable.shape[of_x], rows = variable.shape[1 - of_x];
   auto x = axis_of(file, variable.name, names[of_x], columns);
   auto y = axis_of(file, variable.name, names[1 - of_x], rows);
-  const double factor =
-      length_factor(file, variable.name) * (file.text_attribute(variable.name, "positive") == "up" ? -1 : 1);
+  const auto in_metres = conversion_of(file, variable.name, "m");
+  const double sign = vertical_sense(file, variable.name) == VerticalSense::up ? -1 : 1;
   const auto values = file.get_physical(variable.name);
   std::vector<double> depths;
   depths.reserve(values.size());
   for (std::size_t j = 0; j < rows; ++j) {
     for (std::size_t i = 0; i < columns; ++i) {
       const std::size_t from_i = x.turned ? columns - 1 - i : i, from_j = y.turned ? rows - 1 - j : j;
-      depths.push_back(factor * double(values[x_first ? from_i * rows + from_j : from_j * columns + from_i]));
+      depths.push_back(
+          sign * in_metres(double(values[x_first ? from_i * rows + from_j : from_j * columns + from_i])));
     }
   }
   return in_place(file.shown_name() + ": " + variable.name,

@@ -60,22 +60,6 @@ Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, Fas
   return field;
 }
 
-Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, double spacing_m) {
-  if (columns.empty() || columns.front().empty()) throw Error("found no samples, expected a section");
-  Grid<2> grid;
-  grid.shape = {std::int64_t(columns.size()), std::int64_t(columns.front().size())};
-  grid.spacing_m = spacing_m;
-  Field<2> field(grid);
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (columns[i].size() != columns.front().size()) {
-      throw Error("trace " + std::to_string(i + 1) + ": found " + std::to_string(columns[i].size()) +
-                  " samples, expected " + std::to_string(columns.front().size()) + " as in the first");
-    }
-    for (std::size_t k = 0; k < columns[i].size(); ++k) field[k * columns.size() + i] = float(columns[i][k]);
-  }
-  return field;
-}
-
 template <int D>
 Medium<D> medium_of(Field<D> vp, std::optional<Field<D>> vs, std::optional<Field<D>> rho, double fluid_vp) {
   if (vs) check_grid(*vs, "vs", vp.grid());

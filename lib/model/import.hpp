@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "grid/imported_field.hpp"
 #include "model/model.hpp"
 
 namespace slipwave {
@@ -22,17 +23,14 @@ float raw_value(const std::vector<char>& bytes, std::int64_t at);
 template <int D>
 Field<D> field_from_raw(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast);
 
-/// A section from columns of equal length (the traces of a SEG-Y model, left to right, each from the top
-/// down).
-Field<2> field_from_columns(const std::vector<std::vector<double>>& columns, double spacing_m);
-
-/// A section from a netCDF variable of two dimensions. `name` "" takes the variable called as the row, else
-/// the only one of two dimensions. Depth is the dimension named z or depth or whose coordinate has axis "Z"
-/// or a `positive` attribute, else the first one. Coordinates give the step (or must agree with `spacing_m`),
-/// in m or km; values in the units of the row (speeds in m/s or km/s, densities in kg/m3 or g/cm3), where
-/// they name none `unnamed` in SI; ascending depth may run up or down. Throws Error naming file and variable.
-Field<2> field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
-                           std::optional<double> spacing_m, double unnamed = 1);
+/// A section from a netCDF variable of two dimensions, a volume from one of three. `name` "" takes the
+/// variable called as the row, else the only one of two dimensions, else the only one of three. Depth is the
+/// vertical dimension (is_vertical()), in a section without one that which is not called x, else the first
+/// one. Coordinates give the step (or must agree with `spacing_m`), in any unit of length; they may run up or
+/// down and be stored either way (depths_of()). Values are in any unit that converts to that of the row;
+/// where they name none, `unnamed` in SI. Throws Error naming file and variable.
+ImportedField field_from_netcdf(const NetcdfFile& file, const PropertyRow& row, const std::string& name,
+                                std::optional<double> spacing_m, double unnamed = 1);
 
 /// The medium of imported fields. Without vs: Castagna's line, fluid where vp is at most `fluid_vp`; without
 /// rho: Gardner's relation (model/relations.hpp). Throws Error when the grids differ.

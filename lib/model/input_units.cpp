@@ -4,23 +4,25 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "io/units.hpp"
 
 namespace slipwave {
 namespace {
 
-constexpr double foot_m = 0.3048;
-const std::string gigapascal = "GPa", pascal = "Pa";
+const std::string pascal = "Pa";
 
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+/// Nothing where numbers of this unit are no others multiplied.
+std::optional<double> factor_of(const std::string& unit, const std::string& into) {
+  const auto conversion = spelt_unit_conversion(unit, into);
+  if (!conversion || conversion->inverse || conversion->offset != 0) return {};
+  return conversion->factor;
 }
 
-/// 0 where the property has no such unit. Those without units have none to choose.
-double factor_of(const PropertyRow& row, const std::string& unit) {
-  if (row.thousand.empty()) return 0;
-  if (holds(row.si, unit)) return 1;
-  if (holds(row.thousand, unit)) return 1000;
-  return unit == "ft/s" && holds(row.si, "m/s") ? foot_m : 0;
+/// Nothing for properties without a unit and for angles, which have none to choose.
+std::optional<double> factor_of(const std::string& unit, Property property) {
+  const auto& into = row_of(property).units;
+  if (into == "1" || into == "degree") return {};
+  return factor_of(unit, into);
 }
 
 }  // namespace
@@ -29,9 +31,9 @@ InputUnits InputUnits::parse(const std::string& list) {
   InputUnits units;
   for (const auto& name : split(list, ',')) {
     const auto properties = all_properties();
-    if (name != gigapascal && name != pascal &&
+    if (!factor_of(name, pascal) &&
         std::none_of(properties.begin(), properties.end(),
-                     [&](Property property) { return factor_of(row_of(property), name) != 0; }))
+                     [&](Property property) { return factor_of(name, property).has_value(); }))
       throw Error(
           "found '" + name +
               "', expected units of speed, density and stiffness: m/s, km/s, ft/s, kg/m3, g/cm3, Pa, GPa",
@@ -41,15 +43,17 @@ InputUnits InputUnits::parse(const std::string& list) {
   return units;
 }
 
-double InputUnits::factor(Property property) const {
-  double factor = 1;
-  for (const auto& name : names_) {
-    const double found = factor_of(row_of(property), name);
-    if (found != 0) factor = found;
-  }
+std::optional<double> InputUnits::given(Property property) const {
+  std::optional<double> factor;
+  for (const auto& name : names_)
+    if (const auto found = factor_of(name, property)) factor = found;
   return factor;
 }
 
-double InputUnits::of_stiffness() const { return holds(names_, gigapascal) ? 1e9 : 1; }
+double InputUnits::of_stiffness() const {
+  double factor = 1;
+  for (const auto& name : names_) factor = factor_of(name, pascal).value_or(factor);
+  return factor;
+}
 
 }  // namespace slipwave

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,11 +12,12 @@ namespace slipwave {
 class InputUnits {
  public:
   InputUnits() = default;
-  /// "km/s", "g/cm3", "km/s,g/cm3", "ft/s": a unit for all properties that can have it. Throws a usage Error
-  /// on one that no property has.
+  /// "km/s", "g/cm3", "km/s,g/cm3", "ft/s": a unit for all properties that can have it, as people spell it
+  /// (spelt_unit_conversion()). Throws a usage Error on one that no property has.
   static InputUnits parse(const std::string& list);
-  /// What one of it is in SI.
-  double factor(Property property) const;
+  /// What one of it is in SI; nothing where the list names no unit of the property's.
+  std::optional<double> given(Property property) const;
+  double factor(Property property) const { return given(property).value_or(1); }
   /// The same of stiffnesses, in Pa or GPa.
   double of_stiffness() const;
 

@@ -389,6 +389,11 @@ Average parse_average(std::string_view text) {
 
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
+  if (!profile.empty()) {
+    const auto block = std::upper_bound(profile.begin(), profile.end(), depth,
+                                        [](double at, const LayerBlock& one) { return at < one.to_m; });
+    return (block == profile.end() ? profile.back() : *block).material;
+  }
   Material at = material;
   at.vp += gradient.vp * depth, at.vs += gradient.vs * depth, at.rho += gradient.rho * depth;
   return at;

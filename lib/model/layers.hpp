@@ -19,12 +19,19 @@ enum class Average { none, isotropic, tilted };
 /// Its name; throws a usage Error on others.
 Average parse_average(std::string_view text);
 
+/// What a layer is made of down to a depth below its top.
+struct LayerBlock {
+  double to_m = 0;
+  Material material;
+};
+
 /// Everything below a top, down to the next layer. Properties may change linearly with depth below the top.
 struct Layer {
   Horizon top;
   Material material;  // at the top
   Material gradient;  // what vp and vs (1/s) and rho (kg/m4) gain a metre below it; 0 by default
   std::vector<std::pair<Property, double>> others;  // of its other properties, all over the layer
+  std::vector<LayerBlock> profile;  // in place of material and gradient, as of a log; the last goes on
 
   Layer() = default;
   Layer(const Horizon& top, const Material& material, const Material& gradient = {})

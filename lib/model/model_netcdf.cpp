@@ -7,6 +7,7 @@
 #include "base/error.hpp"
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
+#include "io/netcdf_units.hpp"
 #include "io/output_file.hpp"
 #include "model/anisotropy.hpp"
 #include "model/prestress.hpp"
@@ -47,19 +48,25 @@ std::array<std::vector<std::size_t>, 2> block_of(const Grid<D>& grid) {
 }
 
 template <int D>
-Field<D> read_field(const NetcdfFile& file, const Grid<D>& grid, const std::string& name) {
+Field<D> read_field(const NetcdfFile& file, const Grid<D>& grid, const std::string& name,
+                    const std::string& unit) {
   check_dimensions<D>(file, name);
   const auto [start, count] = block_of(grid);
   const auto values = file.get_physical(name, start, count);
+  const auto conversion = conversion_of(file, name, unit);
   Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
+  for (auto& value : field)
+    if (conversion.changes()) value = float(conversion(double(value)));
   return field;
 }
 
 /// A column of a slip constant: one value a slip system.
 std::vector<double> read_column(const NetcdfFile& file, const std::string& name, std::size_t systems,
-                                std::size_t width = 1) {
+                                const std::string& unit, std::size_t width = 1) {
   auto values = file.get<double>(name);
+  if (const auto conversion = conversion_of(file, name, unit); conversion.changes())
+    for (auto& value : values) value = conversion(value);
   if (values.size() != systems * width) {
     throw Error(file.shown_name() + ": " + name + ": found " + std::to_string(values.size()) +
                 " values, expected " + std::to_string(systems * width));
@@ -138,7 +145,7 @@ template <int D>
 void read_compliances(const NetcdfFile& file, std::vector<SlipSystem<D>>& systems) {
   for (const auto& column : compliance_columns) {
     if (!file.has_variable(column.name)) continue;
-    const auto values = read_column(file, column.name, systems.size());
+    const auto values = read_column(file, column.name, systems.size(), column.units);
     for (std::size_t i = 0; i < systems.size(); ++i) systems[i].compliance.*column.value = values[i];
   }
 }
@@ -229,8 +236,8 @@ template <int D>
 void read_traces_of(const NetcdfFile& file, std::vector<FractureSet<D>>& sets) {
   if (!file.has_variable("fracture_trace_set")) return;
   const auto owner = file.get<int>("fracture_trace_set");
-  const auto number = read_column(file, "fracture_trace_number", owner.size());
-  const auto position = read_column(file, "fracture_trace_position", owner.size(), D);
+  const auto number = read_column(file, "fracture_trace_number", owner.size(), "1");
+  const auto position = read_column(file, "fracture_trace_position", owner.size(), "m", D);
   for (std::size_t i = 0; i < owner.size(); ++i) {
     if (owner[i] < 0 || std::size_t(owner[i]) >= sets.size())
       throw Error(file.shown_name() + ": fracture_trace_set: found " + std::to_string(owner[i]) +
@@ -242,7 +249,7 @@ void read_traces_of(const NetcdfFile& file, std::vector<FractureSet<D>>& sets) {
     traces.back().push_back(vertex);
   }
   if (!file.has_variable("fracture_on_faces")) return;
-  const auto on_faces = read_column(file, "fracture_on_faces", sets.size());
+  const auto on_faces = read_column(file, "fracture_on_faces", sets.size(), "1");
   for (std::size_t set = 0; set < sets.size(); ++set) {
     if (on_faces[set] != 0 && on_faces[set] != 1)
       throw Error(file.shown_name() + ": fracture_on_faces: found " + shown(on_faces[set]) +
@@ -338,9 +345,9 @@ void put_sets(NetcdfFile& file, const Model<D>& model) {
 template <int D>
 void read_laws(const NetcdfFile& file, std::vector<SlipSystem<D>>& systems) {
   if (!file.has_variable("slip_law")) return;
-  const auto law = read_column(file, "slip_law", systems.size());
-  const auto friction = read_column(file, "slip_dynamic_friction", systems.size());
-  const auto distance = read_column(file, "slip_distance", systems.size());
+  const auto law = read_column(file, "slip_law", systems.size(), "1");
+  const auto friction = read_column(file, "slip_dynamic_friction", systems.size(), "1");
+  const auto distance = read_column(file, "slip_distance", systems.size(), "m");
   for (std::size_t i = 0; i < systems.size(); ++i) {
     if (law[i] != 0 && law[i] != 1 && law[i] != 2)
       throw Error(file.shown_name() + ": slip_law: found " + shown(law[i]) +
@@ -360,7 +367,7 @@ std::vector<Field<D>> read_prestress(const NetcdfFile& file, const Grid<D>& grid
   const auto is_there = [&](const auto& name) { return file.has_variable(prestress_variable(name)); };
   std::vector<Field<D>> stress;
   if (std::none_of(names.begin(), names.end(), is_there)) return stress;
-  for (const auto& name : names) stress.push_back(read_field(file, grid, prestress_variable(name)));
+  for (const auto& name : names) stress.push_back(read_field(file, grid, prestress_variable(name), "Pa"));
   return stress;
 }
 
@@ -375,12 +382,13 @@ std::vector<FractureSet<D>> read_fracture_sets(const NetcdfFile& file) {
   std::vector<FractureSet<D>> sets;
   for (const auto& name : file.get_text("fracture_name")) sets.push_back({name, {}, {}});
   const auto owner = file.get<int>("slip_set");
-  const auto normal = read_column(file, "slip_normal", owner.size(), D);
-  const auto friction = read_column(file, "slip_friction", owner.size());
-  const auto viscosity = read_column(file, "slip_viscosity", owner.size());
-  const auto strength = read_column(file, "slip_strength", owner.size());
-  const auto opening = file.has_variable("slip_opening") ? read_column(file, "slip_opening", owner.size())
-                                                         : std::vector<double>(owner.size(), 0);
+  const auto normal = read_column(file, "slip_normal", owner.size(), "1", D);
+  const auto friction = read_column(file, "slip_friction", owner.size(), "1");
+  const auto viscosity = read_column(file, "slip_viscosity", owner.size(), "s");
+  const auto strength = read_column(file, "slip_strength", owner.size(), "Pa");
+  const auto opening = file.has_variable("slip_opening")
+                           ? read_column(file, "slip_opening", owner.size(), "1")
+                           : std::vector<double>(owner.size(), 0);
   std::vector<SlipSystem<D>> systems(owner.size());
   read_laws(file, systems);
   read_compliances(file, systems);
@@ -418,7 +426,7 @@ Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
   for (const Property property : all_properties()) {
     const auto& row = row_of(property);
     if (row.if_absent && !file.has_variable(row.name)) continue;
-    model.medium[property] = read_field(file, grid, row.name);
+    model.medium[property] = read_field(file, grid, row.name, row.units);
   }
   complete_anisotropy(model.medium);
   if (file.has_variable("fracture")) {
@@ -428,7 +436,8 @@ Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
     model.fracture = Field<D, std::uint8_t>(grid);
     std::copy(codes.begin(), codes.end(), model.fracture.begin());
     model.fracture_sets = read_fracture_sets<D>(file);
-    if (file.has_variable("fracture_share")) model.fracture_share = read_field(file, grid, "fracture_share");
+    if (file.has_variable("fracture_share"))
+      model.fracture_share = read_field(file, grid, "fracture_share", "1");
     model.prestress_pa = read_prestress(file, grid);
   }
   model.title = file.text_attribute("", "title").value_or("");

@@ -2,6 +2,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "io/column_header.hpp"
 #include "io/input_bytes.hpp"
 
 namespace slipwave {
@@ -13,7 +14,7 @@ class Words {
   explicit Words(std::string_view line) : rest_(line.substr(0, line.find('#'))) {}
   /// Empty when there is none left.
   std::string_view next() {
-    constexpr std::string_view between = " \t,\r\f\v";
+    constexpr std::string_view between = " \t,;\r\f\v";
     rest_.remove_prefix(std::min(rest_.find_first_not_of(between), rest_.size()));
     const auto word = rest_.substr(0, rest_.find_first_of(between));
     rest_.remove_prefix(word.size());
@@ -37,12 +38,65 @@ void for_each_line(std::string_view text, const Body& body) {
   }
 }
 
+std::vector<std::string_view> words_of(std::string_view line) {
+  Words words(line);
+  std::vector<std::string_view> all;
+  for (auto word = words.next(); !word.empty(); word = words.next()) all.push_back(word);
+  return all;
+}
+
+/// Which column is which coordinate, and what its numbers are in.
+template <int D>
+struct PointColumns {
+  std::array<std::size_t, D> coordinate{};
+  std::array<UnitConversion, D> in_metres{};
+
+  PointColumns() {
+    for (std::size_t n = 0; n < D; ++n) coordinate[n] = n;
+  }
+  /// Of a header: x, y and z or depth, or what counts upwards in place of it, in any order.
+  explicit PointColumns(const std::vector<ColumnHeader>& headers) {
+    std::array<bool, D> found{};
+    for (std::size_t n = 0; n < headers.size(); ++n) {
+      const auto& name = headers[n].name;
+      const bool up = name == "elevation" || name == "height" || name == "altitude";
+      const std::size_t axis = name == "x"                            ? 0
+                               : name == "y" && D == 3                ? 1
+                               : name == "z" || name == "depth" || up ? D - 1
+                                                                      : D;
+      if (axis == D || n >= D || found[axis])
+        throw Error("found column '" + excerpt(name) + "', expected " + (D == 2 ? "x" : "x, y") +
+                    " and z, depth or elevation, each once");
+      coordinate[n] = axis;
+      found[axis] = true;
+      in_metres[n] = headers[n].conversion("m");
+      if (up) in_metres[n].factor = -in_metres[n].factor;
+    }
+    if (headers.size() != D)
+      throw Error("found " + std::to_string(headers.size()) + " columns, expected " +
+                  (D == 2 ? "X Z" : "X Y Z"));
+  }
+};
+
 }  // namespace
 
 template <int D>
 std::vector<NumberedPoint<D>> points_of_text(std::string_view text) {
   std::vector<NumberedPoint<D>> points;
+  PointColumns<D> columns;
+  bool first = true;
   for_each_line(text, [&](std::string_view line, int number) {
+    if (first) {
+      const auto all = words_of(line);
+      first = all.empty();
+      if (const auto headers =
+              in_place("line " + std::to_string(number),
+                       [&] { return are_headers(all) ? column_headers(all) : std::vector<ColumnHeader>(); });
+          !headers.empty()) {
+        columns = in_place("line " + std::to_string(number), [&] { return PointColumns<D>(headers); });
+        return true;
+      }
+    }
     Words words(line);
     NumberedPoint<D> point{{}, number};
     std::array<std::string_view, D> found;
@@ -57,7 +111,8 @@ std::vector<NumberedPoint<D>> points_of_text(std::string_view text) {
       throw Error(place() + "found " + std::to_string(count) + (count == 1 ? " value" : " values") +
                   (D == 2 ? ", expected X Z" : ", expected X Y Z"));
     try {
-      for (std::size_t axis = 0; axis < D; ++axis) point.at[axis] = parse_number(found[axis]);
+      for (std::size_t n = 0; n < D; ++n)
+        point.at[columns.coordinate[n]] = columns.in_metres[n](parse_number(found[n]));
     } catch (const Error& error) {
       throw Error(place() + error.what());  // bad data, not a bad command line
     }
@@ -75,8 +130,8 @@ std::vector<NumberedPoint<2>> read_points(const std::string& path) {
 std::size_t columns_of_text(std::string_view text) {
   std::size_t columns = 0;
   for_each_line(text, [&](std::string_view line, int) {
-    Words words(line);
-    while (!words.next().empty()) ++columns;
+    const auto words = words_of(line);
+    columns = are_headers(words) ? column_headers(words).size() : words.size();
     return columns == 0;
   });
   return columns;

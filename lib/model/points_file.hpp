@@ -15,8 +15,9 @@ struct NumberedPoint {
   int line = 0;
 };
 
-/// The points of a text: "X Z" or "X,Z" a line, in 3-D "X Y Z"; # begins a comment, empty lines are passed
-/// over. Throws Error naming the line.
+/// The points of a text: "X Z", "X,Z" or "X;Z" a line, in 3-D "X Y Z", in metres, or as a header line names
+/// columns and units ("x (km) elevation (ft)"); # begins a comment, empty lines are passed over. Throws Error
+/// naming the line.
 template <int D>
 std::vector<NumberedPoint<D>> points_of_text(std::string_view text);
 

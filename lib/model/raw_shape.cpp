@@ -1,5 +1,6 @@
 #include "model/raw_shape.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.hpp"
@@ -8,48 +9,111 @@
 namespace slipwave {
 namespace {
 
-/// How much rougher than the other shape a wrong one is, and how sharply the right distance stands out.
-constexpr double rougher = 3, sharp = 2;
-/// Looked at for each distance; few enough to be quick in any file.
-constexpr std::int64_t most_pairs = 200000;
+/// Looked at for each length; few enough to be quick in any file.
+constexpr std::int64_t most_values = 400000;
 
-/// Mean difference of values so far apart in the file.
-double roughness(const std::vector<char>& bytes, std::int64_t distance) {
-  const std::int64_t pairs = std::int64_t(bytes.size() / 4) - distance;
-  if (distance < 1 || pairs < 1) return 0;
-  // An odd step meets all depths.
-  const std::int64_t step = pairs / most_pairs | 1;
+/// How values of a raw file differ, in the mean, if its lines have that length.
+struct Roughness {
+  double along = 0, across = 0;  // from value to value of a line, from line to line
+  double unlike = 0;             // by how much the first differs between neighbouring lines
+  double jump = 0;               // from the end of a line to the beginning of the next, over `along`
+};
+
+/// Mean step from the last value of lines to the first of the next.
+double jumps(const std::vector<char>& bytes, std::int64_t length) {
+  const std::int64_t values = std::int64_t(bytes.size() / 4), ends = values / length - 1;
+  const std::int64_t step = ends / most_values + 1;
   double sum = 0;
   std::int64_t count = 0;
-  for (std::int64_t at = 0; at < pairs; at += step) {
-    const double difference = double(raw_value(bytes, at + distance)) - double(raw_value(bytes, at));
-    if (!std::isfinite(difference)) continue;
-    sum += std::abs(difference);
+  for (std::int64_t end = 0; end < ends; end += step) {
+    const std::int64_t at = (end + 1) * length;
+    const double jump = double(raw_value(bytes, at)) - double(raw_value(bytes, at - 1));
+    if (!std::isfinite(jump)) continue;
+    sum += std::abs(jump);
     ++count;
   }
-  return count > 0 ? sum / double(count) : 0;
+  return count == 0 ? 0 : sum / double(count);
+}
+
+Roughness roughness(const std::vector<char>& bytes, std::int64_t length) {
+  const auto value = [&](std::int64_t at) { return double(raw_value(bytes, at)); };
+  const std::int64_t last = std::int64_t(bytes.size() / 4) - length - 1;
+  // An odd step meets all places of lines.
+  const std::int64_t step = last / most_values | 1;
+  Roughness sum;
+  std::int64_t count = 0;
+  for (std::int64_t at = 0; at < last; at += step) {
+    if (at % length == length - 1) continue;
+    const double here = value(at), next = value(at + 1), beside = value(at + length),
+                 beyond = value(at + length + 1);
+    const double mixed = beyond - beside - next + here;
+    if (!std::isfinite(mixed)) continue;
+    sum.along += std::abs(next - here);
+    sum.across += std::abs(beside - here);
+    sum.unlike += std::abs(mixed);
+    ++count;
+  }
+  if (count == 0) return {};
+  const double along = sum.along / double(count);
+  return {along, sum.across / double(count), sum.unlike / double(count),
+          jumps(bytes, length) / std::max(along, 1e-30)};
+}
+
+std::string times(std::int64_t a, std::int64_t b) { return std::to_string(a) + "x" + std::to_string(b); }
+
+const char* name_of(FastAxis fast) { return fast == FastAxis::z ? "z-fast" : "x-fast"; }
+FastAxis other_than(FastAxis fast) { return fast == FastAxis::z ? FastAxis::x : FastAxis::z; }
+
+/// Numbers of cells with those of the first and the last axis exchanged.
+template <int D>
+std::string exchanged_shape(const Grid<D>& grid) {
+  if constexpr (D == 2) return times(grid.shape[1], grid.shape[0]);
+  return times(grid.shape[2], grid.shape[1]) + "x" + std::to_string(grid.shape[0]);
+}
+template <int D>
+std::string shape_of(const Grid<D>& grid) {
+  if constexpr (D == 2) return times(grid.shape[0], grid.shape[1]);
+  return times(grid.shape[0], grid.shape[1]) + "x" + std::to_string(grid.shape[2]);
 }
 
 }  // namespace
 
-void check_raw_shape(const std::vector<char>& bytes, const Grid<2>& grid, FastAxis fast) {
-  const std::int64_t nx = grid.shape[0], nz = grid.shape[1];
+template <int D>
+void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast) {
+  // What counts as clearly more; noise differs by some tenths. Fewer cells have too few lines to compare.
+  constexpr double much = 2, far_more = 3, undecided = 0.7;
+  constexpr std::int64_t fewest = 4;
+  const std::int64_t nx = grid.shape[0], nz = grid.shape[D - 1];
+  if (nx < fewest || nz < fewest || bytes.size() != std::size_t(grid.size()) * 4) return;
   const std::int64_t given = fast == FastAxis::z ? nz : nx, other = fast == FastAxis::z ? nx : nz;
-  constexpr std::int64_t fewest = 4, nearby = 3;
-  if (given == other || other <= nearby || given < fewest || bytes.size() != std::size_t(grid.size()) * 4)
-    return;
-  const double as_given = roughness(bytes, given), exchanged = roughness(bytes, other);
-  const double beside = (roughness(bytes, other - nearby) + roughness(bytes, other + nearby)) / 2;
-  if (as_given <= rougher * exchanged || beside <= sharp * exchanged) return;
-  const auto times = [](std::int64_t a, std::int64_t b) {
-    return std::to_string(a) + "x" + std::to_string(b);
+  const auto as_given = roughness(bytes, given), exchanged = roughness(bytes, other);
+  const auto refuse = [&](const std::string& found, bool any_shape) {
+    throw Error("found " + shape_of(grid) + " in the order " + name_of(fast) + ", in which " + found +
+                    "; expected " + (any_shape ? "--shape " + exchanged_shape(grid) + " or " : "") +
+                    "--order " + name_of(other_than(fast)) + ", or --allow-rough to take it as it is",
+                ErrorKind::usage);
   };
-  throw Error("found " + times(nx, nz) + ", in which neighbouring " +
-                  (fast == FastAxis::z ? "columns" : "rows") + " differ by " + shown(as_given, 3) +
-                  " in the mean, but by " + shown(exchanged, 3) + " with --shape " + times(nz, nx) +
-                  " or --order " + (fast == FastAxis::z ? "x-fast" : "z-fast") +
-                  "; --allow-rough takes it as it is",
-              ErrorKind::usage);
+  const char* const lines = fast == FastAxis::z ? "columns" : "rows";
+  if (as_given.unlike > much * exchanged.unlike)
+    refuse(std::string("neighbouring ") + lines + " do not continue each other: steps along them differ by " +
+               shown(as_given.unlike, 3) + " in the mean, along lines of " + std::to_string(other) +
+               " values by " + shown(exchanged.unlike, 3),
+           true);
+  if (as_given.unlike < undecided * exchanged.unlike) return;
+  if (given != other && exchanged.jump > far_more * std::max(1., as_given.jump))
+    refuse(std::string("the ends of ") + lines + " are no ends: values jump after each " +
+               std::to_string(other) + ", by " + shown(exchanged.jump, 3) + " times a usual step, and by " +
+               shown(as_given.jump, 3) + " times after each " + std::to_string(given),
+           true);
+  const double along_x = fast == FastAxis::z ? as_given.across : as_given.along;
+  const double along_z = fast == FastAxis::z ? as_given.along : as_given.across;
+  if (along_x > much * along_z)
+    refuse("values change by " + shown(along_x, 3) + " from cell to cell along x, but by " +
+               shown(along_z, 3) + " along z: layers would stand upright",
+           false);
 }
+
+template void check_raw_shape(const std::vector<char>&, const Grid<2>&, FastAxis);
+template void check_raw_shape(const std::vector<char>&, const Grid<3>&, FastAxis);
 
 }  // namespace slipwave

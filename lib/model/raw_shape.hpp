@@ -6,9 +6,11 @@
 
 namespace slipwave {
 
-/// Throws a usage Error where a raw file (field_from_raw) of this grid looks scrambled: neighbours across the
-/// fast axis differ by more than three times what they would with both numbers of cells exchanged, and there
-/// they agree much better than cells a little further apart do.
-void check_raw_shape(const std::vector<char>& bytes, const Grid<2>& grid, FastAxis fast);
+/// Throws a usage Error where a raw file (field_from_raw) looks as if its lines were of another length, that
+/// of the other order or of exchanged numbers of cells. Neighbouring lines of the right length change alike
+/// along them, since media are layered; and where a line ends, values jump. Where neither tells the lengths
+/// apart, as where both are equal, an order that makes layers stand upright is refused.
+template <int D>
+void check_raw_shape(const std::vector<char>& bytes, const Grid<D>& grid, FastAxis fast);
 
 }  // namespace slipwave

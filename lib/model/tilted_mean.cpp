@@ -11,8 +11,6 @@ namespace slipwave {
 namespace {
 
 constexpr std::array cut_properties = {Property::cut_epsilon, Property::cut_delta, Property::cut_dip};
-/// Less is rounding, as where rocks differ in density alone.
-constexpr double least_anisotropy = 1e-5;
 constexpr double degree = std::numbers::pi / 180;
 
 }  // namespace

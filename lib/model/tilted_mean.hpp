@@ -12,6 +12,9 @@ namespace slipwave {
 // (T1)). vp, vs and rho are the speeds along the normal and the mean density: what the isotropic mean has,
 // too. The cell's cut_epsilon, cut_delta and cut_dip say the rest.
 
+/// Less anisotropy in a mean is rounding, as where rocks differ in density alone.
+inline constexpr double least_anisotropy = 1e-5;
+
 /// Whether a cell is a tilted mean.
 template <int D>
 bool is_tilted_mean(const Medium<D>& medium, std::size_t cell) {

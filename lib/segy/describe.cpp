@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "segy/extension.hpp"
 #include "segy/reader.hpp"
 
 namespace slipwave::segy {
@@ -59,14 +60,47 @@ struct Lanes {
   }
 };
 
-void see_header(Description& facts, const TraceHeader& header) {
+/// Byte 37, which is rounded or cut to whole units.
+void see_offset(Description& facts, const Trace& trace, double offset_m) {
+  const auto place =
+      place_words(trace.words, facts.header, extension_of(trace.extensions, facts.header.endian));
+  facts.offset_word_m.see(place.offset_m);
+  const double beyond = std::fabs(std::fabs(place.offset_m) - std::fabs(offset_m));
+  facts.offsets_differ = facts.offsets_differ || (place.offset_m != 0 && beyond > place.unit_m);
+}
+
+/// Words as they are where their scalar cannot be one.
+void see_scalars(Description& facts, const Trace& trace, TraceHeader& header) {
+  const auto& words = trace.words;
+  const auto fault_of = [](const char* byte, std::int64_t scalar) {
+    return is_length_scalar(scalar)
+               ? ""
+               : "scalar " + std::to_string(scalar) + " (byte " + byte + ") is no power of ten";
+  };
+  if (const auto fault = fault_of("71", words.get("scalco")); !fault.empty()) {
+    facts.coordinate_fault = fault;
+    header.source_m[0] = double(words.get("sx")), header.source_m[1] = double(words.get("sy"));
+    header.receiver_m[0] = double(words.get("gx")), header.receiver_m[1] = double(words.get("gy"));
+  }
+  if (const auto fault = fault_of("69", words.get("scalel")); !fault.empty()) {
+    facts.height_fault = fault;
+    header.source_m[2] = double(words.get("sdepth") - words.get("selev"));
+    header.receiver_m[2] = -double(words.get("gelev"));
+  }
+  if (const auto arc = arc_of(words); !arc.empty()) facts.arc = arc;
+}
+
+void see_header(Description& facts, const Trace& trace, TraceHeader header) {
   ++facts.components[header.component].traces;
+  see_scalars(facts, trace, header);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     facts.source_m[axis].see(header.source_m[axis]);
     facts.receiver_m[axis].see(header.receiver_m[axis]);
   }
   const double x = header.receiver_m[0] - header.source_m[0], y = header.receiver_m[1] - header.source_m[1];
-  facts.offset_m.see(y == 0 ? x : std::copysign(std::hypot(x, y), x != 0 ? x : y));
+  const double offset = y == 0 ? x : std::copysign(std::hypot(x, y), x != 0 ? x : y);
+  facts.offset_m.see(offset);
+  see_offset(facts, trace, offset);
 }
 
 /// What has been seen of the samples of a component.
@@ -125,7 +159,7 @@ Description describe(const std::string& path, const ReadOptions& options,
       if (shot != header.shot) shots.insert(header.shot);
       shot = header.shot;
       facts.lengths_vary = facts.lengths_vary || !(reader.axis_of(trace) == facts.axis);
-      see_header(facts, header);
+      see_header(facts, trace, header);
       see_samples(seen[header.component], trace.samples);
     }
   } catch (const Error& error) {

@@ -42,8 +42,14 @@ struct Description {
   Range source_m[3];  // x, y, z
   Range receiver_m[3];
   PositionsGiven positions;
-  Range offset_m;  // receiver minus source, with the sign of its first part that is not 0
-  Range sample;    // finite samples of all components, whatever their units
+  Range offset_m;               // receiver minus source, with the sign of its first part that is not 0
+  Range offset_word_m;          // byte 37
+  bool offsets_differ = false;  // that of some trace is not 0 and not the distance of its ends
+  /// Units of coordinates that are not lengths (arc_of()); "" of lengths.
+  std::string arc;
+  /// What coordinates cannot be read with: "scalar 82 (byte 71)"; "" where they can. They are words then.
+  std::string coordinate_fault, height_fault;
+  Range sample;  // finite samples of all components, whatever their units
   double rms = 0;
   std::int64_t not_finite = 0;
   std::optional<std::string> damage;  // what stopped the reading before the end ("ends within trace 4: ...")

@@ -35,10 +35,19 @@ void report_sampling(Report& report, const Description& facts) {
   if (facts.lengths_vary) report.text("times", "vary from trace to trace");
 }
 
+/// Coordinates of a file that has no lengths for them, or none that can be read.
+std::string unit_of_coordinates(const Description& facts) {
+  if (!facts.coordinate_fault.empty()) return "unscaled";
+  return facts.arc.empty() ? "m" : facts.arc;
+}
+
 void report_positions(Report& report, const Description& facts) {
+  const auto unit = unit_of_coordinates(facts);
   const auto report_end = [&](const std::string& end, const Range& range, std::size_t axis, bool given) {
-    if (given || axis == 2)
-      report_range(report, end + " " + "xyz"[axis], range, "m");
+    if (axis == 2)
+      report_range(report, end + " z", range, facts.height_fault.empty() ? "m" : "unscaled");
+    else if (given)
+      report_range(report, end + " " + "xyz"[axis], range, unit);
     else if (axis == 0)
       report.text(end, "no coordinates in the file; placed by its offsets and midpoints");
   };
@@ -46,7 +55,14 @@ void report_positions(Report& report, const Description& facts) {
     report_end("source", facts.source_m[axis], axis, facts.positions.source);
     report_end("receiver", facts.receiver_m[axis], axis, facts.positions.receiver);
   }
-  report_range(report, "offset", facts.offset_m, "m");
+  const std::string remedy = "; sw-shoot --geometry refuses it";
+  if (!facts.coordinate_fault.empty()) report.text("coordinates", facts.coordinate_fault + remedy);
+  if (!facts.height_fault.empty()) report.text("depths", facts.height_fault + remedy);
+  if (!facts.arc.empty()) report.text("coordinates", "in " + facts.arc + " (byte 89)" + remedy);
+  if (unit == "m") report_range(report, "offset", facts.offset_m, "m");
+  if (unit != "m" || facts.offsets_differ) report_range(report, "offset word (37)", facts.offset_word_m, "m");
+  if (unit == "m" && facts.offsets_differ)
+    report.text("offsets", "the words (byte 37) are not the distances of the coordinates");
 }
 
 }  // namespace

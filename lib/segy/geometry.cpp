@@ -226,7 +226,7 @@ TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
                           const std::optional<ExtensionWords>& extension) {
   using Standard = FieldName<TraceLayout>;
   using Wide = FieldName<ExtensionLayout>;
-  const bool geographic = words.get("counit") > 1;
+  const bool geographic = !arc_of(words).empty();
   const double length_m = file.feet ? foot_m : 1;
   const double coordinate_m = geographic ? 1 : length_m;
   const auto coordinate = [&](Standard name, Wide wide) {
@@ -247,6 +247,24 @@ TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
   return header;
 }
 
+bool is_length_scalar(std::int64_t word) {
+  const auto size = std::abs(word);
+  return size == 0 || size == 1 || size == 10 || size == 100 || size == 1000 || size == 10000;
+}
+
+std::string arc_of(const TraceWords& words) {
+  switch (words.get("counit")) {
+    case 2:
+      return "seconds of arc";
+    case 3:
+      return "degrees";
+    case 4:
+      return "degrees, minutes and seconds (DDDMMSS.ss)";
+    default:
+      return "";
+  }
+}
+
 PlaceWords place_words(const TraceWords& words, const FileHeader& file,
                        const std::optional<ExtensionWords>& extension) {
   PlaceWords place;
@@ -264,6 +282,7 @@ PositionsGiven positions_given(const TraceHeader& header, const PlaceWords& plac
   const bool no_source = at_0(header.source_m), no_receiver = at_0(header.receiver_m);
   const double apart = distance(header.source_m, header.receiver_m), said = std::fabs(place.offset_m);
   if (no_source && no_receiver && !at_0(place.midpoint_m)) return {false, false};
+  if (no_source && no_receiver && place.offset_m == 0) return {true, true, false};
   // Byte 37 is rounded, or cut, to whole units.
   if (apart == 0 ? said == 0 : std::fabs(apart - said) < place.unit_m) return {};
   return {!no_source || said == 0, !no_receiver};

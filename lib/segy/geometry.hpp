@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "gather/trace.hpp"
 #include "segy/file_header.hpp"
@@ -60,7 +61,15 @@ TraceHeader si_from_words(const TraceWords& words, const FileHeader& file,
 /// Whether traces say where sources and receivers are.
 struct PositionsGiven {
   bool source = true, receiver = true;
+  bool anything = true;  // false: all that could say it is 0
 };
+
+/// What a scalar of lengths may be: 1, 10, 100, 1000 or 10000, negative ones of them, or 0.
+bool is_length_scalar(std::int64_t word);
+
+/// Units of coordinates (byte 89) that are not lengths but arcs: "seconds of arc", "degrees" or "degrees,
+/// minutes and seconds, DDDMMSS.ss"; "" of lengths.
+std::string arc_of(const TraceWords& words);
 
 /// What a trace says of its place beside the coordinates of its ends.
 struct PlaceWords {

@@ -197,23 +197,28 @@ TraceHeader Reader::si_header(const RawTrace& trace) const {
 TraceHeader Reader::si_header_of(const TraceWords& words, const std::vector<std::uint8_t>& extensions) const {
   const auto extension = extension_of(extensions, header_.endian);
   auto header = si_from_words(words, header_, extension);
-  if (positions_.source && positions_.receiver) return header;
+  if ((positions_.source && positions_.receiver) || !arc_of(words).empty()) return header;
   const auto place = place_words(words, header_, extension);
   const auto own = positions_given(header, place);
-  place_missing(header, {own.source || positions_.source, own.receiver || positions_.receiver}, place);
+  const bool own_source = own.anything && own.source, own_receiver = own.anything && own.receiver;
+  place_missing(header, {own_source || positions_.source, own_receiver || positions_.receiver}, place);
   return header;
 }
 
-/// `head`: the header of a trace and, if it has more, its extension 1. One that says a position is enough.
-void Reader::see_positions(std::span<const std::uint8_t> head) {
+/// `head`: the header of a trace and, if it has more, its extension 1. One that says a position is enough;
+/// one that says nothing, as at the origin of the map, counts where no other says more.
+void Reader::see_positions(std::span<const std::uint8_t> head, PositionsGiven& seen) const {
   TraceWords words(head.first<TraceLayout::size>(), header_.endian);
   if (header_.su) words.clear(181, 240);
   std::optional<ExtensionWords> extension;
   if (header_.extra_headers > 0) extension = extension_of(head.subspan(TraceLayout::size), header_.endian);
-  const auto own =
-      positions_given(si_from_words(words, header_, extension), place_words(words, header_, extension));
-  positions_.source |= own.source;
-  positions_.receiver |= own.receiver;
+  const auto own = arc_of(words).empty() ? positions_given(si_from_words(words, header_, extension),
+                                                           place_words(words, header_, extension))
+                                         : PositionsGiven{};
+  if (!own.anything) return;
+  seen.source |= own.source;
+  seen.receiver |= own.receiver;
+  seen.anything = true;
 }
 
 /// Only where the first trace lacks some are others looked at: what is 0 there may be a place.
@@ -221,22 +226,27 @@ void Reader::look_for_positions() {
   const std::size_t head = TraceLayout::size + (header_.extra_headers > 0 ? ExtensionLayout::size : 0);
   const auto first = source_.peek(head);
   if (first.size() < head) return;
-  positions_ = {false, false};
-  see_positions(first);
-  if (lengths_by_trace_ || (positions_.source && positions_.receiver)) return;
+  PositionsGiven seen{false, false, false};
+  see_positions(first, seen);
+  if (!lengths_by_trace_ && !(seen.source && seen.receiver)) look_further(head, seen);
+  if (seen.anything) positions_ = seen;
+}
+
+/// At the headers of other traces.
+void Reader::look_further(std::size_t head, PositionsGiven& seen) {
   const auto length = static_cast<std::uint64_t>(TraceLayout::size * (1 + header_.extra_headers) +
                                                  axis_.count * header_.format->bytes);
   if (!source_.size()) {
     const auto ahead = source_.peek(ByteSource::peek_limit);
     for (std::uint64_t at = length; at + head <= ahead.size(); at += length)
-      see_positions(ahead.subspan(static_cast<std::size_t>(at), head));
+      see_positions(ahead.subspan(static_cast<std::size_t>(at), head), seen);
     return;
   }
   const std::uint64_t traces = (*source_.size() - header_.first_trace) / length;
   const std::uint64_t step = std::max<std::uint64_t>(1, traces / most_heads);
   std::vector<std::uint8_t> bytes(head);
   for (std::uint64_t trace = step; trace < traces; trace += step)
-    if (source_.read_at(header_.first_trace + trace * length, bytes)) see_positions(bytes);
+    if (source_.read_at(header_.first_trace + trace * length, bytes)) see_positions(bytes, seen);
 }
 
 SampleAxis Reader::axis_of(const RawTrace& trace) const {

@@ -78,7 +78,8 @@ class Reader {
   void look_at_first_trace();
   bool trace_headers_fill(std::uint64_t size) const;
   void look_for_positions();
-  void see_positions(std::span<const std::uint8_t> head);
+  void look_further(std::size_t head, PositionsGiven& seen);
+  void see_positions(std::span<const std::uint8_t> head, PositionsGiven& seen) const;
   TraceHeader si_header_of(const TraceWords& words, const std::vector<std::uint8_t>& extensions) const;
   std::int64_t extra_headers_of(const std::optional<ExtensionWords>& extension) const;
   std::int64_t samples_of(const TraceWords& words, const std::optional<ExtensionWords>& extension) const;

@@ -33,11 +33,6 @@ struct Known {
   double least_offset_m = 0, largest_offset_m = 0;
 };
 
-bool is_scalar(std::int64_t word) {
-  const auto size = std::abs(word);
-  return size == 0 || size == 1 || size == 10 || size == 100 || size == 1000 || size == 10000;
-}
-
 double across(const Space& a, const Space& b) { return std::hypot(a[0] - b[0], a[1] - b[1]); }
 
 class GeometryReader {
@@ -59,6 +54,9 @@ class GeometryReader {
   void take();
   void complete();
   void group();
+  void refuse_again(const TraceGeometry& trace, std::size_t n, std::size_t first) const;
+  void check_spread(const std::vector<std::size_t>& traces) const;
+  std::string hint_of_revision() const;
   GivenSurvey collect();
   void add_shot(GivenSurvey& survey, ReceiverCollector& collector, const std::vector<std::size_t>& traces);
 
@@ -75,7 +73,7 @@ class GeometryReader {
 void GeometryReader::check_words() const {
   for (const auto& [name, byte, word] : {std::tuple("scalel", 69, trace_.words.get("scalel")),
                                          std::tuple("scalco", 71, trace_.words.get("scalco"))})
-    if (!is_scalar(word))
+    if (!segy::is_length_scalar(word))
       throw Error("found scalar " + std::string(name) + " (byte " + std::to_string(byte) + ") " +
                   std::to_string(word) + ", expected 1, 10, 100, 1000 or 10000, or one of them negative");
   if (trace_.words.get("counit") > 1)
@@ -128,6 +126,12 @@ void GeometryReader::take() {
 /// Puts coordinates that are missing in their place by offsets and midpoints.
 void GeometryReader::complete() {
   const bool any_offset = known_.least_offset_m != 0 || known_.largest_offset_m != 0;
+  const auto& given = reader_.positions();
+  if (!given.source && !given.receiver && any_offset && known_.least_offset_m == known_.largest_offset_m &&
+      traces_.size() > 1)
+    throw Error("found no coordinates of sources (bytes 73, 77) and receivers (81, 85), and one offset, " +
+                shown(known_.least_offset_m) + " m, for all traces; expected coordinates" +
+                hint_of_revision());
   if (known_.source && !known_.receiver && !known_.receiver_fits_offset)
     for (auto& trace : traces_)
       trace.receiver_m = {trace.source_m[0] + trace.offset_m, trace.source_m[1], trace.receiver_m[2]};
@@ -145,10 +149,6 @@ void GeometryReader::complete() {
     }
     return;
   }
-  if (known_.midpoint)
-    throw Error(
-        "found no coordinates of sources (bytes 73, 77) and receivers (81, 85), and one offset "
-        "for all traces, which has no direction at a midpoint; expected coordinates");
   if (differ) {
     for (auto& trace : traces_) trace.receiver_m[0] = trace.offset_m;
     return;
@@ -178,8 +178,37 @@ void GeometryReader::group() {
   }
 }
 
+/// A receiver without a channel where another of the same record and component is.
+void GeometryReader::refuse_again(const TraceGeometry& trace, std::size_t n, std::size_t first) const {
+  throw Error(
+      place(std::int64_t(n) + 1) + ": found channel 0 of field record " + std::to_string(trace.shot) +
+      " again at x = " + shown(trace.receiver_m[0]) + " m (first: trace " + std::to_string(first + 1) +
+      "), expected gathers, with records (byte 9) and channels (byte 13) or a place of its own for each "
+      "trace (bytes 73 to 88)" +
+      hint_of_revision());
+}
+
+std::string GeometryReader::hint_of_revision() const {
+  return reader_.header().major < 1 && !reader_.header().su
+             ? "; midpoints in bytes 181 to 188 count from revision 1 on"
+             : "";
+}
+
+/// Receivers that only offsets place, all of them at one.
+void GeometryReader::check_spread(const std::vector<std::size_t>& traces) const {
+  const auto& first = traces_[traces.front()];
+  if (reader_.positions().receiver || traces.size() < 2) return;
+  for (const auto n : traces)
+    if (traces_[n].receiver_m != first.receiver_m || traces_[n].component != first.component) return;
+  throw Error(place(std::int64_t(traces.front()) + 1) + ": found all " + std::to_string(traces.size()) +
+              " receivers of field record " + std::to_string(first.shot) + " at one offset (byte 37), " +
+              shown(first.offset_m) + " m, and no coordinates of them, expected some (bytes 81, 85)" +
+              hint_of_revision());
+}
+
 void GeometryReader::add_shot(GivenSurvey& survey, ReceiverCollector& collector,
                               const std::vector<std::size_t>& traces) {
+  check_spread(traces);
   auto& shot = survey.shots.emplace_back();
   const auto& first = traces_[traces.front()];
   shot.number = first.shot;
@@ -189,7 +218,8 @@ void GeometryReader::add_shot(GivenSurvey& survey, ReceiverCollector& collector,
   shot.sources.push_back(std::move(source));
   collector.begin(survey.shots.size() - 1);
   std::map<std::pair<std::int64_t, std::int16_t>, std::size_t> channels;  // of each component: trace
-  std::map<std::pair<std::int64_t, Space>, std::int16_t> receivers;       // their first component
+  // The first component at each of them, and its trace.
+  std::map<std::pair<std::int64_t, Space>, std::pair<std::int16_t, std::size_t>> receivers;
   for (const auto n : traces) {
     const auto& trace = traces_[n];
     if (trace.channel != 0) {
@@ -199,8 +229,10 @@ void GeometryReader::add_shot(GivenSurvey& survey, ReceiverCollector& collector,
                     " of field record " + std::to_string(trace.shot) + " again (first: trace " +
                     std::to_string(same->second + 1) + "), expected it once");
     }
-    const auto [receiver, is_new] = receivers.try_emplace({trace.channel, trace.receiver_m}, trace.component);
-    if (!is_new && receiver->second != trace.component) continue;
+    const auto [receiver, is_new] =
+        receivers.try_emplace({trace.channel, trace.receiver_m}, std::pair(trace.component, n));
+    if (!is_new && receiver->second.first != trace.component) continue;
+    if (!is_new) refuse_again(trace, n, receiver->second.second);
     Place place;
     place.at_m = trace.receiver_m;
     collector.add(place, trace.channel, known_.bin ? std::optional<std::int64_t>(trace.bin) : std::nullopt);

@@ -161,13 +161,28 @@ AttenuationChoice SceneOptions::attenuation() const {
   return choice;
 }
 
+/// Of wavelets that a record cuts off, each once.
+template <int D>
+void add_wavelet_warnings(std::vector<std::string>& warnings, const Scene<D>& scene) {
+  const auto see = [&](const Source<D>& source) {
+    const auto warning = beyond_record(source.wavelet, source.delay_s, scene.recording.duration_s);
+    if (!warning.empty() && std::find(warnings.begin(), warnings.end(), warning) == warnings.end())
+      warnings.push_back(warning);
+  };
+  for (const auto& source : scene.survey.sources) see(source);
+  for (const auto& blended : scene.survey.blended)
+    for (const auto& source : blended) see(source);
+}
+
 /// Checks the model and lets it attenuate.
 template <int D>
 std::vector<std::string> SceneOptions::prepare_model(Scene<D>& scene) const {
   check_model(scene.model);
   const auto choice = attenuation();
   try {
-    return set_attenuation(scene, choice);
+    auto warnings = set_attenuation(scene, choice);
+    add_wavelet_warnings(warnings, scene);
+    return warnings;
   } catch (const Error& error) {
     if (error.kind() == ErrorKind::usage) throw;
     throw error.within(model == "-" ? "standard input" : model);

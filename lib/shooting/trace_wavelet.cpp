@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "base/error.hpp"
@@ -73,6 +74,24 @@ Wavelet wavelet_named(const std::string& text) {
     return parse_wavelet(text);
   }
   return {read_trace(path, number), text};
+}
+
+std::string beyond_record(const Wavelet& wavelet, double delay_s, double record_s) {
+  const auto* const sampled = std::get_if<shape::Sampled>(&wavelet.shape());
+  if (!sampled || delay_s + sampled->duration_s() <= record_s) return "";
+  const auto& times = sampled->times_s();
+  const auto& values = sampled->values();
+  double all = 0, beyond = 0;
+  for (std::size_t n = 0; n + 1 < times.size(); ++n) {
+    const double energy = values[n] * values[n] * (times[n + 1] - times[n]);
+    all += energy;
+    if (delay_s + times[n] > record_s) beyond += energy;
+  }
+  if (!(beyond > 1e-4 * all)) return "";
+  return "wavelet " + wavelet.text() + " ends at " + shown(delay_s + sampled->duration_s(), 6) +
+         " s, beyond the record of " + shown(record_s) + " s (" + shown(100 * beyond / all, 3) +
+         " % of its energy), in samples " + shown(times[times.size() / 2] - times[times.size() / 2 - 1], 6) +
+         " s apart: times in its file are in seconds, unless its header line names another unit";
 }
 
 }  // namespace slipwave

@@ -152,7 +152,7 @@ void write_bad_models(const std::string& directory) {
     for (auto& z : model.z) z += 100;
   });
   with("no-units", [](Contents& model) { model.units.clear(); });
-  with("feet", [](Contents& model) { model.units = "ft/s"; });
+  with("kilograms", [](Contents& model) { model.units = "kg"; });
   with("text", [](Contents& model) { model.texts_for_speeds = true; });
   const auto fitted = [&](const std::string& name, const std::function<void(Contents&)>& flaw) {
     with(name, [&](Contents& model) {

@@ -50,6 +50,7 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     only_in("^fftw", header, "^lib/base/fft[.]cpp$")
     only_in("^(tbb|oneapi)/", header, "^lib/parallel/threads[.]cpp$")
     only_in("^netcdf", header, "^lib/.*netcdf[a-z_]*[.][ch]pp$")
+    only_in("^udunits2", header, "^lib/io/units[.]cpp$")
     only_in("^boost/", header, "^(lib/cli|tools)/")
     only_in("^(cairo|pango)", header, "^lib/plot/")
     only_in("^mpi[.]h", header, "^lib/parallel/ranks_mpi[.]cpp$")

@@ -36,9 +36,9 @@ for package in "$tools" "$library"; do
   [ -f "$package" ] || { ls "$work/packages"; echo 'expected packages slipwave and libslipwave-dev'; exit 1; }
 done
 
-must_hold "$tools" Depends 'libc6 (>= ' 'libcairo2 (>= ' 'libpangocairo-1.0-0 (>= ' 'libfftw3-double3 (>= ' 'libnetcdf' 'libtbb' 'libboost-program-options' \
+must_hold "$tools" Depends 'libc6 (>= ' 'libcairo2 (>= ' 'libpangocairo-1.0-0 (>= ' 'libfftw3-double3 (>= ' 'libnetcdf' 'libudunits2-0' 'libtbb' 'libboost-program-options' \
   'fonts-dejavu-core'
-must_hold "$library" Depends libboost-program-options-dev libtbb-dev libfftw3-dev libnetcdf-dev libpango1.0-dev
+must_hold "$library" Depends libboost-program-options-dev libtbb-dev libfftw3-dev libnetcdf-dev libudunits2-dev libpango1.0-dev
 for package in "$tools" "$library"; do
   must_hold "$package" Architecture "$(dpkg --print-architecture)"
   field "$package" Version | grep -qE '^[0-9][A-Za-z0-9.+~]*$' || broken "the version is $(field "$package" Version)"

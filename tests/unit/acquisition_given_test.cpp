@@ -8,8 +8,9 @@
 #include "acquisition/ground.hpp"
 #include "acquisition/place.hpp"
 #include "acquisition/sps.hpp"
-#include "acquisition/table.hpp"
+#include "acquisition/survey_table.hpp"
 #include "base/error.hpp"
+#include "io/table.hpp"
 
 namespace slipwave {
 namespace {
@@ -117,6 +118,26 @@ TEST(ReceiverCollector, HoldsSpreadsThatRollAlongOnce) {
   EXPECT_EQ(count, 100U);
 }
 
+TEST(SourceTable, HasUnitsInItsHeader) {
+  GivenSurvey survey;
+  Table table("s", "X.FT;Z (ft);Delay (ms)\n100;surface+10;20\n");
+  read_sources(table, 2, survey);
+  const auto& source = survey.shots.at(0).sources.at(0);
+  EXPECT_DOUBLE_EQ(source.place.at_m[0], 30.48);
+  EXPECT_EQ(source.place.depth_from, DepthFrom::surface);
+  EXPECT_DOUBLE_EQ(source.place.at_m[2], 3.048);
+  EXPECT_DOUBLE_EQ(source.delay_s, 0.02);
+}
+
+TEST(SourceTable, SaysWhatToAddToNegativeDelays) {
+  GivenSurvey survey;
+  Table table("s", "x,z,delay\n100,10,-0.25\n");
+  EXPECT_EQ(refusal([&] { read_sources(table, 2, survey); }),
+            "s: line 2: column delay: found a delay of -0.25 s, expected 0 or more, as records begin with "
+            "time 0: add "
+            "0.25 s or more to all delays of the record");
+}
+
 /// The columns of SPS 2.1, filled from the left as the standard has them.
 std::string point(char kind, int line, double number, double x, double y, double depth, double elevation) {
   char text[128];
@@ -147,6 +168,72 @@ TEST(Sps, RelationsMakeShots) {
   EXPECT_EQ(survey.places[runs[0].first_place].at_m, (std::array{1050., 500.5, -12.}));
   EXPECT_EQ(runs[2].channel, 6);
   EXPECT_EQ(survey.places[runs[2].first_place].at_m[0], 1100);
+}
+
+std::string header(const std::string& label, const std::string& value) {
+  std::string text = label;
+  text.resize(32, ' ');
+  return text + value + '\n';
+}
+
+TEST(Sps, LengthsAreInTheGridUnitOfTheHeader) {
+  const std::string sources = point('S', 1, 101, 1000, 500, 10, 0),
+                    receivers = point('R', 2, 201, 2000, 500, 0, 20),
+                    relations = relation(1, 101, 1, 1, 1, 201, 201);
+  const auto read = [&](const std::string& head) {
+    return survey_of_sps({"a.s", "a.r", "a.x"}, {head + sources, head + receivers, head + relations});
+  };
+  const auto expect_unit = [&](const std::string& head, double unit_m) {
+    const auto survey = read(head);
+    EXPECT_DOUBLE_EQ(survey.shots[0].sources[0].place.at_m[0], 1000 * unit_m) << head;
+    EXPECT_DOUBLE_EQ(survey.shots[0].sources[0].place.at_m[2], 10 * unit_m) << head;
+    EXPECT_DOUBLE_EQ(survey.places[0].at_m[2], -20 * unit_m) << head;
+  };
+  const auto name = [](const std::string& text) { return header("H20 Description of grid units", text); };
+  const auto factor = [](const std::string& text) { return header("H201Factor to metre", text); };
+  expect_unit("", 1);
+  expect_unit(name("METRES;") + factor("1.00000000;"), 1);
+  expect_unit(name("US SURVEY FEET;") + factor("0.30480061;"), 0.30480061);
+  expect_unit(factor("0.3048"), 0.3048);
+  expect_unit(name("INTERNATIONAL FEET"), 0.3048);
+  expect_unit(name("US SURVEY FEET"), 1200. / 3937);
+  const auto said = [&](const std::string& head) { return refusal([&] { read(head); }); };
+  EXPECT_EQ(said(name("FEET")),
+            "a.s: line 1: columns 33-56 (description of grid units): found 'FEET' without a factor to metre "
+            "(H201), "
+            "expected metres, or H201: 0.3048 of international feet, 0.30480061 of US survey feet");
+  EXPECT_EQ(
+      said(name("DEGREES")),
+      "a.s: line 1: columns 33-56 (description of grid units): found 'DEGREES' without a factor to metre "
+      "(H201), expected metres, or H201: 0.3048 of international feet, 0.30480061 of US survey feet");
+  EXPECT_EQ(said(name("METRES") + factor("0.3048")),
+            "a.s: line 2: columns 33-46 (factor to metre): found 0.3048, expected 1, as the grid units are "
+            "'METRES' "
+            "(a.s: line 1)");
+  EXPECT_EQ(said(factor("0;")), "a.s: line 1: columns 33-46 (factor to metre): found 0, expected it above 0");
+  EXPECT_EQ(said(factor("feet")),
+            "a.s: line 1: columns 33-46 (factor to metre): found 'FEET', expected a number");
+  EXPECT_EQ(refusal([&] {
+              survey_of_sps({"a.s", "a.r", "a.x"},
+                            {factor("0.3048") + sources, factor("1") + receivers, relations});
+            }),
+            "a.r: line 1: columns 33-46 (factor to metre): found 1 metres, expected 0.3048 as before (a.s: "
+            "line 1)");
+}
+
+TEST(Sps, OfTheFirstVersionIsRefusedByItsField) {
+  const std::string body = point('S', 1, 101, 1000, 500, 6, 0) + point('R', 2, 201, 1000, 500, 0, 12) +
+                           relation(1, 101, 1, 1, 1, 201, 201);
+  const auto said = [&](const std::string& version) {
+    return refusal([&] { survey_of_sps({"a"}, {header("H00 SPS format version num.", version) + body}); });
+  };
+  for (const char* version : {"SPS 2.1;", "SPS2.1", "2.1", "sps 2.10", "SPS 2"})
+    EXPECT_EQ(said(version), "") << version;
+  for (const char* version : {"SPS001,12.02.92", "SPS 1.2;", "SPS 1;", "SPS 3.2", "REVISED 12 MAY"})
+    EXPECT_EQ(said(version),
+              "a: line 1: columns 33-80 (format version): found '" + std::string(version) +
+                  "', expected SPS 2.1, whose lines and points have other columns than those of SPS "
+                  "1; export it as SPS 2.1");
 }
 
 TEST(Sps, WhatIsWrongIsNamedByColumns) {

@@ -165,5 +165,21 @@ TEST_F(WaveletFile, RefusesAFileWithoutAWavelet) {
   }
 }
 
+TEST_F(WaveletFile, MayHaveAHeaderThatNamesTheUnitOfTime) {
+  const auto plain = read("0 0\n0.01 1\n0.02 -1\n0.03 0\n");
+  for (const char* text :
+       {"time value\n0 0\n0.01 1\n0.02 -1\n0.03 0\n", "Time (ms);Amplitude\n0;0\n10;1\n20;-1\n30;0\n",
+        "amp,T.MS\n0,0\n1,10\n-1,20\n0,30\n", "# dt=0.01\namplitude\n0\n1\n-1\n0\n"}) {
+    const auto wavelet = read(text);
+    EXPECT_NEAR(wavelet.duration_s(), 0.03, 1e-15) << text;
+    for (const double t : {0.004, 0.01, 0.017}) EXPECT_NEAR(wavelet(t), plain(t), 1e-12) << text;
+  }
+  EXPECT_NE(refusal("frequency value\n0 0\n1 1\n")
+                .find("line 1: found 2 columns with names, expected two, one of them"),
+            std::string::npos);
+  EXPECT_NE(refusal("time.m value\n0 0\n1 1\n").find("found the unit 'm', expected one of time"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace slipwave

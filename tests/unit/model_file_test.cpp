@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "grid/grid_netcdf.hpp"
 #include "io/netcdf_file.hpp"
@@ -185,10 +186,76 @@ TEST_F(ModelFile, RefusesUnevenUnequalOrLoweredGrids) {
   };
   EXPECT_EQ(with({5, 15, 25}, {5, 15}), "no error");
   EXPECT_NE(with({5, 15, 26}, {5, 15}).find("x: found unevenly spaced"), std::string::npos);
-  EXPECT_NE(with({25, 15, 5}, {5, 15}).find("x: found unevenly spaced or descending"), std::string::npos);
+  EXPECT_NE(with({25, 15, 5}, {5, 15}).find("x: found cells from 25 to 5 m, expected ascending ones"),
+            std::string::npos);
   EXPECT_EQ(with({5, 15, 25}, {2.5, 7.5}),
             "m.nc: found a step of 10 m along x and of 5 m along z, expected equal steps");
   EXPECT_EQ(with({5, 15, 25}, {0, 10}), "m.nc: z begins at 0, expected 5, half a step below the surface");
+}
+
+/// A model of 3 x 2 cells of 10 m as other programs may write it, with these attributes, coordinates and
+/// values.
+struct Foreign {
+  std::map<std::string, std::map<std::string, std::string>> attributes = {};
+  std::vector<double> x = {5, 15, 25}, z = {5, 15};
+  std::vector<float> vp = {1000, 1100, 1200, 2000, 2100, 2200};
+  double x_scale = 1, x_offset = 0;
+};
+
+TEST_F(ModelFile, HasTheUnitsAndDirectionsThatItNames) {
+  const auto read = [&](const Foreign& foreign) {
+    {
+      auto file = NetcdfFile::create(path_, path_);
+      file.define_dimension("z", 2);
+      file.define_dimension("x", 3);
+      file.define_variable("x", NetcdfFile::Type::f64, {"x"});
+      file.define_variable("z", NetcdfFile::Type::f64, {"z"});
+      for (const char* name : {"vp", "vs", "rho"})
+        file.define_variable(name, NetcdfFile::Type::f32, {"z", "x"});
+      for (const auto& [variable, texts] : foreign.attributes)
+        for (const auto& [name, text] : texts) file.put_attribute(variable, name, text);
+      if (foreign.x_scale != 1) {
+        file.put_attribute("x", "scale_factor", std::vector<double>{foreign.x_scale});
+        file.put_attribute("x", "add_offset", std::vector<double>{foreign.x_offset});
+      }
+      file.put("x", foreign.x.data());
+      file.put("z", foreign.z.data());
+      file.put("vp", foreign.vp.data());
+      file.put("vs", std::vector<float>(6, 0).data());
+      file.put("rho", std::vector<float>(6, 1000).data());
+      file.close();
+    }
+    return read_model<2>(path_);
+  };
+  const auto expected = read({});
+  EXPECT_EQ(expected.grid(), grid_of(3, 2, 10));
+  Foreign other;
+  other.attributes = {{"x", {{"units", "km"}}}, {"z", {{"positive", "up"}, {"units", "m"}}}};
+  other.attributes["vp"]["units"] = "km s-1";
+  other.x = {0.005, 0.015, 0.025};
+  other.z = {-5, -15};
+  other.vp = {1, 1.1F, 1.2F, 2, 2.1F, 2.2F};
+  const auto found = read(other);
+  EXPECT_EQ(found.grid(), expected.grid());
+  for (std::size_t cell = 0; cell < 6; ++cell)
+    EXPECT_FLOAT_EQ(found.medium.vp[cell], expected.medium.vp[cell]);
+  Foreign packed;
+  packed.x_scale = 0.5;
+  packed.x_offset = -100;
+  packed.x = {210, 230, 250};
+  EXPECT_EQ(read(packed).grid(), expected.grid());
+  const auto refused = [&](const std::string& variable, const std::string& name, const std::string& text) {
+    Foreign wrong;
+    wrong.attributes[variable][name] = text;
+    return sentence_of([&] { read(wrong); }).substr(path_.size() + 2);
+  };
+  EXPECT_EQ(refused("vp", "units", "degrees"),
+            "vp: found the unit 'degrees', expected one of speed, as m s-1, km s-1 or ft s-1");
+  EXPECT_EQ(refused("rho", "units", "kg"),
+            "rho: found the unit 'kg', expected one of density, as kg m-3 or g cm-3");
+  EXPECT_EQ(refused("z", "positive", "up"),
+            "z: found cells from -5 to -15 m deep, expected them from the top down: ncpdq -a -z FILE "
+            "reverses them");
 }
 
 TEST(RawField, RunsDownTheColumnsWhenZIsFast) {
@@ -209,17 +276,6 @@ TEST(RawField, RunsDownTheColumnsWhenZIsFast) {
             "found 24 bytes, expected 36 for 3 x 3 cells of 5 m, 4 bytes each");
 }
 
-TEST(SectionOfColumns, PutsTracesSideBySide) {
-  const auto field = field_from_columns({{1, 2}, {3, 4}, {5, 6}}, 10);
-  EXPECT_EQ(field.grid(), grid_of(3, 2, 10));
-  EXPECT_EQ(field({1, 0}), 3);
-  EXPECT_EQ(field({2, 1}), 6);
-  EXPECT_EQ(sentence_of([] {
-              field_from_columns({{1, 2}, {3}}, 10);
-            }),
-            "trace 2: found 1 samples, expected 2 as in the first");
-}
-
 TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
   {
     // speed(x, elevation) in km/s, elevation in km upwards, from the bottom.
@@ -235,7 +291,7 @@ TEST_F(ModelFile, ForeignSectionsComeInWithTheirUnitsAndDirections) {
     file.put("speed", std::vector<double>{4, 3, 2, 4.5, 3.5, 2.5}.data());
     file.close();
   }
-  const auto field = field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", {});
+  const auto field = field_of<2>(field_from_netcdf(NetcdfFile::open(path_), row_of(Property::vp), "", {}));
   EXPECT_EQ(field.grid(), grid_of(2, 3, 20));
   EXPECT_EQ(field({0, 0}), 2000);
   EXPECT_EQ(field({1, 0}), 2500);

@@ -136,7 +136,7 @@ TEST_F(FittedModelFile, WithDamagedDepthsIsRefusedInOneSentence) {
   };
   EXPECT_EQ(grid_error([](NetcdfFile&, const Grid<2>&) {}), "no error");
   EXPECT_EQ(grid_error(put_corner(std::numeric_limits<double>::quiet_NaN())),
-            "depth_bounds: found a depth of nan m at row 3, column 4 of the corners, expected a number");
+            "depth_bounds[3,4] is missing (NaN or its _FillValue), expected a number");
   EXPECT_TRUE(grid_error(put_corner(0))
                   .starts_with("depth_bounds: found a depth of 0 m at row 3, column 4 of the corners, "
                                "expected it below the one above"));
@@ -149,6 +149,15 @@ TEST_F(FittedModelFile, WithDamagedDepthsIsRefusedInOneSentence) {
               file.put_attribute("horizon_floor", "row", std::vector<int>{41});
             }),
             "horizon_floor: found no row from 0 to 40 that follows it, expected the attribute row");
+  const auto put_horizon = [](double depth) {
+    return [depth](NetcdfFile& file, const Grid<2>&) { file.put("horizon_floor", {6}, {1}, &depth); };
+  };
+  EXPECT_EQ(grid_error(put_horizon(std::numeric_limits<double>::quiet_NaN())),
+            "horizon_floor[6] is missing (NaN or its _FillValue), expected a number");
+  EXPECT_TRUE(grid_error(put_horizon(77)).starts_with("horizon_floor is 77 m deep at x=32.5, but row "));
+  EXPECT_TRUE(grid_error([](NetcdfFile& file, const Grid<2>&) {
+                file.put_attribute("depth_bounds", "units", "degree");
+              }).starts_with("depth_bounds: found the unit 'degree', expected one of length"));
 }
 
 TEST_F(FittedModelFile, WithCornersOfAnotherGridIsRefused) {

@@ -116,10 +116,10 @@ TEST(GridHorizonFile, SaysWhatIsWrong) {
   EXPECT_EQ(refused(gap), "z: the depth at x = 100, y = 150 is inf, expected a number");
   GridFile seconds;
   seconds.units = "ms";
-  EXPECT_EQ(refused(seconds), "z: found the unit 'ms', expected m or km");
+  EXPECT_EQ(refused(seconds), "z: found the unit 'ms', expected one of length, as m, km or ft");
   GridFile degrees;
   degrees.coordinate_units = "degrees_east";
-  EXPECT_EQ(refused(degrees), "x: found the unit 'degrees_east', expected m or km");
+  EXPECT_EQ(refused(degrees), "x: found the unit 'degrees_east', expected one of length, as m, km or ft");
   GridFile several;
   several.name = "top";
   several.second = "base";

@@ -202,3 +202,22 @@ TEST(Layers, RefuseAPileThatIsNoPile) {
       "the layer at sine,100,20,500 lies above the one before it, at 200 m, all along the model; expected "
       "them from the top down");
 }
+
+TEST(Horizon, TakesPointsBelowAHeaderInItsUnits) {
+  for (const char* text : {"x z\n0 50\n100 60\n200 40\n", "X;Depth\n0;50\n100;60\n200;40\n",
+                           "Elevation [m], X [km]\n-50,0\n-60,0.1\n-40,0.2\n",
+                           "x (ft) depth (ft)\n0 164.0419947506562\n328.0839895013123 196.8503937007874\n"
+                           "656.1679790026247 131.2335958005249\n"}) {
+    const TextFile file(text);
+    const auto horizon = Horizon::parse("@" + file.path());
+    EXPECT_NEAR(horizon.at(50), 55, 1e-9) << text;
+    EXPECT_NEAR(horizon.at(150), 50, 1e-9) << text;
+  }
+  const TextFile grid("Y X Z\n0 0 50\n0 200 60\n100 0 40\n100 200 55\n");
+  EXPECT_NEAR(Horizon::parse("@" + grid.path()).at(200, 0), 60, 1e-12);
+  const TextFile wrong("x velocity\n0 50\n100 60\n");
+  EXPECT_NE(sentence_of([&] {
+              Horizon::parse("@" + wrong.path());
+            }).find("line 1: found column 'velocity', expected x and z, depth or elevation, each once"),
+            std::string::npos);
+}

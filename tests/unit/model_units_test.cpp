@@ -1,5 +1,6 @@
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "model/input_units.hpp"
 #include "model/layers.hpp"
@@ -38,6 +39,9 @@ TEST(InputUnits, AreMadeSIForThePropertiesThatHaveThem) {
   EXPECT_EQ(InputUnits::parse("km/s").factor(Property::rho), 1);
   EXPECT_EQ(InputUnits::parse("ft/s").factor(Property::vp), 0.3048);
   EXPECT_EQ(InputUnits().factor(Property::vp), 1);
+  EXPECT_EQ(InputUnits::parse("KM/S,G/CC").factor(Property::rho), 1000);
+  EXPECT_EQ(InputUnits::parse("m/s").given(Property::vp), 1.);
+  EXPECT_FALSE(InputUnits::parse("m/s").given(Property::rho));
 }
 
 TEST(InputUnits, OfALayerLeaveItsGradientPerSecond) {
@@ -59,10 +63,62 @@ TEST(RawShape, IsTakenWhereNeighboursContinueEachOther) {
 
 TEST(RawShape, IsRefusedWhereTheNumbersOfCellsAreExchanged) {
   const auto sentence = said_of(50, 120, FastAxis::z);
-  EXPECT_NE(sentence.find("found 50x120, in which neighbouring columns differ by"), std::string::npos)
+  EXPECT_NE(sentence.find("found 50x120 in the order z-fast, in which neighbouring columns do not continue"),
+            std::string::npos)
       << sentence;
-  EXPECT_NE(sentence.find("with --shape 120x50 or --order x-fast"), std::string::npos) << sentence;
-  EXPECT_NE(said_of(120, 50, FastAxis::x).find("with --shape 50x120 or --order z-fast"), std::string::npos);
+  EXPECT_NE(sentence.find("expected --shape 120x50 or --order x-fast"), std::string::npos) << sentence;
+  EXPECT_NE(said_of(120, 50, FastAxis::x).find("expected --shape 50x120 or --order z-fast"),
+            std::string::npos);
+}
+
+/// Raw values in the order of a file, of a section given by its values.
+std::vector<char> raw_of(const std::function<double(std::int64_t, std::int64_t)>& value, std::int64_t nx,
+                         std::int64_t nz, FastAxis order) {
+  std::vector<char> bytes;
+  for (std::int64_t n = 0; n < nx * nz; ++n) {
+    const std::int64_t i = order == FastAxis::z ? n / nz : n % nx, k = order == FastAxis::z ? n % nz : n / nx;
+    const auto bits = std::bit_cast<std::uint32_t>(float(value(i, k)));
+    for (std::size_t byte = 0; byte < 4; ++byte) bytes.push_back(char(bits >> (8 * byte) & 0xff));
+  }
+  return bytes;
+}
+
+TEST(RawShape, IsToldFromTheOtherOrderWhateverTheLayering) {
+  // Beds that dip, a flat layer, a gradient, a body; each in both orders, read in either.
+  const std::vector<std::function<double(std::int64_t, std::int64_t)>> sections = {
+      [](auto i, auto k) { return 10. * k > 200. + double(i) ? 2000. : 1500.; },
+      [](auto, auto k) { return k > 19 ? 2000. : 1500.; },
+      [](auto i, auto k) { return 1500. + 10. * double(k) + double(i); },
+      [](auto i, auto k) { return std::abs(i - 60) < 30 && k > 19 && k < 40 ? 2500. : 2000.; }};
+  for (const auto& [nx, nz] : {std::pair<std::int64_t, std::int64_t>(120, 50), {64, 64}})
+    for (std::size_t n = 0; n < sections.size(); ++n)
+      for (const auto order : {FastAxis::z, FastAxis::x})
+        for (const auto read_as : {FastAxis::z, FastAxis::x}) {
+          // A body may stand upright; of equal numbers of cells nothing else tells.
+          if (nx == nz && n == 3) continue;
+          Grid<2> grid;
+          grid.shape = {nx, nz};
+          const auto said =
+              sentence_of([&] { check_raw_shape(raw_of(sections[n], nx, nz, order), grid, read_as); });
+          EXPECT_EQ(said == "no error", order == read_as) << n << ' ' << nx << ' ' << said;
+        }
+}
+
+TEST(RawShape, OfVolumesIsToldTooWithoutLookingAtY) {
+  Grid<3> grid;
+  grid.shape = {30, 5, 20};
+  std::vector<float> z_fast, x_fast;
+  const auto value = [](std::int64_t i, std::int64_t k) { return 1500 + 20 * float(k) + float(i); };
+  for (int i = 0; i < 30; ++i)
+    for (int j = 0; j < 5; ++j)
+      for (int k = 0; k < 20; ++k) z_fast.push_back(value(i, k));
+  std::vector<char> bytes(z_fast.size() * 4);
+  std::copy_n(reinterpret_cast<const char*>(z_fast.data()), bytes.size(), bytes.begin());
+  EXPECT_EQ(sentence_of([&] { check_raw_shape(bytes, grid, FastAxis::z); }), "no error");
+  EXPECT_NE(sentence_of([&] {
+              check_raw_shape(bytes, grid, FastAxis::x);
+            }).find("expected --shape 20x5x30 or --order z-fast"),
+            std::string::npos);
 }
 
 TEST(RawShape, IsTakenOfWhatHasNoShape) {

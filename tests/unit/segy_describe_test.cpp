@@ -149,6 +149,43 @@ TEST(Describe, TakesStacksWithoutReceiversForStacks) {
   EXPECT_NE(report_of(facts).lines().find("receiver         no coordinates in the file"), std::string::npos);
 }
 
+TEST(Describe, TakesStacksThatBeginAtTheOriginForStacks) {
+  // The first trace says nothing at all.
+  const Description facts = with_words([](std::int64_t n, const auto& put) {
+    put(73, 25000 * n), put(77, 25000 * n);
+    for (const std::size_t byte : {37, 81, 85, 181, 185}) put(byte, 0);
+  });
+  EXPECT_TRUE(facts.positions.source);
+  EXPECT_FALSE(facts.positions.receiver);
+  EXPECT_EQ(facts.offset_m.highest, 0);
+}
+
+TEST(Describe, ShowsNoMetresWhereTheHeadersHaveNone) {
+  const auto lines_of = [](const Description& facts) { return report_of(facts).lines(); };
+  const auto holds = [](const std::string& lines, const std::string& part) {
+    EXPECT_NE(lines.find(part), std::string::npos) << part << '\n' << lines;
+  };
+  // Bytes 89 and 90: the unit of coordinates; 71 and 72: their scalar. Words of 4 bytes hold a neighbour,
+  // too.
+  const auto arc = lines_of(with_words([](std::int64_t n, const auto& put) {
+    put(89, 2 << 16);
+    put(73, 1052345), put(81, 1052345 + n), put(37, 100 * (n + 1));
+  }));
+  holds(arc, " seconds of arc\n");
+  holds(arc, "in seconds of arc (byte 89); sw-shoot --geometry refuses it");
+  holds(arc, "offset word (37)  100 to 4800 m\n");
+  EXPECT_EQ(arc.find("source x          1052345 m"), std::string::npos);
+  const auto scalar = lines_of(with_words([](std::int64_t, const auto& put) {
+    put(69, (1 << 16) + 82);
+    put(73, 501351);
+  }));
+  holds(scalar, "501351 unscaled\n");
+  holds(scalar, "scalar 82 (byte 71) is no power of ten; sw-shoot --geometry refuses it");
+  const auto other = lines_of(with_words([](std::int64_t n, const auto& put) { put(37, 1000 * (n + 1)); }));
+  holds(other, "offset word (37)");
+  holds(other, "the words (byte 37) are not the distances of the coordinates");
+}
+
 TEST(Describe, BelievesCoordinatesThatAre0) {
   // A receiver at 0 whose byte 37 was left empty, and others beside it.
   const Description line = with_words([](std::int64_t n, const auto& put) {

@@ -6,10 +6,13 @@
 #include <string_view>
 #include <vector>
 
+#include "io/column_header.hpp"
+
 namespace slipwave {
 
-/// A table that people or their programs wrote: CSV (RFC 4180) with a header line that names the columns in
-/// any order, or columns between blanks, with or without a header. # begins a comment line; empty lines are
+/// A table that people or their programs wrote: CSV (RFC 4180, or with ; in place of commas) with a header
+/// line that names the columns in any order and letters of any case, or columns between blanks, with or
+/// without a header. Headers may name units (column_header()). # begins a comment line; empty lines are
 /// passed over. Rows are read one after the other.
 class Table {
  public:
@@ -25,8 +28,19 @@ class Table {
   std::size_t width() const { return width_; }
   /// Where a column is; none where the table has no such column.
   std::optional<std::size_t> find(std::string_view column) const;
-  /// Refuses columns that are not among these: a misspelt name must not be passed over.
-  void expect_columns(const std::vector<std::string>& known) const;
+  /// A column that may be there, and the unit that its numbers shall be in; "" of what has none.
+  struct Known {
+    std::string name, unit = "";
+  };
+  /// Refuses columns that are not among these: a misspelt name must not be passed over; and units that do not
+  /// convert. Numbers are in these units from now on.
+  void expect_columns(const std::vector<Known>& known);
+  /// Numbers of a column shall be in that unit.
+  void expect_unit(std::size_t column, const std::string& unit);
+  /// The unit that the header names; "" where it names none.
+  const std::string& unit(std::size_t column) const { return units_[column]; }
+  /// A number as it stands in a column, in the unit that is expected.
+  double in_unit(std::size_t column, double number) const { return conversions_[column](number); }
   /// Names the columns of a table without header.
   void name_columns(const std::vector<std::string>& names);
 
@@ -52,11 +66,12 @@ class Table {
 
   std::string name_, text_;
   std::string_view rest_;
-  bool commas_ = false;
+  char separator_ = ' ';
   std::int64_t line_ = 0;
   std::size_t width_ = 0;
   bool first_is_row_ = false;
-  std::vector<std::string> columns_;
+  std::vector<std::string> columns_, units_;
+  std::vector<UnitConversion> conversions_;
   std::vector<std::string_view> values_;
   std::vector<std::string> unquoted_;
 };

@@ -1,4 +1,4 @@
-#include "acquisition/table.hpp"
+#include "io/table.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -20,15 +20,6 @@ std::string_view trimmed(std::string_view text) {
 
 std::string as_text(const std::vector<char>& bytes) { return {bytes.begin(), bytes.end()}; }
 
-bool is_number(std::string_view text) {
-  try {
-    parse_number(text);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 }  // namespace
 
 Table::Table(const std::string& path) : Table(shown_input(path), as_text(read_all(path))) {}
@@ -42,18 +33,27 @@ void Table::begin() {
   if (rest_.starts_with(byte_order_mark)) rest_.remove_prefix(byte_order_mark.size());
   if (!next_values()) throw Error(name_ + ": found no row, expected a table");
   width_ = values_.size();
+  conversions_.resize(width_);
+  units_.resize(width_);
   // A header has a name in each column; a row has at least one number.
-  const bool header =
-      std::none_of(values_.begin(), values_.end(), [](std::string_view value) { return is_number(value); });
-  if (!header) {
+  if (!in_place(place(), [&] { return are_headers(values_); })) {
     first_is_row_ = true;
     return;
   }
-  for (const auto value : values_) {
-    if (value.empty()) throw Error(place() + ": found a column without name, expected one");
-    if (std::find(columns_.begin(), columns_.end(), value) != columns_.end())
-      throw Error(place() + ": found column " + excerpt(std::string(value)) + " twice, expected it once");
-    columns_.emplace_back(value);
+  std::vector<ColumnHeader> headers;
+  if (separator_ == ' ') {
+    headers = column_headers(values_);
+  } else {
+    for (const auto value : values_) headers.push_back(column_header(value));
+  }
+  width_ = headers.size();
+  for (std::size_t n = 0; n < width_; ++n) {
+    const auto& name = headers[n].name;
+    if (name.empty()) throw Error(place() + ": found a column without name, expected one");
+    if (std::find(columns_.begin(), columns_.end(), name) != columns_.end())
+      throw Error(place() + ": found column " + excerpt(name) + " twice, expected it once");
+    columns_.push_back(name);
+    units_[n] = headers[n].unit;
   }
   const auto rows = rest_;
   const auto header_line = line_;
@@ -68,10 +68,24 @@ std::optional<std::size_t> Table::find(std::string_view column) const {
   return std::size_t(at - columns_.begin());
 }
 
-void Table::expect_columns(const std::vector<std::string>& known) const {
-  for (const auto& column : columns_)
-    if (std::find(known.begin(), known.end(), column) == known.end())
-      throw Error(name_ + ": found column '" + excerpt(column) + "', expected " + joined(known, " or "));
+void Table::expect_columns(const std::vector<Known>& known) {
+  for (std::size_t n = 0; n < columns_.size(); ++n) {
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&](const Known& one) { return one.name == columns_[n]; });
+    if (found != known.end()) {
+      expect_unit(n, found->unit);
+      continue;
+    }
+    std::vector<std::string> names;
+    for (const auto& one : known) names.push_back(one.name);
+    throw Error(name_ + ": found column '" + excerpt(columns_[n]) + "', expected " + joined(names, " or "));
+  }
+}
+
+void Table::expect_unit(std::size_t column, const std::string& unit) {
+  conversions_[column] = in_place(name_, [&] {
+    return ColumnHeader{columns_[column], units_[column]}.conversion(unit);
+  });
 }
 
 void Table::name_columns(const std::vector<std::string>& names) { columns_ = names; }
@@ -88,7 +102,7 @@ void Table::refuse(std::size_t column, const std::string& sentence) const {
 
 double Table::number(std::size_t column) const {
   try {
-    return parse_number(values_[column]);
+    return in_unit(column, parse_number(values_[column]));
   } catch (const Error& error) {
     refuse(column, error.what());
   }
@@ -106,7 +120,7 @@ std::int64_t Table::integer(std::size_t column) const {
 bool Table::split(std::string_view line) {
   values_.clear();
   unquoted_.clear();
-  if (!commas_) {
+  if (separator_ == ' ') {
     for (line = trimmed(line); !line.empty();) {
       const auto end = line.find_first_of(blanks);
       values_.push_back(line.substr(0, end));
@@ -117,7 +131,7 @@ bool Table::split(std::string_view line) {
   for (bool more = true; more;) {
     line = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
     if (!line.starts_with('"')) {
-      const auto end = line.find(',');
+      const auto end = line.find(separator_);
       values_.push_back(trimmed(line.substr(0, end)));
       more = end != std::string_view::npos;
       if (more) line.remove_prefix(end + 1);
@@ -133,7 +147,7 @@ bool Table::split(std::string_view line) {
       throw Error(place() + ": column " + column_name(values_.size()) +
                   ": found no closing quotation mark, expected one on the line");
     line = trimmed(line.substr(at + 1));
-    if (!line.empty() && line.front() != ',')
+    if (!line.empty() && line.front() != separator_)
       throw Error(place() + ": column " + column_name(values_.size()) +
                   ": found text behind the closing quotation mark, expected a comma");
     more = !line.empty();
@@ -155,7 +169,10 @@ bool Table::next_values() {
     rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
     ++line_;
     if (line.empty() || line.front() == '#') continue;
-    if (width_ == 0) commas_ = line.find(',') != std::string_view::npos;
+    if (width_ == 0)
+      separator_ = line.find(';') != std::string_view::npos   ? ';'
+                   : line.find(',') != std::string_view::npos ? ','
+                                                              : ' ';
     return split(line);
   }
   return false;

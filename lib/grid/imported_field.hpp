@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grid/field.hpp"
+
+namespace slipwave {
+
+/// A property of a foreign file: a volume, or a section, which is one of a single cell along y. Depths count
+/// from where the file counts them.
+struct ImportedField {
+  Field<3> values;
+  bool is_section = true;
+  bool placed = true;             // false: the file does not say where it begins
+  std::vector<std::string> said;  // what was taken for what, where the file leaves a choice
+};
+
+/// The grid of a section or a volume, and its values, on it. D = 2 needs a section.
+template <int D>
+Grid<D> grid_of(const ImportedField& field);
+template <int D>
+Field<D> field_of(const ImportedField& field);
+
+/// The inverse.
+template <int D>
+ImportedField imported_from(const Field<D>& field);
+
+/// Moves a field: its low corner lies there.
+void place_at(ImportedField& field, const Point<3>& origin_m);
+
+extern template ImportedField imported_from(const Field<2>&);
+extern template ImportedField imported_from(const Field<3>&);
+extern template Grid<2> grid_of<2>(const ImportedField&);
+extern template Grid<3> grid_of<3>(const ImportedField&);
+extern template Field<2> field_of<2>(const ImportedField&);
+extern template Field<3> field_of<3>(const ImportedField&);
+
+}  // namespace slipwave

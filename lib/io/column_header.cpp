@@ -1,0 +1,80 @@
+#include "io/column_header.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/error.hpp"
+#include "base/parse.hpp"
+
+namespace slipwave {
+namespace {
+
+bool is_number(std::string_view text) {
+  try {
+    parse_number(text);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+std::string lower(std::string_view text) {
+  std::string small(text);
+  for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
+  return small;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+UnitConversion ColumnHeader::conversion(const std::string& into) const {
+  if (unit.empty()) return {};
+  if (into.empty())
+    throw Error("column " + excerpt(name) + ": found the unit '" + excerpt(unit) + "', expected none");
+  const auto found = in_place("column " + excerpt(name), [&] { return spelt_unit_conversion(unit, into); });
+  if (!found) throw Error("column " + excerpt(name) + ": " + unit_refusal(unit, into));
+  return *found;
+}
+
+ColumnHeader column_header(std::string_view cell) {
+  cell = trimmed(cell);
+  const auto bracket = cell.find_first_of("([");
+  if (bracket != std::string_view::npos && (cell.back() == ')' || cell.back() == ']'))
+    return {lower(trimmed(cell.substr(0, bracket))),
+            std::string(trimmed(cell.substr(bracket + 1, cell.size() - bracket - 2)))};
+  const auto dot = cell.find('.');
+  if (dot != std::string_view::npos && dot > 0)
+    return {lower(trimmed(cell.substr(0, dot))), std::string(trimmed(cell.substr(dot + 1)))};
+  return {lower(cell), ""};
+}
+
+std::vector<ColumnHeader> column_headers(const std::vector<std::string_view>& words) {
+  std::vector<ColumnHeader> headers;
+  for (const auto word : words) {
+    auto header = column_header(word);
+    if (header.name.empty() && !header.unit.empty() && !headers.empty() && headers.back().unit.empty())
+      headers.back().unit = header.unit;
+    else
+      headers.push_back(std::move(header));
+  }
+  return headers;
+}
+
+bool are_headers(const std::vector<std::string_view>& words) {
+  if (words.empty() || std::any_of(words.begin(), words.end(), is_number)) return false;
+  for (const auto word : words) {
+    auto point = std::string(word);
+    std::replace(point.begin(), point.end(), ',', '.');
+    if (point != word && is_number(point))
+      throw Error("found '" + excerpt(std::string(word)) +
+                  "', expected a name, or a number with a decimal point");
+  }
+  return true;
+}
+
+}  // namespace slipwave
