@@ -17,9 +17,11 @@ fresh() {
   echo '#include "scene/scene.hpp"' > "$house/lib/output/snapshot.cpp"
   echo '#include "solver/kernels/reconstruction.hpp"' > "$house/lib/accuracy/dispersion.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
-  echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
-  printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
-  echo 'See [the theory](docs/theory.md).' > "$house/README.md"
+  mkdir -p "$house/docs/theory"
+  printf '// Proves (E1).\nTEST(Wave, Travels) {}\n' > "$house/tests/unit/wave_test.cpp"
+  printf '# Waves\n\n\nv = c   (E1)\n' > "$house/docs/theory/waves.md"
+  sh "$rules/equations.sh" "$house" --write
+  echo 'See [the theory](docs/theory/waves.md).' > "$house/README.md"
   printf '```sh\nsw-x\n```\n' > "$house/docs/tools.md"
   printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size S\n.SH EXIT STATUS\n.B 0\n.B 1\n.B 2\n.B 128+N\n.SH EXAMPLES\n' \
     > "$house/docs/man/sw-x.1"
@@ -81,16 +83,18 @@ noticed style lib/base/error.hpp 'std::shared_ptr<int> p;' 'no shared ownership'
 noticed style tools/sw_x.cpp '  std::system(name.c_str());' 'no other program is started'
 noticed style lib/base/error.hpp '  execvp(name, words);' 'no other program is started'
 noticed style tests/unit/wave_test.cpp 'using namespace std;' 'names of std'
-noticed words docs/theory.md "kept in $(printf '/%s/' home)somebody" 'docs/theory.md:4'
-noticed words docs/theory.md "see $(printf '%s%s 12' is sue)" 'docs/theory.md:4'
-noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:2'
-noticed words docs/theory.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory.md:4: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
+noticed words docs/theory/waves.md "kept in $(printf '/%s/' home)somebody" 'docs/theory/waves.md:5'
+noticed words docs/theory/waves.md "see $(printf '%s%s 12' is sue)" 'docs/theory/waves.md:5'
+noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:3'
+noticed words docs/theory/waves.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory/waves.md:5: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
 noticed words lib/base/error.hpp "/// It $(printf '%s%s' err 's by') 2 %%." "write 'has an error of'"
 noticed top_level notes.txt x 'notes.txt: the top level holds'
 noticed top_level 'docs/two words.md' x 'a plain file name'
-noticed equations docs/theory.md 's = rho c v  (E2)' '(E2) names no test'
-noticed equations docs/theory.md 's = rho c v  (E2)\n`Wave.Stops`' 'there is no test Wave.Stops'
-noticed equations docs/theory.md 's = rho c v  (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
+noticed equations docs/theory/waves.md 's = rho c v  (E2)' '(E2) is proved by no test'
+noticed equations docs/theory/waves.md 's = rho c v  (E1)' '(E1) stands at docs/theory/waves.md:4 already'
+noticed equations tests/unit/wave_test.cpp '// Proves (E1).\nTEST(Wave, Stops) {}' 'docs/theory/tests.md is not what the tests say'
+noticed equations tests/unit/wave_test.cpp '// Proves (E2).\nTEST(Wave, Stops) {}' '(E2) of Wave.Stops stands on no page'
+noticed equations tests/unit/wave_test.cpp '// Proves (E1).\nint waves = 1;' 'stands above no test'
 noticed equations docs/traces.md 'as in `Wave.Stands`' 'docs/traces.md: there is no test Wave.Stands'
 noticed links README.md '[more](docs/more.md)' 'docs/more.md leads nowhere'
 noticed help build/bin/sw-x 'echo "  --step H"; echo "  sw-x"' 'does not document: --step H'

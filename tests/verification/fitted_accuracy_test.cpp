@@ -174,6 +174,7 @@ const DippingStack stacks[] = {
 
 class Stack : public testing::TestWithParam<DippingStack> {};
 
+// Proves (E11c), (E11a), (F2), (F3), (F4), (F5), (F7), (F6), (F8), (F10), (F10a).
 TEST_P(Stack, HasTheErrorsPromisedAndItsOrder) {
   const auto& stack = GetParam();
   if (stack.wide && stack.dip_deg != 15 && !std::getenv("SLIPWAVE_LONG")) GTEST_SKIP() << "in the long form";

@@ -35,6 +35,7 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
   return scene;
 }
 
+// Proves (S27).
 TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
   for (const int order : orders)
     for (const auto correction : {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
