@@ -32,13 +32,14 @@ fresh() {
 run_rule() {
   case $1 in
     help) sh "$rules/help.sh" "$house" "$house/build/bin" sw-x 2>&1 ;;
+    pages) sh "$rules/pages.sh" "$house" "$house/build" 2>&1 ;;
     readme) sh "$rules/readme.sh" "$house" "$house/build" 2>&1 ;;
     *) sh "$rules/$1.sh" "$house" 2>&1 ;;
   esac
 }
 
 fresh
-for rule in layers style words top_level equations links help readme; do
+for rule in layers style words top_level equations links help readme pages; do
   said=$(run_rule "$rule") || { echo "$rule finds fault with a house in order: $said"; status=1; }
 done
 
@@ -106,5 +107,22 @@ noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x --help-all does not li
 noticed help docs/man/sw-y.1 '.SH NAME' 'sw-y.1: there is no such tool'
 noticed help tools/sw_y.cpp 'int main() {}' 'sw-y is not built'
 noticed readme README.md '```sh\nsw-x --size 2\nsw-z\n```' 'README.md.01: a command failed'
+noticed pages README.md '<!--=speed-->1<!--/-->' 'README.md: nothing makes the figure speed'
+noticed pages README.md '<!-- figures\nspeed: echo 2\n-->' 'the figure speed is made and stands nowhere'
+noticed pages README.md '<!-- figures\nspeed: echo 2\n-->\n<!--=speed-->2' 'README.md: a figure has no end'
+noticed pages README.md '```sh\nsw-x >said-here\n```\n<!-- figures\nspeed: wc -l <said-here | number 1\n-->\nspeed <!--=speed-->5<!--/-->' \
+  'README.md: speed is 3 by the run, the page says 5'
+noticed pages README.md '<!-- figures\nspeed: false\n-->\n<!--=speed-->2<!--/-->' 'nothing comes of the figure speed'
+
+# Every source lacks the line of its licence until it is written, which is done once.
+fresh
+said=$(run_rule licence) && { echo 'licence finds no fault with sources that name none'; status=1; }
+case $said in *"lib/base/fft.cpp: line 1 should be '// SPDX"*) ;; *) echo "licence says $said"; status=1 ;; esac
+sh "$rules/licence.sh" "$house" --write
+said=$(run_rule licence) || { echo "licence does not write its lines: $said"; status=1; }
+cp "$house/build/bin/sw-x" "$house/tests/run"
+sh "$rules/licence.sh" "$house" --write
+[ "$(sed -n 2p "$house/tests/run")" = "# $(sed -n 's|^// \(SPDX.*\)|\1|p' "$house/lib/base/fft.cpp")" ] ||
+  { echo 'licence does not write behind a #!'; status=1; }
 
 exit "$status"
