@@ -2,7 +2,7 @@
 # equations.sh ROOT [--write]: every equation tag (E1), (S2a) ... of docs/theory/*.md stands once and has a test that
 # proves it, and docs/theory/tests.md lists them as the tests say: --write makes that page.
 # A tag is defined where it ends a line of mathematics. A test says "// Proves (E1), (S2a)." above its first line.
-# Tests that pages of docs/ name exist, too.
+# Tests that pages of docs/ name exist, and so do equations that comments cite, "theory.md (E1)".
 set -eu
 cd "$1"
 work=$(mktemp -d)
@@ -93,4 +93,20 @@ find docs -name '*.md' ! -path docs/theory/tests.md | sort | while IFS= read -r 
   done
 done > "$work/unknown"
 if grep . "$work/unknown"; then status=1; fi
+
+# "/// ... (theory.md (V4), (V7))": all tags behind the name of the page on its line and, where it ends the line, on the next.
+find lib tools tests -name '*.?pp' 2>/dev/null | sort | xargs awk -v rows="$work/rows" '
+  BEGIN { while ((getline line < rows) > 0) if (match(line, /^\* \*\*\([A-Z][0-9]+[a-z]?\)/)) seen[substr(line, 6, RLENGTH - 6)] = 1 }
+  { text = cited ? $0 : ""; cited = 0 }
+  match($0, /theory(\/[a-z-]+)?[.]md/) { text = substr($0, RSTART + RLENGTH); cited = text ~ /^[ ,]*$/ }
+  text ~ /^[ ,]*\(?[A-Z][0-9]+[a-z]?[) ,:;.]/ {
+    while (match(text, /[A-Z][0-9]+[a-z]?/)) {
+      tag = substr(text, RSTART, RLENGTH)
+      text = substr(text, RSTART + RLENGTH)
+      if (!(tag in seen)) { printf "%s:%d: there is no equation (%s)\n", FILENAME, FNR, tag; bad = 1 }
+      # No further than the list of tags goes.
+      if (text !~ /^\)?( to|,|-| and)? ?\(?[A-Z][0-9]/ ) break
+    }
+  }
+  END { exit bad }' || status=1
 exit "$status"
