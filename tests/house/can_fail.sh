@@ -39,7 +39,7 @@ run_rule() {
 }
 
 fresh
-for rule in layers style words top_level equations links help readme pages; do
+for rule in layers style words top_level equations links help readme pages lines; do
   said=$(run_rule "$rule") || { echo "$rule finds fault with a house in order: $said"; status=1; }
 done
 
@@ -109,6 +109,8 @@ noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x --help-all does not li
 noticed help docs/man/sw-y.1 '.SH NAME' 'sw-y.1: there is no such tool'
 noticed help tools/sw_y.cpp 'int main() {}' 'sw-y is not built'
 noticed readme README.md '```sh\nsw-x --size 2\nsw-z\n```' 'README.md.01: a command failed'
+noticed lines docs/tools.md "$(printf '%0201d' 0)" 'docs/tools.md:4: a line of 201 characters'
+noticed lines docs/tools.md "| a | $(printf '%0201d' 0) |" 'a cell of 201 characters'
 noticed pages README.md '<!--=speed-->1<!--/-->' 'README.md: nothing makes the figure speed'
 noticed pages README.md '<!-- figures\nspeed: echo 2\n-->' 'the figure speed is made and stands nowhere'
 noticed pages README.md '<!-- figures\nspeed: echo 2\n-->\n<!--=speed-->2' 'README.md: a figure has no end'
