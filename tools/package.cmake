@@ -39,5 +39,6 @@ set(CPACK_COMPONENT_TOOLS_DESCRIPTION "Seismic survey modelling for fractured me
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libslipwave-dev)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libdevel)
 set(CPACK_COMPONENT_LIBRARY_DESCRIPTION "Library of slipwave, seismic survey modelling
- Static library, headers and CMake files: find_package(slipwave).")
+ Static library, headers, CMake files and a pkg-config file:
+ find_package(slipwave), pkg-config slipwave.")
 include(CPack)

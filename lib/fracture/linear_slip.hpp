@@ -4,7 +4,7 @@
 #include <cmath>
 
 /// Linear slip (Schoenberg 1980, J. Acoust. Soc. Am. 68(5)): planes that give by as much as their traction
-/// says, as springs, with a dashpot beside each where there is one (docs/theory.md, section 2.6).
+/// says, as springs, with a dashpot beside each where there is one (docs/theory/fractures.md).
 namespace slipwave {
 
 /// Constants of one family of planes: either of each plane and their spacing, or of cracks.

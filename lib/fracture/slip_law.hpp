@@ -3,7 +3,7 @@
 #include "fracture/smooth.hpp"
 
 /// Slip with a small viscosity, and what it takes off the shear traction of a cell within a time step
-/// (docs/theory.md, section 2; Nikitin & Golubev 2021, J. Sib. Fed. Univ. 14(6)).
+/// (docs/theory/slip.md; Nikitin & Golubev 2021, J. Sib. Fed. Univ. 14(6)).
 ///
 ///   tau    shear traction on the planes                    Pa   (S1)
 ///   S      strength, by a friction law (friction_policy.hpp)   Pa   (S2)
@@ -21,7 +21,7 @@ namespace slipwave {
 /// Largest c: the reciprocal is still a normal float. Dry friction (eta = 0) has it.
 inline constexpr double most_relaxation_pa = 1e30;
 
-/// Rule of the slip correction of a step (theory.md 2.1).
+/// Rule of the slip correction of a step (theory/slip.md).
 enum class SlipCorrection { first, second, exponential, centred };
 
 namespace slip {

@@ -7,7 +7,7 @@
 #include "model/model.hpp"
 
 /// Cells that the edge of a cluster cuts: planes slip in a part of them, which the rest holds
-/// (docs/theory.md 2.11).
+/// (docs/theory/slip.md).
 namespace slipwave {
 
 /// Share of its volume in which the planes of a fractured cell slip.

@@ -65,7 +65,7 @@ struct Model {
   Field<D, std::uint8_t> fracture;  // 0 = intact, k = fracture_sets[k - 1]; empty when the model has none
   std::vector<FractureSet<D>> fracture_sets;
   /// Share of its volume in which the planes of a cell slip, above 0: below 1 where the edge of a cluster
-  /// cuts the cell (theory.md 2.11). Empty: no edge cuts a cell.
+  /// cuts the cell (theory/slip.md). Empty: no edge cuts a cell.
   Field<D> fracture_share;
   /// Static stress, Pa, tension positive: its components in the order of SymmetricTensor; empty: none. The
   /// waves come on top of it.

@@ -7,7 +7,8 @@
 #include "fracture/face_law.hpp"
 #include "model/model.hpp"
 
-/// Single fractures on faces between cells (docs/theory.md 2.8): the rock on both sides moves apart there.
+/// Single fractures on faces between cells (docs/theory/fractures.md): the rock on both sides moves apart
+/// there.
 namespace slipwave {
 
 /// A face where a single fracture parts the rock, before the cell `behind` along an axis, its compliances,

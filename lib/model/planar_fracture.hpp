@@ -8,7 +8,7 @@
 #include "grid/extent.hpp"
 #include "model/model.hpp"
 
-/// Single fractures in 3-D (docs/theory.md 2.8): plane polygons, closed, of the vertices of a trace.
+/// Single fractures in 3-D (docs/theory/fractures.md): plane polygons, closed, of the vertices of a trace.
 namespace slipwave {
 
 /// "X,Y,Z:RADIUS[:DIP[:AZIMUTH]]": a disc, as a polygon of 32 corners of its area; its plane dips towards an

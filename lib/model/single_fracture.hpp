@@ -7,8 +7,8 @@
 #include "grid/tensor.hpp"
 #include "model/fracture.hpp"
 
-/// Single fractures (docs/theory.md 2.8): lines in the plane of a 2-D model, plane polygons in a 3-D one,
-/// which give the cells beside them a share of their compliance.
+/// Single fractures (docs/theory/fractures.md): lines in the plane of a 2-D model, plane polygons in a 3-D
+/// one, which give the cells beside them a share of their compliance.
 namespace slipwave {
 
 /// "X,Z:X,Z" in metres. Throws a usage Error.

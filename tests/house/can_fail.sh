@@ -17,9 +17,11 @@ fresh() {
   echo '#include "scene/scene.hpp"' > "$house/lib/output/snapshot.cpp"
   echo '#include "solver/kernels/reconstruction.hpp"' > "$house/lib/accuracy/dispersion.cpp"
   echo 'int main() {}' > "$house/tools/sw_x.cpp"
-  echo 'TEST(Wave, Travels) {}' > "$house/tests/unit/wave_test.cpp"
-  printf 'v = c   (E1)\n\nProved by `Wave.Travels`.\n' > "$house/docs/theory.md"
-  echo 'See [the theory](docs/theory.md).' > "$house/README.md"
+  mkdir -p "$house/docs/theory"
+  printf '// Proves (E1).\nTEST(Wave, Travels) {}\n' > "$house/tests/unit/wave_test.cpp"
+  printf '# Waves\n\n\nv = c   (E1)\n' > "$house/docs/theory/waves.md"
+  sh "$rules/equations.sh" "$house" --write
+  echo 'See [the theory](docs/theory/waves.md).' > "$house/README.md"
   printf '```sh\nsw-x\n```\n' > "$house/docs/tools.md"
   printf '.SH NAME\n.SH SYNOPSIS\n.SH DESCRIPTION\n.SH OPTIONS\n.TP\n.B \\-\\-size S\n.SH EXIT STATUS\n.B 0\n.B 1\n.B 2\n.B 128+N\n.SH EXAMPLES\n' \
     > "$house/docs/man/sw-x.1"
@@ -30,13 +32,14 @@ fresh() {
 run_rule() {
   case $1 in
     help) sh "$rules/help.sh" "$house" "$house/build/bin" sw-x 2>&1 ;;
+    pages) sh "$rules/pages.sh" "$house" "$house/build" 2>&1 ;;
     readme) sh "$rules/readme.sh" "$house" "$house/build" 2>&1 ;;
     *) sh "$rules/$1.sh" "$house" 2>&1 ;;
   esac
 }
 
 fresh
-for rule in layers style words top_level equations links help readme; do
+for rule in layers style words top_level equations links help readme pages lines; do
   said=$(run_rule "$rule") || { echo "$rule finds fault with a house in order: $said"; status=1; }
 done
 
@@ -81,18 +84,22 @@ noticed style lib/base/error.hpp 'std::shared_ptr<int> p;' 'no shared ownership'
 noticed style tools/sw_x.cpp '  std::system(name.c_str());' 'no other program is started'
 noticed style lib/base/error.hpp '  execvp(name, words);' 'no other program is started'
 noticed style tests/unit/wave_test.cpp 'using namespace std;' 'names of std'
-noticed words docs/theory.md "kept in $(printf '/%s/' home)somebody" 'docs/theory.md:4'
-noticed words docs/theory.md "see $(printf '%s%s 12' is sue)" 'docs/theory.md:4'
-noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:2'
-noticed words docs/theory.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory.md:4: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
+noticed words docs/theory/waves.md "kept in $(printf '/%s/' home)somebody" 'docs/theory/waves.md:5'
+noticed words docs/theory/waves.md "see $(printf '%s%s 12' is sue)" 'docs/theory/waves.md:5'
+noticed words tests/unit/wave_test.cpp "// $(printf '%s%s' TO DO): later" 'wave_test.cpp:3'
+noticed words docs/theory/waves.md "a $(printf '%s%s' matched ' layer') absorbs" "docs/theory/waves.md:5: 'a $(printf '%s%s' matched ' layer')': write 'PML'"
 noticed words lib/base/error.hpp "/// It $(printf '%s%s' err 's by') 2 %%." "write 'has an error of'"
 noticed top_level notes.txt x 'notes.txt: the top level holds'
 noticed top_level 'docs/two words.md' x 'a plain file name'
-noticed equations docs/theory.md 's = rho c v  (E2)' '(E2) names no test'
-noticed equations docs/theory.md 's = rho c v  (E2)\n`Wave.Stops`' 'there is no test Wave.Stops'
-noticed equations docs/theory.md 's = rho c v  (E1)\n`Wave.Travels`' '(E1) stands at line 1 already'
+noticed equations docs/theory/waves.md 's = rho c v  (E2)' '(E2) is proved by no test'
+noticed equations docs/theory/waves.md 's = rho c v  (E1)' '(E1) stands at docs/theory/waves.md:4 already'
+noticed equations tests/unit/wave_test.cpp '// Proves (E1).\nTEST(Wave, Stops) {}' 'docs/theory/tests.md is not what the tests say'
+noticed equations tests/unit/wave_test.cpp '// Proves (E2).\nTEST(Wave, Stops) {}' '(E2) of Wave.Stops stands on no page'
+noticed equations tests/unit/wave_test.cpp '// Proves (E1).\nint waves = 1;' 'stands above no test'
+noticed equations lib/base/fft.cpp '/// The speed (theory.md (E1), (E7)).' 'lib/base/fft.cpp:2: there is no equation (E7)'
 noticed equations docs/traces.md 'as in `Wave.Stands`' 'docs/traces.md: there is no test Wave.Stands'
 noticed links README.md '[more](docs/more.md)' 'docs/more.md leads nowhere'
+noticed links docs/tools.md '[more](theory/waves.md#water)' 'docs/theory/waves.md has no heading #water'
 noticed help build/bin/sw-x 'echo "  --step H"; echo "  sw-x"' 'does not document: --step H'
 noticed help build/bin/sw-x 'printf "%090d\\n" 0' 'wider than 80 columns'
 noticed help build/bin/sw-x 'echo done' 'does not end with its example'
@@ -102,5 +109,24 @@ noticed help docs/man/sw-x.1 '.TP\n.B \\-\\-colour' 'sw-x --help-all does not li
 noticed help docs/man/sw-y.1 '.SH NAME' 'sw-y.1: there is no such tool'
 noticed help tools/sw_y.cpp 'int main() {}' 'sw-y is not built'
 noticed readme README.md '```sh\nsw-x --size 2\nsw-z\n```' 'README.md.01: a command failed'
+noticed lines docs/tools.md "$(printf '%0201d' 0)" 'docs/tools.md:4: a line of 201 characters'
+noticed lines docs/tools.md "| a | $(printf '%0201d' 0) |" 'a cell of 201 characters'
+noticed pages README.md '<!--=speed-->1<!--/-->' 'README.md: nothing makes the figure speed'
+noticed pages README.md '<!-- figures\nspeed: echo 2\n-->' 'the figure speed is made and stands nowhere'
+noticed pages README.md '<!-- figures\nspeed: echo 2\n-->\n<!--=speed-->2' 'README.md: a figure has no end'
+noticed pages README.md '```sh\nsw-x >said-here\n```\n<!-- figures\nspeed: wc -l <said-here | number 1\n-->\nspeed <!--=speed-->5<!--/-->' \
+  'README.md: speed is 3 by the run, the page says 5'
+noticed pages README.md '<!-- figures\nspeed: false\n-->\n<!--=speed-->2<!--/-->' 'nothing comes of the figure speed'
+
+# Every source lacks the line of its licence until it is written, which is done once.
+fresh
+said=$(run_rule licence) && { echo 'licence finds no fault with sources that name none'; status=1; }
+case $said in *"lib/base/fft.cpp: line 1 should be '// SPDX"*) ;; *) echo "licence says $said"; status=1 ;; esac
+sh "$rules/licence.sh" "$house" --write
+said=$(run_rule licence) || { echo "licence does not write its lines: $said"; status=1; }
+cp "$house/build/bin/sw-x" "$house/tests/run"
+sh "$rules/licence.sh" "$house" --write
+[ "$(sed -n 2p "$house/tests/run")" = "# $(sed -n 's|^// \(SPDX.*\)|\1|p' "$house/lib/base/fft.cpp")" ] ||
+  { echo 'licence does not write behind a #!'; status=1; }
 
 exit "$status"

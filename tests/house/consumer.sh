@@ -17,12 +17,20 @@ if ! {
   echo 'the project does not build'
   exit 1
 fi
-if grep -rn -e "$root/lib" -e "$build" "$work/prefix/lib" --include='*.cmake'; then
+# The same by pkg-config, for who has no CMake.
+PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name slipwave.pc)")
+export PKG_CONFIG_PATH
+words=$(pkg-config --cflags --libs slipwave)
+# shellcheck disable=SC2086
+"$3" -std=c++20 -Wall -Wextra -Werror "$work/project/echo.cpp" $words -o "$work/build/echo-by-pkg-config" >"$work/said" 2>&1 ||
+  { cat "$work/said"; echo 'the project does not build by pkg-config'; exit 1; }
+if grep -rn -e "$root/lib" -e "$build" "$work/prefix/lib" --include='*.cmake' --include='*.pc'; then
   echo 'the installed CMake files name the checkout'
   exit 1
 fi
 # 50 m down to the source, 150 m to the receiver, the floor at 300 m: (250 + 150 - 100) m / 1500 m/s.
 said=$("$work/build/echo")
+[ "$said" = "$("$work/build/echo-by-pkg-config")" ] || { echo "built by pkg-config the echo is another"; exit 1; }
 case $said in
   0.19[89] | 0.20[012]) ;;
   *) echo "the echo comes $said s behind the direct wave, expected 0.2 s"; exit 1 ;;

@@ -23,11 +23,14 @@ for tool in "$@"; do
 done
 others=$(find "$prefix" -type f ! -path "$prefix/bin/sw-*" ! -path "$prefix/share/man/man1/sw-*.1" \
   ! -path "$prefix/share/bash-completion/completions/sw-*" \
-  ! -path "$prefix/share/zsh/vendor-completions/_sw-*" ! -path "$prefix/share/fish/vendor_completions.d/sw-*.fish" ! -path "$prefix/share/slipwave/*")
+  ! -path "$prefix/share/zsh/vendor-completions/_sw-*" ! -path "$prefix/share/fish/vendor_completions.d/sw-*.fish" ! -path "$prefix/share/slipwave/*" ! -path "$prefix/share/doc/slipwave/copyright")
 [ -z "$others" ] || { printf 'installed beside what is expected: %s\n' "$others"; status=1; }
 tools=$(find "$prefix/bin" "$prefix/share/man" "$prefix/share/bash-completion" "$prefix/share/zsh" "$prefix/share/fish" -type f | wc -l)
 [ "$tools" -eq $(($# * 5)) ] || { echo "installed $tools files, expected tool, man page and three completions for each of: $*"; status=1; }
 
+for file in "$prefix/share/doc/slipwave/copyright" "$prefix/share/slipwave/docs/LICENSE" "$prefix/share/slipwave/docs/CITATION.cff"; do
+  [ -s "$file" ] || { echo "there is no $file"; status=1; }
+done
 sh "$root/tests/house/links.sh" "$prefix/share/slipwave" || { echo 'links of the installed pages lead nowhere'; status=1; }
 
 # Surveys run where they are installed, and write nothing there.

@@ -66,6 +66,10 @@ sw-layers --size 400x300 --step 5 --layer 0:2000:1000:2000 |
   sw-plot - -q -o "$work/shot.png" || :
 [ -s "$work/shot.png" ] || broken 'the tools of the package do not shoot'
 dpkg-deb -x "$library" "$work/root"
+for package in slipwave libslipwave-dev; do
+  grep -q '^License: BSD-3-Clause$' "$work/root/usr/share/doc/$package/copyright" || broken "$package says nothing of its licence"
+done
+find "$work/root" -name slipwave.pc | grep -q . || broken 'the library has no pkg-config file'
 [ -f "$work/root/usr/include/slipwave/solver/simulation.hpp" ] || broken 'the library has no headers'
 find "$work/root" -name slipwave-config.cmake | grep -q . || broken 'the library has no CMake files'
 exit "$status"

@@ -19,6 +19,12 @@ commit() {
   in_house commit -m "Change $1"
 }
 
+# Whoever cites it names the version of the build.
+release=$(sed -n 's/^project(slipwave VERSION \([0-9.]*\) .*/\1/p' "$1/CMakeLists.txt")
+grep -qx "version: $release" "$1/docs/CITATION.cff" || { echo "docs/CITATION.cff is not of version $release"; status=1; }
+grep -qF "version = {$release}" "$1/docs/citing.md" || { echo "docs/citing.md is not of version $release"; status=1; }
+grep -q "^## $release" "$1/docs/CHANGELOG.md" || { echo "docs/CHANGELOG.md has no release $release"; status=1; }
+
 case $("$2" --version) in
   *' (slipwave '[0-9]*.[0-9]*.[0-9]*')') ;;
   *) echo "$2 --version says $("$2" --version)"; status=1 ;;

@@ -19,6 +19,7 @@ void expect_no_growth_of(const Medium<2>& medium, EdgeLaw edges, int order, doub
 
 }  // namespace
 
+// Proves (V1).
 TEST(EnergyOfAnisotropicRock, NeverRises) {
   const ThreadLimit one_thread(1);
   std::mt19937 engine(5);
@@ -78,6 +79,7 @@ Medium<2> of_tilted_rocks(int cells, const std::function<double()>& random) {
 
 }  // namespace
 
+// Proves (S34).
 TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
   std::mt19937 engine(9);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -87,6 +89,7 @@ TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfLevelAndUprightPlanes) {
       [&] { return of_rocks(24, [&](int, int) { return random_anisotropic(random); }); }, 600);
 }
 
+// Proves (S34).
 TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfPlanesAskewToItsAxes) {
   std::mt19937 engine(11);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -96,6 +99,7 @@ TEST(EnergyOfAnisotropicRock, IsTakenBySlipOfPlanesAskewToItsAxes) {
       long_form() ? 20000 : 300);
 }
 
+// Proves (V1).
 TEST(EnergyOfAnisotropicRock, BetweenFreeEdgesFallsOverThousandsOfSteps) {
   // Corrected free surfaces and interfaces of water (theory.md (E11), (E11a)): the energy falls in the long
   // run.

@@ -80,6 +80,7 @@ void expect_no_growth(const Run& run, int cells, int steps) {
   }
 }
 
+// Proves (T6), (S34b).
 TEST(AskewSprings, NeverAddEnergyHoweverStiffOrSoft) {
   const ThreadLimit one_thread(1);
   const int cells = long_form() ? 30 : 14, steps = long_form() ? 10000 : 120;
@@ -105,6 +106,7 @@ Lab<double>::Setup tilted_blocks(unsigned draw, int order) {
 }
 
 /// Planes that carry nothing leave motion alone but for what the sweeps take: these must not feed it.
+// Proves (T6).
 TEST(TiltedBlocks, LoseMotionHoweverSoftTheirPlanesAre) {
   const ThreadLimit one_thread(1);
   for (unsigned draw = 1; draw <= (long_form() ? 12U : 4U); ++draw)
@@ -132,6 +134,7 @@ TEST(TiltedBlocks, LoseMotionHoweverSoftTheirPlanesAre) {
     }
 }
 
+// Proves (T6).
 TEST(TiltedBlocks, LoseEnergyInTheLongRun) {
   const ThreadLimit one_thread(1);
   for (const int order : {5, 11}) {
@@ -177,6 +180,7 @@ Lab<double>::Setup soft_blocks(unsigned draw, double softness) {
 }
 
 /// Springs swing slowly: in the long run motion falls.
+// Proves (S25).
 TEST(SoftBlocks, LoseMotionAtAllOrders) {
   const ThreadLimit one_thread(1);
   for (unsigned draw = 1; draw <= (long_form() ? 16U : 3U); ++draw)

@@ -239,6 +239,7 @@ void make_anisotropic(Medium<2>& medium, unsigned seed) {
   }
 }
 
+// Proves (Q9).
 TEST(Attenuation, OnlyTakesEnergyFromAnisotropicMediaOfAnyQ) {
   const ThreadLimit one_thread(1);
   const int media = long_form() ? 30 : 3, steps = long_form() ? 20000 : 200, cells = 32;
@@ -286,6 +287,7 @@ Medium<3> rocks_in_space(const Index<3>& shape, std::int64_t block, unsigned see
   return medium;
 }
 
+// Proves (Q12).
 TEST(Attenuation, OnlyTakesEnergyFromRockInSpaceOfAnyQ) {
   const ThreadLimit one_thread(1);
   const int media = long_form() ? 6 : 2, steps = long_form() ? 10000 : 60;
@@ -299,6 +301,7 @@ TEST(Attenuation, OnlyTakesEnergyFromRockInSpaceOfAnyQ) {
   }
 }
 
+// Proves (Q7).
 TEST(Attenuation, OnlyTakesEnergyFromMediaOfAnyQ) {
   const ThreadLimit one_thread(1);
   const int media = long_form() ? 30 : 4, steps = long_form() ? 20000 : 200, cells = 32;

@@ -1,5 +1,5 @@
 // Small boxes in 3-D: no wave and no stress at rest grows between free edges, at any order
-// (docs/theory.md, 1.3).
+// (docs/theory/interfaces.md).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -119,6 +119,7 @@ void expect_no_growth(const Box::Setup& of, int steps) {
   EXPECT_TRUE(whole <= half * (1 + 1e-9)) << half << ", then " << whole;
 }
 
+// Proves (E11a).
 TEST(Boxes, BetweenFreeEdgesLoseEnergyAtHighOrders) {
   // With stencils that reach further at their edges than beside them, the first two gained by e^1.8 and e^1.2
   // in a thousand steps, the third by e^0.12.
@@ -131,6 +132,7 @@ TEST(Boxes, BetweenFreeEdgesLoseEnergyAtHighOrders) {
   for (const int order : {9, 11}) expect_no_growth({{16, 17, 18}, order}, steps);
 }
 
+// Proves (E11a).
 TEST(Boxes, OfAnySizeBesideAnythingNeverGain) {
   const ThreadLimit one_thread{1};
   std::mt19937 engine(7);

@@ -134,6 +134,7 @@ void expect_bounded(const typename DiscBox<Real>::Setup& of, unsigned seed) {
   EXPECT_LT(highest_late, begin);
 }
 
+// Proves (S30).
 TEST(Discs, NeverAddEnergyHoweverStiffOrSoft) {
   const ThreadLimit one_thread{1};
   constexpr SlipCorrection corrections[] = {SlipCorrection::first, SlipCorrection::second,

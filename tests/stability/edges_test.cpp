@@ -36,6 +36,7 @@ TEST_P(AbsorbingEdges, BesideAFreeSurfaceNeverFeedEnergyBack) {
   }
 }
 
+// Proves (E14).
 TEST_P(AbsorbingEdges, WithPmlDrainTheField) {
   for (const int order : orders_tried())
     for (const auto top : {EdgeLaw::absorbing, EdgeLaw::free}) {

@@ -100,6 +100,7 @@ class FittedAnisotropyInSpace : public ::testing::TestWithParam<int> {
   const int steps_ = long_form() ? 1000 : 30;
 };
 
+// Proves (F16).
 TEST_P(FittedAnisotropyInSpace, NeverAddsEnergy) {
   unsigned seed = 1;
   for (const bool tilts : {false, true})
@@ -115,6 +116,7 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergy) {
   if (long_form()) expect_no_growth<double>(medium(7, 5, true), all_edges(EdgeLaw::free), {5}, 20000);
 }
 
+// Proves (F16).
 TEST_P(FittedAnisotropyInSpace, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   for (const int order : {5, 7}) {
     expect_no_growth<float>(medium(5, 5, true), all_edges(EdgeLaw::free), {order}, steps_);
@@ -122,6 +124,7 @@ TEST_P(FittedAnisotropyInSpace, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   }
 }
 
+// Proves (F16).
 TEST_P(FittedAnisotropyInSpace, StaysBoundedInThePml) {
   Numbers numbers{5};
   numbers.zone_cells = 6, numbers.pml_hz = 30;

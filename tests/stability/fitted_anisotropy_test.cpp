@@ -81,6 +81,7 @@ class FittedAnisotropy : public ::testing::TestWithParam<int> {
   const int steps_ = long_form() ? 20000 : 150;
 };
 
+// Proves (F13).
 TEST_P(FittedAnisotropy, NeverAddsEnergy) {
   unsigned seed = 1;
   for (const bool tilts : {false, true})
@@ -96,6 +97,7 @@ TEST_P(FittedAnisotropy, NeverAddsEnergy) {
       }
 }
 
+// Proves (F14).
 TEST_P(FittedAnisotropy, NeverAddsEnergyInFloatAndAtFourthOrderInTime) {
   for (const int order : {5, 7}) {
     expect_no_growth<float>(medium(5, 6, true), all_edges(EdgeLaw::free), {order}, steps_);

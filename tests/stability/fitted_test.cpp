@@ -81,6 +81,7 @@ class FittedEnergy : public ::testing::TestWithParam<std::string> {
   const int steps_ = long_form() ? 20000 : 600;
 };
 
+// Proves (E11a), (F1).
 TEST_P(FittedEnergy, NeverRisesInDouble) {
   for (const int order : orders)
     for (const auto edge : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {
@@ -91,11 +92,13 @@ TEST_P(FittedEnergy, NeverRisesInDouble) {
     }
 }
 
+// Proves (F1).
 TEST_P(FittedEnergy, NeverRisesInFloat) {
   for (const auto& [order, edge] : {std::pair(5, EdgeLaw::free), std::pair(7, EdgeLaw::absorbing)})
     expect_no_growth<float>(medium(), all_edges(edge), {order}, steps_);
 }
 
+// Proves (F1).
 TEST_P(FittedEnergy, NeverRisesAtFourthOrderInTimeOrInSmallSteps) {
   for (const int order : {5, 7}) {
     for (const double cfl : {1., 2.})
@@ -107,6 +110,7 @@ TEST_P(FittedEnergy, NeverRisesAtFourthOrderInTimeOrInSmallSteps) {
 INSTANTIATE_TEST_SUITE_P(HardMedia, FittedEnergy, ::testing::ValuesIn(share_of(fitted_names(), 0)),
                          [](const auto& info) { return info.param; });
 
+// Proves (F1).
 TEST(FittedCubeEnergy, NeverRises) {
   const ThreadLimit one_thread(1);
   const Grid<3> grid{{12, 10, 26}, h, {0, 0, 0}};
@@ -127,6 +131,7 @@ TEST(FittedCubeEnergy, NeverRises) {
 class FittedPml : public ::testing::TestWithParam<std::string> {};
 
 // Beyond curved sides and tops the layer damps rows that bend.
+// Proves (F10a).
 TEST_P(FittedPml, StaysBoundedForThousandsOfSteps) {
   const ThreadLimit one_thread(1);
   const auto medium = fitted_named(GetParam(), 14, 36);

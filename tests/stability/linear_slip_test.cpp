@@ -78,6 +78,7 @@ class Springs : public ::testing::TestWithParam<Kind> {
   std::size_t number_ = 0;
 };
 
+// Proves (S25).
 TEST_P(Springs, NeverAddEnergyHoweverStiffOrSoft) {
   const std::vector<double> dashpots =
       GetParam().damped ? std::vector<double>{0.01, 1, 100} : std::vector<double>{0};

@@ -27,6 +27,7 @@ class EnergyIn : public ::testing::TestWithParam<std::tuple<std::string, int>> {
 
 }  // namespace
 
+// Proves (E10), (E11a).
 TEST_P(EnergyIn, NeverRisesInDouble) {
   const auto& [medium, order] = GetParam();
   expect_no_growth_in<double>(medium, order, EdgeLaw::free, length());
@@ -45,6 +46,7 @@ INSTANTIATE_TEST_SUITE_P(HardMedia, EnergyIn,
                                   std::to_string(std::get<1>(info.param));
                          });
 
+// Proves (E11a).
 TEST(Energy, NeverRisesBetweenRigidWallsOrMirrors) {
   const ThreadLimit one_thread(1);
   for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror})
@@ -65,6 +67,7 @@ TEST(Energy, NeverRisesInTenThousandSteps) {
     }
 }
 
+// Proves (E11c).
 TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
   // Where free surfaces are corrected (theory.md (E11)) the energy is not one that falls in every step: it
   // may rise by a thousandth of what is left. What would grow shows over many steps, most of all at order 7.
@@ -89,6 +92,7 @@ TEST(Energy, OfSolidBetweenFreeEdgesFallsOverTenThousandSteps) {
       }
 }
 
+// Proves (E11a).
 TEST(Energy, OfHighOrdersAtInterfacesAndContrastsFallsInTheLongRun) {
   // With order 7 there, two of these gain after the first thousands of steps: by e^0.2 and e^0.04 in a
   // thousand. A slow gain hides behind what drains at first.

@@ -21,6 +21,7 @@ void expect_bounded(const std::string& medium, int order, double cfl, EdgeLaw ed
 
 }  // namespace
 
+// Proves (C1).
 TEST(EnergyOfMonotoneSweeps, NeverRisesInHardMedia) {
   const ThreadLimit one_thread(1);
   for (const auto& medium : medium_names())

@@ -1,5 +1,5 @@
 // Fractures on faces between cells: the energy of waves and springs falls in the long run, in any rock, open
-// or not, with friction and without (docs/theory.md 2.8).
+// or not, with friction and without (docs/theory/fractures.md).
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,6 +87,7 @@ void expect_bounded(const typename Lab<Real>::Setup& given) {
 
 class PartedFaces : public ::testing::TestWithParam<std::string> {};
 
+// Proves (S35).
 TEST_P(PartedFaces, KeepEnergyFallingOpenOrNot) {
   const ThreadLimit one_thread(1);
   constexpr double open = std::numeric_limits<double>::infinity(), soft = 1e-9 * 5;
@@ -109,6 +110,7 @@ TEST_P(PartedFaces, KeepEnergyFallingOpenOrNot) {
     }
 }
 
+// Proves (S43).
 TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
   const ThreadLimit one_thread(1);
   const Plane planes[] = {{0, 0, 0, false, 0},        {0.5, 0, 0, false, 0},
@@ -142,6 +144,7 @@ TEST_P(PartedFaces, KeepEnergyFallingAsTheyStickAndSlideOpenAndShut) {
     }
 }
 
+// Proves (S43).
 TEST_P(PartedFaces, OnTheVergeOfSlipNeverAddEnergyToAllStressBetweenWalls) {
   const ThreadLimit one_thread(1);
   unsigned seed = 1;
@@ -167,6 +170,7 @@ TEST_P(PartedFaces, OnTheVergeOfSlipNeverAddEnergyToAllStressBetweenWalls) {
 
 // A few cells below softer rock springs fed waves at orders 9 and 11, by half of what was left in these
 // steps.
+// Proves (S36).
 TEST(SpringsOnFaces, NearAnInterfaceLoseEnergyAtHighOrders) {
   const ThreadLimit one_thread(1);
   constexpr int width = 40, rows_below = 4;

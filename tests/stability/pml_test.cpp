@@ -94,6 +94,7 @@ class Pml : public ::testing::TestWithParam<std::string> {
 
 }  // namespace
 
+// Proves (E14).
 TEST_P(Pml, StaysBoundedForThousandsOfSteps) {
   for (const int order : {3, 5, 7}) {
     SCOPED_TRACE("order " + std::to_string(order));
@@ -106,6 +107,7 @@ TEST_P(Pml, StaysBoundedBesideAFreeSurface) {
 }
 
 // Thin layers damp harder, wide ones give plate waves more room to grow: 8 cells alone would not show it.
+// Proves (E14).
 TEST_P(Pml, StaysBoundedAtItsUsualWidth) {
   for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid}) {
     auto scene = scene_of(GetParam(), 12, top);
@@ -114,6 +116,7 @@ TEST_P(Pml, StaysBoundedAtItsUsualWidth) {
   }
 }
 
+// Proves (E14).
 TEST_P(Pml, StaysBoundedWherePlatesReachIntoIt) {
   for (const EdgeLaw top : {EdgeLaw::free, EdgeLaw::rigid})
     for (const EdgeLaw bottom : {EdgeLaw::free, EdgeLaw::rigid}) {

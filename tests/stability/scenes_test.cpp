@@ -346,6 +346,7 @@ TEST(RandomScenes, StopGrowingWithTheirSource) {
   }
 }
 
+// Proves (S27).
 TEST(RandomScenes, StopGrowingWithTheCentredCorrectionToo) {
   const ThreadLimit one_thread(1);
   int scenes = 0;

@@ -150,6 +150,7 @@ class CentredSlip : public ::testing::TestWithParam<Planes> {
   }
 };
 
+// Proves (S27).
 TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWith) {
   const ThreadLimit one_thread(1);
   Rotation rotation;
@@ -188,6 +189,7 @@ Lab<double>::Setup all_slipping(const Planes& planes, const Law& law) {
   return setup;
 }
 
+// Proves (S27).
 TEST_P(CentredSlip, LetsNothingGrowInThousandsOfSteps) {
   const ThreadLimit one_thread(1);
   for (const Law& law : {Law{0.1, 0}, Law{0.7, 0}, Law{0.3, 1e3}, Law{3, 1}}) {
@@ -215,6 +217,7 @@ TEST_P(CentredSlip, LetsNothingGrowInThousandsOfStepsWhereEdgesCutCells) {
   }
 }
 
+// Proves (S39).
 TEST_P(CentredSlip, NeverLetsWavesHaveMoreThanTheyBeganWithWhereEdgesCutCells) {
   const ThreadLimit one_thread(1);
   Rotation rotation;

@@ -35,6 +35,7 @@ void expect_to_last(Lab<double>&& lab) {
 
 }  // namespace
 
+// Proves (E19).
 TEST_P(FourthOrderInTime, NeverAddsEnergy) {
   for (const int order : orders_tried())
     for (const double cfl : {0.3, 1., 2.}) {
@@ -43,6 +44,7 @@ TEST_P(FourthOrderInTime, NeverAddsEnergy) {
     }
 }
 
+// Proves (E19).
 TEST_P(FourthOrderInTime, NeverAddsEnergyBetweenOtherEdges) {
   for (const auto edges : {EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing}) {
     SCOPED_TRACE("edges " + std::to_string(int(edges)));
@@ -52,6 +54,7 @@ TEST_P(FourthOrderInTime, NeverAddsEnergyBetweenOtherEdges) {
   }
 }
 
+// Proves (E19).
 TEST_P(FourthOrderInTime, StaysBoundedInThePmlAndWherePlatesReachIntoIt) {
   for (const auto edge : {EdgeLaw::absorbing, EdgeLaw::free}) {
     SCOPED_TRACE(edge == EdgeLaw::free ? "plate" : "layers on all sides");
@@ -87,6 +90,7 @@ void expect_to_fall_in_the_long_run(const std::string& medium, int order) {
   }
 }
 
+// Proves (E19).
 TEST(Energy, AtFourthOrderInTimeAndTheLongestStepFallsInTheLongRun) {
   const ThreadLimit one_thread(1);
   if (!long_form())

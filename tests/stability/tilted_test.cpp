@@ -75,6 +75,7 @@ std::function<Material()> rocks_alike(const std::function<double()>& random) {
 
 }  // namespace
 
+// Proves (T5).
 TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
   const ThreadLimit one_thread(1);
   std::mt19937 engine(7);
@@ -101,6 +102,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
       }
 }
 
+// Proves (T5).
 TEST(EnergyOfTiltedMeans, NeverRisesUpToTheLargestContrastTheyPart) {
   const ThreadLimit one_thread(1);
   // Impedances of P, of S, and of both, 3.9 times those above.
@@ -119,6 +121,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesUpToTheLargestContrastTheyPart) {
       }
 }
 
+// Proves (T5).
 TEST(EnergyOfTiltedMeans, NeverRisesAtInterfacesOfAnyDipAndContrast) {
   const ThreadLimit one_thread(1);
   const Material soft{1600, 400, 1800}, harder{2500, 1200, 2100}, hardest{6000, 3500, 2800};

@@ -44,6 +44,7 @@ TEST(AxisWeights, AreOneOnACellCentre) {
   EXPECT_EQ(axis_weights(17 - 1e-6, everywhere).size(), 8u);
 }
 
+// Proves (A1).
 TEST(AxisWeights, InterpolateWavesBetweenInterfaces) {
   EXPECT_LT(wave_error(20, 0, 1, everywhere), 1e-5);
   EXPECT_LT(wave_error(10, 0, 1, everywhere), 5e-5);
@@ -53,6 +54,7 @@ TEST(AxisWeights, InterpolateWavesBetweenInterfaces) {
   EXPECT_LT(wave_error(4, 0, 1, everywhere), 0.012);
 }
 
+// Proves (A1).
 TEST(AxisWeights, BeatTheKaiserWindowedSincOfTheSameWidth) {
   // Half-width 4, beta 6.31, for wavelengths a survey records.
   for (const double cells : {20., 10., 8., 6.}) {
@@ -75,6 +77,7 @@ TEST(AxisWeights, ConvergeWithOrderFour) {
   EXPECT_GT(std::log2(wave_error(40, 0, 1, everywhere) / wave_error(80, 0, 1, everywhere)), 3.9);
 }
 
+// Proves (A1).
 TEST(AxisWeights, ReproduceCubicsForAnyStencil) {
   for (const auto& usable :
        {everywhere, AxisCells{0, 1000}, AxisCells{-1000, 1}, AxisCells{-2, 2}, AxisCells{0, 3}})
@@ -88,6 +91,7 @@ TEST(AxisWeights, ReproduceCubicsForAnyStencil) {
     }
 }
 
+// Proves (A2).
 TEST(AxisWeights, DegradeGentlyTowardsAnInterface) {
   const AxisCells right_of{0, 1000};
   EXPECT_LT(wave_error(10, 2, 3, right_of), 1e-4);
@@ -130,6 +134,7 @@ TEST(AxisWeights, CanBeHeldToFewerCells) {
   EXPECT_LT(wave_error(10, 0, 1, everywhere, 4), 5e-3);
 }
 
+// Proves (A2).
 TEST(AxisWeights, FoldAtAMirrorWithTheParityOfTheField) {
   // The mirror is the face at -1/2: cos(k (x + 1/2)) is even about it, sin(k (x + 1/2)) odd.
   const double k = 2 * pi / 9;
@@ -144,6 +149,7 @@ TEST(AxisWeights, FoldAtAMirrorWithTheParityOfTheField) {
   }
 }
 
+// Proves (A2).
 TEST(AxisWeights, FoldAtBothEndsOfANarrowSpan) {
   // Three cells between two mirrors at -1/2 and 5/2: cos(pi (x + 1/2)/3) is even about both.
   for (double position = -0.5; position <= 2.5; position += 0.1) {
@@ -154,6 +160,7 @@ TEST(AxisWeights, FoldAtBothEndsOfANarrowSpan) {
   }
 }
 
+// Proves (A2).
 TEST(AxisWeights, VanishOnAnOddMirror) {
   const auto weights = axis_weights(-0.5, {0, 1000, Beyond::odd});
   for (const auto& [cell, weight] : weights) EXPECT_NEAR(weight, 0, 1e-9) << cell;
@@ -174,6 +181,7 @@ double slope_error(double cells_per_wavelength, double from, double to, const Ax
   return largest;
 }
 
+// Proves (A10).
 TEST(AxisSlopes, DifferentiateWaves) {
   // The table of the header, a tenth above.
   const double cells[] = {20, 16, 10, 8, 6, 5};
@@ -189,6 +197,7 @@ TEST(AxisSlopes, DifferentiateWaves) {
   }
 }
 
+// Proves (A10).
 TEST(AxisSlopes, ReproduceCubicsForAnyStencil) {
   for (const auto& usable :
        {everywhere, AxisCells{0, 1000}, AxisCells{-1000, 1}, AxisCells{-2, 2}, AxisCells{0, 3}})
@@ -213,6 +222,7 @@ TEST(AxisSlopes, FoldAtAMirrorAndVanishInOneCell) {
   EXPECT_TRUE(axis_slopes(5.3, {5, 5}).empty());
 }
 
+// Proves (A1).
 TEST(PointWeights, SampleAPlaneWaveAnywhereInTheGrid) {
   const Grid<2> grid{{100, 80}, 5, {-20, 0}};
   const double k = 2 * pi / (8 * 5);  // 8 cells per wavelength
@@ -237,6 +247,7 @@ TEST(PointWeights, AreOneCellInTheMiddleOfIt) {
   EXPECT_EQ(weights[0].weight, 1);
 }
 
+// Proves (A4).
 TEST(PointWeights, HaveTheMomentsOfAPointSource) {
   // Spread with these weights a source keeps its strength and place: sum 1, centre of mass at the point, no
   // spread.
@@ -268,6 +279,7 @@ double spread_error(double cells_per_wavelength, double wanted) {
   return largest;
 }
 
+// Proves (A8).
 TEST(SpreadWeights, KeepLongWavesAndSuppressShortOnes) {
   for (const auto& [cells, bound] :
        {std::pair(24., 5e-5), {15., 6e-4}, {12., 2e-3}, {10., 4e-3}, {8., 6e-3}, {6., 0.03}})
@@ -276,6 +288,7 @@ TEST(SpreadWeights, KeepLongWavesAndSuppressShortOnes) {
     EXPECT_LT(spread_error(cells, 0), bound) << cells;
 }
 
+// Proves (A8).
 TEST(SpreadWeights, HaveTheMomentsOfAPointSource) {
   // Among many cells, beside the last one, in a span of the fewest, and with images beyond a mirror.
   for (const auto& [usable, degree] : {std::pair(AxisCells{-50, 50}, 5), {{0, 50}, 3}, {{-4, 3}, 3}})
@@ -297,6 +310,7 @@ TEST(SpreadWeights, HaveTheMomentsOfAPointSource) {
   EXPECT_NEAR(sum, 1, 1e-12);
 }
 
+// Proves (A3).
 TEST(TimeWeights, ReproducePolynomialsOfDegreeSevenEverywhere) {
   for (double position = 0; position <= 20; position += 0.173) {
     const auto [first, count, weights] = time_weights(position, 0, 20);
@@ -321,6 +335,7 @@ TEST(TimeWeights, AreOneOnASampleAndStayInside) {
   }
 }
 
+// Proves (A3).
 TEST(TimeWeights, ConvergeWithOrderEight) {
   const auto error = [](double samples_a_period) {
     const double w = 2 * pi / samples_a_period;
@@ -337,6 +352,7 @@ TEST(TimeWeights, ConvergeWithOrderEight) {
   EXPECT_LT(error(10), 3e-5);
 }
 
+// Proves (A9).
 TEST(TimeWeights, DifferentiateAndIntegratePolynomialsOfDegreeSeven) {
   const auto applied = [](const TimeWeights& weights, int power) {
     double sum = 0;

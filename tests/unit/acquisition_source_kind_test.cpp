@@ -66,6 +66,7 @@ SymmetricTensor<3, double> of_fault(double strike_deg, double dip_deg, double ra
   return moment;
 }
 
+// Proves (A14).
 TEST(DoubleCouple, SlipsOnItsPlane) {
   for (const double strike : {0., 33., 120., 270.})
     for (const double dip : {0., 20., 45., 90.})
@@ -78,6 +79,7 @@ TEST(DoubleCouple, SlipsOnItsPlane) {
       }
 }
 
+// Proves (A14).
 TEST(DoubleCouple, OfThePlaneIsAReverseFaultThatDipsTowardsX) {
   for (const double dip : {-30., 0., 45., 60.}) {
     const auto flat = point_injection(source_of<2>("double-couple:" + std::to_string(dip)))->moment_rate;

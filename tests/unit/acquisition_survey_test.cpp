@@ -15,6 +15,7 @@ Source<D> source(const std::string& kind, double amplitude = 1) {
   return {{}, parse_mechanism<D>(kind), parse_wavelet("ricker:30"), amplitude};
 }
 
+// Proves (A5).
 TEST(Mechanism, IsReadFromItsNotation) {
   EXPECT_TRUE(std::holds_alternative<Explosion>(parse_mechanism<2>("explosion")));
   EXPECT_EQ(std::get<PointForce<2>>(parse_mechanism<2>("force:0.5,-2")).vector, (Point<2>{0.5, -2}));
@@ -48,6 +49,7 @@ TEST(Mechanism, RefusesWhatIsNoSource) {
   EXPECT_THROW(parse_mechanism<3>("force:1,2"), Error);
 }
 
+// Proves (A7).
 TEST(PlaneWave, TravelsDownAtZeroAndTowardsXAtNinety) {
   const auto direction = [](const std::string& text) {
     return std::get<PlaneWave<2>>(parse_mechanism<2>(text)).direction;
@@ -66,6 +68,7 @@ TEST(PlaneWave, TravelsDownAtZeroAndTowardsXAtNinety) {
   EXPECT_EQ((std::get<PlaneWave<3>>(parse_mechanism<3>("plane:0")).direction), (Point<3>{0, 0, 1}));
 }
 
+// Proves (A15).
 TEST(PlaneWave, TurnsFromXTowardsYByItsAzimuth) {
   const auto wave = [](const std::string& text) { return std::get<PlaneWave<3>>(parse_mechanism<3>(text)); };
   EXPECT_EQ(wave("plane:90,90").direction, (Point<3>{0, 1, 0}));
@@ -81,6 +84,7 @@ TEST(PlaneWave, TurnsFromXTowardsYByItsAzimuth) {
   EXPECT_THROW(parse_mechanism<3>("plane:30,361"), Error);
 }
 
+// Proves (A6).
 TEST(PointInjection, OfAnExplosionIsTheMomentTensorThatIsTheUnitMatrix) {
   const auto explosion = *point_injection(source<3>("explosion", 7));
   EXPECT_EQ(explosion.moment_rate, point_injection(source<3>("moment:1,1,1,0,0,0", 7))->moment_rate);
@@ -89,6 +93,7 @@ TEST(PointInjection, OfAnExplosionIsTheMomentTensorThatIsTheUnitMatrix) {
   EXPECT_EQ(explosion.force, (Point<3>{}));
 }
 
+// Proves (A4), (A5).
 TEST(PointInjection, ScalesWithTheAmplitude) {
   EXPECT_EQ(point_injection(source<2>("force:3,-4", 2))->force, (Point<2>{6, -8}));
   EXPECT_EQ(point_injection(source<2>("moment:1,0,2", 3))->moment_rate(0, 1), 6);

@@ -56,6 +56,7 @@ std::string sampled(const Wavelet& w, double dt, double shift, bool one_column) 
   return text;
 }
 
+// Proves (W4).
 TEST_F(WaveletFile, IsInterpolatedWithOrderFour) {
   const auto exact = parse_wavelet("ricker:25");
   const auto error = [&](double dt) {
@@ -71,6 +72,7 @@ TEST_F(WaveletFile, IsInterpolatedWithOrderFour) {
   EXPECT_GT(std::log2(fine / finest), 3.8);
 }
 
+// Proves (W4).
 TEST_F(WaveletFile, GoesThroughItsSamplesAtUnevenTimes) {
   const auto w = read("0 0\n0.001 1\n0.004 -0.5\n0.005,0.25\n0.009 , 0\n");
   EXPECT_EQ(w(0), 0);
@@ -105,6 +107,7 @@ TEST_F(WaveletFile, MayHaveOneColumnAndAnInterval) {
   EXPECT_EQ(w.delay_s(), 0);
 }
 
+// Proves (W4).
 TEST_F(WaveletFile, ThatBeginsBeforeZeroIsDelayed) {
   const auto exact = parse_wavelet("ricker:25");
   // Ricker's ends are not exactly zero: one more interval on each side leads there.
@@ -121,6 +124,7 @@ TEST_F(WaveletFile, ThatBeginsAfterZeroKeepsItsTimes) {
   EXPECT_NEAR(w(0.51), 1, 1e-14);
 }
 
+// Proves (W4).
 TEST_F(WaveletFile, IsLedToZeroWhereItEndsWithAJump) {
   const auto w = read("0 1\n0.01 1\n0.02 1\n");
   EXPECT_DOUBLE_EQ(w.delay_s(), 0.01);

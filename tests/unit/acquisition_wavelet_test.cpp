@@ -33,6 +33,7 @@ double share_above(const Wavelet& w, double hz, double end_hz) {
   return std::sqrt(above / all);
 }
 
+// Proves (W1).
 TEST(Ricker, PeaksAtItsDelay) {
   const auto w = parse_wavelet("ricker:30");
   EXPECT_EQ(w(w.delay_s()), 1);
@@ -41,6 +42,7 @@ TEST(Ricker, PeaksAtItsDelay) {
   EXPECT_LT(w(w.delay_s() - 1e-3), 1);
 }
 
+// Proves (W1).
 TEST(Ricker, HasItsTroughsWhereItsSecondDerivativeHasThem) {
   // w' = 0 at a^2 = 3/2, w = -2 exp(-3/2) there.
   const auto w = parse_wavelet("ricker:10");
@@ -49,6 +51,7 @@ TEST(Ricker, HasItsTroughsWhereItsSecondDerivativeHasThem) {
   EXPECT_NEAR(w(w.delay_s() - a), -2 * std::exp(-1.5), 1e-14);
 }
 
+// Proves (W1), (W2).
 TEST(SmoothWavelets, StartAndEndAtNothing) {
   for (const auto& text : {"ricker:30", "gauss:30", "ricker:0.5"}) {
     const auto w = parse_wavelet(text);
@@ -59,6 +62,7 @@ TEST(SmoothWavelets, StartAndEndAtNothing) {
   }
 }
 
+// Proves (W1), (W2), (W3).
 TEST(Wavelets, HaveTheSpectrumOfTheirSamples) {
   for (const auto& text : {"ricker:30", "gauss:30", "sine:30", "sine:30:2.5", "sine:30:4"}) {
     const auto w = parse_wavelet(text);
@@ -67,6 +71,7 @@ TEST(Wavelets, HaveTheSpectrumOfTheirSamples) {
   }
 }
 
+// Proves (W1).
 TEST(Ricker, HasItsSpectralPeakAtItsFrequencyInADft) {
   const auto w = parse_wavelet("ricker:25");
   const double dt = 1e-3;
@@ -83,6 +88,7 @@ TEST(Ricker, HasItsSpectralPeakAtItsFrequencyInADft) {
   EXPECT_DOUBLE_EQ(double(largest) * bin_hz, 25);
 }
 
+// Proves (W2).
 TEST(Gaussian, PeaksAtItsDelayAndHasTheRickerAsSecondDerivative) {
   const auto gauss = parse_wavelet("gauss:20"), ricker = parse_wavelet("ricker:20");
   EXPECT_EQ(gauss(gauss.delay_s()), 1);
@@ -93,6 +99,7 @@ TEST(Gaussian, PeaksAtItsDelayAndHasTheRickerAsSecondDerivative) {
   }
 }
 
+// Proves (W3).
 TEST(Sine, RunsForItsCyclesAndIsZeroAfter) {
   const auto one = parse_wavelet("sine:20"), three = parse_wavelet("sine:20:3"),
              half = parse_wavelet("sine:20:0.5");
@@ -106,6 +113,7 @@ TEST(Sine, RunsForItsCyclesAndIsZeroAfter) {
   EXPECT_NEAR(three(0.1125), 1, 1e-12);
 }
 
+// Proves (W5).
 TEST(Wavelets, HaveLittleAboveTheirHighestFrequency) {
   for (const auto& text : {"ricker:30", "gauss:30", "sine:30", "sine:30:8"}) {
     const auto w = parse_wavelet(text);

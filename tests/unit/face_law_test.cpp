@@ -1,5 +1,5 @@
-// The law of a plane on a face, against its equations in ten thousand small steps (docs/theory.md 2.8, (S40)
-// to (S43)).
+// The law of a plane on a face, against its equations in ten thousand small steps (docs/theory/fractures.md,
+// (S40) to (S43)).
 #include "fracture/face_law.hpp"
 
 #include <gtest/gtest.h>
@@ -74,6 +74,7 @@ class Draw {
   std::mt19937 engine_{7};
 };
 
+// Proves (S40).
 TEST(SlidingFace, FollowsItsEquationsThroughSticksAndSlides) {
   Draw draw;
   for (int n = 0; n < 300; ++n) {
@@ -90,6 +91,7 @@ TEST(SlidingFace, FollowsItsEquationsThroughSticksAndSlides) {
   }
 }
 
+// Proves (S42).
 TEST(SlidingFace, AtATipWithSpringAndViscosityConvergesAsSweepsGetShort) {
   const FaceLoad load{1.5, 0.2, 0.02, 0.03};
   const double strength = 0.1, drag = 0.5, slip = 0.1;
@@ -108,6 +110,7 @@ TEST(SlidingFace, AtATipWithSpringAndViscosityConvergesAsSweepsGetShort) {
   EXPECT_LT(error_of(10), 0.15 * error_of(1));
 }
 
+// Proves (S41).
 TEST(SlidingFace, WithoutStrengthIsFreeAndWithALotOfItWelded) {
   EXPECT_EQ(slide_face({3, 1, infinite, 0}, 0, 0, 0).mean, 0);
   EXPECT_EQ(slide_face({3, 1, infinite, 0}, 0, 1e12, 1e12).mean, 3);
@@ -137,6 +140,7 @@ TEST(SlidingFace, ThatSticksHasNotMovedAtAll) {
   }
 }
 
+// Proves (S43).
 TEST(SlidingFace, NeverGivesWavesEnergy) {
   // The jump of a sweep times the traction, less what the spring and the tip gain.
   Draw draw;
@@ -158,6 +162,7 @@ TEST(SlidingFace, NeverGivesWavesEnergy) {
   }
 }
 
+// Proves (S40).
 TEST(PartingFace, FollowsItsEquationsAsItOpensAndShuts) {
   Draw draw;
   for (int n = 0; n < 300; ++n) {
@@ -171,6 +176,7 @@ TEST(PartingFace, FollowsItsEquationsAsItOpensAndShuts) {
   }
 }
 
+// Proves (S41).
 TEST(PartingFace, CarriesPressureAndNoTension) {
   EXPECT_EQ(part_face({-3, 0, infinite, 0}, 0).mean, -3);
   const auto open = part_face({2, 0, infinite, 0}, 0);

@@ -32,6 +32,7 @@ TYPED_TEST(Smooth, DecayAndLogarithmAreThoseOfTheLibrary) {
   EXPECT_LT(smooth::decay(TypeParam(1e30)).left, 1e-37);
 }
 
+// Proves (S11).
 TEST(Block, TwoSystemsShareTheLoadAsTheirRuleSays) {
   // |tau| + c_a (|tau|/S_a - 1)_+ + c_b (|tau|/S_b - 1)_+ = |tau_e|, whatever the strengths.
   std::mt19937 random(3);
@@ -65,6 +66,7 @@ JointSlip<D, double, Coulomb> blocks(SlipCorrection correction, const std::vecto
   return {correction, systems};
 }
 
+// Proves (S34).
 TEST(JointSlip, OfPlanesAskewInTheirRockHoldsTheStrengthUnderTheNormalStressItLeaves) {
   // Slip changes the normal stress, too, by kappa of what it takes off the traction.
   const Traction<2, double> normal{0.6, 0.8};
@@ -92,6 +94,7 @@ TEST(JointSlip, OfPlanesAskewInTheirRockHoldsTheStrengthUnderTheNormalStressItLe
     }
 }
 
+// Proves (S34a).
 TEST(JointSlip, OfPlanesAskewInSpaceSolvesTheImplicitRule) {
   // Slip along what is left of the traction, g = (|tau|/S - 1) tau/(eta |tau|), takes another share of itself
   // off the traction along each of two directions: tau_e - tau = dt M g.
@@ -140,6 +143,7 @@ TEST(JointSlip, OfPlanesAskewInSpaceSolvesTheImplicitRule) {
     }
 }
 
+// Proves (S12).
 TEST(JointSlip, OfTwoSystemsIsTheClosedForm) {
   const auto pair = blocks<2>(SlipCorrection::first, {300, 700});
   const bool shut[2] = {};
@@ -154,6 +158,7 @@ TEST(JointSlip, OfTwoSystemsIsTheClosedForm) {
   }
 }
 
+// Proves (S12).
 TEST(JointSlip, OfThreeSystemsInSpaceSolvesTheImplicitRule) {
   // s_ij + sum over the systems k = i, j of s_ij G_k/|tau_k| = the elastic s_ij, G_k = c_k (|tau_k|/S_k -
   // 1)_+.
@@ -186,6 +191,7 @@ double size_of(const Stress<3, double>& s) {
   return sum;
 }
 
+// Proves (S12).
 TEST(JointSlip, NeverAddsEnergyAndObeysDryFriction) {
   const bool shut[3] = {};
   std::mt19937 random(9);
@@ -211,6 +217,7 @@ TEST(JointSlip, NeverAddsEnergyAndObeysDryFriction) {
     }
 }
 
+// Proves (S11).
 TEST(PairKernel, IsTheSameForEitherOrderOfItsSystems) {
   for (const auto correction : {SlipCorrection::first, SlipCorrection::second}) {
     const std::vector<SlipSystem<2>> one = {{{0.6, 0.8}, 0.3, 0, 10}, {{-0.8, 0.6}, 0.1, 0, 50}};
@@ -240,6 +247,7 @@ TEST(PairKernel, IsTheSameForEitherOrderOfItsSystems) {
   }
 }
 
+// Proves (S13).
 TEST(Gap, PartsPlanesUnderTensionAndRemembersHowFar) {
   // n along x: pulled by a strain of 2e-6, then pushed back by 5e-6.
   const double lambda = 1e10, modulus = 3e10;

@@ -6,6 +6,7 @@ namespace {
 
 TYPED_TEST_SUITE(SlipLaw, SlipCases);
 
+// Proves (S1).
 TYPED_TEST(SlipLaw, TurnsWithTheFrame) {
   constexpr int D = TypeParam::D;
   using Real = typename TypeParam::Real;
@@ -35,6 +36,7 @@ TYPED_TEST(SlipLaw, TurnsWithTheFrame) {
   }
 }
 
+// Proves (S4).
 TYPED_TEST(SlipLaw, LeavesNormalStressAndWhatDoesNotShearThePlanesAlone) {
   constexpr int D = TypeParam::D;
   using Real = typename TypeParam::Real;
@@ -55,6 +57,7 @@ TYPED_TEST(SlipLaw, LeavesNormalStressAndWhatDoesNotShearThePlanesAlone) {
   }
 }
 
+// Proves (S4).
 TYPED_TEST(SlipLaw, HoldsNormalStressOverManySlippingSteps) {
   using Real = typename TypeParam::Real;
   const auto n = this->any_normal();
@@ -105,6 +108,7 @@ TYPED_TEST(SlipLaw, IsOddInTheShearDirection) {
   }
 }
 
+// Proves (S1).
 TYPED_TEST(SlipLaw, DoesNotCareWhichSideTheNormalPointsTo) {
   using Real = typename TypeParam::Real;
   const auto n = this->any_normal();
@@ -131,6 +135,7 @@ TYPED_TEST(SlipLaw, DryFrictionKnowsNoUnit) {
   }
 }
 
+// Proves (S7), (S10).
 TYPED_TEST(SlipLaw, NeverAddsEnergy) {
   // The shear traction enters the elastic energy as |tau|^2/(2 mu), apart from all that slip leaves alone.
   using Real = typename TypeParam::Real;

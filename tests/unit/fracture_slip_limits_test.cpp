@@ -8,6 +8,7 @@ template <class Case>
 class SlipLimits : public SlipLaw<Case> {};
 TYPED_TEST_SUITE(SlipLimits, SlipCases);
 
+// Proves (S2), (S7).
 TYPED_TEST(SlipLimits, WithoutViscosityIsDryCoulombFriction) {
   using Real = typename TypeParam::Real;
   for (const double eta : {0., 1e-300}) {
@@ -44,6 +45,7 @@ TYPED_TEST(SlipLimits, LeavesNoShearOnPlanesWithoutStrength) {
   }
 }
 
+// Proves (S2).
 TYPED_TEST(SlipLimits, TreatsAnOpenPlaneAsOneWithoutFriction) {
   using Real = typename TypeParam::Real;
   Traction<TypeParam::D, Real> n{};
@@ -63,6 +65,7 @@ TYPED_TEST(SlipLimits, LeavesStressBelowTheStrengthAloneToTheLastBit) {
   EXPECT_EQ(this->after(s, {0, Real(1e6)}, n, Real(1e-4)), s);
 }
 
+// Proves (S4).
 TYPED_TEST(SlipLimits, KeepsAllNumbersFinite) {
   using Real = typename TypeParam::Real;
   for (const double eta : {0., 1e-300, 1e-30, 1., 1e30, 1e300})
@@ -90,6 +93,7 @@ TEST(RelaxationStress, IsWhatAStepOfSlipTakesOffAtTwiceTheStrength) {
   EXPECT_EQ(slip::relaxation_pa(1e-300, 1e10, 1e-3), most_relaxation_pa);
 }
 
+// Proves (S7).
 TEST(SecondOrderSlip, DoesNotRingWhereTheStepIsMuchLongerThanTheRelaxation) {
   // Under a steadily growing load of strong planes tau - S must stay R t_r; the plain trapezoidal rule leaves
   // a start-up error that changes its sign at every step and hardly decays.

@@ -118,6 +118,7 @@ TEST(SlipReference, SlipsInTheLoadingsUsed) {
   }
 }
 
+// Proves (S5).
 TEST(FirstOrderSlip, ConvergesWithOrderOneForAnyNormal) {
   for (const double degrees : {0., 90., 45., 30., -72.5}) {
     const auto pulled = errors<FirstOrder>(pulling, degrees, 400, 4);
@@ -127,6 +128,7 @@ TEST(FirstOrderSlip, ConvergesWithOrderOneForAnyNormal) {
   }
 }
 
+// Proves (S6).
 TEST(SecondOrderSlip, ConvergesWithOrderTwoForAnyNormal) {
   for (const double degrees : {0., 90., 45., 30., -72.5}) {
     const auto pulled = errors<SecondOrder>(pulling, degrees, 400, 4);
@@ -137,6 +139,7 @@ TEST(SecondOrderSlip, ConvergesWithOrderTwoForAnyNormal) {
   }
 }
 
+// Proves (S10).
 TEST(ExponentialSlip, ConvergesWithOrderTwoForAnyNormal) {
   for (const double degrees : {0., 90., 45., 30., -72.5}) {
     const auto pulled = errors<Exponential>(pulling, degrees, 400, 4);
@@ -146,6 +149,7 @@ TEST(ExponentialSlip, ConvergesWithOrderTwoForAnyNormal) {
   }
 }
 
+// Proves (S10).
 TEST(ExponentialSlip, IsExactUnderAConstantLoadingRateHoweverLongTheStep) {
   const Rock rock;
   const double s = rock.strength(-2e5), rate = 1e6, relaxation = rock.eta * s / rock.mu;
@@ -159,6 +163,7 @@ TEST(ExponentialSlip, IsExactUnderAConstantLoadingRateHoweverLongTheStep) {
   }
 }
 
+// Proves (S10).
 TEST(ExponentialSlip, StopsInTheMiddleOfAStepWhereTheLawDoes) {
   // Loaded to slip, then unloaded in one step: from the instant at which tau falls to S the plane is stuck.
   const Rock rock;
@@ -186,12 +191,14 @@ TEST(ExponentialSlip, StopsInTheMiddleOfAStepWhereTheLawDoes) {
   EXPECT_GT(tau, exact - taken);
 }
 
+// Proves (S6).
 TEST(SecondOrderSlip, KeepsItsOrderWherePlanesOpenAndClose) {
   const auto found = errors<SecondOrder>(gaping, 30, 400, 4);
   EXPECT_NEAR(order(found), 2, 0.2);
   EXPECT_LT(found.back(), 2e-6);
 }
 
+// Proves (S6).
 TEST(SecondOrderSlip, IsTheTrapezoidalRuleOfThePaperWhereItsStepResolvesTheRelaxation) {
   // The scalar formula with |Sigma| stored: Sigma = tau_e - B, B = (|Sigma| - S)_+/(1 + 2 d S),
   // |tau| = S (1 + 2 d |Sigma|)/(1 + 2 d S).
@@ -212,6 +219,7 @@ TEST(SecondOrderSlip, IsTheTrapezoidalRuleOfThePaperWhereItsStepResolvesTheRelax
   EXPECT_NEAR((corrected<SecondOrder, 2>(rock, pulling, end, steps, n, m)), tau, 1e-9 * std::abs(tau));
 }
 
+// Proves (S3).
 TEST(Slip, FollowsTheClosedFormUnderAConstantLoadingRate) {
   // |tau| - S = R t_r (1 - exp(-(t - t0)/t_r)), t_r = eta S/mu, from the instant t0 at which tau reaches S.
   const Rock rock;
@@ -224,6 +232,7 @@ TEST(Slip, FollowsTheClosedFormUnderAConstantLoadingRate) {
   EXPECT_NEAR((corrected<SecondOrder, 2>(rock, ramp, end, 4000, n, m)), exact, 2e-7 * exact);
 }
 
+// Proves (S3).
 TEST(Slip, IsTheSameIn3D) {
   const Rock rock;
   const auto [n2, m2] = plane(0);

@@ -17,6 +17,7 @@ SlipStrength<Real> weakening(double friction, double dynamic, double distance_m,
   return {Real(friction), Real(cohesion_pa), FrictionLaw::slip_weakening, dynamic, distance_m, slip_per_pa};
 }
 
+// Proves (S17).
 TYPED_TEST(Weakening, OverAnEndlessDistanceIsCoulombToTheBit) {
   using Real = typename TypeParam::Real;
   using Correction = typename TypeParam::Correction;
@@ -42,6 +43,7 @@ TYPED_TEST(Weakening, OverAnEndlessDistanceIsCoulombToTheBit) {
     }
 }
 
+// Proves (S18).
 TYPED_TEST(Weakening, NeverAddsEnergyAndStoresTheSlip) {
   using Real = typename TypeParam::Real;
   using Correction = typename TypeParam::Correction;
@@ -130,12 +132,14 @@ void expect_closed_form() {
   }
 }
 
+// Proves (S18).
 TEST(SlipWeakening, OfDryPlanesIsItsClosedFormInStepsOfAnyLength) {
   expect_closed_form<FirstOrder>();
   expect_closed_form<SecondOrder>();
   expect_closed_form<Exponential>();
 }
 
+// Proves (S18).
 TEST(SlipWeakening, FallsToDynamicFrictionAtOnceWhereTheCellIsTooLarge) {
   const auto law = weakening<double>(0.6, 0.2, 2e-5, 0, 1e-9);  // W = 2
   Loaded cell;
@@ -204,6 +208,7 @@ struct Pulled {
 
 double order(const std::vector<double>& e) { return std::log2(e.front() / e.back()) / double(e.size() - 1); }
 
+// Proves (S18).
 TEST(SlipWeakening, ConvergesToTheSolutionOfItsEquationWithTheOrderOfItsCorrection) {
   // While friction falls, and where it has fallen to the dynamic one on the way.
   for (const double distance_m : {4e-4, 6e-5}) {
@@ -222,6 +227,7 @@ TEST(SlipWeakening, ConvergesToTheSolutionOfItsEquationWithTheOrderOfItsCorrecti
   }
 }
 
+// Proves (S18).
 TEST(SlipWeakening, OfTwoSystemsIsTheSameInKernelAndJointSolver) {
   // A pair at right angles, by the closed form and by rounds: dry planes, of which the weaker alone slips,
   // and viscous ones.

@@ -35,6 +35,7 @@ Model<2> one_cell(const Material& of) {
   return model;
 }
 
+// Proves (V2).
 TEST(Stiffness, IsThatOfThomsen) {
   for (const auto& of : {shale, crossed}) {
     const auto [c11, c13, c33, c55] = stiffness_of(of);
@@ -54,6 +55,7 @@ TEST(Stiffness, IsThatOfThomsen) {
   EXPECT_EQ(isotropic.c13, isotropic.c33 - 2 * isotropic.c55);
 }
 
+// Proves (V3).
 TEST(PhaseSpeeds, AreRootsOfTheChristoffelEquation) {
   for (const auto& of : {shale, crossed, rock})
     for (const double degrees : {0., 17., 45., 71., 90.}) {
@@ -76,6 +78,7 @@ TEST(PhaseSpeeds, AreRootsOfTheChristoffelEquation) {
   EXPECT_NEAR(speeds.s, 1500 * (1 + 4 * 0.01 * s * c), 1);
 }
 
+// Proves (V3).
 TEST(PhaseSpeeds, AreSlowestAndFastestInSomeDirection) {
   // Along the vertical, and where delta is above epsilon on the way to the horizontal.
   EXPECT_NEAR(slowest_speeds(shale).p, 3000, 1e-9);
@@ -88,6 +91,7 @@ TEST(PhaseSpeeds, AreSlowestAndFastestInSomeDirection) {
   EXPECT_FLOAT_EQ(slow.vs[0], float(slowest_speeds(material_of(one_cell(crossed).medium, 0)).s));
 }
 
+// Proves (V1).
 TEST(Coefficients, AreThoseOfTheAxis) {
   const auto medium = one_cell(shale).medium;
   EXPECT_NEAR(wave_speed(medium, 0, 0, wave_p), 3000 * std::sqrt(1.4), 1e-3);
@@ -120,6 +124,7 @@ Stiffness of_layers(const std::vector<Material>& parts) {
   return c;
 }
 
+// Proves (V5).
 TEST(MaterialMean, OfAnisotropicPartsIsThatOfFlatLayers) {
   for (const auto& parts : {std::vector{shale, rock}, {crossed, shale, rock}}) {
     MaterialMean mean(parts[0]);
@@ -166,6 +171,7 @@ TEST(ImportedConstants, OfAnisotropyAreThoseOfSolids) {
   EXPECT_TRUE(medium.has(Property::delta));
 }
 
+// Proves (V2).
 TEST(ModelCheck, RefusesAnisotropyThatNoRockHas) {
   const auto told = [](const Material& of) { return refusal([&] { check(one_cell(of)); }); };
   EXPECT_EQ(told(shale), "");
@@ -212,6 +218,7 @@ Scene<2> scene_of(const Material& of) {
   return scene;
 }
 
+// Proves (S34b).
 TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropy) {
   const auto told = [](const Scene<2>& scene) { return refusal([&] { check_anisotropy(scene); }); };
   EXPECT_EQ(told(scene_of(shale)), "");
@@ -249,6 +256,7 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropy) {
   EXPECT_EQ(told(cracked), "");
 }
 
+// Proves (O5), (S34b).
 TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
   Scene<3> deep;
   const auto told = [&] { return refusal([&] { check_anisotropy(deep); }); };
@@ -311,6 +319,7 @@ TEST(SceneCheck, RefusesWhatDoesNotGoWithAnisotropyInThreeDimensions) {
 /// shale.
 constexpr OrthorhombicStiffness cracked{9, 9.84, 5.9375, 2, 1.6, 2.182, 3.6, 2.25, 2.4};
 
+// Proves (O2).
 TEST(StiffnessInSpace, IsThatOfThomsenAndTsvankin) {
   // As Tsvankin (1997, table 1) has them of that rock.
   const auto of = material_of_stiffness_in_space(cracked, 1);
@@ -341,6 +350,7 @@ TEST(StiffnessInSpace, IsThatOfThomsenAndTsvankin) {
   EXPECT_EQ(stiffness_in_space(rock).c12, stiffness_of(rock).c13);
 }
 
+// Proves (F16).
 TEST(PhaseSpeedsInSpace, AreFastestInSomeDirection) {
   std::mt19937 engine(5);
   std::uniform_real_distribution<double> uniform(-0.3, 0.6);
@@ -364,6 +374,7 @@ TEST(PhaseSpeedsInSpace, AreFastestInSomeDirection) {
   }
 }
 
+// Proves (O3).
 TEST(PhaseSpeedsInSpace, AreRootsOfTheChristoffelEquation) {
   // In its planes of symmetry those of (V3), and the shear across them.
   const double angle = 0.6, s = std::sin(angle), c = std::cos(angle);
@@ -396,6 +407,7 @@ TEST(PhaseSpeedsInSpace, AreRootsOfTheChristoffelEquation) {
   EXPECT_GE(fastest_p_speed_in_space(material), std::sqrt(cracked.c22) - 1e-9);
 }
 
+// Proves (O3).
 TEST(Turning, InSpaceIsThatOfThePlanesOfSymmetry) {
   const auto turns = stiffness_of(crossed);
   for (const bool vertical : {false, true})
@@ -405,6 +417,7 @@ TEST(Turning, InSpaceIsThatOfThePlanesOfSymmetry) {
   EXPECT_EQ(largest_turning(stiffness_in_space(rock), 1), 0);
 }
 
+// Proves (O5).
 TEST(MaterialMean, OfAnisotropicPartsInSpaceIsThatOfFlatLayers) {
   auto other = material_of_stiffness_in_space(cracked, 1);
   other = {other.vp * 1000, other.vs * 1000,   2300, other.epsilon, other.delta, 0,
@@ -444,6 +457,7 @@ TEST(Layers, OfOrthorhombicRockLeaveOthersAlikeInAllHorizontalDirections) {
   EXPECT_TRUE(layered_medium(grid, {parse_layer("0:3000:1600:2300 epsilon=0.2")}).has(Property::gamma));
 }
 
+// Proves (O2).
 TEST(ModelCheck, RefusesAnisotropyInSpaceThatNoRockHas) {
   const auto told = [](const Material& of) {
     Model<3> model;

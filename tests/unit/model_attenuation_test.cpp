@@ -38,6 +38,7 @@ Wave wave_of(const Mechanisms& mechanisms, const RelaxedShares& shares, double h
   return {modulus.real() / modulus.imag(), 1 / (1. / std::sqrt(modulus)).real()};
 }
 
+// Proves (Q1), (Q3).
 TEST(Mechanisms, GiveTheQualityWantedWithinThreePercentOverTheBand) {
   for (const int count : {3, 4, 5}) {
     const Mechanisms mechanisms(count, peak_hz / 5, 2.5 * peak_hz);
@@ -53,6 +54,7 @@ TEST(Mechanisms, GiveTheQualityWantedWithinThreePercentOverTheBand) {
 }
 
 // Steps of relaxation, as (Q7) and (Q8) take them under a strain that oscillates: stress of its frequency.
+// Proves (Q8a).
 TEST(Mechanisms, HaveTheModulusOfTheirStepsOfRelaxation) {
   const Mechanisms mechanisms(3, 5, 62.5);
   const auto shares = mechanisms.shares(20);
@@ -89,6 +91,7 @@ TEST(Mechanisms, HaveTheModulusOfTheirStepsOfRelaxation) {
   }
 }
 
+// Proves (Q2), (Q3).
 TEST(Mechanisms, AreOfPositiveSharesBelowTheWholeModulus) {
   for (const int count : {2, 3, 4, 5}) {
     const Mechanisms mechanisms(count, 4, 50);
@@ -105,6 +108,7 @@ TEST(Mechanisms, AreOfPositiveSharesBelowTheWholeModulus) {
   }
 }
 
+// Proves (Q4).
 TEST(UnrelaxedMedium, HasTheSpeedsGivenAtTheReferenceFrequency) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
   auto medium = one_cell(3000, 1600, 40, 20);
@@ -119,6 +123,7 @@ TEST(UnrelaxedMedium, HasTheSpeedsGivenAtTheReferenceFrequency) {
               std::log(8) / (100 * std::numbers::pi), 0.0008);
 }
 
+// Proves (Q4a).
 TEST(UnrelaxedMedium, HasTheSpeedsOfAConstantQOfALogAtKilohertz) {
   const Mechanisms mechanisms(3, 4, 50);
   for (const double log_hz : {0.5, 200., 1e4}) {
@@ -135,6 +140,7 @@ TEST(UnrelaxedMedium, HasTheSpeedsOfAConstantQOfALogAtKilohertz) {
   EXPECT_NEAR(faster_by_constant_quality(25, 1e4, 50), 0.935, 5e-4);
 }
 
+// Proves (Q6).
 TEST(UnrelaxedMedium, LosesNoLessInPWavesThanShearDoes) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
   auto medium = one_cell(3000, 1500, 1000, 20);
@@ -149,6 +155,7 @@ TEST(UnrelaxedMedium, LosesNoLessInPWavesThanShearDoes) {
     for (const double share : shares.bulk) EXPECT_LT(share, 0.002);
 }
 
+// Proves (Q3).
 TEST(UnrelaxedMedium, RefusesAQualityThatIsNotFitted) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 20};
   for (const bool of_p : {true, false}) {
@@ -163,6 +170,7 @@ TEST(UnrelaxedMedium, RefusesAQualityThatIsNotFitted) {
   EXPECT_NE(refusal([] { Mechanisms(3, 50, 4); }).find("found a band of 50 to 4 Hz"), std::string::npos);
 }
 
+// Proves (Q5), (Q8).
 TEST(StepwiseRelaxation, LeavesTheModulusAtRestAndTakesOfTheUnrelaxedOne) {
   const Mechanisms mechanisms(3, 4, 50);
   auto medium = one_cell(3000, 1600, 20, 15);
@@ -191,6 +199,7 @@ Medium<2> one_cell(const Material& rock, double qp, double qs, bool cut) {
   return medium;
 }
 
+// Proves (Q9).
 TEST(UnrelaxedMedium, HasThePhaseSpeedsOfAnisotropicRockAtTheReferenceFrequency) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
   const Material rocks[] = {{3000, 1600, 2000, 0.2, 0.1, 30}, {3200, 1700, 2000, -0.05, 0.2}};
@@ -214,6 +223,7 @@ TEST(UnrelaxedMedium, HasThePhaseSpeedsOfAnisotropicRockAtTheReferenceFrequency)
     }
 }
 
+// Proves (Q10).
 TEST(StepwiseRelaxation, LeavesTheStiffnessOfAnisotropicRockAtRest) {
   const Mechanisms mechanisms(3, 4, 50);
   const auto medium = one_cell({3000, 1600, 2000, 0.2, 0.1, 30}, 30, 20, false);
@@ -239,6 +249,7 @@ const Material cracked =
                                     2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
                                    2300);
 
+// Proves (Q11).
 TEST(BulkPart, IsTheLargestThatLeavesAPositiveRest) {
   const Material isotropic{3000, 1600, 2300}, shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15};
   const auto of_isotropic = bulk_part(stiffness_in_space(isotropic));
@@ -280,6 +291,7 @@ TEST(BulkPart, IsTheLargestThatLeavesAPositiveRest) {
   }
 }
 
+// Proves (Q12).
 TEST(UnrelaxedMedium, HasTheStiffnessOfOrthorhombicRockAtTheReferenceFrequency) {
   const Attenuation attenuation{Mechanisms(3, 4, 50), 13};
   const Material shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15};

@@ -53,6 +53,7 @@ CutInSpace plane(double depth, double along_x, double along_y) {
 
 }  // namespace
 
+// Proves (M1), (M2).
 TEST(MaterialMean, AveragesDensityAndCompliances) {
   MaterialMean mean(soft);
   mean.add(soft, 3);
@@ -72,6 +73,7 @@ TEST(MaterialMean, OfOneMaterialIsThatMaterialBitForBit) {
   EXPECT_EQ(mean.mean(), odd);
 }
 
+// Proves (M1).
 TEST(MaterialMean, CountsOnlyWhatIsOfTheKindOfTheCentre) {
   for (const auto& centre : {soft, water, air}) {
     MaterialMean mean(centre);
@@ -83,6 +85,7 @@ TEST(MaterialMean, CountsOnlyWhatIsOfTheKindOfTheCentre) {
   EXPECT_EQ(nothing.mean(), hard);
 }
 
+// Proves (M2).
 TEST(MaterialMean, OfAdmissibleMaterialsIsAdmissible) {
   // vs <= vp/sqrt(2) is 1/mu >= 2/(lambda + 2 mu), which holds for sums where it holds for all parts.
   const Material limit{3000, 3000 / std::sqrt(2.0), 1800}, slow{1600, 10, 2600};
@@ -95,6 +98,7 @@ TEST(MaterialMean, OfAdmissibleMaterialsIsAdmissible) {
   }
 }
 
+// Proves (M1).
 TEST(CutCell, SharesAreExactAreas) {
   // A corner of legs 0.5 and 0.25 below a top that leaves the cell through its lower edge.
   const auto corner = shares_of_cell(std::vector<Cut>{{0.75, 1.25}});
@@ -106,6 +110,7 @@ TEST(CutCell, SharesAreExactAreas) {
   EXPECT_EQ(shares_of_cell(std::vector<Cut>{{1, 7}}), (std::vector<double>{0, 1}));
 }
 
+// Proves (M1).
 TEST(CutCell, SharesInSpaceAreExactVolumes) {
   // A corner of the cell's floor: legs of 0.5, 0.8 and 0.25.
   const auto corner = shares_of_cell(std::vector<CutInSpace>{plane(0.75, 0.5, 0.25 / 0.8)});
@@ -188,6 +193,7 @@ TEST(Layers, CellsCutByATopTakeTheMeanOverTheirParts) {
   EXPECT_EQ(layered_medium(grid_of(1, 3, 10), layers, Average::none).vp[1], 4500);
 }
 
+// Proves (M1).
 TEST(Layers, KeepMassUnderADippingTop) {
   // A top through the middle of the model, from side to side: half of it is soft, half hard.
   const double rise = 400 * std::tan(0.4);

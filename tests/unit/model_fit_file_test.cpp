@@ -62,6 +62,7 @@ class FittedModelFile : public ::testing::Test {
 
 }  // namespace
 
+// Proves (F1).
 TEST_F(FittedModelFile, ReadsBackWhatWasWritten) {
   const auto model = fitted_model(grid_of(20, 40, 5));
   ASSERT_NE(model.grid().rows, nullptr);

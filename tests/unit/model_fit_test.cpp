@@ -284,6 +284,7 @@ TEST(FittedModel, IsCheckedForThinRows) {
             "horizons or choose smaller cells");
 }
 
+// Proves (F10a).
 TEST(FittedModel, IsFracturedAndLoadedAtTrueDepths) {
   const auto grid = grid_of(20, 60, 5);
   const std::vector<Layer> layers = {{0, 1500, 0, 1000}, {100, 3000, 1500, 2000, 20}};

@@ -187,6 +187,7 @@ TEST(GridHorizon, ThatIsObliqueKeepsMass) {
   EXPECT_NEAR(mass_of(medium) / (300. * 500), 2000 * middle + 2500 * (400 - middle), 1e-2);
 }
 
+// Proves (M1).
 TEST(GridHorizon, FollowsADome) {
   // 120 m high, sampled every 20 m, in cells of 10 m. Of a surface with second derivatives of at most c the
   // bilinear one is off by c (20 m)^2/8 along each axis at most.

@@ -29,6 +29,7 @@ const double half = std::sqrt(0.5);
 
 }  // namespace
 
+// Proves (S15).
 TEST(Prestress, OfTheWeightAboveGrowsWithDepthAsTheDensitiesSay) {
   auto model = fractured({{half, -half}, 1, 0, 0});
   set_prestress(model, 1, parse_prestress<2>("lithostatic:0.7"));
@@ -90,6 +91,7 @@ TEST(Prestress, RefusesWhatItDoesNotKnow) {
   EXPECT_EQ(said("lithostatic:-1"), "found K0 of -1, expected it not below zero");
 }
 
+// Proves (S15).
 TEST(Prestress, ThatSlipsByItselfIsRefused) {
   // Planes at 45 degrees under szz = -p, sxx = -p/2: s_n = -3/4 p, |tau| = p/4, which friction of 1/3 just
   // holds.

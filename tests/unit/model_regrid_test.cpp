@@ -118,6 +118,7 @@ TEST(Regrid, KeepsTravelTimeAtNormalIncidenceToSecondOrderOfTheContrast) {
   EXPECT_NEAR(coarse.medium.vs[0], 1500 / std::sqrt(1 + e * e), 1e-3);
 }
 
+// Proves (M1).
 TEST(Regrid, WeighsPartsByTheirVolumeAtAnyRatio) {
   // 3 cells of 10 m become 2 of 15 m: parts of 2 : 1 and 1 : 2.
   const auto grid = grid_of(3, 3, 10);

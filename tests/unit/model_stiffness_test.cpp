@@ -31,6 +31,7 @@ TEST(GivenStiffness, MakesTheRockThatHasIt) {
   EXPECT_FALSE(isotropic.is_anisotropic_in_space());
 }
 
+// Proves (O9).
 TEST(GivenStiffness, OfAPlaneFindsItsAxes) {
   for (const double dip : {-80., -30., 12., 45., 70., 90.})
     for (const double delta : {0.1, -0.1, 0.18}) {

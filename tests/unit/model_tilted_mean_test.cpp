@@ -43,6 +43,7 @@ double turned(const Stiffness& c, double angle, std::array<int, 4> of) {
 
 }  // namespace
 
+// Proves (T2).
 TEST(TiltedMean, TurnsAsATensorDoes) {
   const Stiffness c{31e9, 9e9, 22e9, 6e9};
   for (const double angle : {0., 0.3, -0.9, 1.4}) {
@@ -57,6 +58,7 @@ TEST(TiltedMean, TurnsAsATensorDoes) {
   }
 }
 
+// Proves (T1).
 TEST(TiltedMean, IsThatOfBackusAboutTheNormal) {
   // 0.3 of the cells in row 2 are soft.
   const auto medium = parted({{3, 5}, 10, {0, 0}}, 23, 0);

@@ -52,6 +52,7 @@ std::vector<Gather> exact_traces(const Scene<2>& scene) {
 const AccuracySetting settings[] = {{3, 0.9, 15}, {5, 0.9, 15},  {5, 0.4, 15},
                                     {7, 0.9, 15}, {5, 0.9, 7.5}, {7, 0.5, 7.5}};
 
+// Proves (E16).
 TEST(ExpectedError, IsWithinAFactorOfTwoOfTheErrorInAFullSpace) {
   // The factor is the one promised to users.
   for (const char* mechanism : {"force:0,1", "explosion"}) {
@@ -65,6 +66,7 @@ TEST(ExpectedError, IsWithinAFactorOfTwoOfTheErrorInAFullSpace) {
   }
 }
 
+// Proves (E16).
 TEST(RecommendedSetting, ErrsLessThanOnePercentOverTwentyWavelengths) {
   // S waves along a strip, 20 of their dominant wavelengths far and in two directions. Its edges are so far
   // off that S waves come back from them after the end; of P waves a PML of 40 cells reflects nothing to

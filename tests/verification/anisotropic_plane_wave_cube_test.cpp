@@ -14,6 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
+// Proves (A18).
 TEST(SpaceLayerWaves, SolveTheChristoffelEquationAndGoTheWayTheyShould) {
   using Complex = std::complex<double>;
   const std::array<double, 2> along = {1.2e-4, -0.9e-4};
@@ -48,6 +49,7 @@ TEST(SpaceLayerWaves, SolveTheChristoffelEquationAndGoTheWayTheyShould) {
   }
 }
 
+// Proves (A18).
 TEST(SpaceLayerWaves, OfLevelBedsAreThoseOfAnyStiffnessThatIsNextToThem) {
   const std::array<double, 2> along = {1.2e-4, -0.9e-4};
   const auto level = layer_waves(shale, along, true),
@@ -80,6 +82,7 @@ Scene<3> box(const Material& upper, const Material& lower, std::int64_t across, 
   return scene;
 }
 
+// Proves (A19).
 TEST(AnisotropicPlaneWaveInSpace, GoesThroughARockUndisturbed) {
   const ThreadLimit one_thread(1);
   for (const auto& rock : {shale, turned_by(cracked, 40, 25, -50)})
@@ -120,6 +123,7 @@ TEST(AnisotropicPlaneWaveInSpace, GoesThroughARockUndisturbed) {
     }
 }
 
+// Proves (A19).
 TEST(AnisotropicPlaneWaveInSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   auto upper = turned_by(shale, 30, 0), lower = turned_by({3600, 1900, 2450, 0.15, 0.1}, -50, 0);
@@ -155,6 +159,7 @@ TEST(AnisotropicPlaneWaveInSpace, OfASliceIsThatInTwoDimensions) {
   }
 }
 
+// Proves (A19).
 TEST(AnisotropicPlaneWaveInSpace, InLayersIsTheSameHoweverWideTheModelIs) {
   const ThreadLimit one_thread(1);
   // Whatever the interface makes of it must enter by the sides as the grid has it inside.
@@ -170,6 +175,7 @@ TEST(AnisotropicPlaneWaveInSpace, InLayersIsTheSameHoweverWideTheModelIs) {
   }
 }
 
+// Proves (A19).
 TEST(AnisotropicPlaneWaveInSpace, IsTurnedWithItsRock) {
   const ThreadLimit one_thread(1);
   // About the vertical by a right angle: x becomes y, and y becomes -x.
@@ -189,6 +195,7 @@ TEST(AnisotropicPlaneWaveInSpace, IsTurnedWithItsRock) {
   EXPECT_LT(relative_error(back, one), 0.01);
 }
 
+// Proves (A19).
 TEST(AnisotropicPlaneWaveInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   auto scene = box(turned_by(cracked, 40, 25, -50), shale, 14, "plane:25,40", 0.04);
   scene.survey.sources[0].position_m[2] = -30;

@@ -136,6 +136,7 @@ struct Box {
   }
 };
 
+// Proves (A17).
 TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
   for (const auto& rock : {flat, dipping, steep})
     for (const double angle : {0., 25., -40.})
@@ -147,6 +148,7 @@ TEST(AnisotropicPlaneWave, GoesThroughARockUndisturbed) {
       }
 }
 
+// Proves (A17).
 TEST(AnisotropicPlaneWave, IsReflectedConvertedAndTransmittedAsPlaneWavesAre) {
   const Material sand{2500, 1300, 2200};
   for (const auto& [over, under] : {std::pair{flat, hard}, {dipping, steep}, {sand, dipping}})
@@ -180,6 +182,7 @@ Scene<2> layers(std::int64_t nx, const std::string& kind) {
 
 /// Evanescent and multiply reflected waves: no closed form in time, but the same traces however wide the
 /// model is.
+// Proves (A17).
 TEST(AnisotropicPlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   for (const std::string kind : {"plane:155", "plane-s:215", "plane-s:180"}) {
     if (!std::getenv("SLIPWAVE_LONG") && kind != "plane-s:215") continue;
@@ -189,6 +192,7 @@ TEST(AnisotropicPlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   }
 }
 
+// Proves (A17).
 TEST(AnisotropicPlaneWave, GivesTheBitsOfThePlainExecutorInTiles) {
   auto scene = layers(60, "plane:155");
   scene.numerics.zone_cells = 10;

@@ -21,6 +21,7 @@ Material exchanged(const Material& rock, int one, int other) {
                                         rock.rho);
 }
 
+// Proves (O3).
 TEST(AnisotropicSpace, OfIsotropicRockIsStokesSolution) {
   constexpr RickerForm wavelet{30};
   const Material rock{4500, 2600, 2500};
@@ -47,6 +48,7 @@ TEST(AnisotropicSpace, OfIsotropicRockIsStokesSolution) {
   }
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_of_a_force(cracked, 16), 0.006);
@@ -58,6 +60,7 @@ TEST(AnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
     }
 }
 
+// Proves (O1), (O4).
 TEST(AnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   const auto flat = [](Material rock) {
@@ -91,6 +94,7 @@ Scene<3> blocks(const std::vector<Material>& rocks, const Index<3>& shape = {40,
                   {Component::vx, Component::vy, Component::vz, Component::p}, 0.06, 0.001);
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, IsTurnedWithItsAxes) {
   const ThreadLimit one_thread(1);
   // The experiment with its axes exchanged; sweeps come in another order, of second order in the step.
@@ -113,6 +117,7 @@ TEST(AnisotropyInSpace, IsTurnedWithItsAxes) {
   }
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, OfNoneIsIsotropicRock) {
   const ThreadLimit one_thread(1);
   const Material hard{3000, 1600, 2300}, soft{2500, 1200, 2100};
@@ -135,6 +140,7 @@ TEST(AnisotropyInSpace, OfNoneIsIsotropicRock) {
   }
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool orthorhombic : {false, true}) {
     SCOPED_TRACE(orthorhombic ? "orthorhombic" : "alike in all horizontal directions");
@@ -147,6 +153,7 @@ TEST(AnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   // The first of them hold water and isotropic rock only.
   auto scene = blocks({shale, crossed, cracked}, {30, 24, 60});
@@ -156,6 +163,7 @@ TEST(AnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (O1).
 TEST(AnisotropyInSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
   auto scene = blocks({shale, crossed, cracked}, {44, 40, 42});
@@ -166,6 +174,7 @@ TEST(AnisotropyInSpace, DoesNotDependOnWhichWayItIsShot) {
   EXPECT_LT(relative_error(there.traces[2].samples, back.traces[1].samples), 0.03);
 }
 
+// Proves (O4).
 TEST(AnisotropyInSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   const ThreadLimit one_thread(1);
   auto scene = scene_of(uniform_rock({30, 30, 20}, 5, cracked), edges_all_3d(EdgeLaw::mirror), {72, 75, 60},
@@ -181,6 +190,7 @@ TEST(AnisotropyInSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   EXPECT_LT(relative_error(gather.traces[2].samples, wanted), 1e-4);
 }
 
+// Proves (O3).
 TEST(AnisotropyInSpace, LeavesThroughAPmlWhereWavesTurn) {
   const ThreadLimit one_thread(1);
   // Medium III of Becache, Fauqueux and Joly (2003) in the plane of x and y; those of z are isotropic or
@@ -203,6 +213,7 @@ TEST(AnisotropyInSpace, LeavesThroughAPmlWhereWavesTurn) {
   EXPECT_LT(late, 1e-3 * largest);
 }
 
+// Proves (O1).
 TEST(EnergyOfAnisotropicSpace, NeverRises) {
   const ThreadLimit one_thread(1);
   // Any stiffness from cell to cell, as different as they can be, and water.
@@ -247,6 +258,7 @@ TEST(EnergyOfAnisotropicSpace, NeverRises) {
     }
 }
 
+// Proves (O1).
 TEST(EnergyOfAnisotropicSpace, BetweenFreeEdgesFallsInTheLongRun) {
   const ThreadLimit one_thread(1);
   const Index<3> shape = {24, 22, 26};

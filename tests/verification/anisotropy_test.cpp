@@ -19,6 +19,7 @@ constexpr Material shale{3000, 1600, 2300, 0.2, 0.1}, sandstone{3370, 1830, 2500
     crossed{3200, 1700, 2400, -0.05, 0.2}, elliptical{2800, 1500, 2200, 0.18, 0.18},
     hard{4200, 2300, 2600, 0.1, 0.15}, water{1500, 0, 1000};
 
+// Proves (V1).
 TEST(AnisotropicStack, OfIsotropicLayersIsThatOfPotentials) {
   // Two methods that share nothing: roots of the Christoffel equation, and potentials with closed direct
   // waves.
@@ -45,6 +46,7 @@ TEST(AnisotropicStack, OfIsotropicLayersIsThatOfPotentials) {
       EXPECT_LT(relative_error(found[n][row], closed[n][row]), 2e-5) << n;
 }
 
+// Proves (V1).
 TEST(Anisotropy, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
   for (const auto& rock : {shale, sandstone, crossed, elliptical})
     for (const std::string kind : {"force:0.6,0.8", "explosion", "moment:0,0,1"}) {
@@ -56,12 +58,14 @@ TEST(Anisotropy, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
     }
 }
 
+// Proves (V1).
 TEST(Anisotropy, OfTwoRocksReflectsAndTransmitsAsPlaneWaves) {
   for (const auto& [over, under] : {std::pair{shale, hard}, {crossed, sandstone}, {elliptical, crossed}}) {
     EXPECT_LT(two_rocks(over, under).error(), 0.008);
   }
 }
 
+// Proves (V4).
 TEST(Anisotropy, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
   for (const auto& rock : {shale, crossed}) {
     EXPECT_LT(below_surface(rock).error(), 0.01);
@@ -69,8 +73,10 @@ TEST(Anisotropy, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
   }
 }
 
+// Proves (V4).
 TEST(Anisotropy, ConvergesAsIsotropicRockDoes) { EXPECT_GT(order_below_surface(crossed), 1.9); }
 
+// Proves (V6).
 TEST(Anisotropy, LeavesThroughAPmlWhereWavesTurn) {
   // Medium III of Becache, Fauqueux & Joly (2003), whose S waves carry energy back while their fronts move
   // on. A wave as long as the model is what layers feed: without damping (V6) it blows up within this time.
@@ -82,6 +88,7 @@ TEST(Anisotropy, LeavesThroughAPmlWhereWavesTurn) {
   EXPECT_LT(late_share(space.scene(), "ricker:1", 6000), 1e-3);
 }
 
+// Proves (V1).
 TEST(Anisotropy, OfNoneIsIsotropicRock) {
   // The same rock by the loops of anisotropic media, since one cell far away is anisotropic.
   Stack stack;
@@ -95,6 +102,7 @@ TEST(Anisotropy, OfNoneIsIsotropicRock) {
     EXPECT_LT(relative_error(found.traces[n].samples, isotropic.traces[n].samples), 1e-5);
 }
 
+// Proves (V4).
 TEST(Anisotropy, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   Stack stack;
   stack.layers = {shale}, stack.free_surface = true, stack.source_m = 100, stack.depth_m = 500;
@@ -155,6 +163,7 @@ Scene<2> blocks(std::int64_t nx = 150, std::int64_t nz = 90) {
   return scene;
 }
 
+// Proves (V1).
 TEST(Anisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const int time_order : {2, 4}) {
     SCOPED_TRACE(std::to_string(time_order));
@@ -166,6 +175,7 @@ TEST(Anisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (V1).
 TEST(Anisotropy, GivesTheBitsOfOneProcessOnSeveral) {
   // The first ones hold water and isotropic rock only.
   auto scene = blocks(100, 200);
@@ -176,6 +186,7 @@ TEST(Anisotropy, GivesTheBitsOfOneProcessOnSeveral) {
   for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (V1).
 TEST(Anisotropy, DoesNotDependOnWhichWayItIsShot) {
   // Reciprocity of forces, through water and blocks of rock.
   auto scene = blocks();

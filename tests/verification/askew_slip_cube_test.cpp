@@ -25,6 +25,7 @@ FractureSet<3> families(const std::vector<std::array<double, 2>>& dips, double f
   return set;
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, OfNextToIsotropicRockIsThatOfIsotropicRock) {
   const ThreadLimit one_thread(1);
   const Material plain{3000, 1600, 2300};
@@ -39,7 +40,7 @@ TEST(AskewSlipInSpace, OfNextToIsotropicRockIsThatOfIsotropicRock) {
       // In the short form each rule with one family or with several.
       const bool early = correction == SlipCorrection::second || correction == SlipCorrection::exponential;
       if (!long_form() && early == (dips.size() != 1)) continue;
-      // Strengths that stay: friction makes much of little (theory.md 2.2).
+      // Strengths that stay: friction makes much of little (theory/slip.md).
       const auto set = families(dips, 0, 5000, 5e3);
       auto isotropic = cluster(plain, set), other = cluster(next, set);
       isotropic.numerics.correction = other.numerics.correction = correction;
@@ -55,6 +56,7 @@ TEST(AskewSlipInSpace, OfNextToIsotropicRockIsThatOfIsotropicRock) {
     }
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   // In the plane of x and z, one cell thick between mirrors; planes and beds dip along x.
@@ -84,12 +86,14 @@ TEST(AskewSlipInSpace, OfASliceIsThatInTwoDimensions) {
   }
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, IsTurnedWithItsRock) {
   const ThreadLimit one_thread(1);
   const auto set = [](double azimuth) { return families({{35, azimuth}, {70, azimuth + 110}}, 0.2, 200); };
   EXPECT_LT(error_of_turned(cracked, set), 0.02);
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const auto correction : {SlipCorrection::centred, SlipCorrection::second}) {
     auto scene =
@@ -104,6 +108,7 @@ TEST(AskewSlipInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   auto scene = cluster(turned_by(shale, 25, 35), families({{35, 20}, {90, 80}}, 0.2, 200), {20, 12, 46});
   scene.survey.sources[0].position_m = {52, 31, 63};
@@ -113,6 +118,7 @@ TEST(AskewSlipInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (S34a).
 TEST(AskewSlipInSpace, OnlyTakesEnergy) {
   const ThreadLimit one_thread(1);
   // Any stiffness about any axes from cell to cell, and any planes; what the diary says slip has turned into

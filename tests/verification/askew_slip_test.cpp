@@ -67,6 +67,7 @@ std::vector<double> difference(std::vector<double> one, const std::vector<double
   return one;
 }
 
+// Proves (S34).
 TEST(AskewSlip, OfBedsThatDipIsThatOfFlatBedsTurned) {
   const Turned flat{0}, dipping{30};
   const auto of_flat = difference(flat.traces(), flat.traces(false)),
@@ -75,6 +76,7 @@ TEST(AskewSlip, OfBedsThatDipIsThatOfFlatBedsTurned) {
   EXPECT_LT(relative_error(of_dipping, of_flat), 0.05);
 }
 
+// Proves (S34).
 TEST(AskewSlip, GivesTheBitsOfThePlainExecutorInTiles) {
   Turned turned{30};
   turned.h = 8;
@@ -86,6 +88,7 @@ TEST(AskewSlip, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (S34).
 TEST(AskewSlip, GivesTheBitsOfOneProcessOnSeveral) {
   Turned turned{30};
   turned.h = 8;

@@ -28,6 +28,7 @@ FractureSet<3> springs(const std::vector<std::array<double, 2>>& dips, double no
   return set;
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, OfNextToIsotropicRockAreThoseOfIsotropicRock) {
   const ThreadLimit one_thread(1);
   const Material plain{3000, 1600, 2300};
@@ -48,6 +49,7 @@ TEST(AskewSpringsInSpace, OfNextToIsotropicRockAreThoseOfIsotropicRock) {
   }
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, OfASliceAreThoseInTwoDimensions) {
   const ThreadLimit one_thread(1);
   const auto upper = turned_by(shale, 30, 0),
@@ -90,6 +92,7 @@ OrthorhombicStiffness with_upright_planes(OrthorhombicStiffness c, int axis, dou
   return c;
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, AreToLongWavesTheMediumOfSchoenbergAndSayers) {
   const ThreadLimit one_thread(1);
   // Upright planes 30 degrees from x and across them in a shale of level beds.
@@ -125,12 +128,14 @@ TEST(AskewSpringsInSpace, AreToLongWavesTheMediumOfSchoenbergAndSayers) {
   }
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, AreTurnedWithTheirRock) {
   const ThreadLimit one_thread(1);
   const auto set = [](double azimuth) { return springs({{35, azimuth}, {70, azimuth + 110}}, 0.4, 0.7); };
   EXPECT_LT(error_of_turned(cracked, set), 0.02);
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, GiveTheBitsOfThePlainExecutorInTilesAndOfOneProcessOnSeveral) {
   auto scene = cluster(turned_by(cracked, 25, 35, 50), springs({{35, 20}, {90, 80}}, 0.4, 0.7), {40, 12, 14});
   scene.survey.sources[0].position_m = {92, 31, 23};
@@ -150,6 +155,7 @@ TEST(AskewSpringsInSpace, GiveTheBitsOfThePlainExecutorInTilesAndOfOneProcessOnS
   for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(parts, ranks)) == alone) << ranks;
 }
 
+// Proves (S34b).
 TEST(AskewSpringsInSpace, NeverAddEnergyHoweverStiffOrSoft) {
   const ThreadLimit one_thread(1);
   // Any stiffness about any axes from block to block, any planes.

@@ -28,6 +28,7 @@ TEST(AttenuatingStack, OfRocksWithoutLossIsTheElasticOne) {
   for (const std::size_t row : {0, 1}) EXPECT_LT(relative_error(other[0][row], one[0][row]), 1e-9) << row;
 }
 
+// Proves (Q10).
 TEST(AttenuatingAnisotropy, OfPointSourcesIsThatOfComplexStiffnesses) {
   for (const auto& rock : {flat, dipping, steep}) {
     if (!std::getenv("SLIPWAVE_LONG") && rock != dipping) continue;
@@ -38,6 +39,7 @@ TEST(AttenuatingAnisotropy, OfPointSourcesIsThatOfComplexStiffnesses) {
   }
 }
 
+// Proves (Q10).
 TEST(AttenuatingAnisotropy, OfTwoRocksReflectsAndTransmitsAsComplexStiffnesses) {
   for (const auto& [over, under] : {std::pair{dipping, hard}, {flat, hard}}) {
     if (!std::getenv("SLIPWAVE_LONG") && over != dipping) continue;
@@ -47,6 +49,7 @@ TEST(AttenuatingAnisotropy, OfTwoRocksReflectsAndTransmitsAsComplexStiffnesses) 
   }
 }
 
+// Proves (Q10).
 TEST(AttenuatingAnisotropy, OfCellsThatInterfacesCutIsThatOfTiltedMeans) {
   constexpr double dip_deg = 15, dip = dip_deg * std::numbers::pi / 180, size = 440, face = 240;
   const Point<2> along{std::cos(dip), std::sin(dip)}, down{-along[1], along[0]};
@@ -102,6 +105,7 @@ Scene<2> layers(std::int64_t nx, std::int64_t nz) {
   return scene;
 }
 
+// Proves (Q10).
 TEST(AttenuatingAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const int time_order : {2, 4}) {
     SCOPED_TRACE(std::to_string(time_order));
@@ -113,12 +117,14 @@ TEST(AttenuatingAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (Q10).
 TEST(AttenuatingAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
   const auto scene = layers(60, 100);
   const auto alone = all_samples(shoot(scene, 1));
   for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (Q9).
 TEST(AttenuatingAnisotropy, RelaxesIsotropicCellsAsIsotropicMediaDo) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<float> random(-1, 1);

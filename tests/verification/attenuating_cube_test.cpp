@@ -90,6 +90,7 @@ class SwingingCells {
   RelaxationRows<double> rows_{};
 };
 
+// Proves (Q11).
 TEST(AttenuatingSpace, RelaxesAsItsComplexStiffnesses) {
   const double peak_hz = 20;
   const Attenuation attenuation{Mechanisms(3, peak_hz / 5, 2.5 * peak_hz), peak_hz};
@@ -124,6 +125,7 @@ double error_of_a_force(const Material& rock, const Qualities& of, int cells, st
   return error;
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, OfAForceIsThatOfComplexStiffnesses) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), {30, 20}, 10, 2), 0.03);
@@ -149,6 +151,7 @@ void attenuate_blocks(Medium<D>& medium, std::int64_t every) {
   }
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   // Below water and a free surface; the plane of y and z is that of x and z.
@@ -175,6 +178,7 @@ TEST(AttenuatingSpace, OfASliceIsThatInTwoDimensions) {
     }
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, IsTurnedWithItsAxes) {
   const ThreadLimit one_thread(1);
   // About the vertical by a right angle, below a free surface: x becomes y, and y becomes -x.
@@ -215,6 +219,7 @@ Scene<3> blocks(const Index<3>& shape) {
   return scene;
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, WithoutLossIsElasticToTheBit) {
   const ThreadLimit one_thread(1);
   auto scene = blocks({40, 18, 24});
@@ -230,6 +235,7 @@ TEST(AttenuatingSpace, WithoutLossIsElasticToTheBit) {
   EXPECT_LT(relative_error(samples_of(shoot(scene, 1)), elastic), 2e-5);
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool in_double : {false, true}) {
     SCOPED_TRACE(in_double);
@@ -244,6 +250,7 @@ TEST(AttenuatingSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, GivesTheBitsOfOneProcessOnSeveral) {
   auto scene = blocks({34, 14, 46});
   scene.survey.receivers_m = {{111, 61, 120}, {42, 55, 183}};
@@ -255,6 +262,7 @@ TEST(AttenuatingSpace, GivesTheBitsOfOneProcessOnSeveral) {
   for (const int ranks : {2, 3}) EXPECT_TRUE(samples_of(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (Q12).
 TEST(AttenuatingSpace, ContinuesFromACheckpointWithTheSameBits) {
   auto scene = blocks({34, 18, 22});
   attenuate_blocks(scene.model.medium, 9);

@@ -160,6 +160,7 @@ TEST(Attenuation, BeginsWithADelayedSource) {
   }
 }
 
+// Proves (Q7).
 TEST(Attenuation, OfInfiniteQIsNone) {
   auto scene = sea();
   scene.recording.duration_s = 0.05;

@@ -96,6 +96,7 @@ struct Strip {
   }
 };
 
+// Proves (Q8).
 TEST(Attenuation, OfPlaneWavesIsThatOfComplexModuliOverTwentyWavelengths) {
   for (const double q : {20., 50., 200.}) {
     Strip strip;
@@ -108,6 +109,7 @@ TEST(Attenuation, OfPlaneWavesIsThatOfComplexModuliOverTwentyWavelengths) {
   for (const double error : sea.errors_of_solver()) EXPECT_LT(error, 0.003);
 }
 
+// Proves (Q8).
 TEST(Attenuation, IsThatOfConstantQAtAllFrequencies) {
   AttenuationChoice choice;
   Strip strip;
@@ -118,6 +120,7 @@ TEST(Attenuation, IsThatOfConstantQAtAllFrequencies) {
   for (const double error : strip.errors_of_all(choice)) EXPECT_LT(error, 0.01);
 }
 
+// Proves (Q8).
 TEST(Attenuation, ConvergesWithSecondOrderInTime) {
   // Half the step on the same grid; without loss, sweeps along the strip are nearly exact.
   Strip coarse;
@@ -131,6 +134,7 @@ TEST(Attenuation, ConvergesWithSecondOrderInTime) {
 }
 
 /// A force along z, 5 S wavelengths from receivers in several directions, or 20 in the long form.
+// Proves (Q8).
 TEST(Attenuation, OfSWavesIsThatOfComplexModuli) {
   const double waves = std::getenv("SLIPWAVE_LONG") ? 20 : 5, wavelength = rock.vs / peak_hz,
                h = wavelength / 25, distance = waves * wavelength;
@@ -174,6 +178,7 @@ TEST(Attenuation, OfSWavesIsThatOfComplexModuli) {
 
 /// Reflection and transmission at an interface of two attenuating rocks, the waves' reference being their
 /// complex impedances.
+// Proves (Q8).
 TEST(Attenuation, GivesTheReflectionOfComplexImpedances) {
   const Rock below{3600, 1900, 2400};
   Strip strip;

@@ -116,6 +116,7 @@ std::vector<Errors> errors_of(const TiltedInterface& scene, Average average,
   return errors;
 }
 
+// Proves (M2).
 TEST(TiltedInterface, OnFacesOfCellsHasTheErrorsOfTheWayAlone) {
   // The reference itself: the error of a second-order interface at 4.7 and 9.5 cells to the shortest S wave.
   const auto errors = errors_of({soft, hard}, Average::isotropic, {10, 5});
@@ -125,6 +126,7 @@ TEST(TiltedInterface, OnFacesOfCellsHasTheErrorsOfTheWayAlone) {
   EXPECT_LT(errors_of({water, hard}, Average::isotropic, {5})[0].reflected, 0.4);
 }
 
+// Proves (M2).
 TEST(AveragedInterface, IsAsGoodWhereverItLiesInItsCells) {
   // A third of a cell off, a top drawn cell by cell lies where the nearest face is: 3.3 m off at 10 m.
   for (const bool strong : {true, false}) {
@@ -139,6 +141,7 @@ TEST(AveragedInterface, IsAsGoodWhereverItLiesInItsCells) {
   }
 }
 
+// Proves (M2).
 TEST(AveragedInterface, HasTheSameErrorAtAnyDipAndPlace) {
   // Cell by cell the errors range over 2.7 to 13 % at 5 m, and are largest at 45 degrees, where whole rows of
   // corners lie on one side.
@@ -174,6 +177,7 @@ TEST(TiltedMeans, HoldBesideSoftRock) {
   EXPECT_LT(errors_of(interface, Average::tilted, {interface.spacing(24)})[0].all, 1.0);
 }
 
+// Proves (M2).
 TEST(AveragedInterface, OfWaterAndRockStaysAStaircaseOfFirstOrder) {
   const auto errors = errors_of({water, hard, 25, 0}, Average::isotropic, {10, 5});
   EXPECT_LT(errors[0].reflected, 44);

@@ -149,6 +149,7 @@ TEST(ComplianceModel, OfAnotherStiffnessIsAnotherRun) {
   EXPECT_EQ(difference_of(identity(1e-12), identity(2e-12)), "another model");
 }
 
+// Proves (S24).
 TEST(CompetingSlip, IsWhereTheRelaxationTakesARadian) {
   SlipSystem<2> system{{0, 1}, 0.5, 1};
   auto model = model_with(system);
@@ -204,6 +205,7 @@ double growth_rate(double k, double angle, double friction, double relaxation_s,
   return sum / (steps - steps / 2) / dt_s;
 }
 
+// Proves (S28), (S29).
 TEST(BandGrowth, IsThatOfTheLinearisedLaw) {
   for (const double vs : {2250., 1500.})
     for (const double friction : {0.1, 0.6}) {
@@ -223,6 +225,7 @@ TEST(BandGrowth, IsThatOfTheLinearisedLaw) {
   EXPECT_EQ(band_growth(0, 4500, 2250).dry_m_s, 0);
 }
 
+// Proves (S29).
 TEST(CellDependence, IsSaidWherePlanesSlideUnderPressureAndViscosityDoesNotBoundTheGrowth) {
   // A P wave of 1 cm/s straight down on planes at 45 degrees: a third of its pressure is shear at vp/vs = 2.
   Scene<2> scene;
@@ -240,7 +243,7 @@ TEST(CellDependence, IsSaidWherePlanesSlideUnderPressureAndViscosityDoesNotBound
     const auto at = text.find("exp(");
     return at == std::string::npos ? 0. : std::stod(text.substr(at + 4));
   };
-  // The scene of theory.md 2.7: exp(4) at 1.25 m, and by the rate of waves of eight cells.
+  // The scene of theory/slip.md: exp(4) at 1.25 m, and by the rate of waves of eight cells.
   EXPECT_NEAR(exponent(said(0.2, 0, 1.25)), 4, 0.4);
   const double rate = band_growth(0.2, 4500, 2250).dry_m_s * 2 * std::numbers::pi / (8 * 2.5);
   EXPECT_NEAR(exponent(said(0.2, 0, 2.5)), rate / 60, 0.05 * rate / 60);

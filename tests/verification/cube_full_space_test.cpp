@@ -61,6 +61,7 @@ double error_at(const Gather& gather, std::size_t receiver, std::size_t first, s
   return relative_error(found, wanted);
 }
 
+// Proves (E3).
 TEST(CubeFullSpace, ExplosionMovesAndPressesTheRockAsInTheClosedForm) {
   // Nothing is back from the far edges before the last sample.
   const std::int64_t n = 62;
@@ -87,6 +88,7 @@ TEST(CubeFullSpace, ExplosionMovesAndPressesTheRockAsInTheClosedForm) {
   }
 }
 
+// Proves (A8).
 TEST(CubeFullSpace, NearFieldOfAnExplosionStandsTenCellsAway) {
   // The edges beyond absorb. P waves are 50 cells long.
   auto edges = edges_all_3d(EdgeLaw::mirror);
@@ -109,6 +111,7 @@ TEST(CubeFullSpace, NearFieldOfAnExplosionStandsTenCellsAway) {
 }
 
 // The axes are alike (SweepsOfACube.AreAlikeAlongAllAxes): the short form checks one.
+// Proves (E3).
 TEST(CubeFullSpace, ForcesAlongAllAxesMoveTheRockAsInTheClosedForm) {
   const char* const forces[] = {"force:1,0,0", "force:0,1,0", "force:0,0,1"};
   const bool all = std::getenv("SLIPWAVE_LONG") != nullptr;

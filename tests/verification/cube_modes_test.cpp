@@ -78,6 +78,7 @@ double error_after(const Mode& mode, std::int64_t cells, int order, double cfl, 
   return relative_error(found, exact);
 }
 
+// Proves (E3).
 TEST(CubeModes, OfPAndSWavesConvergeWithTheSecondOrderOfTheSplitting) {
   for (const auto& mode : {p_mode, s_mode, other_s_mode})
     for (const int order : {5, 7}) {

@@ -75,6 +75,7 @@ TEST(CubeTraces, DoNotDependOnWhoElseIsLooking) {
 const std::vector<Component> all = {Component::vx, Component::vz, Component::sxx, Component::szz,
                                     Component::sxz};
 
+// Proves (E3), (E14).
 TEST(ExtrudedScene, AlongYGivesTheTracesOf2D) {
   // The same sweeps: only rounding differs.
   for (const auto& edges : {edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing),
@@ -88,6 +89,7 @@ TEST(ExtrudedScene, AlongYGivesTheTracesOf2D) {
     }
 }
 
+// Proves (E3).
 TEST(ExtrudedScene, AlongXGivesTheTracesOf2DSweptByHalves) {
   const std::vector<Component> of_yz = {Component::vy, Component::vz, Component::syy, Component::szz,
                                         Component::syz};
@@ -101,6 +103,7 @@ TEST(ExtrudedScene, AlongXGivesTheTracesOf2DSweptByHalves) {
   }
 }
 
+// Proves (E3).
 TEST(ExtrudedScene, AlongZGivesTheTracesOf2DInShortSteps) {
   // Two half sweeps along y are the whole one along z of 2-D: what that changes goes with the step.
   const std::vector<Component> of_xy = {Component::vx, Component::vy, Component::sxx, Component::syy,

@@ -39,6 +39,7 @@ Shares shares_of(const Index<3>& shape, int order, double source_y, double durat
 
 }  // namespace
 
+// Proves (E20).
 TEST(CubeComputedShare, IsAsExpected) {
   const Index<3> slab{16, 240, 40}, cube{64, 64, 64};
   const std::vector<Point<3>> near = {{80, 1500, 5}}, apart = {{80, 5, 5}, {80, 2395, 395}};

@@ -19,6 +19,7 @@ double effect_of_slip(Scene<2> scene) {
   return relative_error(slipping, samples_of(shoot(scene, 1)));
 }
 
+// Proves (S12).
 TEST(ExtrudedFractures, AlongYGiveTheTracesOf2D) {
   const auto edges = edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing);
   auto both =
@@ -32,6 +33,7 @@ TEST(ExtrudedFractures, AlongYGiveTheTracesOf2D) {
   }
 }
 
+// Proves (S12).
 TEST(ExtrudedFractures, AlongXGiveTheTracesOf2DSweptByHalves) {
   auto both = extruded({1, 2}, edges_of(EdgeLaw::free, EdgeLaw::mirror, EdgeLaw::rigid), "force:1,2",
                        "force:0,1,2", {Component::vx, Component::vz, Component::sxz},
@@ -46,6 +48,7 @@ TEST(ExtrudedFractures, AlongXGiveTheTracesOf2DSweptByHalves) {
   }
 }
 
+// Proves (S12).
 TEST(ExtrudedFractures, AlongZGiveTheTracesOf2DInShortSteps) {
   // As without fractures. Friction would make much of little: where normal stress decides whether planes
   // slip, traces that differ by 0.5 % without slip differ by some percent with it, at any step.
@@ -142,6 +145,7 @@ double difference_of(const Scene<3>& scene, const View& view) {
   return relative_error(seen, samples_of(shoot(scene, 1)));
 }
 
+// Proves (S12).
 TEST(BlockMedium, LooksTheSameInMirrors) {
   const auto scene = block_scene();
   auto intact = scene;
@@ -151,6 +155,7 @@ TEST(BlockMedium, LooksTheSameInMirrors) {
     EXPECT_LT(difference_of(scene, {{0, 1, 2}, sign}), 1e-9) << sign[0] << sign[1] << sign[2];
 }
 
+// Proves (S12).
 TEST(BlockMedium, AtRightAnglesLooksTheSameFromAllSidesInShortSteps) {
   // Another order of the axes is another splitting, with halves of other sweeps: what that changes goes with
   // the step. Planes at other angles change each other's normal stress, and then friction makes much of it.
@@ -170,6 +175,7 @@ TEST(BlockMedium, AtRightAnglesLooksTheSameFromAllSidesInShortSteps) {
   }
 }
 
+// Proves (S12).
 TEST(BlockMedium, OnlyTakesEnergy) {
   // What its diary says slip has turned into heat is what the cells have lost.
   auto scene = block_scene();

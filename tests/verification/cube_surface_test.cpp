@@ -54,6 +54,7 @@ class Pekeris {
   RickerForm wavelet_;
 };
 
+// Proves (E11).
 TEST(CubeFreeSurface, MovesUnderAForceAsInPekerisClosedForm) {
   const Rock rock{3000 * std::sqrt(3.), 3000, 2500};  // lambda = mu
   constexpr RickerForm wavelet{25};                   // 24 cells a dominant S wavelength
@@ -79,6 +80,7 @@ TEST(CubeFreeSurface, MovesUnderAForceAsInPekerisClosedForm) {
   }
 }
 
+// Proves (E11).
 TEST(CubeFreeSurface, OfWaterSendsAnExplosionBackAsItsImage) {
   const Rock water{1500, 0, 1000};
   constexpr RickerForm wavelet{15};  // 20 cells per dominant wavelength
@@ -106,6 +108,7 @@ TEST(CubeFreeSurface, OfWaterSendsAnExplosionBackAsItsImage) {
   EXPECT_LT(relative_error(found, exact), 0.01);
 }
 
+// Proves (E14).
 TEST(CubeAbsorbingEdges, SendBackLittleOfAnExplosionAndAForce) {
   // Against the same shot in a grid so large that nothing is back in time.
   const Rock rock{4500, 2600, 2500};

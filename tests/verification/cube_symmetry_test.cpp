@@ -73,6 +73,7 @@ TEST(CubeEnergy, NeverRisesBetweenRigidWallsOrMirrors) {
       }
 }
 
+// Proves (E11).
 TEST(CubeEnergy, BetweenFreeEdgesFallsInTheLongRun) {
   // Free surfaces of solids correct the images of the fields: energy may rise a little in some steps.
   const auto medium = lumps({24, 22, 26}, 5, 6);

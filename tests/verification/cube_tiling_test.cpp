@@ -133,6 +133,7 @@ void turn(Cube<double>& from, const std::array<std::size_t, 3>& axis_of, Cube<do
   }
 }
 
+// Proves (E11).
 TEST(SweepsOfACube, AreAlikeAlongAllAxes) {
   const Index<3> shape = {26, 19, 33};
   const auto medium = lumps(shape, 5, 9);

@@ -184,6 +184,7 @@ Tensor2 of_laminate(const Tensor2& strain, double share, const Point<2>& m, cons
 constexpr HalfPlane halves[] = {{90, 0.1},  {90, -0.3}, {0, 0.2},   {45, 0.05},
                                 {20, -0.1}, {70, 0.3},  {-30, 0.15}};
 
+// Proves (S39).
 TEST(EdgeOfACluster, HasTheNormalOfTheLineThatCutsCells) {
   for (const double distance : {-0.3, -0.1, 0.05, 0.25})
     for (double degrees = 0; degrees < 180; degrees += 7.5) {
@@ -209,6 +210,7 @@ TEST(EdgeOfACluster, ThatIsThinnerThanACellLiesAlongIt) {
   }
 }
 
+// Proves (S38).
 TEST(CutCell, SlipsAsALaminateOfItsPartsDoes) {
   for (const auto& half : halves)
     for (const double dip : {0., 45., 20., -70.}) {
@@ -225,6 +227,7 @@ TEST(CutCell, SlipsAsALaminateOfItsPartsDoes) {
     }
 }
 
+// Proves (S38).
 TEST(CutCell, GivesWayAsALaminateOfItsPartsDoes) {
   for (const auto& half : halves)
     for (const double dip : {0., 45., 20., -70.}) {
@@ -246,6 +249,7 @@ TEST(CutCell, GivesWayAsALaminateOfItsPartsDoes) {
     }
 }
 
+// Proves (S39).
 TEST(CutCell, InSpaceComesToWhatItDoesInAPlane) {
   for (const bool gives : {false, true})
     for (const double edge_dip : {0., 90., 45., -25.})
@@ -268,6 +272,7 @@ TEST(CutCell, InSpaceComesToWhatItDoesInAPlane) {
       }
 }
 
+// Proves (S39).
 TEST(CutCells, LetTheResponseConvergeWhereverEdgesLie) {
   const auto exact = tension::reference(600);
   const auto error = [&](double h, double offset, bool shared) {

@@ -55,6 +55,7 @@ TEST(Discs, HaveTheAreaAndTheNormalTheyAreGiven) {
   EXPECT_NEAR(widest, 55, 1e-9);
 }
 
+// Proves (S30).
 TEST(Discs, GiveCellsTheirComplianceAndTheirPlace) {
   // However they lie among the cells: strain of all cells times their volume is that of the area, all 36
   // entries, and its middle is the centre.
@@ -221,6 +222,7 @@ TEST(Discs, TakeCellsOfClustersAndAreRefusedWhereTheyCanNotBe) {
   EXPECT_THROW(check(on_faces), Error);
 }
 
+// Proves (S31a).
 TEST(DiscNetwork, HasTheRadiiAndPolesItIsDrawnFrom) {
   const Grid<3> grid{{200, 200, 200}, 10, {0, 0, 0}};
   FractureNetwork of{4000, 0, 10, 200, 2.5, 60, 8, 7, 30};
@@ -253,6 +255,7 @@ TEST(DiscNetwork, HasTheRadiiAndPolesItIsDrawnFrom) {
   EXPECT_NE(drawn_fractures(grid, region, of), few);
 }
 
+// Proves (S31a).
 TEST(DiscNetwork, OfNoConcentrationHasPolesInAllDirections) {
   const Grid<3> grid{{20, 20, 20}, 10, {0, 0, 0}};
   const auto all =
@@ -272,6 +275,7 @@ TEST(DiscNetwork, OfNoConcentrationHasPolesInAllDirections) {
   }
 }
 
+// Proves (S31a).
 TEST(DiscNetwork, HasTheIntensityAskedForAndEndsWithTheModel) {
   const Grid<3> grid{{40, 40, 40}, 10, {0, 0, 0}};
   const FractureNetwork of{0, 0.05, 20, 80, 2, -40, 5, 3};

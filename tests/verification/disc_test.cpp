@@ -121,6 +121,7 @@ TEST(DiscRadiation, IsThatOfTheClosedFormsItIsMadeOf) {
                 1e-6 * std::abs(stress[0][0]));
 }
 
+// Proves (S30).
 TEST(Disc, ScattersAsTheMomentOfItsJumpRadiates) {
   // Little compliance, in shear and in tension: waves that the disc sends to itself are a tenth of a percent.
   EXPECT_LT((DiscScene{dipping(30, 2e-12, 1e-12), false, 12}.error()), 0.05);
@@ -196,6 +197,7 @@ TEST(Discs, HaveTheSameTracesWhereAxesAreTurned) {
   EXPECT_GT(observed_order(coarse, fine), 1.5);
 }
 
+// Proves (S30).
 TEST(Disc, ThatIsLevelWithoutEndReflectsAsSchoenbergsInterface) {
   // At normal incidence -i omega Z rho c/2 over 1 - i omega Z rho c/2, of P waves with Z_N, of S waves with
   // Z_T.
@@ -271,6 +273,7 @@ TEST(Discs, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
   }
 }
 
+// Proves (S30).
 TEST(Discs, AlongYGiveTheTracesOfLinesIn2D) {
   // A slice one cell thick: rectangles across it are lines, which (S30) cuts into other pieces.
   auto both = extruded({0, 2}, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing), "force:1,2",

@@ -83,6 +83,7 @@ double error_of_springs(double h, const std::vector<SlipSystem<2>>& springs,
   return error_of(scene, all);
 }
 
+// Proves (S26).
 TEST(EffectiveStiffness, OfLevelPlanesIsThatOfSchoenbergAndSayers) {
   // c33 and c13 fall by the weakness across the planes, c55 by that along them, c11 by (lambda/modulus)^2 of
   // the first.
@@ -140,6 +141,7 @@ PlaneStiffness stiffness_with(const std::vector<SlipSystem<2>>& systems) {
   return {c[0][0], c[0][1], c[0][2], c[1][1], c[1][2], c[2][2]};
 }
 
+// Proves (S26).
 TEST(EffectiveMedium, OfPlanesThatDipIsTiltedRockAndSoAreTheirSprings) {
   const auto dipping = planes(normal_of_dip(30), 0.2, 0.35), across = planes(normal_of_dip(-60), 0.15, 0.1);
   const auto both = std::vector{dipping, across};
@@ -153,6 +155,7 @@ TEST(EffectiveMedium, OfPlanesThatDipIsTiltedRockAndSoAreTheirSprings) {
   EXPECT_LT(error_of(among, stiffness_with(both)), 0.1);
 }
 
+// Proves (S34b).
 TEST(EffectiveMedium, OfTiltedRockIsThatOfSpringsAskewInIt) {
   // Rock of dipping planes, and springs at other angles in it: compliances of all add up.
   const auto dipping = planes(normal_of_dip(30), 0.2, 0.35), askew = planes(normal_of_dip(-10), 0.1, 0.15),
@@ -175,6 +178,7 @@ TEST(EffectiveMedium, OfTiltedRockIsThatOfSpringsAskewInIt) {
   }
 }
 
+// Proves (S26).
 TEST(EffectiveMedium, IsWhatSpringsConvergeToWithSecondOrder) {
   const std::vector all = {level, upright};
   EXPECT_GT(observed_order(error_of_springs(10, all), error_of_springs(5, all)), 1.5);

@@ -1,5 +1,5 @@
 // Planes with friction on faces between cells in whole scenes: who computes them makes no difference
-// (docs/theory.md 2.8, (S40) to (S43)).
+// (docs/theory/fractures.md, (S40) to (S43)).
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -46,15 +46,19 @@ Scene<2> faulted() {
   return scene;
 }
 
+// Proves (S43).
 TEST(FaceFriction, GivesTheBitsOfThePlainExecutorInTiles) { expect_same_in_tiles(faulted()); }
 
+// Proves (S43).
 TEST(FaceFriction, IsTheSameOnSeveralRanks) {
   const auto scene = faulted();
   expect_same_on_ranks(scene, all_samples(shoot(scene, 1)));
 }
 
+// Proves (S43).
 TEST(FaceFriction, ContinuesFromACheckpoint) { expect_to_continue(faulted()); }
 
+// Proves (S43).
 TEST(FaceFriction, IsTheSameInSingleAndDoublePrecision) { expect_same_in_double_precision(faulted()); }
 
 TEST(FaceFriction, KeepsItsPrestressInCellsOfAnotherSize) {
@@ -112,6 +116,7 @@ TEST(FaceFriction, OfEachKindChangesTheTraces) {
   }
 }
 
+// Proves (S42).
 TEST(FaceFriction, WithoutAnyIsACrackThatIsFreeAlongItself) {
   auto free = over_a_plane(5), slippery = free;
   SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
@@ -122,6 +127,7 @@ TEST(FaceFriction, WithoutAnyIsACrackThatIsFreeAlongItself) {
   EXPECT_GT(change_between(slippery, over_a_plane(5)), 0.1);
 }
 
+// Proves (S42).
 TEST(FaceFriction, OfStrengthThatNoWaveReachesIsTheSpringAlone) {
   auto spring = over_a_plane(5), strong = spring;
   SlipSystem<2> system{{0, 1}, 0, 0, 0, false, FrictionLaw::none};
@@ -131,6 +137,7 @@ TEST(FaceFriction, OfStrengthThatNoWaveReachesIsTheSpringAlone) {
   EXPECT_LT(change_between(strong, spring), 1e-5);
 }
 
+// Proves (S43).
 TEST(FaceFriction, OfStrengthThatNoWaveReachesIsRockThatIsWhole) {
   // Up to what sweeps of order 5 beside it leave, as beside a spring that is stiff as rock.
   auto strong = over_a_plane(5);
@@ -166,6 +173,7 @@ std::vector<double> sent_out(double strength_pa, double drag, double h, bool row
   return sent;
 }
 
+// Proves (S41).
 TEST(FaceFriction, IsWhatARowOfCellsComesNearAsTheyGetSmall) {
   auto probe = over_a_plane(5);
   probe.survey.receivers_m = {{250, 300}, {300, 300}, {350, 300}};

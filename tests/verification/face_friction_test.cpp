@@ -1,5 +1,5 @@
 // Planes with friction on faces between cells under plane waves, against closed forms and equations solved in
-// small steps (docs/theory.md 2.8, (S40) to (S43)).
+// small steps (docs/theory/fractures.md, (S40) to (S43)).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -162,6 +162,7 @@ void expect_to_converge(Case of, const std::function<double(double)>& traction) 
   EXPECT_LT(fine, coarse / 3);
 }
 
+// Proves (S41), (S43).
 TEST(FaceUnderAShearWave, CarriesItsStrengthAtMostWhereItIsDry) {
   for (const double shear : {0., 2e4, -5e4}) {
     SCOPED_TRACE(shear);
@@ -175,6 +176,7 @@ TEST(FaceUnderAShearWave, CarriesItsStrengthAtMostWhereItIsDry) {
   EXPECT_LT(error_of(loose, [](double) { return 0; }), 1e-3);
 }
 
+// Proves (S41).
 TEST(FaceUnderAShearWave, CarriesWhatItsViscosityDragsBesides) {
   const double strength = 3e4;
   for (const double drag : {0.1, 1., 10.}) {
@@ -188,6 +190,7 @@ TEST(FaceUnderAShearWave, CarriesWhatItsViscosityDragsBesides) {
   }
 }
 
+// Proves (S43).
 TEST(FaceUnderAShearWave, TurnsIntoHeatWhatItTakesFromTheWavesAndThePrestress) {
   const double resting = 2e4, strength = 5e4;
   const Case dry{1, sliding(0.5, 1e5, resting)};
@@ -203,6 +206,7 @@ TEST(FaceUnderAShearWave, TurnsIntoHeatWhatItTakesFromTheWavesAndThePrestress) {
   EXPECT_NEAR(found.out_of_waves_j_m2, out_of_waves, aim * heat);
 }
 
+// Proves (S41).
 TEST(FaceUnderAShearWave, FollowsTheEquationsOfASpringBeforeASlider) {
   for (const double compliance : {1e-10, 1e-9})
     for (const double drag : {0., 0.5}) {
@@ -227,6 +231,7 @@ TEST(FaceUnderAShearWave, FollowsTheEquationsOfASpringBeforeASlider) {
     }
 }
 
+// Proves (S41).
 TEST(FaceUnderAPressureWave, CarriesNoTensionAndOpens) {
   for (const double pressure : {1e4, 3e4, 9e4}) {
     SCOPED_TRACE(pressure);
@@ -250,12 +255,14 @@ TEST(FaceUnderAPressureWave, CarriesNoTensionAndOpens) {
   }
 }
 
+// Proves (S41).
 TEST(FaceUnderAPressureWave, LetsPressureThroughAndTensionBelowThePrestress) {
   Case of{0, sliding(0.5, 1.01e5)};
   of.face.law.opens = true;
   EXPECT_LT(error_of(of, [&](double t) { return welded(of, t); }), 1e-3);
 }
 
+// Proves (S43).
 TEST(FaceThatSticks, IsRockThatIsWhole) {
   for (const std::size_t pair : {0, 1}) {
     Case of{pair, sliding(1, 1e6)};

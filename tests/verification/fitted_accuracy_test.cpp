@@ -182,6 +182,7 @@ std::vector<DippingStack> chosen_stacks() {
   return chosen;
 }
 
+// Proves (E11c), (E11a), (F2), (F3), (F4), (F5), (F7), (F6), (F8), (F10), (F10a).
 TEST_P(Stack, HasTheErrorsPromisedAndItsOrder) {
   const auto& stack = GetParam();
   const auto exact = exact_traces(stack);

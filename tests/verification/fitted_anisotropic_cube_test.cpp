@@ -81,6 +81,7 @@ Extruded bent_slice(const std::array<int, 2>& axes, bool hills, const EdgeLaws<2
   return both;
 }
 
+// Proves (F15).
 TEST(FittedAnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   struct Kind {
@@ -104,6 +105,7 @@ TEST(FittedAnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
   }
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, OfASliceOfYAndZIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   // Half sweeps along x of two steps are one in 2-D, but not along y: that error falls with the step.
@@ -122,6 +124,7 @@ TEST(FittedAnisotropyInSpace, OfASliceOfYAndZIsThatInTwoDimensions) {
   EXPECT_LT(difference(0.5), 0.6 * coarse);
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, ThatAttenuatesIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   auto both = bent_slice({0, 2}, true, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing),
@@ -144,6 +147,7 @@ TEST(FittedAnisotropyInSpace, ThatAttenuatesIsThatInTwoDimensions) {
   EXPECT_GT(largest_error(both), 0.1);
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, LeavesStrainsAtASurfaceThatDipsThatPutNoTractionOnIt) {
   const ThreadLimit one_thread(1);
   const auto rock = turned_by(cracked, 30, 40, 20);
@@ -191,6 +195,7 @@ Scene<3> sea_or_hills(bool hills, const Material& rock, const Index<3>& shape = 
   return scene;
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, OfNextToNoneIsIsotropicRock) {
   const ThreadLimit one_thread(1);
   // Water over rock: free surfaces of rock alone have terms (E11b), (E11c) that anisotropic rock has not.
@@ -207,6 +212,7 @@ TEST(FittedAnisotropyInSpace, OfNextToNoneIsIsotropicRock) {
   }
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool hills : {false, true}) {
     SCOPED_TRACE(hills ? "hills" : "sea");
@@ -221,6 +227,7 @@ TEST(FittedAnisotropyInSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, GivesTheBitsOfOneProcessOnSeveral) {
   // Below the floor another rock that is isotropic, so that the last of them hold no other.
   for (const double tilt : {0., 30.}) {
@@ -279,6 +286,7 @@ double difference_when_turned(bool bent, double cfl) {
   return relative_error(samples[1], samples[0]);
 }
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, IsTurnedWithItsAxes) {
   const ThreadLimit one_thread(1);
   // Sweeps along x and y do not commute: that error falls with the step, as that of level rows does.
@@ -318,6 +326,7 @@ double error_in_bent_rows(const Material& rock, int cells) {
   });
 }
 
+// Proves (F15).
 TEST(FittedAnisotropyInSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
   const auto error_of = [](const char* name, const Material& rock, int cells) {
@@ -419,6 +428,7 @@ struct TurnedExperiment {
   double difference() const { return relative_error(traces(true), traces(false)); }
 };
 
+// Proves (F16).
 TEST(FittedAnisotropyInSpace, OfAnExperimentThatIsTurnedIsTheTurnedFieldLong) {
   const ThreadLimit one_thread(1);
   for (const bool sea : {false, true}) {

@@ -121,6 +121,7 @@ const Case cases[] = {
 
 class FittedAnisotropy : public testing::TestWithParam<Case> {};
 
+// Proves (F12), (F13), (F14).
 TEST_P(FittedAnisotropy, IsThatOfTiltedRockBelowLevelLayers) {
   const auto& of = GetParam();
   const auto wanted = of.rocks.exact();
@@ -153,6 +154,7 @@ void make_anisotropic(Scene<2>& scene, double epsilon, double delta, double tilt
   }
 }
 
+// Proves (F11), (F12).
 TEST(FittedAnisotropy, OfNextToNoneIsIsotropicRock) {
   // Water over rocks: free surfaces of rock alone have terms (E11b), (E11c) that anisotropic rock has not.
   auto scene = fitted_sea();
@@ -167,6 +169,7 @@ TEST(FittedAnisotropy, OfNextToNoneIsIsotropicRock) {
   }
 }
 
+// Proves (F14).
 TEST(FittedAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool hills : {false, true}) {
     SCOPED_TRACE(hills ? "hills" : "sea");
@@ -182,6 +185,7 @@ TEST(FittedAnisotropy, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (F14).
 TEST(FittedAnisotropy, GivesTheBitsOfOneProcessOnSeveral) {
   auto scene = fitted_sea(90, 190);
   make_anisotropic(scene, 0.15, 0.05, 25);

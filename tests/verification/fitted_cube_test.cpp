@@ -36,6 +36,7 @@ void fit(Extruded& both, bool hills) {
   }
 }
 
+// Proves (F2).
 TEST(FittedCube, ThatDoesNotChangeAlongYGivesTheTracesOf2D) {
   struct Kind {
     EdgeLaw top, sides, bottom;
@@ -70,6 +71,7 @@ TEST(FittedCube, ThatDoesNotChangeAlongXGivesTheTracesOf2D) {
   }
 }
 
+// Proves (F5).
 TEST(FittedCube, ThatSlipsGivesTheTracesOf2D) {
   auto both = extruded({0, 2}, edges_of(EdgeLaw::free, EdgeLaw::absorbing, EdgeLaw::absorbing), "force:1,2",
                        "force:1,0,2", in_2d, in_2d);
@@ -117,6 +119,7 @@ double difference_when_turned(bool fitted, double cfl) {
   return relative_error(samples[1], samples[0]);
 }
 
+// Proves (F1).
 TEST(FittedCube, ThatDipsAlongXIsTheOneThatDipsAlongYTurned) {
   // Sweeps along x and y do not commute: that error falls with the step, as that of a regular grid does.
   const double regular = difference_when_turned(false, 0.4), coarse = difference_when_turned(true, 0.8),

@@ -36,6 +36,7 @@ Scene<2> curved_floor(double cells, const Shot& shot, bool sea = true) {
   return scene;
 }
 
+// Proves (E11a), (F4), (F5), (F7), (F6).
 TEST(CurvedFloor, HasErrorsBelowOnePercent) {
   for (const bool sea : {true, false}) {
     SCOPED_TRACE(sea ? "sea floor" : "hills");
@@ -52,6 +53,7 @@ TEST(CurvedFloor, HasErrorsBelowOnePercent) {
   }
 }
 
+// Proves (F5).
 TEST(CurvedFloor, ObeysReciprocityOfForces) {
   // What a force along one axis moves a place along another is what the other way round it does.
   // The last place is in the water.

@@ -18,6 +18,7 @@ TEST(FittedPlain, GivesTheBitsOfTilesAtAllOrders) {
   }
 }
 
+// Proves (F10).
 TEST(FittedPlain, GivesTheBitsOfTilesAtAllEdgesAndOrdersInTime) {
   for (const EdgeLaw sides : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::mirror, EdgeLaw::absorbing})
     for (const int time_order : {sides == EdgeLaw::free || sides == EdgeLaw::rigid ? 2 : 4}) {
@@ -90,6 +91,7 @@ void expect_regular_rows_give_the_same(const Scene<D>& scene) {
   EXPECT_TRUE(samples_of(shoot(fitted, 1)) == expected);
 }
 
+// Proves (F1), (F8).
 TEST(FittedRows, ThatAreAllOneCellHighGiveTheBitsOfARegularGrid) {
   for (const int order : orders) {
     Scene<2> scene = fitted_sea();

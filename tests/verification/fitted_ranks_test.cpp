@@ -7,12 +7,14 @@
 namespace slipwave::solver {
 namespace {
 
+// Proves (F9).
 TEST(FittedRanks, TakeTheTimeStepOfOneProcess) {
   const auto scene = fitted_sea(90, 190);
   const double alone = time_step_s(scene);
   RanksInThreads::run(3, [&](Ranks& ranks) { EXPECT_EQ(time_step_s(part_of(scene, ranks)), alone); });
 }
 
+// Proves (F10).
 TEST(FittedRanks, RecordWhatOneProcessDoes) {
   struct Kind {
     EdgeLaw sides;

@@ -1,4 +1,4 @@
-// Fractures on faces between cells: who computes them makes no difference (docs/theory.md 2.8).
+// Fractures on faces between cells: who computes them makes no difference (docs/theory/fractures.md).
 #include <gtest/gtest.h>
 
 #include <limits>

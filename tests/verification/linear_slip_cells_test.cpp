@@ -1,5 +1,5 @@
 // Planes that give way as springs: what they make of the stress of a cell, of the speeds of a cluster, and of
-// friction above them (docs/theory.md, section 2.6).
+// friction above them (docs/theory/fractures.md).
 #include <gtest/gtest.h>
 
 #include <array>
@@ -141,6 +141,7 @@ void expect_effective_stiffness(const std::vector<SlipSystem<D>>& systems, SlipC
 constexpr SlipCorrection all_corrections[] = {SlipCorrection::first, SlipCorrection::second,
                                               SlipCorrection::exponential, SlipCorrection::centred};
 
+// Proves (S19), (S20), (S22).
 TEST(SpringCell, HasTheStiffnessOfRockAndPlanesTogether) {
   for (const auto correction : all_corrections) {
     for (const double soft : {1e-3, 1., 300.}) {
@@ -157,6 +158,7 @@ TEST(SpringCell, HasTheStiffnessOfRockAndPlanesTogether) {
   }
 }
 
+// Proves (S21).
 TEST(SpringCell, OfCracksIsThatOfTheirPlanes) {
   SlipSystem<2> cracks = spring<2>({0.6, 0.8}, 0, 0);
   cracks.compliance = {};
@@ -174,6 +176,7 @@ TEST(SpringCell, OfCracksIsThatOfTheirPlanes) {
   EXPECT_NEAR(wet.normal / dry.normal, 1 / (1 + 2.2e9 * modulus / (pi * 1e-4 * mu * (lambda + mu))), 1e-12);
 }
 
+// Proves (S20).
 TEST(SpringCell, WithDashpotsIsExactUnderASteadyLoadHoweverLongTheStep) {
   // t = K e + D e', t = m (strain - e): e' = (m s t - (K + m) e)/D for a strain s t.
   for (const double steps_of_relaxation : {0.01, 1., 100.})
@@ -194,6 +197,7 @@ TEST(SpringCell, WithDashpotsIsExactUnderASteadyLoadHoweverLongTheStep) {
     }
 }
 
+// Proves (S23).
 TEST(FrictionAboveSprings, SticksElasticallyAndSlidesAtItsStrength) {
   for (const auto correction : all_corrections)
     for (const double damping : {0., 1e-9}) {
@@ -213,6 +217,7 @@ TEST(FrictionAboveSprings, SticksElasticallyAndSlidesAtItsStrength) {
     }
 }
 
+// Proves (S23).
 TEST(FrictionAboveSprings, SlidesAtTheRateOfItsViscosity) {
   // Steady: tau = S (1 + eta g), all of the strain rate is slip.
   for (const auto correction : all_corrections) {
@@ -250,6 +255,7 @@ std::vector<double> traces_of(const Scene<2>& scene) { return all_samples(shoot(
 /// Root mean square of the difference over that of the second.
 double difference(const std::vector<double>& a, const std::vector<double>& b) { return relative_error(a, b); }
 
+// Proves (S20).
 TEST(SpringLimits, StiffPlanesAreRockAndSoftOnesCarryNothing) {
   const auto rock_alone = traces_of(scene_with({spring<2>({0.6, 0.8}, 0, 0)}));
   for (const auto& other :
@@ -273,6 +279,7 @@ TEST(SpringLimits, StiffPlanesAreRockAndSoftOnesCarryNothing) {
   EXPECT_NEAR(s(0, 1) * 0.6 + s(1, 1) * 0.8, 0, 1e-6 * mu * 1e-5);
 }
 
+// Proves (S23).
 TEST(SpringLimits, StiffSpringsLeaveFrictionAndEndlessFrictionLeavesSprings) {
   for (const auto correction : all_corrections)
     for (const bool blocks : {false, true}) {
@@ -331,6 +338,7 @@ TEST(SpringScenes, AreTheSameInTilesAndPlainlyOnRanksAndInPieces) {
   }
 }
 
+// Proves (S25).
 TEST(SoftCells, AreThoseThatCarryNoStress) {
   constexpr double much = 2.5 * softness_without_stress;
   const auto soft = [](const Point<2>& normal) { return spring<2>(normal, much / modulus, much / mu); };
@@ -452,6 +460,7 @@ Travelled travel(const std::vector<SlipSystem<2>>& systems, int which, int cells
   return {speed * turned / should, std::abs(ratio)};
 }
 
+// Proves (S20).
 TEST(SpringMedium, HasTheSpeedsOfSchoenbergAndSayers) {
   // Wavelengths of 30 cells, planes along, across and at 45 degrees to the wave; families that cross.
   for (const auto& systems :
@@ -468,6 +477,7 @@ TEST(SpringMedium, HasTheSpeedsOfSchoenbergAndSayers) {
     }
 }
 
+// Proves (S20).
 TEST(SpringMedium, ConvergesWithSecondOrder) {
   const std::vector systems{spring<2>({0.6, 0.8}, 0.3 / mu, 0.5 / mu)};
   const auto error = [&](int cells, SlipCorrection correction) {
@@ -479,6 +489,7 @@ TEST(SpringMedium, ConvergesWithSecondOrder) {
   EXPECT_LT(error(30, SlipCorrection::second), 0.1 * error(30, SlipCorrection::first));
 }
 
+// Proves (S32a).
 TEST(SpringMedium, IsLateByWhatItsSpringsGive) {
   // (S32a): level planes that give as much as the rock, and three times as much, in S waves along their
   // normal.
@@ -496,6 +507,7 @@ TEST(SpringMedium, IsLateByWhatItsSpringsGive) {
   }
 }
 
+// Proves (S21).
 TEST(SpringMedium, HasThomsensParametersOfWeakFractures) {
   // Of level planes, in first order of their weaknesses (epsilon = 2 g (1 - g) D_N, delta = 2 g (D_N - D_T)):
   // g = (vs/vp)^2.

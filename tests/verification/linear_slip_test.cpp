@@ -239,6 +239,7 @@ struct Case {
   double hz, angle_deg;
 };
 
+// Proves (S25).
 TEST(SpringRow, ReflectsAndTransmitsAsSchoenbergsInterface) {
   std::vector<Case> cases = {{false, 30, 40}, {true, 30, 20}, {true, 60, 40}};
   if (std::getenv("SLIPWAVE_LONG")) {

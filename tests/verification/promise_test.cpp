@@ -300,6 +300,7 @@ TEST(Promise, CountsBendsOfAFloorThatAreSharpForTheirCells) {
   EXPECT_LT(expected_error(fine).promise->error, promised / 4);
 }
 
+// Proves (Q8).
 TEST(Promise, CountsAttenuationThatActsOnceAStep) {
   Scene<2> scene;
   scene.model.medium = uniform_medium(300, 120, 4, {1500, 0, 1000});

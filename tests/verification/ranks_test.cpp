@@ -158,6 +158,7 @@ TEST(Ranks, WhereWavesStayMonotoneToo) {
   EXPECT_TRUE(all_samples(shared_out(scene, 3)) == all_samples(shoot(scene, 1)));
 }
 
+// Proves (S18).
 TEST(Ranks, WhereSlipWeakensFrictionToo) {
   auto scene = reef();
   for (auto& set : scene.model.fracture_sets) {

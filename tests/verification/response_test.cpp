@@ -23,6 +23,7 @@ double promised_of(const Scene<2>& scene) {
   return FractureResponse(scene).promised(response_setting(scene)).error;
 }
 
+// Proves (S33).
 TEST(ResponsePromise, IsWithinAFactorOfTwoOfTheErrorInMostScenes) {
   const bool all = std::getenv("SLIPWAVE_LONG");
   // The short form takes some that are small.
@@ -50,6 +51,7 @@ TEST(ResponsePromise, IsWithinAFactorOfTwoOfTheErrorInMostScenes) {
   EXPECT_LE(too_small, scenes / 20);
 }
 
+// Proves (S33a).
 TEST(ResponsePromise, OfSingleFracturesIsWithinAFactorOfTwoOfWhatBoundaryElementsSay) {
   const bool all = std::getenv("SLIPWAVE_LONG");
   const int scenes = all ? 60 : 4;
@@ -82,6 +84,7 @@ Scene<2> plane_wave_scene(double h) {
   return scene;
 }
 
+// Proves (S32), (S33).
 TEST(ResponsePromise, FallsWithCellsAndStepsAndNamesWhatIsLeft) {
   const auto of = [](double h, double cfl, SlipCorrection correction) {
     auto scene = plane_wave_scene(h);
@@ -129,6 +132,7 @@ struct MirroredWave {
   }
 };
 
+// Proves (S33b).
 TEST(ResponsePromise, KnowsTheWavesThatCellsLetIntoAClusterAlongItsPlanes) {
   const MirroredWave coarse(7.5), fine(3.75);
   double before = 1;
@@ -141,6 +145,7 @@ TEST(ResponsePromise, KnowsTheWavesThatCellsLetIntoAClusterAlongItsPlanes) {
   }
 }
 
+// Proves (S32a).
 TEST(ResponsePromise, CountsWhatTheTimeStepLeavesOfWavesThatSpringsSlowDown) {
   // A cluster in which S waves have 0.5 to 0.7 of their speed (S32a). What springs send out by themselves was
   // promised only: 0.3 to 0.4 of what is found.
@@ -179,6 +184,7 @@ TEST(ResponsePromise, CountsWhatTheTimeStepLeavesOfWavesThatSpringsSlowDown) {
   }
 }
 
+// Proves (S33).
 TEST(ResponsePromise, OfAWantedErrorIsKeptByTheSettingThatIsChosen) {
   const auto scene = plane_wave_scene(10);
   constexpr double wanted = 0.08;

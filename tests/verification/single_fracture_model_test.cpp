@@ -31,6 +31,7 @@ Model<2> model_with(const FractureSet<2>& set, double h = 5) {
 }
 const FractureTrace<2> bent = {{40, 30}, {111, 52}, {140, 120}};
 
+// Proves (S30).
 TEST(CellsCrossed, HaveTheComplianceAndThePlaceOfTheFracture) {
   // However it lies among the cells: strain of all cells times their area, and its first moment.
   const Grid<2> grid{{40, 30}, 5, {0, 0}};
@@ -150,6 +151,7 @@ TEST(FractureTraces, ThatLieOnEachOtherAreFound) {
   EXPECT_EQ(doubled_size({flat, other, flat}), 12.5);
 }
 
+// Proves (S31).
 TEST(FractureNetwork, HasTheLengthsAndDipsItIsDrawnFrom) {
   const Grid<2> grid{{400, 400}, 10, {0, 0}};
   FractureNetwork of{4000, 0, 10, 200, 2.5, 30, 8, 7};
@@ -201,6 +203,7 @@ TEST(FractureNetwork, HasNoMoreFracturesByIntensityThanByCount) {
   EXPECT_EQ(error(0.01, 1e5, 1e6, 1.5), "");
 }
 
+// Proves (S31).
 TEST(FractureNetwork, HasTheIntensityAskedForAndEndsWithTheModel) {
   const Grid<2> grid{{100, 100}, 10, {0, 0}};
   const FractureNetwork of{0, 0.02, 50, 300, 2, -40, {}, 3};

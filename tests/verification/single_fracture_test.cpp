@@ -127,6 +127,7 @@ TEST(LineFractures, OpenAsGriffithsCrackDoes) {
   EXPECT_NEAR(across / wanted, 1, 0.02);
 }
 
+// Proves (S30).
 TEST(SingleFracture, ScattersAsBoundaryElementsSay) {
   // At any angle, wherever it lies among the cells; curved ones, and two that cross.
   const double z = 1e-10, h = slow_m / 16;
@@ -137,6 +138,7 @@ TEST(SingleFracture, ScattersAsBoundaryElementsSay) {
   EXPECT_LT(error_of({{line(30), z, z}, {line(-60, {middle + 10, middle + 15}), z, z}}), 0.03);
 }
 
+// Proves (S36), (S37).
 TEST(FractureOnFaces, ScattersAsBoundaryElementsSayWhenItIsOpen) {
   // Wherever its tips lie among the faces.
   const double h = slow_m / 16;
@@ -146,6 +148,7 @@ TEST(FractureOnFaces, ScattersAsBoundaryElementsSayWhenItIsOpen) {
   EXPECT_LT(error_of({{line(90, {middle, middle + h / 4}), 1e-9, 1e-9, true}}), 0.03);
 }
 
+// Proves (S35), (S36).
 TEST(FractureOnFaces, IsNothingWhereItIsStiffAsRock) {
   // What is left falls with the compliance.
   const auto scattered = [](double z) {

@@ -63,12 +63,14 @@ void expect_below(const std::vector<double>& found, const std::vector<double>& b
 
 // The reflection is what crosses the PML twice, what the little damping outside plates reflects at an angle
 // and what the grid does.
+// Proves (E14).
 TEST(AbsorbingEdge, SendsBackLessThanSixtyDecibelsStraightAndFortyFiveUpToSixtyDegrees) {
   const std::vector<double> bounds = {1e-3, 1e-3, 2e-3, 5.6e-3};
   expect_below(reflections("explosion", 20, 0.42), bounds, "P");
   expect_below(reflections("force:1,0", 20, 0.72), bounds, "S");
 }
 
+// Proves (E14).
 TEST(AbsorbingEdge, SendsBackLessThanTwoThousandthsFromTwiceTheWidth) {
   const std::vector<double> bounds(4, 0.002);
   expect_below(reflections("explosion", 40, 0.42), bounds, "P");

@@ -83,6 +83,7 @@ const std::vector<double> angles_deg = {0, 15, 30, 45, 60, 70}, through_m = {0, 
 
 class Interfaces : public testing::TestWithParam<AngleCase> {};
 
+// Proves (E8), (E10).
 TEST_P(Interfaces, ReflectAndTransmitByTheExactCoefficientsOverAngle) {
   // Order 5 and Courant number 0.9; 16 cells a dominant S wavelength of the soft rock, 20 of the water's, 30
   // of the hard rock's. Bounds a tenth above what was measured; at twice the spacing the errors are more than
@@ -107,6 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
         AngleCase{"OfWaterOnRock", water, hard, 1.1, {2.1, 1.8, 1.36, 1.43, 2.5, 3.75, 0.69, 0.59, 0.69}}),
     [](const auto& info) { return info.param.name; });
 
+// Proves (E8).
 TEST(HeadWave, ArrivesFirstAndOnTime) {
   const double x = 1100, h = 5, dt_s = 0.9 * h / hard.vp, sine = soft.vp / hard.vp;
   const double arrival_s = x / hard.vp + 2 * height_m * std::sqrt(1 - sine * sine) / soft.vp;

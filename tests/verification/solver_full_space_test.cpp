@@ -85,6 +85,7 @@ void expect_close(const Gather& gather, const std::vector<std::size_t>& rows, do
   }
 }
 
+// Proves (E2).
 TEST(FullSpace, ExplosionMovesAndStrainsTheRockAsInTheClosedForm) {
   const Gather gather = shoot_in_a_full_space("explosion", 0.45);
   expect_close(gather, {0, 1, 2, 3, 4}, 0.01,
@@ -100,11 +101,13 @@ TEST(FullSpace, ExplosionMovesAndStrainsTheRockAsInTheClosedForm) {
           1e-6 * 3e6);
 }
 
+// Proves (E1), (E2).
 TEST(FullSpace, ForceAlongXMovesTheRockAsInTheClosedForm) {
   expect_close(shoot_in_a_full_space("force:1,0", 0.72), {0, 1}, 0.01,
                [](double omega, double x, double z) { return force_motion(rock, omega, x, z, 0); });
 }
 
+// Proves (E2).
 TEST(FullSpace, ForceAlongZMovesTheRockAsInTheClosedForm) {
   expect_close(shoot_in_a_full_space("force:0,1", 0.72), {0, 1}, 0.01,
                [](double omega, double x, double z) { return force_motion(rock, omega, x, z, 1); });

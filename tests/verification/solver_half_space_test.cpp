@@ -87,6 +87,7 @@ TEST(HalfSpaceForms, HaveTheSurfaceWaveOfAPoissonSolid) {
   EXPECT_LT(std::abs(rayleigh(rock, 1 / rayleigh_speed(rock))) * std::pow(vs, 4), 1e-9);
 }
 
+// Proves (E11).
 TEST(HalfSpaceForms, AreLinkedByReciprocity) {
   // At the surface, where szz and sxz vanish, an explosion is a horizontal dipole of 1 - lambda/(lambda + 2
   // mu) = 2 (vs/vp)^2 its moment. By reciprocity it moves the surface along z by as much as the slope of what
@@ -115,6 +116,7 @@ struct SurfaceCase {
 
 class GarvinAt : public testing::TestWithParam<SurfaceCase> {};
 
+// Proves (E11c).
 TEST_P(GarvinAt, ConvergesToTheClosedForm) {
   const auto [ratio, coarse_bound, fine_bound] = GetParam();
   const double coarse = garvin_error(ratio, 12, 0.9), fine = garvin_error(ratio, 24, 0.9);
@@ -130,6 +132,7 @@ INSTANTIATE_TEST_SUITE_P(HalfSpace, GarvinAt,
                            return "AtRatio" + std::to_string(int(10 * info.param.vp_over_vs));
                          });
 
+// Proves (E11c).
 TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
   // Nearer the surface more and shorter surface waves: the error is that of their travel over up to 10
   // wavelengths.
@@ -144,6 +147,7 @@ TEST(Garvin, IsMetAtAnyDepthOfTheSource) {
   }
 }
 
+// Proves (E11c).
 TEST(Garvin, OfAShallowExplosionIsMetFarAway) {
   // In units of this scene: 10 m deep in 4500/2250/2500 at 30 Hz, receivers 100 to 1100 m away.
   std::vector<double> offsets;
@@ -163,6 +167,7 @@ TEST(Garvin, OfAShallowExplosionIsMetFarAway) {
 /// of the wavelet's slope.
 class LambAt : public testing::TestWithParam<SurfaceCase> {};
 
+// Proves (E11b), (E11c).
 TEST_P(LambAt, ConvergesToTheClosedForm) {
   const auto [ratio, coarse_bound, fine_bound] = GetParam();
   const double coarse = lamb_error(ratio, 12, 0.9), fine = lamb_error(ratio, 24, 0.9);

@@ -122,11 +122,13 @@ void expect_exact(const Interface& interface, int order, bool resolved = true) {
   }
 }
 
+// Proves (E8), (E10).
 TEST(Interface, ReflectsAndTransmitsWithTheExactCoefficients) {
   for (const auto& interface : interfaces)
     for (const int order : {3, 5, 7}) expect_exact(interface, order);
 }
 
+// Proves (E8).
 TEST(Interface, OfAirAndSteelIsExactToo) {
   for (const int order : {3, 7}) {
     expect_exact({"air on steel", air, steel}, order);
@@ -135,6 +137,7 @@ TEST(Interface, OfAirAndSteelIsExactToo) {
   }
 }
 
+// Proves (E11a).
 TEST(FreeEnd, SendsVelocityBackWithItsSign) {
   for (const int order : {3, 5, 7}) {
     expect_exact({"P at the free surface", hard, nothing, wave_p, EdgeLaw::free}, order);
@@ -145,6 +148,7 @@ TEST(FreeEnd, SendsVelocityBackWithItsSign) {
   }
 }
 
+// Proves (E11a).
 TEST(RigidEdge, SendsVelocityBackWithTheOppositeSign) {
   for (const int order : {3, 5, 7}) {
     expect_exact({"P at a rigid edge", hard, nothing, wave_p, EdgeLaw::rigid}, order);
@@ -153,6 +157,7 @@ TEST(RigidEdge, SendsVelocityBackWithTheOppositeSign) {
   }
 }
 
+// Proves (E10), (E11a).
 TEST(Ends, KeepTheOrderOfTheReconstruction) {
   // Mirrored stencils are those of a medium without an end: nothing is lost (0.2 as along a line).
   for (const int order : {3, 5, 7})
@@ -165,6 +170,7 @@ TEST(Ends, KeepTheOrderOfTheReconstruction) {
       }
 }
 
+// Proves (E10).
 TEST(Interface, OfEqualSpeedsKeepsTheOrderOfTheReconstruction) {
   // The extension of both sides is exact where the travel times through their cells are equal, whatever the
   // impedances: the errors are those of a line without an interface. Order 7 is order 5 beside interfaces.

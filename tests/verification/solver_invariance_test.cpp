@@ -46,6 +46,7 @@ std::vector<double> samples_of(const Gather& gather) {
   return all;
 }
 
+// Proves (E9).
 TEST(Traces, DoNotDependOnTheNumberOfThreads) {
   auto scene = reef();
   for (const char* mechanism : {"explosion", "force:1,2"}) {
@@ -60,6 +61,7 @@ TEST(Traces, DoNotDependOnTheNumberOfThreads) {
   }
 }
 
+// Proves (E9a), (E20).
 TEST(Traces, DoNotDependOnTheTiling) {
   struct Cut {
     const char* name;
@@ -96,6 +98,7 @@ TEST(Traces, DoNotDependOnTheTiling) {
   }
 }
 
+// Proves (E20).
 TEST(Traces, ScaleWithTheSourceToTheLastBit) {
   // By powers of two: what the unit of the fields is chosen for must not be seen.
   auto scene = reef();
@@ -130,6 +133,7 @@ TEST(Traces, OfSlippingRockDoNotDependOnWhatIsLeftOutAtRest) {
   }
 }
 
+// Proves (E20).
 TEST(Traces, OfSlippingRockScaleWithTheSourceAndAllOtherStress) {
   // The law holds for stress in any unit, viscosity in one over that: |tau| = S (1 + eta |g|).
   auto scene = reef();
@@ -157,6 +161,7 @@ TEST(Traces, OfSlippingRockScaleWithTheSourceAndAllOtherStress) {
   }
 }
 
+// Proves (E20).
 TEST(ComputedShare, IsAsExpected) {
   for (const int order : {3, 5, 7})
     for (const double depth : {10., 1200.})
@@ -181,6 +186,7 @@ TEST(ComputedShare, IsAsExpected) {
       }
 }
 
+// Proves (E3).
 TEST(Traces, DoNotDependOnWhoElseIsLooking) {
   auto scene = reef();
   const auto all = samples_of(shoot(scene, 1));
@@ -228,6 +234,7 @@ TEST(Traces, OfTheCracksAloneChangeLittleFromModelToModelWithAndWithoutThem) {
   EXPECT_LT(difference, 0.001);
 }
 
+// Proves (E9).
 TEST(Symmetry, OfASceneIsKept) {
   // Mirror images of sums round differently: 600 steps of 1e-16 and the error of interpolation in float.
   auto scene = reef();
@@ -244,6 +251,7 @@ TEST(Symmetry, OfASceneIsKept) {
   EXPECT_LT(relative_error(found.traces[4].samples, found.traces[5].samples), 1e-9);
 }
 
+// Proves (E9).
 TEST(Reciprocity, OfForcesHoldsThroughWaterAndRock) {
   // G_xz(A, B) = G_zx(B, A) for any medium and free or absorbing edges; the scheme is second order in a
   // scene whose shortest waves hold 6 cells: 2 %.
@@ -265,6 +273,7 @@ TEST(Reciprocity, OfForcesHoldsThroughWaterAndRock) {
             0.02);
 }
 
+// Proves (A4), (A5).
 TEST(Reciprocity, OfExplosionsForcesPressureAndVelocityHoldsThroughWaterAndRock) {
   // An explosion and the dilatation p/(lambda + mu) are conjugate, as a force and the velocity along it are:
   //   p_b/(lambda + mu)_b of an explosion at a = p_a/(lambda + mu)_a of one at b,

@@ -79,6 +79,7 @@ void expect_same_bits(const ValuesOf& values_of) {
   compare(double());
 }
 
+// Proves (E20).
 TEST(Kernels, OfOneMaterialGiveTheSameBits) {
   expect_same_bits([](auto real, int order, bool uniform, auto scale, std::int64_t n) {
     return written<decltype(real)>(order, uniform, scale, n);
@@ -202,6 +203,7 @@ TEST(Kernels, OfRecordsAreThePlainSumsToTheLastBit) {
   expect_plain_sums<double>();
 }
 
+// Proves (E20).
 TEST(Kernels, OfAFusedRowGiveTheSameBits) {
   expect_same_bits([](auto real, int order, bool at_once, auto scale, std::int64_t n) {
     return swept_across<decltype(real)>(order, at_once, scale, n);
@@ -274,6 +276,7 @@ double error_of(const std::vector<double>& found, const std::vector<double>& exa
   return sum;
 }
 
+// Proves (E9a).
 TEST(Kernels, OfUniformRunsGiveWhatFacesDoAndRoundNoMore) {
   for (const int dimensions : {2, 3})
     for (const bool shear : {false, true})

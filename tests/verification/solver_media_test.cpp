@@ -72,14 +72,17 @@ void expect_below(const Case& scene, int order, const std::array<double, 3>& bou
 // Bounds: the table of errors under (E10) in theory.md, order 5 and Courant number 0.9. With each cell's own
 // impedance instead of the face states of (E8) these cases are of first order: 6.6, 3.2, 1.7 % between solids
 // and 17, 8.5, 3.9 % between water and rock.
+// Proves (E10).
 TEST(Interface, KeepsSecondOrderBetweenSolidsInTwoDimensions) {
   expect_below({soft, rock, 640, 500, 42}, 5, {3.1, 0.44, 0.07});
 }
 
+// Proves (E10).
 TEST(Interface, KeepsSecondOrderBetweenWaterAndRockInTwoDimensions) {
   expect_below({water, rock, 640, 500, 36}, 5, {2.5, 0.55, 0.11});
 }
 
+// Proves (E10).
 TEST(FreeEnd, KeepsSecondOrderInTwoDimensions) {
   expect_below({rock, rock, 0, 200, 40, EdgeLaw::free}, 5, {6.3, 1.2, 0.2});
 }

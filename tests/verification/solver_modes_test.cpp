@@ -84,6 +84,7 @@ double error_of(const Mode& mode, int order, double h, double courant, bool merg
 constexpr double pi = std::numbers::pi;
 const Mode modes[] = {{wave_p, 4 * pi / 1000, 6 * pi / 1000}, {wave_s, 3 * pi / 1000, 2 * pi / 1000}};
 
+// Proves (E3), (E9).
 TEST(SplitStep, IsOfSecondOrderForPAndSWavesAcrossTheAxes) {
   // Wavelengths 28 and 55 cells at 10 m. Splitting leaves order 2; 0.1 for the next term.
   for (const auto& mode : modes)
@@ -97,6 +98,7 @@ TEST(SplitStep, IsOfSecondOrderForPAndSWavesAcrossTheAxes) {
       }
 }
 
+// Proves (E18).
 TEST(FourthOrderInTime, LeavesTheOrderOfTheReconstructionAtTheLargestStep) {
   // Step and cell go together: order 4 or better, that of the reconstruction below (0.2 for the next term).
   // At twice the step of second order the error is still ten times smaller.
@@ -110,6 +112,7 @@ TEST(FourthOrderInTime, LeavesTheOrderOfTheReconstructionAtTheLargestStep) {
     }
 }
 
+// Proves (E3).
 TEST(SplitStep, LeavesTheOrderOfTheReconstructionWhereTheCourantNumberIsSmall) {
   // The splitting error goes with dt^2: at a fifth of the Courant number it is 25 times smaller.
   for (const auto& mode : modes) {
@@ -134,6 +137,7 @@ std::complex<double> projection(L& lab, const Mode& mode, double h) {
   return {along[0] / size[0], -along[1] / size[1]};
 }
 
+// Proves (E15).
 TEST(StepError, IsWhatTheSchemeDoesToAWaveAcrossTheAxes) {
   // A standing wave is made of four plane ones with the same error. Waves of 5 to 14 cells; a twentieth of
   // the error of a step for what the prediction leaves out, its square.
@@ -165,6 +169,7 @@ TEST(StepError, IsWhatTheSchemeDoesToAWaveAcrossTheAxes) {
       }
 }
 
+// Proves (E15).
 TEST(StepError, AlongAnAxisIsTheOneOfTheSweep) {
   // Nothing is split there: (E12) over the whole step.
   for (const int order : orders)

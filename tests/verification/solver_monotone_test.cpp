@@ -90,6 +90,7 @@ void expect_no_overshoot() {
       }
 }
 
+// Proves (C1).
 TEST(Monotone, ASquarePulseHasNoOvershootsAndItsVariationNeverGrows) {
   expect_no_overshoot<double>();
   expect_no_overshoot<float>();
@@ -106,6 +107,7 @@ TEST(Monotone, WithoutTheCriterionTheSamePulseOvershoots) {
     }
 }
 
+// Proves (C1).
 TEST(Monotone, TransmittedAndReflectedPulsesDoNotExceedTheirCoefficients) {
   // Into rock of lower impedance: 2 Z_1/(Z_1 + Z_2) behind the border and, before it, the incident pulse and
   // the reflected one, (Z_1 - Z_2)/(Z_1 + Z_2), on top of each other.

@@ -71,12 +71,14 @@ double error_in_a_full_space(double cells, int order) {
   return largest;
 }
 
+// Proves (A8).
 TEST(NearField, OfAnExplosionStandsTenCellsAway) {
   EXPECT_LT(error_in_a_full_space(10, 5), 0.03);
   EXPECT_LT(error_in_a_full_space(10, 7), 0.015);
   EXPECT_LT(error_in_a_full_space(20, 5), 0.005);
 }
 
+// Proves (A8).
 TEST(NearField, OfAShallowExplosionMovesTheSurfaceAboveIt) {
   // 24 cells per dominant S wavelength, source 3 to 6 cells deep.
   const double h = 3.125, offsets[] = {0, 5, 10, 20, 40};
@@ -94,6 +96,7 @@ TEST(NearField, OfAShallowExplosionMovesTheSurfaceAboveIt) {
   }
 }
 
+// Proves (A8).
 TEST(PointSource, BesideAnInterfaceStaysInItsRock) {
   const double h = 2;
   const std::vector<LayerStack::Receiver> at = {{20, -40}, {60, -40}, {20, 40}, {60, 40}};

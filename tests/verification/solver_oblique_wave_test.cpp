@@ -89,6 +89,7 @@ std::array<std::vector<Arrival>, 2> at_interface(const Rock& one, const Rock& tw
            {{through_p, p * two.vp, qa2 * two.vp, qa2}, {through_s, qb2 * two.vs, -p * two.vs, qb2}}}};
 }
 
+// Proves (A16).
 TEST(ObliquePlaneWave, IsReflectedConvertedAndTransmittedAsAkiAndRichardsSay) {
   const double h = 5, depth = 250, side = 500;
   for (const double angle : {15., 35., -35.}) {
@@ -139,6 +140,7 @@ TEST(ObliquePlaneWave, CrossesLevelRowsOfOtherHeightsAsAkiAndRichardsSay) {
 }
 
 /// Aki & Richards (2002), (5.26) and (5.27): a P wave comes up to a free surface.
+// Proves (A16).
 TEST(ObliquePlaneWave, FromBelowIsReflectedAndConvertedByTheFreeSurface) {
   const double h = 5, side = 500, angle = 30, p = std::sin(angle * pi / 180) / upper.vp;
   const double qa = std::cos(angle * pi / 180) / upper.vp, qb = std::sqrt(1 / (upper.vs * upper.vs) - p * p);
@@ -164,6 +166,7 @@ TEST(ObliquePlaneWave, FromBelowIsReflectedAndConvertedByTheFreeSurface) {
 
 /// Post-critical, with evanescent waves in the rock, and under a free surface: no closed form in time, but
 /// the same traces however wide the model is.
+// Proves (A16).
 TEST(ObliquePlaneWave, InLayersIsTheSameHoweverWideTheModelIs) {
   const auto gather = [](std::int64_t nx, const std::string& kind, EdgeLaw top) {
     const double h = 5;
@@ -214,6 +217,7 @@ TEST(ObliquePlaneWave, GivesTheBitsOfTilesInLayersToo) {
 }
 
 /// In 3-D, across y the same everywhere.
+// Proves (A16).
 TEST(ObliquePlaneWave, TravelsThroughLayersIn3DAsIn2D) {
   const auto flat = two_layers(24, 40, 5, 100);
   for (const auto& [kind, flanks] :
@@ -278,6 +282,7 @@ std::vector<double> in_plane_of_travel(const Gather& gather, double azimuth_deg)
 }
 
 /// In layers as a wave in 2-D, whose layers are the closed forms of the tests above.
+// Proves (A16).
 TEST(ObliquePlaneWave, TravelsInAnyVerticalPlaneIn3DAsIn2D) {
   const auto flat = two_layers(36, 24, 5, 60);
   struct Case {
@@ -305,6 +310,7 @@ TEST(ObliquePlaneWave, TravelsInAnyVerticalPlaneIn3DAsIn2D) {
   }
 }
 
+// Proves (A16).
 TEST(ObliquePlaneWave, OfOneMediumHasItsClosedFormAtAnyAzimuth) {
   for (const int time_order : {2, 4}) {
     auto cube = cube_of(uniform_medium(36, 20, 5, upper), 10, "plane:40,45", -20);
@@ -367,6 +373,7 @@ std::vector<double> scattered(const std::string& kind, double h, double margin_m
   return samples[1];
 }
 
+// Proves (E13).
 TEST(PlaneWaveEdges, AddTheLessToAScatteredFieldTheFinerTheCells) {
   for (const char* kind : {"plane:0", "plane:30"}) {
     double before = 0;

@@ -59,6 +59,7 @@ double error_of_a_pulse(const Kind& kind, int order, double h, bool backwards) {
   return relative_error(found, exact);
 }
 
+// Proves (E4), (E5), (E5a), (E6), (E7).
 TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
   // 0.2: what the next term of the error takes off while the pulse is 10 to 20 cells wide. Order 1 smears
   // the pulse so much that only finer grids show its order.
@@ -75,6 +76,7 @@ TEST(Reconstruction, ConvergesWithItsOrderAlongEitherAxisForPAndS) {
   }
 }
 
+// Proves (E5a).
 TEST(Reconstruction, MovesAWaveAWholeCellAtCourantNumberOne) {
   // a = 1: F_up[u] = u_i whatever the order, so the wave moves by a cell per sweep, to rounding.
   for (const int order : orders)
@@ -93,6 +95,7 @@ TEST(Reconstruction, MovesAWaveAWholeCellAtCourantNumberOne) {
     }
 }
 
+// Proves (E12).
 TEST(Dispersion, OfASineIsTheOnePredicted) {
   // A standing wave s = cos kx, v = 0 between planes of symmetry is two travelling ones; each is multiplied
   // by the amplification factor g per step: after n steps s = Re g^n cos kx and v = Im(g^n) sin kx/Z.
@@ -126,6 +129,7 @@ TEST(Dispersion, OfASineIsTheOnePredicted) {
         }
 }
 
+// Proves (E12).
 TEST(Dispersion, NeverAmplifiesAndLosesLessTheHigherTheOrder) {
   for (const double courant : {0.05, 0.3, 0.6, 0.95})
     for (double cells = 2; cells < 100; cells *= 1.1) {

@@ -22,6 +22,7 @@ Scene<2> box(const FractureSet<2>& set) {
   return scene;
 }
 
+// Proves (S15).
 TEST(SlipOfPrestressedRock, IsThatOfRockWhoseWavesBringTheStress) {
   const double still[] = {-3e5, -5e5, 4e4};  // sxx, szz, sxz
   const FractureSet<2> sets[] = {
@@ -116,6 +117,7 @@ Passed passed(double peak_pa, std::int64_t cells, double h, int order, double st
   return result;
 }
 
+// Proves (S13).
 TEST(PartingPlanes, LetPressureThroughAsIfTheyWereNotThere) {
   for (const int order : {3, 5, 7}) {
     const auto pressure = passed(-1e5, 4, 2.5, order);
@@ -124,12 +126,14 @@ TEST(PartingPlanes, LetPressureThroughAsIfTheyWereNotThere) {
   }
 }
 
+// Proves (S13).
 TEST(PartingPlanes, LetTensionThroughAsLongAsStaticStressHoldsThemTogether) {
   EXPECT_NEAR(passed(1e5, 4, 2.5, 5, -1.01e5).through, 1e5, 50);
   EXPECT_LT(passed(1e5, 4, 2.5, 5, -0.5e5).through, 0.8e5);
 }
 
 /// Faces between n cells without stress are dashpots (S16) in line with the rock on both sides.
+// Proves (S16).
 TEST(PartingPlanes, PassAShareOfLongTensionThatFallsWithTheCellsAcrossThem) {
   for (const std::int64_t cells : {1, 2, 4}) {
     const auto tension = passed(1e5, cells, 0.625, 1);
@@ -139,6 +143,7 @@ TEST(PartingPlanes, PassAShareOfLongTensionThatFallsWithTheCellsAcrossThem) {
   }
 }
 
+// Proves (S16).
 TEST(PartingPlanes, SendTensionBackAsAFreeSurfaceTheMoreTheFinerTheCells) {
   double through = 1e5, lost = 1e5;
   for (const double h : {5., 2.5, 1.25, 0.625}) {

@@ -133,6 +133,7 @@ TEST(Pauses, ChangeNoBitWhereAllIsFluid) {
   expect_same(scene, "water");
 }
 
+// Proves (S18).
 TEST(Pauses, ChangeNoBitWhereSlipWeakensFriction) {
   auto scene = reef();
   // Blocks, one of which weakens, and crossing planes.

@@ -36,6 +36,7 @@ Scene<2> sea(std::int64_t nx = 330, std::int64_t nz = 120) {
   return scene;
 }
 
+// Proves (S27).
 TEST(PlainExecutor, GivesTheBitsOfTilesWithPmlSourceAndSlip) {
   const std::array corrections = {SlipCorrection::first, SlipCorrection::second, SlipCorrection::exponential,
                                   SlipCorrection::centred};

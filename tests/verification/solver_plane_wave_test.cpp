@@ -27,6 +27,7 @@ Scene<2> plane_scene(const Medium<2>& medium, double angle_deg, const Point<2>& 
   return scene;
 }
 
+// Proves (E2), (E13).
 TEST(PlaneWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
   const double h = 5, side = 800;
   const auto n = std::int64_t(side / h);
@@ -60,6 +61,7 @@ TEST(PlaneWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
   }
 }
 
+// Proves (A15).
 TEST(PlaneSWave, PassesReceiversWithTheStressAndAtTheTimeOfTheClosedForm) {
   const double h = 5, side = 600;
   const Rock slow{3600, 2000, 2300};
@@ -143,6 +145,7 @@ Medium<2> layered_medium(std::int64_t nz, double h, const std::vector<Layer>& la
   return medium;
 }
 
+// Proves (E8), (E13).
 TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
   const std::vector<Layer> layers = {
       {{2000, 900, 2000}, 0}, {{3300, 1800, 2300}, 300}, {{1800, 800, 1900}, 400}, {{4500, 2250, 2500}, 470}};
@@ -168,6 +171,7 @@ TEST(PlaneWave, CrossesLayersAsTheSumOfAllItsReflections) {
   }
 }
 
+// Proves (A15).
 TEST(PlaneSWave, CrossesLayersAsTheSumOfAllItsReflections) {
   // Those of the P wave, by their S speeds.
   const std::vector<Layer> layers = {{{2000, 0, 2000}, 0}, {{3300, 0, 2300}, 300}, {{1800, 0, 1900}, 400}};
@@ -190,6 +194,7 @@ TEST(PlaneSWave, CrossesLayersAsTheSumOfAllItsReflections) {
   }
 }
 
+// Proves (E13).
 TEST(PlaneWave, IsTheSameWithAbsorbingSidesAsWithMirrorsHoweverShallowTheModel) {
   // Zones of 40 cells above and, where there are any, below and beside 12 cells.
   for (const auto bottom : {EdgeLaw::free, EdgeLaw::rigid, EdgeLaw::absorbing}) {

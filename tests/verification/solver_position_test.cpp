@@ -46,6 +46,7 @@ std::vector<double> samples_of(const Gather& gather, std::size_t component) {
   return all;
 }
 
+// Proves (A2).
 TEST(SourceAndReceivers, MovedTogetherByPartsOfACellRecordTheSame) {
   // 0.2 % is what a survey asks of positions between cells; the error of the weights (A1) is smaller.
   for (const char* mechanism : {"explosion", "force:0,1", "moment:1,-1,0.5"}) {
@@ -92,6 +93,7 @@ WaterCase shoot_in_water(double source_depth, double receiver_depth) {
   return result;
 }
 
+// Proves (A2).
 TEST(ExplosionInWater, IsItselfAndItsImageAtEveryDepthBelowTheSurface) {
   // The error of 100 cells of travel is 1.4 % wherever source and receiver are: the surface adds nothing.
   for (const double receiver : {0., 0.25, 1.5, 8.})

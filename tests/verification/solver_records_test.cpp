@@ -132,6 +132,7 @@ void expect_closed_form(const Scene<2>& scene, double bound, const VelocityAt& v
   }
 }
 
+// Proves (A9), (A12), (A13).
 TEST(Records, OfAFullSpaceAreThoseOfTheClosedForm) {
   auto scene = full_space(16, 560);
   scene.survey.receivers_m = {{203.3, 57.1}, {25.7, 201.9}, {-211.2, 171.4}};
@@ -292,6 +293,7 @@ double recorded_of(const Domain<2>& domain, const Point<2>& point, Component com
   return sum;
 }
 
+// Proves (A10).
 TEST(Records, OfLinearVelocitiesAreExactInAnyGrid) {
   const auto linear = [](const Point<2>& at) {
     return Point<2>{3 + 2 * at[0] - 5 * at[1], 1 + 7 * at[0] + 4 * at[1]};
@@ -329,6 +331,7 @@ Domain<2> under_a_free_surface(double slope) {
   return make_domain(medium, edges, 20);
 }
 
+// Proves (A11).
 TEST(Records, OnAFreeSurfaceHaveTheSlopesWithWhichSweepsContinueIt) {
   // Both are exact for linear fields, whatever traction these would leave.
   const auto linear = [](const Point<2>& at) {
@@ -352,6 +355,7 @@ TEST(Records, OnAFreeSurfaceHaveTheSlopesWithWhichSweepsContinueIt) {
   }
 }
 
+// Proves (A11).
 TEST(Records, OnAFreeSurfaceOfAnySlopeHaveNoTraction) {
   // A field of arbitrary curvature: on the surface the solver's own strain rates leave it without traction.
   const auto wave = [](const Point<2>& at) {
@@ -392,6 +396,7 @@ TEST(Records, OnAFreeSurfaceOfAnySlopeHaveNoTraction) {
   }
 }
 
+// Proves (A11), (A13).
 TEST(Records, OfAnExplosionUnderTheSurfaceAreThoseOfGarvinsClosedForm) {
   const double wavelength = rock.vs / peak_hz, h = wavelength / 16, duration_s = 0.4;
   const auto n = std::int64_t(1200 / h);
@@ -430,6 +435,7 @@ TEST(Records, OfAnExplosionUnderTheSurfaceAreThoseOfGarvinsClosedForm) {
 }
 
 /// A P wave comes up from below to the free surface, where it doubles; ezz at any depth, in cells.
+// Proves (A11).
 TEST(Records, OfAWaveAndItsEchoFromTheSurfaceAreThoseOfTheClosedForm) {
   const double h = 5, hz = 30;  // 26 cells a P wavelength
   Scene<2> scene;
@@ -480,6 +486,7 @@ Scene<2> hills() {
   return scene;
 }
 
+// Proves (A13).
 TEST(Records, AreTheSameBitsHoweverTheyAreComputed) {
   auto scene = hills();
   expect_same(scene);
@@ -494,6 +501,7 @@ TEST(Records, AreTheSameBitsHoweverTheyAreComputed) {
   EXPECT_TRUE(samples_of(shared_out(scene, 2, 1)) == twice);
 }
 
+// Proves (A13).
 TEST(Records, DoNotChangeWhatElseIsRecorded) {
   auto scene = hills();
   const auto receivers = scene.survey.receivers_m.size();
@@ -504,6 +512,7 @@ TEST(Records, DoNotChangeWhatElseIsRecorded) {
     EXPECT_TRUE(alone.traces[n].samples == all.traces[3 * receivers + n].samples);
 }
 
+// Proves (A13).
 TEST(Records, ContinueAfterAPauseAsIfThereHadBeenNone) {
   const auto scene = hills();
   const auto whole = samples_of(shoot(scene, 1));
@@ -521,6 +530,7 @@ TEST(Records, ContinueAfterAPauseAsIfThereHadBeenNone) {
 }
 
 /// An explosion in the corner of three mirrors: one of eight times its strength in a full space.
+// Proves (A9), (A12), (A13).
 TEST(CubeRecords, OfAFullSpaceAreThoseOfTheClosedForm) {
   const double h = 5, amplitude = 8e9;
   const Rock stone{4000, 2300, 2500};

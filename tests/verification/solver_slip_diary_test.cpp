@@ -30,6 +30,7 @@ double lost_by_slip(Lab<double>& lab, Slip<2, double>& slip, std::int64_t steps,
   return lost;
 }
 
+// Proves (S14).
 TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
   Scene<2> scene;
   scene.model.medium = uniform_medium(20, 20, 5, {4500, 2250, 2500});
@@ -71,6 +72,7 @@ TEST(SlipDiary, NotesTheEnergyThatSlipTakesOutOfTheCells) {
 
 /// Parting planes give back what they took when they come together: all that is lost is what pulls them apart
 /// by a step's stress, and knocks them together.
+// Proves (S14).
 TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
   Scene<2> scene;
   scene.model.medium = uniform_medium(16, 16, 5, {4500, 2250, 2500});
@@ -102,6 +104,7 @@ TEST(SlipDiary, BalancesPlanesThatPartUnderStaticStress) {
   }
 }
 
+// Proves (S18).
 TEST(SlipDiary, BalancesPlanesThatWeakenUnderStaticStress) {
   Scene<2> scene;
   scene.model.medium = uniform_medium(16, 16, 5, {4500, 2250, 2500});

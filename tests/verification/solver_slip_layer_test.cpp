@@ -65,6 +65,7 @@ std::vector<double> some_times() {
   return times_s;
 }
 
+// Proves (S8).
 TEST(SlipLayerReference, IsOfSecondOrder) {
   // Where its nodes are closer than the skin L/r in which a wave falls off inside the layer.
   for (const double r : {0.1, 1., 10., 100.}) {
@@ -80,6 +81,7 @@ TEST(SlipLayerReference, IsOfSecondOrder) {
   }
 }
 
+// Proves (S8).
 TEST(SlipLayerReference, IsAnInterfaceWhereTheLayerIsThin) {
   // The layer knows nothing of the formula of the interface. Half the thickness, half the difference at most.
   for (const double r : {0.1, 1., 10., 100.}) {
@@ -94,6 +96,7 @@ TEST(SlipLayerReference, IsAnInterfaceWhereTheLayerIsThin) {
   }
 }
 
+// Proves (S8).
 TEST(SlipLayer, PassesAndReflectsSWavesAsInOneDimension) {
   // 15 to 60 cells per dominant wavelength, 4 to 16 in the layer. The reflection by slip converges in the
   // order of the correction. At r = 100 the skin of the layer is a sixth of the smallest cell: there, cells
@@ -148,6 +151,7 @@ double own_viscosity(int order, double a, double theta) {
   return 2 * system[row][count] / system[row][row] - 1 - 2 * (1 - theta) * a;
 }
 
+// Proves (S8), (S9).
 TEST(SlipLayerOfOneCell, IsAnInterfaceOfSomeMoreViscosity) {
   // As thin as cells can be, at h = 5, 2.5 and 1.25 m. The largest errors measured are those of r = 10, 7.6
   // to 1.5 % through and 15 to 2.9 % back at order 5; without k in the formula those of r = 100, 38 % back at

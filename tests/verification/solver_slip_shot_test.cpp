@@ -47,6 +47,7 @@ Waves shot(const Setup& setup, double h, const std::vector<double>& times_s) {
   return waves;
 }
 
+// Proves (S8).
 TEST(SlipLayer, PassesAndReflectsPWavesAsInOneDimension) {
   // 30 to 120 cells per dominant wavelength, 8 to 32 in the layer.
   std::vector<double> times_s;  // those of samples

@@ -8,6 +8,7 @@
 namespace slipwave::solver::tension {
 namespace {
 
+// Proves (S27).
 TEST(SlipInTension, IsFeltByTheWavesWithSecondOrderByTheCentredCorrectionAlone) {
   const auto exact = reference(1200);
   ASSERT_LT(errors_below_60_hz(reference(300), exact).back, 0.5);

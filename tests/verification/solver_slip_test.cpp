@@ -76,6 +76,7 @@ std::vector<double> block_response(SlipCorrection correction, double cfl, double
   return response(scene, correction);
 }
 
+// Proves (S6).
 TEST(SlippingBlock, ConvergesInTimeTenTimesNearerWithTheSecondOrder) {
   // What the time step alone costs: against the same grid at an eighth of the step. What is left at second
   // order belongs to the sharp edges of the block, whose treatment by the sweeps depends on the Courant

@@ -43,6 +43,7 @@ double error_of(int dimension, int time_order, int steps) {
   return error_of(splitting(dimension, time_order), dimension, std::sqrt(double(dimension)), steps);
 }
 
+// Proves (E18).
 TEST(Splitting, HasItsOrderInTime) {
   // 0.05 for the next term of the error.
   for (const int dimension : {2, 3})
@@ -57,6 +58,7 @@ TEST(Splitting, OfFourthOrderErrsLessForTheSameWork) {
   EXPECT_LT(error_of(2, 4, 2), 0.02 * error_of(2, 2, 12));
 }
 
+// Proves (E18).
 TEST(Splitting, OfFiveStagesErrsLessThanTheBestKnownOfSixForTheSameWork) {
   // Blanes & Moan (2002), table 2, order 4, 6 stages.
   constexpr double a1 = 0.0792036964311957, a2 = 0.353172906049774, a3 = -0.0420650803577195;

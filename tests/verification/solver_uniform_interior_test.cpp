@@ -23,6 +23,7 @@ Medium<2> ground(std::int64_t nx, std::int64_t nz) {
   return medium;
 }
 
+// Proves (E9a).
 TEST(UniformInterior, HoldsCellsWithNeighboursOfTheirOwnMaterialInWholeBlocks) {
   constexpr std::int64_t block = Layout<2>::block, nx = 333, nz = 120, stretch = 64;
   const auto medium = ground(nx, nz);

@@ -68,12 +68,14 @@ Scene<2> cracked(std::vector<SlipSystem<2>> systems) {
 const SlipSystem<2> first{{0.6, 0.8}, 0.5, 200, 10}, across{{0.8, -0.6}, 0.4, 100, 0},
     crossing{{1, 0}, 0.4, 0, 100};
 
+// Proves (S17).
 TEST(SlipWeakeningShot, HasItsLimitsForOneSystemBlocksAndCrossingPlanes) {
   expect_limits(cracked({first}), 1e-5);
   expect_limits(cracked({first, across}), 1e-5);
   expect_limits(cracked({first, crossing}), 1e-5);
 }
 
+// Proves (S18).
 TEST(SlipWeakeningShot, HasThemIn3DToo) {
   const Index<3> shape = {18, 16, 20};
   auto scene = scene_of(uniform_cube(shape, 5, rock), edges_all_3d(EdgeLaw::mirror), {46, 39, 28},

@@ -12,6 +12,7 @@ namespace {
 /// Whose waves do not turn, either: layers damp less in 2-D, where fewer directions count.
 const Material stiff{3600, 1900, 2450, 0.15, 0.1, 0, 0.1};
 
+// Proves (O6).
 TEST(TiltedSpace, HasTheStiffnessOfTurnedAxes) {
   // All indices of C_ijkl turned one after another about the axes of the grid.
   for (const auto& rock :
@@ -42,6 +43,7 @@ TEST(TiltedSpace, HasTheStiffnessOfTurnedAxes) {
         << axis;
 }
 
+// Proves (O7).
 TEST(TiltedSpace, HasTheWavesOfUprightRockAboutItsAxes) {
   const auto rock = turned_by(cracked, 40, 25, -50);
   const auto axes = axes_of(rock);
@@ -75,6 +77,7 @@ TEST(TiltedSpace, HasTheWavesOfUprightRockAboutItsAxes) {
   EXPECT_NEAR(complementary(c, stress), energy, 1e-9 * energy);
 }
 
+// Proves (O8).
 TEST(TiltedSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
   const ThreadLimit one_thread(1);
   EXPECT_LT(error_of_a_force(turned_by(shale, 30, 90), 12), 0.02);
@@ -85,6 +88,7 @@ TEST(TiltedSpace, OfAForceIsThatOfPlaneWavesInAllDirections) {
     EXPECT_LT(error_of_a_force(rock, 16), 0.01) << rock.tilt;
 }
 
+// Proves (O8), (O9).
 TEST(TiltedSpace, OfASliceIsThatInTwoDimensions) {
   const ThreadLimit one_thread(1);
   const auto error_of = [](Extruded both) {
@@ -105,6 +109,7 @@ TEST(TiltedSpace, OfASliceIsThatInTwoDimensions) {
   }
 }
 
+// Proves (O8).
 TEST(TiltedSpace, IsTurnedWithItsAxes) {
   const ThreadLimit one_thread(1);
   // About the vertical by a right angle, below a free surface: x becomes y, and y becomes -x.
@@ -148,6 +153,7 @@ const std::vector<Material> tilted_rocks = {turned_by(shale, 30, 20),
                                             turned_by(cracked, -40, 60, 15),
                                             turned_by(crossed, 70, -30)};
 
+// Proves (O8).
 TEST(TiltedSpace, OfNextToNoneIsIsotropicRock) {
   const ThreadLimit one_thread(1);
   // Swept as tilted rock all the same.
@@ -159,6 +165,7 @@ TEST(TiltedSpace, OfNextToNoneIsIsotropicRock) {
   EXPECT_LT(relative_error(samples_of(shoot(scene, 1)), isotropic), 3e-5);
 }
 
+// Proves (O8).
 TEST(TiltedSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const bool twice : {false, true}) {
     SCOPED_TRACE(twice ? "double precision, fourth order in time" : "single precision");
@@ -172,6 +179,7 @@ TEST(TiltedSpace, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (O8).
 TEST(TiltedSpace, GivesTheBitsOfOneProcessOnSeveral) {
   // The first of them hold water and isotropic rock only.
   auto scene = blocks(tilted_rocks, {30, 22, 54});
@@ -181,6 +189,7 @@ TEST(TiltedSpace, GivesTheBitsOfOneProcessOnSeveral) {
   EXPECT_TRUE(samples_of(shared_out(scene, 2)) == alone);
 }
 
+// Proves (O8).
 TEST(TiltedSpace, DoesNotDependOnWhichWayItIsShot) {
   const ThreadLimit one_thread(1);
   auto scene = blocks(tilted_rocks, {34, 30, 32});
@@ -191,6 +200,7 @@ TEST(TiltedSpace, DoesNotDependOnWhichWayItIsShot) {
   EXPECT_LT(relative_error(there.traces[2].samples, back.traces[1].samples), 0.04);
 }
 
+// Proves (O9).
 TEST(TiltedSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   const ThreadLimit one_thread(1);
   const auto rock = turned_by(cracked, 30, 40, 20);
@@ -215,6 +225,7 @@ TEST(TiltedSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   }
 }
 
+// Proves (O9).
 TEST(TiltedSpace, LeavesThroughAPmlWhereWavesTurn) {
   const ThreadLimit one_thread(1);
   // Medium III of Becache, Fauqueux and Joly (2003), tilted in a slice of the plane of x and z.
@@ -266,6 +277,7 @@ void expect_no_growth(const std::function<Material()>& draw, int block, int orde
   EXPECT_GT(least, 0);
 }
 
+// Proves (O8).
 TEST(EnergyOfTiltedSpace, NeverRises) {
   const ThreadLimit one_thread(1);
   // Any stiffness about any axes from cell to cell, or from block to block, and water.

@@ -25,6 +25,7 @@ struct Turned {
   }
 };
 
+// Proves (T4).
 TEST(TiltedStack, OfATurnedRockIsTheTurnedField) {
   // The same rock by both kinds of roots: in axes of its beds, and in those of the grid.
   const Turned turned(30);
@@ -51,6 +52,7 @@ TEST(TiltedStack, OfATurnedRockIsTheTurnedField) {
   }
 }
 
+// Proves (T4).
 TEST(TiltedRock, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
   for (const auto& rock : {dipping, steep})
     for (const std::string kind : {"force:0.6,0.8", "explosion", "moment:0,0,1"}) {
@@ -62,6 +64,7 @@ TEST(TiltedRock, OfPointSourcesIsThatOfPlaneWavesInAllDirections) {
     }
 }
 
+// Proves (T4).
 TEST(TiltedRock, OfTwoRocksReflectsAndTransmitsAsPlaneWaves) {
   for (const auto& [over, under] : {std::pair{dipping, hard}, {steep, dipping}, {flat, steep}}) {
     if (!std::getenv("SLIPWAVE_LONG") && over != dipping) continue;
@@ -69,6 +72,7 @@ TEST(TiltedRock, OfTwoRocksReflectsAndTransmitsAsPlaneWaves) {
   }
 }
 
+// Proves (V7).
 TEST(TiltedRock, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
   for (const auto& rock : {dipping, steep}) {
     if (!std::getenv("SLIPWAVE_LONG") && rock == steep) continue;
@@ -77,6 +81,7 @@ TEST(TiltedRock, BelowAFreeSurfaceAndWaterIsThatOfPlaneWaves) {
   }
 }
 
+// Proves (V7).
 TEST(TiltedRock, ConvergesAsIsotropicRockDoes) { EXPECT_GT(order_below_surface(dipping), 1.9); }
 
 TEST(TiltedRock, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
@@ -96,6 +101,7 @@ TEST(TiltedRock, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   }
 }
 
+// Proves (V7).
 TEST(TiltedRock, LeavesThroughAPml) {
   // Nothing grows in thousands of steps under a wave as long as the model, of rocks whose waves turn, too.
   for (const auto& rock : {dipping, steep}) {
@@ -127,6 +133,7 @@ Scene<2> blocks(std::int64_t nx, std::int64_t nz) {
   return scene;
 }
 
+// Proves (T4).
 TEST(TiltedRock, GivesTheBitsOfThePlainExecutorInTiles) {
   for (const int time_order : {2, 4}) {
     SCOPED_TRACE(std::to_string(time_order));
@@ -138,12 +145,14 @@ TEST(TiltedRock, GivesTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (T4).
 TEST(TiltedRock, GivesTheBitsOfOneProcessOnSeveral) {
   const auto scene = blocks(60, 120);
   const auto alone = all_samples(shoot(scene, 1));
   for (const int ranks : {2, 3}) EXPECT_TRUE(all_samples(shared_out(scene, ranks)) == alone) << ranks;
 }
 
+// Proves (V7).
 TEST(TiltedRock, DoesNotDependOnWhichWayItIsShot) {
   auto scene = blocks(110, 90);
   // In proportion to the cells of a wavelength: 1.5 % at 40 Hz, 0.3 % at 8 Hz.

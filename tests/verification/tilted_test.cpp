@@ -38,6 +38,7 @@ Scene<2> wedges() {
 
 }  // namespace
 
+// Proves (T3), (T5).
 TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
   constexpr Material shale{3000, 1600, 2300, 0.2, 0.1};
   constexpr double dip_deg = 27, dip = dip_deg * std::numbers::pi / 180, h = 5, middle = 350;
@@ -81,6 +82,7 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
   EXPECT_LT(relative_error(found, wanted), 0.02);
 }
 
+// Proves (T4).
 TEST(TiltedMeans, OfAClosedBodyScatterAsInTheClosedForm) {
   constexpr Rock around{2000, 1150, 2000}, inside{4000, 2300, 2300};
   constexpr double radius = 100, peak_hz = 15, interval_s = 0.002, size = 1000;
@@ -140,6 +142,7 @@ TEST(TiltedMeans, OfAClosedBodyScatterAsInTheClosedForm) {
   EXPECT_LT(relative_error(found, exact), 0.006);
 }
 
+// Proves (T5).
 TEST(TiltedMeans, GiveTheBitsOfThePlainExecutorInTiles) {
   for (const int time_order : {2, 4}) {
     SCOPED_TRACE(std::to_string(time_order));
@@ -152,6 +155,7 @@ TEST(TiltedMeans, GiveTheBitsOfThePlainExecutorInTiles) {
   }
 }
 
+// Proves (T5).
 TEST(TiltedMeans, GiveTheBitsOfOneProcessOnSeveral) {
   const auto scene = wedges();
   const auto alone = all_samples(shoot(scene, 1));

@@ -11,7 +11,7 @@
 namespace slipwave::solver {
 
 /// The stress in the parts of cells in which planes slip while the rest of the cell holds them, where edges
-/// of clusters cut cells (theory.md 2.11). Slip corrections act on it as on that of a whole cell.
+/// of clusters cut cells (theory/slip.md). Slip corrections act on it as on that of a whole cell.
 template <int D, class Real>
 class HeldSlip {
  public:

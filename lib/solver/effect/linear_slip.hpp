@@ -17,8 +17,8 @@ template <int D>
 std::vector<std::int64_t> soft_cells(const Domain<D>& domain, const Model<D>& model);
 
 /// Planes that give way as springs, with or without dashpots, in all fracture cells that have such planes
-/// (theory.md 2.6). It acts before slip at the end of a step and after it at the beginning of the next, so
-/// that friction is above the springs. Keeps references.
+/// (theory/fractures.md). It acts before slip at the end of a step and after it at the beginning of the next,
+/// so that friction is above the springs. Keeps references.
 template <int D, class Real>
 class LinearSlip : public Effect<D, Real> {
  public:

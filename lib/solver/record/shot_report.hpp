@@ -5,7 +5,7 @@
 
 namespace slipwave {
 
-/// The work of slip, summed over cells (theory.md 2.3); energies in J, per metre in 2-D.
+/// The work of slip, summed over cells (theory/slip.md); energies in J, per metre in 2-D.
 struct SlipTotals {
   std::int64_t cells = 0, slipped = 0;  // fractured ones, and those that slipped at any time
   double dissipated = 0;                // turned into heat on the planes

@@ -13,9 +13,9 @@
 
 namespace slipwave::solver {
 
-/// Anisotropic cells of bent rows in 2-D (theory.md 1.15), upright rock and tilted. As TiltedCells in level
-/// rows: the loops of bent rows take them for isotropic ones; then this overwrites their outgoing waves, the
-/// states of their faces, and adds to their stresses what is missing.
+/// Anisotropic cells of bent rows in 2-D (theory/anisotropy.md), upright rock and tilted. As TiltedCells in
+/// level rows: the loops of bent rows take them for isotropic ones; then this overwrites their outgoing
+/// waves, the states of their faces, and adds to their stresses what is missing.
 template <class Real>
 class BentTiltedCells {
  public:

@@ -10,9 +10,9 @@
 
 namespace slipwave::solver {
 
-/// Anisotropic cells of bent rows in sweeps across the rows in 3-D (theory.md 1.16), upright rock and tilted;
-/// along the rows TiltedCells has them. The loops take them for isotropic ones; then this overwrites their
-/// outgoing waves, the states of their faces, and adds to their stresses what is missing.
+/// Anisotropic cells of bent rows in sweeps across the rows in 3-D (theory/anisotropy.md), upright rock and
+/// tilted; along the rows TiltedCells has them. The loops take them for isotropic ones; then this overwrites
+/// their outgoing waves, the states of their faces, and adds to their stresses what is missing.
 template <class Real>
 class BentTiltedCellsInSpace {
  public:

@@ -60,7 +60,7 @@ PlaneTensor root_of(const PlaneTensor& tensor);
 
 /// What strains along an edge leave of strains across it where no traction acts there: strain across =
 /// -normal times strain along, shear strain = -shear times that. lambda/(lambda + 2 mu) and 0 in isotropic
-/// media (theory.md (V4), (V8)).
+/// media (theory.md (V4), (V7)).
 struct EdgeCoupling {
   double normal = 0, shear = 0;
 };

@@ -347,7 +347,7 @@ void FreeSurface<D, Real>::update_corrections(const State<D, Real>& state, std::
   correct_bent_ends(state, first, last);
 }
 
-/// Tractions that the bend of one velocity puts on the other component (theory.md (V8)).
+/// Tractions that the bend of one velocity puts on the other component (theory.md (V7)).
 template <int D, class Real>
 void FreeSurface<D, Real>::correct_tilted_ends(const State<D, Real>& state, std::int64_t first,
                                                std::int64_t last) {

@@ -43,10 +43,10 @@ constexpr int most_reach_at_contrasts = 2;
 /// The same beyond the plain mirror image at a void.
 constexpr int most_reach_at_mirrors = 3;
 /// In cells of a cluster that carry next to no stress, where more of it fed motion between contrasts
-/// (theory.md, 2.6).
+/// (theory/fractures.md).
 constexpr int most_reach_in_soft_cells = 1;
 /// Along a fracture with a spring, in the cells next to it: with more, springs fed waves from order 9 on
-/// (theory.md, 2.8).
+/// (theory/fractures.md).
 constexpr int most_reach_along_springs = 2;
 /// Cells the reconstruction may reach in a cell with `cells` others up to what it may reach `beyond` cells
 /// across: the order rises away from it, since it may always reach up to it.

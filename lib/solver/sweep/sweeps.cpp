@@ -46,7 +46,7 @@ bool has_free_edges_across(const Domain<D>& domain) {
 /// Whether the order of the reconstruction rises away from an edge in line with a cell: from a corrected free
 /// surface, and in space, where free edges meet, from any of a solid. Where plain images, near a second free
 /// edge say, let it reach further than corrected ones beside them, stresses at rest in the surface of a box
-/// grew (theory.md, 1.3).
+/// grew (theory/interfaces.md).
 template <int D>
 bool order_rises_from(const Domain<D>& domain, Index<D> at, int axis, int side) {
   at[std::size_t(axis)] = side ? domain.grid.shape[std::size_t(axis)] - 1 : 0;

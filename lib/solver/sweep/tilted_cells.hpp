@@ -24,10 +24,10 @@ struct TiltedPairFields {
   PairCorrections<Real> corrections;
 };
 
-/// Cells whose axes of symmetry do not lie along the grid, in 2-D: interfaces cut them (theory.md 1.11), or
-/// their beds dip (1.12). The
-/// loops of a sweep take them for isotropic or upright ones; then this overwrites their outgoing waves, the
-/// states of their faces, and adds to their stresses what is missing.
+/// Cells whose axes of symmetry do not lie along the grid, in 2-D: interfaces cut them
+/// (theory/anisotropy.md), or their beds dip. The loops of a sweep take them for isotropic or upright
+/// ones; then this overwrites their outgoing waves, the states of their faces, and adds to their stresses
+/// what is missing.
 template <int D, class Real>
 class TiltedCells {
  public:

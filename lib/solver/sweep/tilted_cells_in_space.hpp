@@ -9,8 +9,8 @@
 
 namespace slipwave::solver {
 
-/// Cells in 3-D whose axes of symmetry are turned from those of the grid (theory.md 1.14). The loops of a
-/// sweep take them for orthorhombic ones along it; then this overwrites their outgoing waves, the states of
+/// Cells in 3-D whose axes of symmetry are turned from those of the grid (theory/anisotropy.md). The loops of
+/// a sweep take them for orthorhombic ones along it; then this overwrites their outgoing waves, the states of
 /// their faces, and adds to their stresses what is missing. Cells of a medium share what is known of it. In
 /// bent rows, whose loops take cells for isotropic ones, these are all anisotropic cells, in sweeps along the
 /// rows.
