@@ -33,12 +33,6 @@ double whole_half_cycles(const std::string& text, const std::string& number) {
   return cycles;
 }
 
-std::string_view trimmed(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
-}
-
 /// Columns between blanks, tabs or one comma or semicolon with blanks round it.
 std::vector<std::string_view> columns_of(std::string_view line) {
   std::vector<std::string_view> columns;

@@ -10,14 +10,6 @@
 namespace slipwave {
 namespace {
 
-constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::string as_text(const std::vector<char>& bytes) { return {bytes.begin(), bytes.end()}; }
 
 }  // namespace
@@ -122,7 +114,7 @@ bool Table::split(std::string_view line) {
   unquoted_.clear();
   if (separator_ == ' ') {
     for (line = trimmed(line); !line.empty();) {
-      const auto end = line.find_first_of(blanks);
+      const auto end = line.find_first_of(" \t\r");
       values_.push_back(line.substr(0, end));
       line = end == std::string_view::npos ? std::string_view() : trimmed(line.substr(end));
     }
