@@ -196,8 +196,7 @@ ImportedField read_segy(const Settings& settings, const std::string& path, const
     throw Error(shown_input(path) + ": a SEG-Y model has no cell size; give --step", ErrorKind::usage);
   }
   segy::Reader reader(path, {}, {taken.begin(), taken.end()});
-  auto field = in_place(shown_input(path),
-                        [&] { return read_section(reader, *settings.step_m, !settings.allow_rough); });
+  auto field = read_section(reader, *settings.step_m, !settings.allow_rough);
   const bool in_feet = reader.header().feet && unit.is_speed && !unit.given;
   if (in_feet)
     field.said.emplace_back(

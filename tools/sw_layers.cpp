@@ -66,8 +66,6 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("allow-auxetic", settings.limits.allow_auxetic, "allow vs above vp/sqrt(2)");
   options.add("output,o", settings.output, "M", "model file; - is standard output");
   for (const char* name : {"size", "step"}) options.require(name);
-  options.common({"size", "step", "layer", "log", "block", "backus", "fit", "units", "average", "title",
-                  "allow-slow", "allow-auxetic", "output"});
 }
 
 /// Of properties that no wave in a section meets.

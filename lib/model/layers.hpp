@@ -31,7 +31,7 @@ struct Layer {
   Material material;  // at the top
   Material gradient;  // what vp and vs (1/s) and rho (kg/m4) gain a metre below it; 0 by default
   std::vector<std::pair<Property, double>> others;  // of its other properties, all over the layer
-  std::vector<LayerBlock> profile;  // in place of material and gradient, as of a log; the last goes on
+  std::vector<LayerBlock> profile;  // in place of material and gradient, as of a log; the last continues
 
   Layer() = default;
   Layer(const Horizon& top, const Material& material, const Material& gradient = {})

@@ -72,9 +72,6 @@ struct PointColumns {
       in_metres[n] = headers[n].conversion("m");
       if (up) in_metres[n].factor = -in_metres[n].factor;
     }
-    if (headers.size() != D)
-      throw Error("found " + std::to_string(headers.size()) + " columns, expected " +
-                  (D == 2 ? "X Z" : "X Y Z"));
   }
 };
 
@@ -89,11 +86,11 @@ std::vector<NumberedPoint<D>> points_of_text(std::string_view text) {
     if (first) {
       const auto all = words_of(line);
       first = all.empty();
-      if (const auto headers =
-              in_place("line " + std::to_string(number),
-                       [&] { return are_headers(all) ? column_headers(all) : std::vector<ColumnHeader>(); });
-          !headers.empty()) {
-        columns = in_place("line " + std::to_string(number), [&] { return PointColumns<D>(headers); });
+      const auto place = "line " + std::to_string(number);
+      const auto headers = in_place(
+          place, [&] { return are_headers(all) ? column_headers(all) : std::vector<ColumnHeader>(); });
+      if (headers.size() == D) {
+        columns = in_place(place, [&] { return PointColumns<D>(headers); });
         return true;
       }
     }

@@ -339,7 +339,7 @@ std::string report_of_log(const WellLog& log, const Layer& layer, const LogChoic
          ", " + log.curves + ": " + std::to_string(layer.profile.size()) +
          (choice.layered ? " Backus averages" : " blocks") + " from " + layer.top.name() + " on, vp " +
          shown(least, 5) + " to " + shown(largest, 5) + " m/s" +
-         (choice.layered ? ", epsilon up to " + shown(anisotropy, 3) : "") + "; the last goes on below";
+         (choice.layered ? ", epsilon up to " + shown(anisotropy, 3) : "") + "; the last continues below";
 }
 
 }  // namespace slipwave

@@ -35,7 +35,7 @@ WellLog read_well_log(const std::string& path, const LogChoice& choice);
 
 /// The log as a layer from the face of cells of `spacing_m` nearest to its first sample on. Each block is the
 /// mean over the samples in it, each of which stands for what is nearest to it (MaterialMean); below the last
-/// sample the last block goes on. `in_space`: the layer has gamma, too. Throws Error naming the depths of a
+/// sample the last block continues. `in_space`: the layer has gamma, too. Throws Error naming the depths of a
 /// block without samples, or where fluid and solid meet, and a usage Error for blocks thinner than cells.
 Layer layer_of_log(const WellLog& log, double spacing_m, bool in_space, const LogChoice& choice);
 

@@ -8,6 +8,7 @@
 #include "grid/grid_netcdf.hpp"
 #include "grid/true_depth.hpp"
 #include "io/netcdf_file.hpp"
+#include "io/netcdf_units.hpp"
 #include "model/model_netcdf.hpp"
 #include "model/planar_fracture.hpp"
 #include "model/property_range.hpp"
@@ -41,6 +42,9 @@ Field<D> read_stored(const NetcdfFile& file, const Grid<D>& grid, const std::str
   Field<D> field(grid);
   std::copy(values.begin(), values.end(), field.begin());
   const auto property = find_property(name);
+  if (property)
+    if (const auto conversion = conversion_of(file, name, row_of(*property).units); conversion.changes())
+      for (auto& value : field) value = float(conversion(double(value)));
   // Where rock is missing the others are not asked for.
   if (property && !row_of(*property).if_absent) check_range(file, field, row_of(*property));
   return field;

@@ -28,6 +28,7 @@ struct TraceGeometry {
 /// What the traces of a file have in common.
 struct Known {
   bool source = false, receiver = false, depth = false, midpoint = false, bin = false;
+  bool places_midpoints = false;     // midpoints say where ends without coordinates are
   bool receiver_fits_offset = true;  // where receivers without coordinates would stand at 0,0
   bool source_fits_offset = true;
   double least_offset_m = 0, largest_offset_m = 0;
@@ -101,6 +102,8 @@ void GeometryReader::take() {
   const bool source = across(found.source_m, zero) > 0, receiver = across(found.receiver_m, zero) > 0;
   known_.source |= source;
   known_.receiver |= receiver;
+  const auto midpoint = segy::place_words(words, reader_.header()).midpoint_m;
+  known_.places_midpoints |= midpoint[0] != 0 || midpoint[1] != 0;
   known_.depth |= found.source_m[2] != 0 || found.receiver_m[2] != 0;
   known_.bin |= found.bin != 0;
   const double distance = across(found.source_m, found.receiver_m);
@@ -127,8 +130,8 @@ void GeometryReader::take() {
 void GeometryReader::complete() {
   const bool any_offset = known_.least_offset_m != 0 || known_.largest_offset_m != 0;
   const auto& given = reader_.positions();
-  if (!given.source && !given.receiver && any_offset && known_.least_offset_m == known_.largest_offset_m &&
-      traces_.size() > 1)
+  if (!given.source && !given.receiver && !known_.places_midpoints && any_offset &&
+      known_.least_offset_m == known_.largest_offset_m && traces_.size() > 1)
     throw Error("found no coordinates of sources (bytes 73, 77) and receivers (81, 85), and one offset, " +
                 shown(known_.least_offset_m) + " m, for all traces; expected coordinates" +
                 hint_of_revision());

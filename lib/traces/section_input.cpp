@@ -57,7 +57,12 @@ class SectionReader {
       : reader_(reader), step_m_(step_m), trusted_(trusted) {}
 
   ImportedField read() {
-    for (segy::Trace trace; reader_.next(trace);) take(trace);
+    for (segy::Trace trace; reader_.next(trace);) in_place(reader_.name(), [&] { take(trace); });
+    return in_place(reader_.name(), [&] { return laid_out(); });
+  }
+
+ private:
+  ImportedField laid_out() {
     if (columns_.empty()) throw Error("found no samples, expected a section");
     Lattice lattice;
     lattice.nx = columns_.size();
@@ -70,8 +75,6 @@ class SectionReader {
     }
     return field_of(lattice);
   }
-
- private:
   void take(const segy::Trace& trace);
   void check_offsets() const;
   bool varies(std::size_t kind) const;

@@ -88,7 +88,8 @@ void write(const std::string& path, const Contents& model) {
     file.put_attribute("horizon_floor", "role", model.role);
     file.put_attribute("horizon_floor", "row", std::vector<int>{3});
     put("depth_bounds", model.corners);
-    put("horizon_floor", std::vector<double>(model.x.size(), 15));
+    put("horizon_floor",
+        std::vector<double>(model.x.size(), model.corners[3 * std::size_t(model.corner_columns)]));
   }
   put("x", model.x);
   put("z", model.z);

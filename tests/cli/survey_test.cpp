@@ -223,7 +223,9 @@ TEST_F(SurveyOfSea, EveryMalformedTableIsNamedByLineAndColumn) {
   refused("x,z,shot\n1,2,1\n1,2,2\n", shot, 1,
           "t.csv: line 3: found a receiver of shot 2, which has no source");
   refused("x,z,delay\n1,2,-1\n", shots, 1,
-          "t.csv: line 2: column delay: found a delay of -1 s, expected 0 or more");
+          "t.csv: line 2: column delay: found a delay of -1 s, expected 0 or more, as records begin with "
+          "time 0: add 1 s or more to all delays of "
+          "the record");
   refused("x,z,wavelet\n100,20,rick:3\n", shots, 2,
           "t.csv: line 2: wavelet: found 'rick:3', expected ricker:F, gauss:F, sine:F[:CYCLES] (F in Hz) or "
           "file:PATH");

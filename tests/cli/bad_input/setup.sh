@@ -59,6 +59,7 @@ mkdir folder
 lines() { file=$1; shift; printf '%s\n' "$@" > "$file"; }
 lines two.txt '0 0' '10 10 # no third'
 lines word.txt '0 0' '10 ten' '10 0'
+lines well.txt 'DEPTH.M VP.M/S' '20 3000' '22 3050' '24 2990'
 lines three.txt '0 0' '10 10 10' '10 0'
 lines bow.txt '0 0' '100 100' '100 0' '0 100'
 lines line.txt '0 0' '50 50' '100 100'
