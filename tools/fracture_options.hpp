@@ -45,7 +45,7 @@ inline void declare_laws(cli::Options& options, FractureSettings& settings) {
               "coulomb, or slip-weakening:QD:DC: friction falls from Q to QD over a slip of DC m [coulomb]");
   options.add(
       "compliance", settings.compliance.compliance, "ZN,ZT",
-      "planes give way like springs, below friction or without it: normal and tangential compliance of "
+      "compliant planes (linear slip), below friction or without it: normal and tangential compliance of "
       "a plane, m/Pa; usual 1e-14 to 1e-9");
   options.add("stiffness", settings.compliance.stiffness, "KN,KT", "or its stiffness, Pa/m");
   options.add(

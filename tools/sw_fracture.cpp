@@ -187,7 +187,7 @@ void check_friction(const Settings& s) {
   if (s.friction) return;
   if (!s.compliance.given() && !s.open)
     refuse(
-        "--friction is missing; expected --friction Q, or planes that give way: --compliance ZN,ZT, "
+        "--friction is missing; expected --friction Q, or compliant planes: --compliance ZN,ZT, "
         "--stiffness KN,KT or --crack-density E");
   if (s.viscosity_s || proposed || s.strength_pa || !s.law.empty())
     refuse(std::string(s.viscosity_s   ? "--viscosity"

@@ -40,7 +40,9 @@ LinearCompliance of_cracks(const ComplianceText& text) {
   if (of.aspect > 1) refuse("--aspect: found " + shown(of.aspect) + ", expected it at most 1");
   if (of.fill_pa > 0 && !text.aspect) refuse("--fill needs --aspect: thin cracks are stiffer when filled");
   if (text.aspect && !(of.fill_pa > 0))
-    refuse("--aspect needs a --fill above zero: dry cracks give way alike whatever their thickness");
+    refuse(
+        "--aspect needs a --fill above zero: the compliance of dry cracks does not depend on their "
+        "thickness");
   return of;
 }
 

@@ -10,7 +10,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
 
 void check(const SlipSystem<2>& system) {
-  if (!system.compliance.gives()) refuse("these planes do not give way, expected a compliance");
+  if (!system.compliance.gives())
+    refuse("these planes have no compliance; expected --compliance, --stiffness or --crack-density");
   if (system.slides()) refuse("an effective medium does not slide, expected planes without friction");
   if (system.compliance.damped()) refuse("an effective medium has no dashpots, expected springs alone");
   if (std::abs(system.normal[0] * system.normal[1]) > 1e-9)

@@ -19,7 +19,7 @@ write=
 [ "${1-}" != --write ] || { write=yes; shift; }
 there=
 [ "${1-}" != --in ] || { there=$2; shift 2; }
-with_figures() { cd "$root" && grep -lrE '^<!-- figures$|<!--=' README.md docs surveys --include='*.md' | sort; }
+with_figures() { cd "$root" && grep -lrE '^<!-- figures$|^<!--=|^[^ ].*<!--=' README.md docs surveys --include='*.md' | sort; }
 # shellcheck disable=SC2046 # names of pages hold no blanks
 case ${1-} in
   '') set -- README.md ;;
@@ -35,7 +35,7 @@ export MAKEFLAGS SLIPWAVE SLIPWAVE_BUILD PATH
 # recipes PAGE: its lines NAME: COMMAND.
 recipes() { awk '/^<!-- figures$/ { inside = 1; next } /^-->$/ { inside = 0 } inside' "$1"; }
 
-# Markers come in pairs, and each has its command.
+# Markers come in pairs, and each has its command. Indented lines are examples.
 for page in $(with_figures); do
   recipes "$root/$page" | sed -n 's/^\([a-z0-9-]*\): .*/\1/p' | grep -vx make | sort > "$work/made" || :
   grep -o '<!--=[a-z0-9-]*-->' "$root/$page" | sed 's/<!--=\(.*\)-->/\1/' | sort -u > "$work/wanted" || :

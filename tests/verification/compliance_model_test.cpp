@@ -130,7 +130,7 @@ TEST(ComplianceModel, ParsesCompliancesStiffnessesAndCracks) {
   EXPECT_EQ(error({"", "", "", {}, 0.1, {}, 2e9}),
             "--fill needs --aspect: thin cracks are stiffer when filled");
   const std::string of_dry =
-      "--aspect needs a --fill above zero: dry cracks give way alike whatever their thickness";
+      "--aspect needs a --fill above zero: the compliance of dry cracks does not depend on their thickness";
   EXPECT_EQ(error({"", "", "", {}, 0.1, 1e-3, {}}), of_dry);
   EXPECT_EQ(error({"", "", "", {}, 0.1, 1e-3, 0.}), of_dry);
   EXPECT_EQ(error({"", "", "", {}, {}, 0.1, {}}), "--aspect and --fill need --crack-density");
