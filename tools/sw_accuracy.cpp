@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <numeric>
+#include <optional>
 #include <span>
 
 #include "accuracy/cases.hpp"
@@ -9,6 +11,7 @@
 #include "io/netcdf_file.hpp"
 #include "model/model_netcdf.hpp"
 #include "planning/measured.hpp"
+#include "planning/measured_error.hpp"
 #include "scene_options.hpp"
 
 using namespace slipwave;
@@ -89,7 +92,8 @@ bool is_monotone(const std::string& limit) {
 }
 
 /// All combinations, cheap ones first; without --steps the model's cells and cells of twice the size.
-std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene) {
+template <int D>
+std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<D>& scene) {
   const double own = scene.model.grid().spacing_m;
   auto steps = s.steps.empty() ? std::vector<double>{2 * own, own} : numbers_of("--steps", s.steps);
   std::sort(steps.begin(), steps.end(), std::greater<>());
@@ -107,8 +111,8 @@ std::vector<AccuracySetting> ladder_of(const Settings& s, const Scene<2>& scene)
   return ladder;
 }
 
-AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySetting>& ladder) {
-  if (s.reference.empty()) return {7, 0.4, ladder.back().spacing_m, SlipCorrection::centred};
+AccuracySetting reference_of(const Settings& s, const AccuracySetting& finest) {
+  if (s.reference.empty()) return {7, 0.4, finest.spacing_m, SlipCorrection::centred};
   const auto numbers = numbers_of("--reference", s.reference);
   if (numbers.size() != 3)
     throw Error("--reference: found " + s.reference + ", expected ORDER,CFL,STEP", ErrorKind::usage);
@@ -116,33 +120,83 @@ AccuracySetting reference_of(const Settings& s, const std::vector<AccuracySettin
 }
 
 /// The user's scene; nothing of it is asked for where a built-in case is.
-Scene<2> make_scene(const Settings& s, const cli::Context& context) {
+template <int D>
+Scene<D> make_scene(const Settings& s, const NetcdfFile& file, const cli::Context& context) {
+  auto scene = s.shot.without_model<D>();
+  for (const auto& sentence : s.shot.read_model_into(scene, file)) context.warn(sentence);
+  return scene;
+}
+
+void check_given(const Settings& s) {
   for (const auto& [given, name] : {std::pair{s.shot.survey.any_source(), "--source"},
                                     {!s.shot.wavelet.empty(), "--wavelet"},
                                     {s.shot.survey.any_receiver(), "--receivers"},
                                     {s.shot.duration_s > 0, "--time"}})
     if (!given)
       throw Error(std::string(name) + " is missing; give it, or --case full-space", ErrorKind::usage);
-  auto scene = s.shot.without_model<2>();
-  for (const auto& sentence : s.shot.read_model_into(scene, NetcdfFile::open(s.shot.model)))
-    context.warn(sentence);
-  return scene;
+}
+
+std::vector<std::size_t> all_shots(std::size_t count) {
+  std::vector<std::size_t> shots(count);
+  std::iota(shots.begin(), shots.end(), std::size_t(1));
+  return shots;
+}
+
+/// The traces that everything is measured against: a closed form, or those of a reference, whose own error is
+/// measured in larger cells.
+template <int D>
+std::vector<Gather> exact_of(const Settings& s, SceneRuns<D>& runs, const AccuracySetting& finest,
+                             AccuracyTable& table, const cli::Context& context) {
+  if (!s.built_in.empty()) {
+    table.reference = "the closed form";
+    return {full_space_traces()};
+  }
+  const auto reference = reference_of(s, finest);
+  table.reference = name_of(reference, runs.scene());
+  context.note("reference: " + table.reference);
+  table.rows.push_back(measured(runs, reference, {}));
+  try {
+    table.reference_error = measured_error(runs, reference, {true, false, false}).error.whole;
+  } catch (const Error& error) {
+    context.warn("the error of the reference is not known: " + std::string(error.what()));
+  }
+  return runs.run(reference).observed;
+}
+
+/// Throws where a scene's own cells could not be computed so.
+template <int D>
+void check_numerics(Scene<D> scene, const AccuracySetting& setting) {
+  scene.numerics = numerics_of(setting, scene.numerics);
+  check(scene);
+}
+
+/// In cells that hold the scene.
+template <int D>
+std::vector<AccuracySetting> held_ladder(const SceneRuns<D>& runs, std::vector<AccuracySetting> ladder) {
+  for (auto& setting : ladder) {
+    check_numerics(runs.scene(), setting);
+    const auto held = runs.held(setting);
+    if (!held)
+      throw Error(
+          "--steps: cells of " + shown(setting.spacing_m) +
+              " m do not hold the scene: sides of too few cells, or sources and receivers in other matter",
+          ErrorKind::usage);
+    setting = *held;
+  }
+  return ladder;
 }
 
 /// All of a ladder's rows, each said as soon as it is there.
-void run(const Settings& s, const cli::Context& context) {
-  if (s.wanted && !(*s.wanted > 0))
-    throw Error("--error: found " + shown(*s.wanted) + ", expected it above 0", ErrorKind::usage);
+template <int D>
+void measure(const Settings& s, const Scene<D>& scene, const cli::Context& context) {
   const bool built_in = !s.built_in.empty();
-  expect_other_files(s.output, {s.shot.model});
-  if (built_in && s.shot.model != "-")
-    throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);
-  const auto scene = built_in ? full_space_case() : make_scene(s, context);
-  const auto ladder = ladder_of(s, scene);
+  SceneRuns<D> runs(scene, {all_shots(scene.survey.sources.size()), false},
+                    {[&s](Scene<D>& again) { s.shot.place_again(again); },
+                     [&context](const std::string& title) { return context.progress(title, "steps"); }});
+  const auto ladder = held_ladder(runs, ladder_of(s, scene));
   // A name that can not be written costs no computing.
   std::optional<OutputFile> out;
   if (!s.output.empty()) out.emplace(s.output, OutputFile::Content::binary);
-  for (const auto& setting : ladder) check(with_setting(scene, setting));
 
   AccuracyTable table;
   table.title = built_in
@@ -151,20 +205,10 @@ void run(const Settings& s, const cli::Context& context) {
   table.history = scene.model.history;
   append_history(table.history, context.command_line);
   table.wanted_error = s.wanted;
-  std::vector<Gather> exact;
-  if (built_in) {
-    exact = {full_space_traces()};
-    table.reference = "the closed form";
-  } else {
-    const auto reference = reference_of(s, ladder);
-    table.reference = name_of(reference, scene);
-    context.note("reference: " + table.reference);
-    table.rows.push_back(measured(scene, reference, {}, context.progress("reference", "steps"), &exact));
-  }
+  const auto exact = exact_of(s, runs, ladder.back(), table, context);
   for (const auto& setting : ladder) {
-    const auto name = name_of(setting, scene);
-    table.rows.push_back(measured(scene, setting, exact, context.progress(name, "steps")));
-    context.note(name + ": done");
+    table.rows.push_back(measured(runs, setting, exact));
+    context.note(name_of(setting, scene) + ": done");
   }
   if (s.wanted) table.chosen = cheapest(table.rows, *s.wanted);
   OutputFile text("-", OutputFile::Content::text);
@@ -172,6 +216,20 @@ void run(const Settings& s, const cli::Context& context) {
   text.write(lines.data(), lines.size());
   text.commit();
   if (out) write_accuracy_table(*out, table, context.version);
+}
+
+void run(const Settings& s, const cli::Context& context) {
+  if (s.wanted && !(*s.wanted > 0))
+    throw Error("--error: found " + shown(*s.wanted) + ", expected it above 0", ErrorKind::usage);
+  expect_other_files(s.output, {s.shot.model});
+  if (!s.built_in.empty()) {
+    if (s.shot.model != "-") throw Error("--case needs no model, found " + s.shot.model, ErrorKind::usage);
+    return measure(s, full_space_case(), context);
+  }
+  check_given(s);
+  const auto file = NetcdfFile::open(s.shot.model);
+  if (dimension_of(file) == 3) return measure(s, make_scene<3>(s, file, context), context);
+  measure(s, make_scene<2>(s, file, context), context);
 }
 
 }  // namespace

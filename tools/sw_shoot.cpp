@@ -12,12 +12,17 @@ namespace {
 void declare(cli::Options& options, ShootingOptions& s) {
   declare_scene(options, s.scene);
   declare_numerics(options, s.scene);
-  options.add("error", s.wanted_error, "SHARE",
-              "choose the cheapest order, cell size and time step for this expected error (0.01: 1 %)");
+  options.add(
+      "error", s.wanted_error, "SHARE",
+      "choose the cheapest order, cell size and time step whose measured error is at most this (0.01: 1 %)");
   options.add("of", s.error_of, "WHAT",
-              "what --error is of: traces, or response (what fractures add to them)");
-  options.add("plan", s.plan, "print expected error, time and memory, and stop; with -v all details");
-  options.add("json", s.json, "with --plan: print all of it as one JSON object");
+              "what errors are of: traces, or response (what fractures add to them)");
+  options.add("budget", s.budget_s, "S", "with --error: at most this much processor time, s");
+  options.add("measure", s.measure, "measure the error, by runs in larger cells; with --plan by those alone");
+  options.add("error-gather", s.error_gather, "FILE",
+              "write the measured error of each trace here, as SEG-Y");
+  options.add("plan", s.plan, "print dispersion, time and memory, and stop; with -v all details");
+  options.add("json", s.json, "with --plan, --measure, --error: print all of it as one JSON object");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
               "traces; - is standard output");
@@ -43,7 +48,7 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add_threads();
   options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",
-                  "plan", "output", "snapshots", "every", "threads"});
+                  "measure", "plan", "output", "snapshots", "every", "threads"});
 }
 
 void run(ShootingOptions& settings, const cli::Context& context) {

@@ -5,14 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
+#include "accuracy/model_in_cells.hpp"
 #include "base/error.hpp"
-#include "model/resample.hpp"
 
 namespace slipwave {
 namespace {
 
-/// Sums over samples: of the differences and of the exact values.
+/// Sums over samples: of the squares of what is wrong and of what it is measured against.
 struct Sums {
   double wrong = 0, all = 0;
   double relative() const {
@@ -21,27 +22,55 @@ struct Sums {
   }
 };
 
+/// A NaN counts as the largest.
+template <class Key>
+std::pair<Key, double> largest(const std::map<Key, Sums>& of) {
+  std::pair<Key, double> most{};
+  for (const auto& [key, sums] : of)
+    if (const double one = sums.relative(); std::isnan(one) || one > most.second) most = {key, one};
+  return most;
+}
+
 }  // namespace
 
-Scene<2> with_setting(const Scene<2>& scene, const AccuracySetting& setting) {
-  Scene<2> changed = scene;
+template <int D>
+AccuracySetting setting_of(const Scene<D>& scene) {
+  const auto& numerics = scene.numerics;
+  return {numerics.order,
+          numerics.time_step_s ? *numerics.time_step_s / stable_time_step_s(scene) : numerics.cfl,
+          scene.model.grid().spacing_m,
+          numerics.correction,
+          numerics.time_order,
+          numerics.monotone,
+          numerics.zone_cells};
+}
+
+template <int D>
+Scene<D> with_setting(const Scene<D>& scene, const AccuracySetting& setting) {
+  Scene<D> changed = scene;
   if (setting.spacing_m != scene.model.grid().spacing_m)
-    changed.model = regridded(scene.model, setting.spacing_m);
-  changed.numerics.order = setting.order;
-  changed.numerics.cfl = setting.cfl;
-  changed.numerics.time_step_s.reset();
-  changed.numerics.correction = setting.correction;
-  changed.numerics.time_order = setting.time_order;
-  changed.numerics.monotone = setting.monotone;
-  if (setting.zone_cells > 0) changed.numerics.zone_cells = setting.zone_cells;
+    changed.model = ModelInCells<D>(scene).of(setting.spacing_m);
+  changed.numerics = numerics_of(setting, scene.numerics);
   return changed;
 }
 
-std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
+Numerics numerics_of(const AccuracySetting& setting, Numerics numerics) {
+  numerics.order = setting.order;
+  numerics.cfl = setting.cfl;
+  numerics.time_step_s.reset();
+  numerics.correction = setting.correction;
+  numerics.time_order = setting.time_order;
+  numerics.monotone = setting.monotone;
+  if (setting.zone_cells > 0) numerics.zone_cells = setting.zone_cells;
+  return numerics;
+}
+
+template <int D>
+std::string name_of(const AccuracySetting& setting, const Scene<D>& scene) {
   std::string name =
       "order " + std::to_string(setting.order) +
       (setting.time_order == 2 ? "" : ", " + std::to_string(setting.time_order) + " in time") +
-      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl) + ", " +
+      (setting.monotone ? ", monotone" : "") + ", Courant " + shown(setting.cfl, 3) + ", " +
       shown(setting.spacing_m, 4) + " m" +
       (setting.zone_cells == 0 ? "" : ", edges of " + std::to_string(setting.zone_cells) + " cells");
   if (scene.slips())
@@ -52,31 +81,62 @@ std::string name_of(const AccuracySetting& setting, const Scene<2>& scene) {
   return name;
 }
 
-GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gather>& exact) {
+GatherError size_of_error(const std::vector<Gather>& wrong, const std::vector<Gather>& found) {
   std::map<std::string, Sums> whole, late;  // by unit: what is alike counts together
-  for (std::size_t shot = 0; shot < exact.size(); ++shot)
-    for (std::size_t n = 0; n < exact[shot].traces.size(); ++n) {
-      const auto& a = found[shot].traces[n].samples;
-      const auto& b = exact[shot].traces[n].samples;
-      const std::string unit = unit_of(exact[shot].traces[n].header.component);
-      auto &all = whole[unit], &last = late[unit];
+  std::map<Component, Sums> components;
+  std::map<std::tuple<std::size_t, std::int64_t, std::string>, Sums> receivers;
+  GatherError error;
+  for (std::size_t shot = 0; shot < found.size(); ++shot)
+    for (std::size_t n = 0; n < found[shot].traces.size(); ++n) {
+      const auto& header = found[shot].traces[n].header;
+      const auto& a = wrong[shot].traces[n].samples;
+      const auto& b = found[shot].traces[n].samples;
+      const std::string unit = unit_of(header.component);
+      Sums trace, last;
       for (std::size_t sample = 0; sample < b.size(); ++sample) {
-        const double wrong = (a[sample] - b[sample]) * (a[sample] - b[sample]);
-        all.wrong += wrong;
-        all.all += b[sample] * b[sample];
+        trace.wrong += a[sample] * a[sample];
+        trace.all += b[sample] * b[sample];
         if (4 * sample < 3 * b.size()) continue;
-        last.wrong += wrong;
+        last.wrong += a[sample] * a[sample];
         last.all += b[sample] * b[sample];
       }
+      const auto add = [](Sums& to, const Sums& sums) { to.wrong += sums.wrong, to.all += sums.all; };
+      if (components.count(header.component) == 0) error.components.emplace_back(header.component, 0);
+      add(whole[unit], trace);
+      add(late[unit], last);
+      add(components[header.component], trace);
+      add(receivers[{shot, header.channel, unit}], trace);
     }
-  // A NaN counts as the larger.
-  const auto largest = [](const std::map<std::string, Sums>& of_units) {
-    double most = 0;
-    for (const auto& [unit, sums] : of_units)
-      if (const double one = sums.relative(); std::isnan(one) || one > most) most = one;
-    return most;
-  };
-  return {largest(whole), largest(late)};
+  error.whole = largest(whole).second;
+  error.late = largest(late).second;
+  for (auto& [component, share] : error.components) share = components[component].relative();
+  const auto [place, worst] = largest(receivers);
+  error.worst = worst;
+  error.worst_shot = std::get<0>(place);
+  error.worst_channel = std::get<1>(place);
+  return error;
 }
+
+GatherError gather_error(const std::vector<Gather>& found, const std::vector<Gather>& exact) {
+  return size_of_error(sum_of(found, exact, -1), exact);
+}
+
+std::vector<Gather> sum_of(std::vector<Gather> a, const std::vector<Gather>& b, double factor) {
+  for (std::size_t shot = 0; shot < a.size(); ++shot)
+    for (std::size_t n = 0; n < a[shot].traces.size(); ++n) {
+      auto& samples = a[shot].traces[n].samples;
+      const auto& others = b[shot].traces[n].samples;
+      for (std::size_t sample = 0; sample < samples.size(); ++sample)
+        samples[sample] += factor * others[sample];
+    }
+  return a;
+}
+
+template AccuracySetting setting_of(const Scene<2>&);
+template AccuracySetting setting_of(const Scene<3>&);
+template Scene<2> with_setting(const Scene<2>&, const AccuracySetting&);
+template Scene<3> with_setting(const Scene<3>&, const AccuracySetting&);
+template std::string name_of(const AccuracySetting&, const Scene<2>&);
+template std::string name_of(const AccuracySetting&, const Scene<3>&);
 
 }  // namespace slipwave

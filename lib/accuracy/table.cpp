@@ -32,9 +32,7 @@ Report report_of(const AccuracyRow& row) {
   report.count("steps", row.steps);
   report_error(report, "error", row.error);
   report_error(report, "late error", row.late_error);
-  report_error(report, "predicted error", row.predicted_error);
   report.number("time", row.seconds, "s");
-  report.number("predicted time", row.predicted_seconds, "s");
   report.number("memory", row.memory_bytes / (1 << 20), "MiB");
   return report;
 }
@@ -45,6 +43,7 @@ Report report_of(const AccuracyTable& table) {
   Report report;
   report.text("title", table.title);
   report.text("reference", table.reference);
+  if (table.reference_error) report_error(report, "error of the reference", *table.reference_error);
   std::vector<Report> settings;
   for (const auto& row : table.rows) settings.push_back(report_of(row));
   report.list("setting", settings);
@@ -61,21 +60,20 @@ std::optional<std::size_t> cheapest(const std::vector<AccuracyRow>& rows, double
 }
 
 std::string text_of(const AccuracyTable& table) {
-  std::string text = "# " + table.title + "\n# errors: relative L2 in percent against " + table.reference +
-                     "; late: in the last quarter of the traces\n";
-  text +=
-      "# order time courant   step_m slip      cells  steps    error     late  predicted    cpu_s  "
-      "predicted      MiB\n";
+  std::string text =
+      "# " + table.title + "\n# errors: relative L2 in percent against " + table.reference +
+      (table.reference_error ? ", whose own error is measured as " + percent(*table.reference_error) : "") +
+      "; late: in the last quarter of the traces\n";
+  text += "# order time courant   step_m slip      cells  steps    error     late    cpu_s      MiB\n";
   for (std::size_t n = 0; n < table.rows.size(); ++n) {
     const auto& row = table.rows[n];
     char line[240];
-    std::snprintf(line, sizeof line, "%7d %4d %7.3g %8.4g %4d %10lld %6lld %8s %8s %10s %8s %10s %8s%s%s\n",
-                  row.order, row.time_order, row.courant, row.spacing_m, row.slip_order,
+    std::snprintf(line, sizeof line, "%7d %4d %7.3g %8.4g %4d %10lld %6lld %8s %8s %8s %8s%s%s\n", row.order,
+                  row.time_order, row.courant, row.spacing_m, row.slip_order,
                   static_cast<long long>(row.cells), static_cast<long long>(row.steps),
-                  percent(row.error).c_str(), percent(row.late_error).c_str(),
-                  percent(row.predicted_error).c_str(), figure(row.seconds).c_str(),
-                  figure(row.predicted_seconds).c_str(), figure(row.memory_bytes / (1 << 20)).c_str(),
-                  row.monotone ? "  monotone" : "", table.chosen == n ? "  <" : "");
+                  percent(row.error).c_str(), percent(row.late_error).c_str(), figure(row.seconds).c_str(),
+                  figure(row.memory_bytes / (1 << 20)).c_str(), row.monotone ? "  monotone" : "",
+                  table.chosen == n ? "  <" : "");
     text += line;
   }
   if (table.wanted_error)

@@ -22,21 +22,20 @@ struct AccuracyRow {
   int slip_order = 0;      // of the slip correction, 3: exponential; 0: nothing slips
   std::int64_t cells = 0;  // computed ones, zones included
   std::int64_t steps = 0;
-  double error = 0;            // relative L2 over all traces against the reference
-  double late_error = 0;       // the same for the last quarter of the traces: what has travelled longest
-  double predicted_error = 0;  // of waves that travel as long as the traces last (theory.md (E15))
-  double seconds = 0;          // of the processor, all threads together
-  double predicted_seconds = 0;
+  double error = 0;       // relative L2 over all traces against the reference
+  double late_error = 0;  // the same for the last quarter of the traces: what has travelled longest
+  double seconds = 0;     // of the processor, all threads together
   double memory_bytes = 0;
 };
 
 /// What accuracy costs: the result of sw-accuracy.
 struct AccuracyTable {
   std::string title;
-  std::string history;                 // command lines
-  std::string reference;               // what errors are measured against: "order 7, 1.25 m"
-  std::optional<double> wanted_error;  // relative, where the user said how much is allowed
-  std::optional<std::size_t> chosen;   // the cheapest row below wanted_error
+  std::string history;                    // command lines
+  std::string reference;                  // what errors are measured against: "order 7, 1.25 m"
+  std::optional<double> reference_error;  // of that, as it was measured
+  std::optional<double> wanted_error;     // relative, where the user said how much is allowed
+  std::optional<std::size_t> chosen;      // the cheapest row below wanted_error
   std::vector<AccuracyRow> rows;
 };
 

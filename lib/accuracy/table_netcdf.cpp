@@ -42,9 +42,7 @@ constexpr Column<double> numbers[] = {
     {"step", "cell size", "m", &AccuracyRow::spacing_m},
     {"error", "relative L2 error of all traces", "1", &AccuracyRow::error},
     {"late_error", "relative L2 error of the last quarter of the traces", "1", &AccuracyRow::late_error},
-    {"predicted_error", "error expected before the run", "1", &AccuracyRow::predicted_error},
     {"seconds", "processor time, all threads together", "s", &AccuracyRow::seconds},
-    {"predicted_seconds", "processor time expected before the run", "s", &AccuracyRow::predicted_seconds},
     {"memory", "memory of the run", "byte", &AccuracyRow::memory_bytes},
 };
 
@@ -89,6 +87,8 @@ void write_accuracy_table(OutputFile& out, const AccuracyTable& table, const std
   file.put_attribute("", "source", version);
   file.put_attribute("", "history", table.history);
   file.put_attribute("", "reference", table.reference);
+  if (table.reference_error)
+    file.put_attribute("", "reference_error", std::vector<double>{*table.reference_error});
   if (table.wanted_error) file.put_attribute("", "wanted_error", std::vector<double>{*table.wanted_error});
   if (table.chosen) file.put_attribute("", "chosen", std::vector<int>{int(*table.chosen)});
   file.define_dimension(dimension, table.rows.size());
@@ -123,6 +123,7 @@ AccuracyTable read_accuracy_table(const NetcdfFile& file) {
     if (!values || values->size() != 1) return std::nullopt;
     return values->front();
   };
+  table.reference_error = number("reference_error");
   table.wanted_error = number("wanted_error");
   if (const auto chosen = number("chosen")) {
     if (!(*chosen >= 0 && *chosen < double(table.rows.size()) && *chosen == std::floor(*chosen)))

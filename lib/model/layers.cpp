@@ -430,20 +430,14 @@ Layer parse_layer(std::string_view text, const InputUnits& units) {
 }
 
 template <int D>
-Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
+Grid<D> grid_over(const Point<D>& size_m, double spacing_m) {
   if (!(spacing_m > 0))
     throw Error("found a step of " + shown(spacing_m) + " m, expected it above zero", ErrorKind::usage);
   Grid<D> grid;
   grid.spacing_m = spacing_m;
   double cells = 1;
   for (std::size_t axis = 0; axis < D; ++axis) {
-    const double steps = size_m[axis] / spacing_m;
-    const double whole = std::round(steps);
-    if (whole < 1 || std::abs(steps - whole) > 1e-6) {
-      throw Error(shown(size_m[axis]) + " m are " + short_number(steps) + " steps of " + shown(spacing_m) +
-                      " m, expected a whole number",
-                  ErrorKind::usage);
-    }
+    const double whole = std::max(1., std::ceil(size_m[axis] / spacing_m - 1e-6));
     cells *= whole;
     grid.shape[axis] = whole < 9e15 ? std::int64_t(whole) : 0;
   }
@@ -454,6 +448,19 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
                 ErrorKind::usage);
   }
   return grid;
+}
+
+template <int D>
+Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
+  for (std::size_t axis = 0; axis < D && spacing_m > 0; ++axis) {
+    const double steps = size_m[axis] / spacing_m, whole = std::round(steps);
+    if (whole < 1 || std::abs(steps - whole) > 1e-6) {
+      throw Error(shown(size_m[axis]) + " m are " + short_number(steps) + " steps of " + shown(spacing_m) +
+                      " m, expected a whole number",
+                  ErrorKind::usage);
+    }
+  }
+  return grid_over<D>(size_m, spacing_m);
 }
 
 template <int D>
@@ -565,6 +572,8 @@ std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<L
 
 template Grid<2> grid_of_size<2>(const Point<2>&, double);
 template Grid<3> grid_of_size<3>(const Point<3>&, double);
+template Grid<2> grid_over<2>(const Point<2>&, double);
+template Grid<3> grid_over<3>(const Point<3>&, double);
 template void check_reach(const Grid<2>&, const Horizon&);
 template void check_reach(const Grid<3>&, const Horizon&);
 template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);

@@ -58,6 +58,12 @@ Layer parse_layer(std::string_view text, const InputUnits& units = {});
 template <int D>
 Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
 
+/// The smallest grid in cells of `spacing_m` that holds `size_m`: the last cells along an axis reach beyond
+/// it where that is no whole number of steps. Throws a usage Error when it would not fit this machine's
+/// memory.
+template <int D>
+Grid<D> grid_over(const Point<D>& size_m, double spacing_m);
+
 /// Throws a usage Error unless a curve or grid reaches the centres of all columns of a grid.
 template <int D>
 void check_reach(const Grid<D>& grid, const Horizon& top);

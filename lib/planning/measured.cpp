@@ -2,49 +2,34 @@
 
 #include <limits>
 
-#include "base/processor_time.hpp"
 #include "planning/plan.hpp"
-#include "solver/simulation.hpp"
 
 namespace slipwave {
 
-std::vector<Gather> shoot_all(const Scene<2>& scene, double& seconds, const Progress& progress) {
-  std::vector<Gather> gathers;
-  const double start = processor_time_s();
-  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot)
-    gathers.push_back(shoot(scene, shot, progress));
-  seconds = processor_time_s() - start;
-  return gathers;
-}
-
-AccuracyRow measured(const Scene<2>& scene, const AccuracySetting& setting, const std::vector<Gather>& exact,
-                     const Progress& progress, std::vector<Gather>* result) {
-  const auto changed = with_setting(scene, setting);
-  check(changed);
-  const auto expected = plan(changed);
+template <int D>
+AccuracyRow measured(SceneRuns<D>& runs, const AccuracySetting& setting, const std::vector<Gather>& exact) {
+  const auto expected = plan(runs.scene_of(setting));
   AccuracyRow row;
   row.order = setting.order;
   row.time_order = setting.time_order;
   row.monotone = setting.monotone;
   row.courant = setting.cfl;  // that of the plan differs by rounding
   row.spacing_m = setting.spacing_m;
-  if (scene.slips()) row.slip_order = int(setting.correction) + 1;
+  if (runs.scene().slips()) row.slip_order = int(setting.correction) + 1;
   row.cells = expected.computed.size();
   row.steps = expected.steps;
-  // What the criterion takes from extrema is not known beforehand.
-  row.predicted_error =
-      setting.monotone ? std::numeric_limits<double>::quiet_NaN() : expected.error.overall();
-  row.predicted_seconds = expected.seconds;
   row.memory_bytes = double(expected.memory_bytes);
-  auto gathers = shoot_all(changed, row.seconds, progress);
+  const auto& run = runs.run(setting);
+  row.seconds = run.seconds;
   row.error = row.late_error = std::numeric_limits<double>::quiet_NaN();
-  if (!exact.empty()) {
-    const auto error = gather_error(gathers, exact);
-    row.error = error.whole;
-    row.late_error = error.late;
-  }
-  if (result) *result = std::move(gathers);
+  if (exact.empty()) return row;
+  const auto error = gather_error(run.observed, exact);
+  row.error = error.whole;
+  row.late_error = error.late;
   return row;
 }
+
+template AccuracyRow measured(SceneRuns<2>&, const AccuracySetting&, const std::vector<Gather>&);
+template AccuracyRow measured(SceneRuns<3>&, const AccuracySetting&, const std::vector<Gather>&);
 
 }  // namespace slipwave

@@ -6,7 +6,6 @@
 #include <limits>
 #include <span>
 
-#include "accuracy/dispersion.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/parse.hpp"
@@ -16,6 +15,7 @@
 #include "parallel/threads.hpp"
 #include "planning/computed_share.hpp"
 #include "planning/expected_slip.hpp"
+#include "planning/measured_error.hpp"
 #include "scene/subdomains.hpp"
 #include "solver/shot_simulation.hpp"
 
@@ -80,7 +80,9 @@ double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
   constexpr double enough_s = 0.6;
   std::vector<double> seconds;
   double sum = 0;
-  const auto count = std::min(step.steps(), warm_up + most);
+  // A plan takes a small part of the run's time.
+  const auto count =
+      std::min({step.steps(), warm_up + most, std::max<std::int64_t>(warm_up + 1, step.steps() / 40)});
   for (std::int64_t n = 0; n < count && (sum < enough_s || seconds.empty()); ++n) {
     const double start = processor_time_s();
     step.run_to(n + 1);
@@ -118,6 +120,13 @@ std::int64_t trace_bytes(const Scene<D>& scene) {
          std::int64_t(sizeof(double));
 }
 
+/// Time of the runs in larger cells that measure an error, over that of the run: once in cells of the first
+/// ratio, five times (edges twice as wide, half the step, another order) in those of the second.
+double measuring_share(int dimension) {
+  constexpr double first = 1.5, second = 2.25, runs_in_second = 5;
+  return std::pow(first, -dimension - 1) + runs_in_second * std::pow(second, -dimension - 1);
+}
+
 template <int D, class Real>
 Plan<D> plan_as(const Scene<D>& scene) {
   // Steps are timed as they are when waves are everywhere.
@@ -146,12 +155,14 @@ Plan<D> plan_as(const Scene<D>& scene) {
       loss_of(scene, plan.slowest, cells_a_wavelength(scene, plan.slowest, plan.highest_hz));
   plan.duration_s = scene.recording.duration_s;
   plan.threads = parallel_threads();
-  plan.error = expected_error(scene);
+  if (scene.survey.any_receiver()) plan.direct = DirectWaves<D>(scene).error(discretisation_of(scene));
   plan.slip = expected_slip(scene);
   plan.cell_dependence = cell_dependence(scene);
   plan.computed_share = expected_share(scene, plan.computed);
   plan.seconds = double(scene.survey.sources.size()) *
                  (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
+  plan.measuring_seconds = plan.seconds / double(scene.survey.sources.size()) *
+                           double(representative_shots(scene.survey).size()) * measuring_share(D);
   plan.instruction_set = solver::instruction_set();
   return plan;
 }
@@ -193,50 +204,12 @@ namespace {
 
 std::string mebibytes(std::int64_t bytes) { return shown(double(bytes) / (1 << 20), 3) + " MiB"; }
 
-/// Causes that make less of the whole are left out.
-constexpr double least_cause = 0.1;
-
-std::vector<ErrorCause> large_ones(const std::vector<ErrorCause>& all, double whole) {
-  std::vector<ErrorCause> causes;
-  for (const auto& cause : all)
-    if (cause.error > least_cause * whole) causes.push_back(cause);
-  return causes;
-}
-std::vector<ErrorCause> causes_of(const ExpectedError& error) {
-  return error.promise ? large_ones(error.promise->causes, error.promise->error) : std::vector<ErrorCause>{};
-}
-
-/// The first two, as a sentence.
-std::string sentence_of(const std::vector<ErrorCause>& causes) {
-  std::string text;
-  for (std::size_t n = 0; n < std::min<std::size_t>(causes.size(), 2); ++n)
-    text += (n > 0 ? "; " : "") + sentence_of(causes[n]);
-  return text;
-}
-
-/// "up to 3.4 % of fractured less elastic traces below 60 Hz; mostly from ...": nothing where nothing slips.
-std::string response_text(const ExpectedError& error) {
-  if (!error.response)
-    return error.response_unknown.empty() ? "" : "not estimated: " + error.response_unknown;
-  const auto& of = *error.response;
-  std::string text = "up to " + shown(100 * of.error, 2) + " % of fractured less elastic traces below " +
-                     shown(of.below_hz, 3) + " Hz; mostly from " +
-                     sentence_of(large_ones(of.causes, of.error));
-  if (!error.response_leaves_out.empty()) text += "; not counted: " + joined(error.response_leaves_out, "; ");
-  return text;
-}
-
-/// "up to 5.6 % of all traces together; not counted: ...".
-std::string error_text(const ExpectedError& error, double duration_s) {
-  std::string text;
-  if (error.promise) {
-    text = "up to " + shown(100 * error.promise->error, 2) + " % of all traces together";
-  } else {
-    text = "after " + shown(duration_s, 3) + " s: P " + shown(100 * error.p, 2) + " %" +
-           (error.s ? ", S " + shown(100 * *error.s, 2) + " %" : "");
-  }
-  if (!error.not_covered.empty()) text += "; not counted: " + joined(error.not_covered, "; ");
-  return text;
+/// "P 0.43 %, S 2.1 %".
+std::string direct_text(const std::optional<double>& p, const std::optional<double>& s) {
+  const auto of = [](const char* wave, const std::optional<double>& error) {
+    return error ? std::string(wave) + ' ' + shown(100 * *error, 2) + " %" : std::string();
+  };
+  return of("P", p) + (p && s ? ", " : "") + of("S", s);
 }
 
 template <int D>
@@ -258,29 +231,6 @@ void report_first(const std::string& key, const std::vector<std::string>& senten
 /// Two digits, which is more than they are good for.
 void report_percent(Report& report, const std::string& key, double share) {
   report.number(key, std::stod(shown(100 * share, 2)), "%");
-}
-
-void report_causes(const std::string& key, const std::vector<ErrorCause>& causes, Report& report) {
-  std::vector<Report> all;
-  for (const auto& cause : causes) {
-    auto& one = all.emplace_back();
-    report_percent(one, "error", cause.error);
-    one.text("name", cause.name);
-    if (!cause.remedy.empty()) one.text("remedy", cause.remedy);
-  }
-  if (!all.empty()) report.list(key, all);
-}
-
-/// What is promised of all traces together, and why it is not less.
-void report_promise(const ExpectedError& error, Report& report) {
-  if (error.promise) report_percent(report, "promised error", error.promise->error);
-  report_causes("cause", causes_of(error), report);
-  if (!error.not_covered.empty()) report.texts("not counted", error.not_covered);
-  if (!error.response) return;
-  report_percent(report, "promised error of the response", error.response->error);
-  report.number("response below", error.response->below_hz, "Hz");
-  report_causes("cause of the response's error", large_ones(error.response->causes, error.response->error),
-                report);
 }
 
 }  // namespace
@@ -309,16 +259,14 @@ std::string cost_of_a_second(const Scene<D>& scene) {
 template <int D>
 Report summary_of(const Plan<D>& plan, const ShotsHeld& held) {
   Report report;
-  if (D == 3 && !plan.error.promise) {
-    report.text("error", "not estimated; cells per shortest wavelength: " + cells_text(plan));
-    report.text("mostly from", "loss of the slowest wave: " + shown(100 * plan.loss_per_wavelength, 2) +
-                                   " % of its amplitude per wavelength");
-  } else {
-    report.text("error", error_text(plan.error, plan.duration_s));
-    const auto text = sentence_of(causes_of(plan.error));
-    if (!text.empty()) report.text("mostly from", text);
-  }
-  if (const auto text = response_text(plan.error); !text.empty()) report.text("response", text);
+  report.text("cells per shortest wavelength", cells_text(plan));
+  const auto direct = direct_text(plan.direct.p, plan.direct.s);
+  report.text("direct waves", direct.empty() ? "none arrives before the traces end"
+                                             : direct + " by dispersion, as derived (E16)");
+  report.text(
+      "not in it",
+      "reflections, waves along interfaces, edges, fractures: --plan --measure measures all of it in about " +
+          shown(plan.measuring_seconds, 2) + " s");
   const std::string threads = plan.threads > 1 ? ", " + shown(plan.seconds / plan.threads, 2) + " s on " +
                                                      std::to_string(plan.threads) + " threads"
                                                : "";
@@ -341,15 +289,13 @@ Report report_of(const Plan<D>& plan) {
   report.number("Courant number", plan.courant, "");
   report.number("slowest wave", plan.slowest.speed, "m/s");
   report.number("highest frequency", plan.highest_hz, "Hz");
-  report.text("cells per shortest wavelength", cells_text(plan));
+  report.number("cells per shortest P wavelength", plan.cells_of_shortest_p, "");
+  if (plan.cells_of_shortest_s)
+    report.number("cells per shortest S wavelength", *plan.cells_of_shortest_s, "");
   report.text("loss of the slowest wave",
               shown(100 * plan.loss_per_wavelength, 2) + " % of the amplitude per wavelength");
-  report_promise(plan.error, report);
-  if (D == 2) {
-    if (plan.error.direct) report_percent(report, "error in direct arrivals", *plan.error.direct);
-    report_percent(report, "late error P", plan.error.p);
-    if (plan.error.s) report_percent(report, "late error S", *plan.error.s);
-  }
+  if (plan.direct.p) report_percent(report, "dispersion of direct P waves", *plan.direct.p);
+  if (plan.direct.s) report_percent(report, "dispersion of direct S waves", *plan.direct.s);
   report.count("cells at interfaces", plan.interface_cells);
   report.text(
       "active cells",
@@ -359,6 +305,7 @@ Report report_of(const Plan<D>& plan) {
   report.number("memory of model and program", double(plan.shared_bytes) / (1 << 20), "MiB");
   report.number("memory of the traces of a shot", double(plan.trace_bytes) / (1 << 20), "MiB");
   report.number("processor time", plan.seconds, "s");
+  report.number("processor time of measuring", plan.measuring_seconds, "s");
   report.count("threads", plan.threads);
   report.text("instruction set", plan.instruction_set);
   if (plan.slip.size() > 1) report.texts("slip of a set", plan.slip);
@@ -383,7 +330,7 @@ std::vector<std::string> warnings(const Scene<D>& scene) {
           shown(highest, 3) + " Hz), at least " + shown(fewest_cells) + " needed: amplitude drops by " +
           shown(100 * loss_of(scene, slowest, cells), 2) + " % per wavelength. Use cells of " +
           shown(h * cells / fewest_cells, 2) + " m (" + shown(std::pow(fewest_cells / cells, D + 1), 2) +
-          " times the cost)" + (D == 2 ? " or --error" : " (--step of the model)")};
+          " times the cost) or --error"};
 }
 
 template Plan<2> plan(const Scene<2>&);

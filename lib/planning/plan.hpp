@@ -1,6 +1,6 @@
 #pragma once
 
-#include "accuracy/expected_error.hpp"
+#include "accuracy/direct_waves.hpp"
 #include "base/report.hpp"
 #include "solver/simulation.hpp"
 
@@ -23,19 +23,20 @@ struct Plan {
   SlowestWave slowest;
   double cells_of_shortest_p = 0;  // a wavelength of the slowest P wave at highest_hz
   std::optional<double> cells_of_shortest_s;
-  double loss_per_wavelength = 0;  // of the slowest wave's amplitude, by the scheme's own damping
-  double duration_s = 0;           // of the traces
-  double computed_share = 1;       // of all cells in all steps (expected_share)
-  ExpectedError error;
+  double loss_per_wavelength = 0;            // of the slowest wave's amplitude, by the scheme's own damping
+  double duration_s = 0;                     // of the traces
+  double computed_share = 1;                 // of all cells in all steps (expected_share)
+  typename DirectWaves<D>::Error direct;     // what dispersion does to the direct waves
   std::vector<std::string> slip;             // expected_slip()
   std::vector<std::string> cell_dependence;  // cell_dependence()
   int threads = 1;
-  double seconds = 0;  // of the processor, all shots: from the time that a few steps take now
+  double seconds = 0;            // of the processor, all shots: from the time that a few steps take now
+  double measuring_seconds = 0;  // of the processor, about: --plan --measure
   std::string instruction_set;
 };
 
-/// In 3-D errors are those of all traces only (expected_error()).
-/// Builds the first shot and runs a few of its steps to see how long they take.
+/// Only what is derived: no error is in it but that of direct waves. Builds the first shot and runs a few of
+/// its steps to see how long they take.
 template <int D>
 Plan<D> plan(const Scene<D>& scene);
 
@@ -58,8 +59,8 @@ struct ShotsHeld {
 template <int D>
 std::int64_t memory_of_run_bytes(const Plan<D>& plan, const ShotsHeld& held);
 
-/// What a user decides by: error, what it comes from, time, memory; where planes stick or are dry, that. A
-/// line each.
+/// What a user decides by: cells, dispersion of direct waves, time, memory; where planes stick or are dry,
+/// that. A line each.
 template <int D>
 Report summary_of(const Plan<D>& plan, const ShotsHeld& held = {});
 

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double marker_pt = 6, ring_pt = 6.5;
 constexpr Colour wanted_colour{0.75, 0.1, 0.1}, chosen_colour{0.75, 0.1, 0.1};
-const std::vector<double> predicted_dashes = {2.5, 2};
 
 /// A series with how it is drawn.
 struct Curve {
@@ -36,13 +35,10 @@ Marker marker_of(std::size_t index) {
   return shapes[index % std::size(shapes)];
 }
 
-std::vector<Spot> line_of(const Panel& panel, const ErrorSeries& series, bool predicted) {
+std::vector<Spot> line_of(const Panel& panel, const ErrorSeries& series) {
   std::vector<Spot> line;
-  for (const auto& point : series.points) {
-    if (predicted ? point.predicted() : point.measured())
-      line.push_back(predicted ? Spot{panel.x(point.predicted_seconds), panel.y(point.predicted_error)}
-                               : Spot{panel.x(point.seconds), panel.y(point.error)});
-  }
+  for (const auto& point : series.points)
+    if (point.measured()) line.push_back({panel.x(point.seconds), panel.y(point.error)});
   return line;
 }
 
@@ -55,22 +51,16 @@ void draw_content(Canvas& canvas, const Panel& panel, const Content& content) {
     labels.keep_off(from, to);
   }
   for (const auto& curve : content.curves) {
-    for (const bool predicted : {true, false}) {
-      const auto line = line_of(panel, curve.series, predicted);
-      canvas.polyline(
-          line, {curve.colour, predicted ? 0.6 : 1.2, predicted ? predicted_dashes : std::vector<double>()});
-      for (std::size_t n = 0; n < line.size(); ++n) {
-        labels.keep_clear(line[n], marker_pt);
-        if (n > 0) labels.keep_off(line[n - 1], line[n]);
-      }
+    const auto line = line_of(panel, curve.series);
+    canvas.polyline(line, {curve.colour, 1.2});
+    for (std::size_t n = 0; n < line.size(); ++n) {
+      labels.keep_clear(line[n], marker_pt);
+      if (n > 0) labels.keep_off(line[n - 1], line[n]);
     }
   }
-  for (const bool predicted : {true, false}) {
-    for (const auto& curve : content.curves) {
-      for (const auto& spot : line_of(panel, curve.series, predicted))
-        canvas.marker(spot, curve.marker, marker_pt, curve.colour, !predicted);
-    }
-  }
+  for (const auto& curve : content.curves)
+    for (const auto& spot : line_of(panel, curve.series))
+      canvas.marker(spot, curve.marker, marker_pt, curve.colour, true);
   for (const auto& curve : content.curves) {
     for (const auto& point : curve.series.points) {
       if (!point.measured()) continue;
@@ -85,17 +75,12 @@ void draw_content(Canvas& canvas, const Panel& panel, const Content& content) {
 std::vector<LegendEntry> legend_of(const std::vector<Curve>& curves, const std::vector<std::string>& names,
                                    const std::vector<double>& wanted) {
   std::vector<LegendEntry> entries;
-  bool any_predicted = false, any_chosen = false;
+  bool any_chosen = false;
   for (std::size_t n = 0; n < curves.size(); ++n) {
     entries.push_back({names[n], curves[n].colour, Stroke{curves[n].colour, 1.2}, curves[n].marker});
-    for (const auto& point : curves[n].series.points) {
-      any_predicted = any_predicted || point.predicted();
+    for (const auto& point : curves[n].series.points)
       any_chosen = any_chosen || (point.chosen && point.measured());
-    }
   }
-  const Colour grey{0.35, 0.35, 0.35};
-  if (any_predicted)
-    entries.push_back({"predicted", grey, Stroke{grey, 0.6, predicted_dashes}, Marker::circle, false});
   for (const double percent : wanted)
     entries.push_back(
         {"wanted: " + shown(percent) + " %", wanted_colour, Stroke{wanted_colour, 0.9, {5, 2.5}}});
@@ -114,7 +99,6 @@ void set_axes(PanelSpec& spec, const std::vector<Content>& contents) {
     for (const auto& curve : content.curves) {
       for (const auto& point : curve.series.points) {
         if (point.measured()) see(x, point.seconds), see(y, point.error);
-        if (point.predicted()) see(x, point.predicted_seconds), see(y, point.predicted_error);
       }
     }
     if (x.high > 0) {

@@ -13,8 +13,7 @@ std::vector<ErrorSeries> series_of(const AccuracyTable& table) {
     const Method method{row.order, row.time_order, row.slip_order, row.courant, row.monotone};
     auto series = std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.method == method; });
     if (series == all.end()) series = all.insert(all.end(), {method, {}});
-    series->points.push_back({row.spacing_m, row.seconds, 100 * row.error, row.predicted_seconds,
-                              100 * row.predicted_error, table.chosen == n});
+    series->points.push_back({row.spacing_m, row.seconds, 100 * row.error, table.chosen == n});
   }
   for (auto& series : all) {
     std::stable_sort(series.points.begin(), series.points.end(),

@@ -19,10 +19,9 @@ struct Method {
 
 /// A cell size of a method: what it cost and gave. Percent; NaN where not known.
 struct ErrorPoint {
-  double spacing_m = 0, seconds = 0, error = 0, predicted_seconds = 0, predicted_error = 0;
+  double spacing_m = 0, seconds = 0, error = 0;
   bool chosen = false;
   bool measured() const { return seconds > 0 && error > 0; }
-  bool predicted() const { return predicted_seconds > 0 && predicted_error > 0; }
 };
 
 /// The points of one method in a table, coarsest cells first.

@@ -8,6 +8,7 @@ namespace slipwave {
 struct Provenance {
   std::string version;       // "slipwave 0.2.0"
   std::string command_line;  // without what changes no byte of the outputs
+  std::string measured = "";  // the error that was measured; empty: none was
 };
 
 }  // namespace slipwave

@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "accuracy/choice.hpp"
-#include "accuracy/expected_error.hpp"
+#include "accuracy/direct_waves.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "io/netcdf_file.hpp"
@@ -11,6 +10,7 @@
 #include "model/model_netcdf.hpp"
 #include "model/model_zeros.hpp"
 #include "planning/plan.hpp"
+#include "shooting/measured_survey.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/rank_groups.hpp"
 #include "shooting/survey_run.hpp"
@@ -21,6 +21,7 @@ namespace {
 /// Outputs must not be written over the model.
 void check_outputs(const ShootingOptions& options) {
   const auto& output = options.output;
+  expect_other_files(options.error_gather, {options.scene.model, output.traces, output.snapshots});
   for (const auto& name : {output.traces, output.snapshots}) {
     expect_other_files(name, {options.scene.model});
     if (output.keep_unstable && !name.empty()) expect_other_files(unstable_name(name), {options.scene.model});
@@ -46,21 +47,10 @@ void warn_of_projection(const Survey<D>& survey, const Messages& messages) {
                   " m; --origin and --azimuth choose the section, a model in 3-D keeps all places");
 }
 
-/// Whether --error is of the response of fractures. Throws a usage Error.
-bool is_of_response(const ShootingOptions& options) {
-  const auto& of = options.error_of;
-  if (of != "traces" && of != "response")
-    throw Error("--of: found '" + of + "', expected traces or response", ErrorKind::usage);
-  if (of == "response" && !options.wanted_error && !options.plan)
-    throw Error("--of response needs --error or --plan", ErrorKind::usage);
-  return of == "response";
-}
-
 /// The scene without its model, all options checked.
 template <int D>
 Scene<D> make_scene(const ShootingOptions& options) {
-  is_of_response(options);
-  if (options.json && !options.plan) throw Error("--json needs --plan", ErrorKind::usage);
+  check_measuring(options);
   if (!options.scene.survey.any_source())
     throw Error("--source is missing; expected --source X,Z", ErrorKind::usage);
   auto scene = options.scene.without_model<D>();
@@ -88,68 +78,18 @@ void check_on_ranks(const ShootingOptions& options, int count) {
   };
   refuse(!options.output.checkpoint.empty(), "--checkpoint", "use one");
   refuse(options.output.shots_in_parallel > 1, "--shots-in-parallel", "use --ranks-per-shot");
-  refuse(options.wanted_error.has_value(), "--error",
-         "use --plan with one process, then give what it chooses");
+  refuse(measures(options), "--error, --measure or --error-gather",
+         "use one process, then give what it chooses");
   refuse(options.scene.model == "-", "a model from standard input", "give the name of a file");
 }
 
-Choice choice_for(const Scene<2>& scene, const ShootingOptions& options, double wanted) {
-  if (!is_of_response(options)) return cheapest_setting(scene, wanted);
-  try {
-    return cheapest_setting_for_response(scene, wanted);
-  } catch (const Error& error) {
-    throw Error("--of response: " + std::string(error.what()), error.kind());
-  }
-}
-
-/// The cheapest way to compute the scene with the error that is wanted.
 template <int D>
-Scene<D> with_wanted_error(const Scene<D>& scene, const ShootingOptions& options, const Messages& messages) {
-  const double wanted = *options.wanted_error;
-  if (!(wanted > 0))
-    throw Error("--error: found " + shown(wanted) + ", expected it above 0", ErrorKind::usage);
-  if (scene.numerics.monotone)
-    throw Error(
-        "found --error with --monotone, whose error is not known beforehand; measure it with sw-accuracy "
-        "--limits none,monotone",
-        ErrorKind::usage);
-  if constexpr (D == 2) {
-    const auto choice = choice_for(scene, options, wanted);
-    if (!choice.good_enough)
-      throw Error("--error: found no setting for " + shown(wanted) + "; the best is " +
-                  sentence_of(choice, scene) + " (margin: 1.5)" +
-                  (choice.reason.empty() ? "" : "; " + choice.reason));
-    messages.say("chose " + sentence_of(choice, scene));
-    auto chosen = chosen_scene(scene, choice);
-    // Between columns the ground of smaller cells is a little higher or lower.
-    if (chosen.model.grid().spacing_m != scene.model.grid().spacing_m) options.scene.place_again(chosen);
-    check(chosen);
-    return chosen;
-  }
-  throw Error("--error needs a model in 2-D, found one in 3-D", ErrorKind::usage);
-}
-
-/// What sw-shoot --error 0.01 would choose, and what it costs against the scene as it is.
-Report setting_for_1_percent(const Scene<2>& scene, const ShootingOptions& options) {
-  Report report;
-  const auto choice = choice_for(scene, options, 0.01);
-  report.text(
-      "for 1 percent",
-      std::string(scene.numerics.monotone ? "without --monotone: " : "") +
-          (choice.good_enough ? "--error 0.01" + std::string(choice.of_response ? " --of response: " : ": ")
-                              : "none is known; at best ") +
-          sentence_of(choice, scene) + (choice.reason.empty() ? "" : "; " + choice.reason));
-  return report;
-}
-
-template <int D>
-void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
+void print_plan(const Scene<D>& scene, const ShootingOptions& options, const Messages& messages) {
   const auto planned = plan(scene);
   const auto side_by_side = shots_at_once(options.output, scene);
   // Traces of all shots stand in memory until they are written to one file.
   auto report = summary_of(planned, {side_by_side, scene.survey.sources.size() - side_by_side});
-  if constexpr (D == 2)
-    if (!options.wanted_error) report.append(setting_for_1_percent(scene, options));
+  if (options.measure) report.append(measured_report(scene, options, messages));
   if (options.details || options.json) report.append(report_of(planned));
   const std::string text = options.json ? report.json() + "\n" : report.lines();
   OutputFile out(options.output.traces, OutputFile::Content::text);
@@ -157,18 +97,15 @@ void print_plan(const Scene<D>& scene, const ShootingOptions& options) {
   out.commit();
 }
 
-/// "3 shots, expected error 1.4 %, ": what the last line of a run begins with.
+/// "3 shots, expected error 1.4 % in direct arrivals, ": what the last line of a run begins with.
 template <int D>
 std::string result_in_words(const Scene<D>& scene) {
   const auto shots = scene.survey.sources.size();
   std::string words = std::to_string(shots) + (shots == 1 ? " shot, " : " shots, ");
-  const auto error = expected_error(scene);
-  if (error.promise)
-    words += "expected error " + shown(100 * error.promise->error, 2) + " %, ";
-  else if (error.direct)
-    words += "expected error " + shown(100 * *error.direct, 2) + " % in direct arrivals, ";
-  else if (D == 2)
-    words += "expected error " + shown(100 * error.p, 2) + " % (P), ";
+  const DirectWaves<D> waves(scene);
+  const auto& numerics = scene.numerics;
+  const double error = waves.together({numerics.order, numerics.cfl, scene.model.grid().spacing_m, numerics.time_order});
+  words += "expected error " + shown(100 * error, 2) + " % in direct arrivals, ";
   return words;
 }
 
@@ -180,12 +117,13 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   file.close();
   release_zeros(scene.model);
   release_freed_memory();
-  if (options.wanted_error) scene = with_wanted_error(scene, options, messages);
-  for (const auto& sentence : warnings(scene)) messages.warn(sentence);
   warn_of_projection(scene.survey, messages);
-  if (options.plan) return print_plan(scene, options);
+  if (!options.wanted_error)
+    for (const auto& sentence : warnings(scene)) messages.warn(sentence);
+  if (options.plan) return print_plan(scene, options, messages);
   const OutputOptions output = labelled(options.output, scene.survey);
   output.check_scene(scene, messages.warn);
+  if (measures(options)) return shoot_measured(scene, options, output, provenance, messages);
   SurveyRun<D>(scene, output, provenance, messages, nullptr).run();
   messages.close([&] { return result_in_words(scene); });
 }

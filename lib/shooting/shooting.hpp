@@ -17,8 +17,11 @@ struct ShootingOptions {
   std::optional<double> snapshot_every_s;
   std::optional<double> wanted_error;  // choose the numerics for it
   std::string error_of = "traces";     // what it is of, or "response"
+  std::optional<double> budget_s;      // of processor time, for the search of wanted_error
+  std::string error_gather;            // where the error of each trace goes; empty: nowhere
+  bool measure = false;                // the error of the scene as it is
   bool plan = false;                   // print what would be computed, to output.traces
-  bool json = false;                   // of the plan, all of it
+  bool json = false;                   // of the plan or of what was measured, all of it
   bool details = false;                // all of the plan
   bool balance = false;                // say where the energy went
 };

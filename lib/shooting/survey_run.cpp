@@ -22,6 +22,17 @@ std::string history_of(const Scene<D>& scene, const Provenance& provenance) {
   return history;
 }
 
+template <int D>
+std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
+                                           const Provenance& provenance) {
+  auto entries = textual_header_of(scene, history, provenance.version);
+  // Before the history, which may be cut off.
+  if (!provenance.measured.empty())
+    entries.insert(entries.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(entries.size())),
+                   provenance.measured);
+  return entries;
+}
+
 }  // namespace
 
 template <int D>
@@ -35,7 +46,7 @@ SurveyRun<D>::SurveyRun(const Scene<D>& scene, const OutputOptions& options, con
       state_(state_settings(provenance.version)),
       traces_(options,
               writes() && scene.survey.any_receiver() ? scene.recording.components : std::vector<Component>(),
-              textual_header_of(scene, provenance_.history, provenance.version)),
+              textual_header_of(scene, provenance_.history, provenance)),
       at_once_(groups ? groups->groups() : shots_at_once(options, scene)) {}
 
 template <int D>
@@ -55,6 +66,11 @@ RunState::Settings SurveyRun<D>::state_settings(const std::string& version) cons
   settings.identity.push_back({"first shot", std::to_string(options_.first_shot)});
   settings.identity.push_back({"command line or history of the model", provenance_.history, false});
   return settings;
+}
+
+template <int D>
+void SurveyRun<D>::take(std::size_t shot, Gather recorded) {
+  if (!state_.finished(shot)) state_.finish(shot, std::move(recorded));
 }
 
 template <int D>

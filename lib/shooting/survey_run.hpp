@@ -29,6 +29,8 @@ class SurveyRun {
   SurveyRun(const Scene<D>& scene, const OutputOptions& options, const Provenance& provenance,
             const Messages& messages, const RankGroups* groups);
 
+  /// A shot that has been simulated already, of the same scene: what it recorded.
+  void take(std::size_t shot, Gather recorded);
   /// Once. Where a shot becomes unstable it throws the Error that says so, after it has put what there is
   /// under other names if the options ask for that.
   void run();

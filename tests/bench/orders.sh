@@ -1,6 +1,6 @@
 #!/bin/sh
 # orders.sh [BIN]: processor time of a step in each order, over that of order 5; one thread, the least of three runs.
-# The choice of settings (lib/accuracy/choice.cpp) ranks them by these ratios.
+# The choice of settings (lib/planning/setting_search.cpp) ranks them by these ratios.
 set -eu
 bin=${1:-$(dirname -- "$0")/../../build/release/bin}
 work=$(mktemp -d)
@@ -11,7 +11,7 @@ least() {
   for _ in 1 2 3; do
     "$bin/sw-accuracy" "$work/model.nc" --source 503,203 --wavelet ricker:8 --receivers 700:2900:100,200 --time 3 \
       --steps 10 --orders "$1" --time-orders "$2" --cfls 0.9 --reference "1,0.9,20" --threads 1 |
-      awk -v order="$1" -v time="$2" '$1 == order && $2 == time && $4 == 10 { print $11 / $7 }'
+      awk -v order="$1" -v time="$2" '$1 == order && $2 == time && $4 == 10 { print $10 / $7 }'
   done | sort -g | head -n 1
 }
 base=$(least 5 2)

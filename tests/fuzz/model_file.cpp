@@ -82,8 +82,6 @@ struct Description {
                                      {"time_order", NC_INT, {setting}, 2},
                                      {"slip_order", NC_INT, {setting}, 0},
                                      {"late_error", NC_DOUBLE, {setting}, 0.1},
-                                     {"predicted_error", NC_DOUBLE, {setting}, 0.1},
-                                     {"predicted_seconds", NC_DOUBLE, {setting}},
                                      {"memory", NC_DOUBLE, {setting}, 1e6}};
   std::vector<Attribute> attributes;
 };

@@ -1,6 +1,6 @@
 #!/bin/sh
 # floor.sh ROOT BUILD: the survey floor in larger cells and with two shots: on the fitted grid the error is a fraction of that over
-# stairs, and below that over stairs of half the height; what it promises is said beside it.
+# stairs, and below that over stairs of half the height; what larger cells say of it stands beside it.
 set -eu
 root=$1
 SLIPWAVE_BUILD=$2
@@ -35,6 +35,5 @@ awk -F '\t' '
     if (!(half > fitted)) { print "error over stairs of half the height: " half ", on the fitted grid " fitted; bad = 1 }
     exit bad
   }' "$work/errors" || status=1
-[ "$(grep -c '^# promised' "$out/errors.txt")" = 2 ] || broken 'no error is promised'
-grep -q 'expected error' "$out/plan-fitted.txt" || broken "the plan promises nothing: $(cat "$out/plan-fitted.txt")"
+grep -q 'measured error' "$out/plan-fitted.txt" || broken "no error is measured: $(cat "$out/plan-fitted.txt")"
 exit "$status"

@@ -3,10 +3,12 @@
 #include <cmath>
 #include <limits>
 
-#include "accuracy/choice.hpp"
+#include "grid/locate.hpp"
 #include "model_cases.hpp"
 #include "planning/measured.hpp"
+#include "planning/measured_error.hpp"
 #include "planning/plan.hpp"
+#include "solver/simulation.hpp"
 
 namespace slipwave {
 namespace {
@@ -122,16 +124,18 @@ TEST(SceneWithASetting, ForgetsATimeStepOfItsOwnAndKeepsTheRest) {
   EXPECT_EQ(changed.model.grid(), scene.model.grid());
 }
 
-TEST(SceneWithASetting, WantsWholeCells) {
+TEST(SceneWithASetting, CoversItsExtentWithCellsOfAnySize) {
   const auto scene = small_scene();
-  for (const double spacing_m : {7., 1000., 150.}) {
-    try {
-      with_setting(scene, {5, 0.9, spacing_m});
-      FAIL() << spacing_m;
-    } catch (const Error& error) {
-      EXPECT_EQ(error.kind(), ErrorKind::usage);
-      EXPECT_NE(std::string(error.what()).find(shown(spacing_m)), std::string::npos) << error.what();
+  for (const double spacing_m : {7., 11.3, 15.}) {
+    const auto changed = with_setting(scene, {5, 0.9, spacing_m});
+    const auto& grid = changed.model.grid();
+    for (const int axis : {0, 1}) {
+      EXPECT_GE(grid.end(axis), scene.model.grid().end(axis) - 1e-9);
+      EXPECT_LT(grid.end(axis), scene.model.grid().end(axis) + spacing_m);
     }
+    EXPECT_EQ(changed.model.medium.vs[0], 0);  // still water above
+    check(changed.model);
+    check(changed);
   }
 }
 
@@ -149,9 +153,10 @@ TEST(MeasuredSetting, SaysWhatWasComputed) {
   auto scene = small_scene();
   scene.survey.sources.push_back(scene.survey.sources[0]);
   scene.survey.sources[1].position_m = {295, 35};
-  std::vector<Gather> gathers;
+  SceneRuns<2> runs(scene, {{1, 2}, false});
   const AccuracySetting setting{5, 0.8, 10};
-  const auto row = measured(scene, setting, {}, {}, &gathers);
+  const auto row = measured(runs, setting, {});
+  const auto gathers = runs.run(setting).observed;
   ASSERT_EQ(gathers.size(), 2u);
   EXPECT_EQ(gathers[0].traces.size(), 4u);
   EXPECT_TRUE(std::isnan(row.error));
@@ -166,65 +171,68 @@ TEST(MeasuredSetting, SaysWhatWasComputed) {
   EXPECT_GE(double(row.steps) * 0.8 * 10 / 3000, 0.3);
   EXPECT_LE(double(row.steps - 9) * 0.8 * 10 / 3000, 0.3);
   EXPECT_GT(row.seconds, 0);
-  EXPECT_GT(row.predicted_seconds, 0);
-  EXPECT_GT(row.predicted_error, 0);
   EXPECT_GT(row.memory_bytes, double(row.cells) * 10 * sizeof(float));
   // Against itself, and against traces one tenth larger.
-  EXPECT_EQ(measured(scene, setting, gathers).error, 0);
+  EXPECT_EQ(measured(runs, setting, gathers).error, 0);
   auto larger = gathers;
   for (auto& gather : larger)
     for (auto& trace : gather.traces)
       for (auto& sample : trace.samples) sample *= 1.1;
-  EXPECT_NEAR(measured(scene, setting, larger).error, 0.1 / 1.1, 1e-6);
-  scene.with_slip = false;
-  EXPECT_EQ(measured(scene, setting, {}).slip_order, 0);
+  EXPECT_NEAR(measured(runs, setting, larger).error, 0.1 / 1.1, 1e-6);
 }
 
-TEST(CheapestSetting, IsExpectedToErrLessThanWantedByItsMargin) {
+TEST(RunsOfAScene, AreMadeOnceAndGiveTheResponseAsADifference) {
   const auto scene = small_scene();
-  double error_before = 1, work_before = 0;
-  for (const double wanted : {0.3, 0.03, 0.003}) {
-    const auto choice = cheapest_setting(scene, wanted);
-    EXPECT_TRUE(choice.good_enough);
-    EXPECT_LE(1.5 * choice.expected_error, wanted);
-    EXPECT_GT(choice.expected_error, 0);
-    EXPECT_LT(choice.expected_error, error_before);
-    error_before = choice.expected_error;
-    // What --plan says of it.
-    const auto expected = plan(with_setting(scene, choice.setting));
-    EXPECT_NEAR(expected.error.of_reflections_too(), choice.expected_error, 1e-6 * choice.expected_error);
-    const double work = double(expected.computed.size()) * double(expected.steps);
-    EXPECT_GT(work, work_before);
-    work_before = work;
-    // The cells are whole parts of the model's.
-    const double parts = 10 / choice.setting.spacing_m;
-    EXPECT_NEAR(parts, std::round(parts), 1e-9);
-    EXPECT_GE(parts, 1);
-    EXPECT_EQ(choice.setting.correction, scene.numerics.correction);
-    EXPECT_EQ(sentence_of(choice, scene).rfind(name_of(choice.setting, scene) + ": expected error up to ", 0),
-              0u);
+  SceneRuns<2> runs(scene, {{1}, true});
+  const auto& run = runs.run(setting_of(scene));
+  EXPECT_EQ(&run, &runs.run(setting_of(scene)));
+  auto intact = scene;
+  intact.with_slip = false;
+  const auto response = sum_of({shoot(scene, 1)}, {shoot(intact, 1)}, -1);
+  EXPECT_EQ(size_of_error(sum_of(run.observed, response, -1), response).whole, 0);
+  EXPECT_GT(size_of_error(run.observed, run.recorded).whole, 0);
+}
+
+TEST(RunsOfAScene, KeepEdgesThatSendWavesBackWhereTheyAre) {
+  auto scene = small_scene();
+  scene.edges[0] = {EdgeLaw::mirror, EdgeLaw::free};
+  const SceneRuns<2> runs(scene, {{1}, false});
+  const auto larger = runs.resized(setting_of(scene), 1.5);
+  ASSERT_TRUE(larger);
+  const double cells = 400 / larger->spacing_m;
+  EXPECT_NEAR(cells, std::round(cells), 1e-9);
+  EXPECT_NEAR(larger->spacing_m, 15, 0.6);
+  // As wide in metres.
+  EXPECT_NEAR(larger->zone_cells * larger->spacing_m, 200, larger->spacing_m);
+}
+
+TEST(RunsOfAScene, HoldNoCellsThatPutReceiversIntoOtherMatter) {
+  auto scene = small_scene();
+  // In the lowest row of water.
+  scene.survey.receivers_m = {{205, 69}};
+  const SceneRuns<2> runs(scene, {{1}, false});
+  const auto other = runs.resized(setting_of(scene), 4);
+  if (other) {
+    const auto coarse = runs.scene_of(*other);
+    const auto& medium = coarse.model.medium;
+    EXPECT_TRUE(medium.is_fluid(std::size_t(medium.grid().flat(cell_of(medium.grid(), Point<2>{205, 69})))));
   }
 }
 
-TEST(CheapestSetting, IsTheSameEveryTime) {
-  const auto scene = small_scene();
-  const auto first = cheapest_setting(scene, 0.01), second = cheapest_setting(scene, 0.01);
-  EXPECT_EQ(name_of(first.setting, scene), name_of(second.setting, scene));
-  EXPECT_EQ(first.expected_error, second.expected_error);
-}
-
-TEST(CheapestSetting, IsTheBestWhereNoneIsGoodEnough) {
-  auto scene = small_scene();
-  // What grazes thin edges would stay however fine the cells are.
-  scene.numerics.zone_cells = 100;
-  const auto best = cheapest_setting(scene, 1e-30);
-  EXPECT_FALSE(best.good_enough);
-  EXPECT_GT(best.expected_error, 0);
-  EXPECT_EQ(best.setting.spacing_m, 1.25);  // cells split in eight at most
-  EXPECT_EQ(best.setting.order, 7);
-  // None is better: its own error is where good enough begins.
-  EXPECT_TRUE(cheapest_setting(scene, 1.501 * best.expected_error).good_enough);
-  EXPECT_FALSE(cheapest_setting(scene, 1.499 * best.expected_error).good_enough);
+TEST(RepresentativeShots, AreThoseThatDifferMost) {
+  Survey<2> survey;
+  const auto add = [&](double x, const char* wavelet) {
+    survey.sources.push_back({{x, 5}, Explosion{}, parse_wavelet(wavelet), 1});
+  };
+  for (int n = 0; n < 9; ++n) add(100 * n, "ricker:15");
+  EXPECT_EQ(representative_shots(survey), (std::vector<std::size_t>{1, 9}));
+  survey.sources[4].wavelet = parse_wavelet("ricker:20");
+  const auto shots = representative_shots(survey);
+  EXPECT_EQ(std::count(shots.begin(), shots.end(), 5u), 1);
+  for (int n = 9; n < 21; ++n) add(100 * n, "ricker:15");
+  EXPECT_EQ(representative_shots(survey).size(), 3u);
+  survey.sources.erase(survey.sources.begin() + 1, survey.sources.end());
+  EXPECT_EQ(representative_shots(survey), (std::vector<std::size_t>{1}));
 }
 
 }  // namespace slipwave

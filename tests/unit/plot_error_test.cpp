@@ -20,7 +20,6 @@ AccuracyRow row_of(int order, double spacing_m, double error, double seconds) {
   row.spacing_m = spacing_m;
   row.error = error;
   row.seconds = seconds;
-  row.predicted_error = row.predicted_seconds = std::numeric_limits<double>::quiet_NaN();
   return row;
 }
 
@@ -53,7 +52,6 @@ TEST(PlotError, MethodsBecomeLinesFromCoarseToFineCells) {
   EXPECT_EQ(series[2].points[0].spacing_m, 10);
   EXPECT_EQ(series[2].points[1].spacing_m, 5);
   EXPECT_DOUBLE_EQ(series[2].points[1].error, 1);  // percent
-  EXPECT_FALSE(series[2].points[1].predicted());
 }
 
 TEST(PlotError, NamesSayWhatDiffers) {
@@ -94,16 +92,6 @@ TEST(PlotError, OnlyTheChosenSettingHasARing) {
   with.chosen = 3;
   const auto ring = patch_where(drawn(with), is_red);
   EXPECT_GT(ring.count, 60);
-}
-
-TEST(PlotError, PredictionsAreHollow) {
-  auto with = table();
-  const auto before = patch_where(drawn(with), is_third_order);
-  with.rows[3].predicted_error = 0.02;
-  with.rows[3].predicted_seconds = 30;
-  const auto after = patch_where(drawn(with), is_third_order);
-  EXPECT_GT(after.count, before.count);
-  EXPECT_LT(after.count, before.count + 80);  // a filled square has 150
 }
 
 TEST(PlotError, SettingsWithoutErrorOrTimeAreLeftOut) {

@@ -30,9 +30,8 @@ AccuracyTable table_of(const std::string& title) {
       AccuracyRow row;
       row.order = order;
       row.spacing_m = spacing;
-      row.error = row.predicted_error = std::pow(spacing / 30, order);
+      row.error = std::pow(spacing / 30, order);
       row.seconds = order * 1000 / (spacing * spacing);
-      row.predicted_seconds = 1.1 * row.seconds;
       table.rows.push_back(row);
     }
   }

@@ -197,7 +197,7 @@ TEST(Discs, HaveTheSameTracesWhereAxesAreTurned) {
   EXPECT_GT(observed_order(coarse, fine), 1.5);
 }
 
-// Proves (S30).
+// Proves (S30), (S33a).
 TEST(Disc, ThatIsLevelWithoutEndReflectsAsSchoenbergsInterface) {
   // At normal incidence -i omega Z rho c/2 over 1 - i omega Z rho c/2, of P waves with Z_N, of S waves with
   // Z_T.

@@ -1,0 +1,205 @@
+#include "planning/measured_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "accuracy/sizes.hpp"
+#include "base/error.hpp"
+#include "scene/orders.hpp"
+
+namespace slipwave {
+namespace {
+
+/// The ratio of sizes: the first that the scene holds. Halves again are the second.
+constexpr double first_ratios[] = {1.5, 1.4, 1.6, 1.3, 1.75, 1.25};
+constexpr double second_ratios[] = {2.25, 2.1, 2.4, 2., 2.6, 1.85};
+constexpr double finer_ratios[] = {1 / 1.5, 1 / 1.4, 1 / 1.75, 0.5};
+/// Sizes that differ by less tell nothing of an order.
+constexpr double least_apart = 1.15;
+
+template <int D>
+bool any_absorbing(const Scene<D>& scene) {
+  for (int axis = 0; axis < D; ++axis)
+    for (const int side : {0, 1})
+      if (scene.edges[axis][side] == EdgeLaw::absorbing) return true;
+  return false;
+}
+
+template <int D>
+double change(SceneRuns<D>& runs, const AccuracySetting& from, const AccuracySetting& to,
+              Variation variation = Variation::none) {
+  const auto& base = runs.run(from).observed;
+  return gather_error(base, runs.run(to, variation).observed).whole;
+}
+
+/// What else moves the traces, in the cells of `coarse`; `own` is the setting that is advised on.
+template <int D>
+void add_sensitivities(SceneRuns<D>& runs, const AccuracySetting& coarse, const AccuracySetting& own,
+                       std::vector<Sensitivity>& all) {
+  auto shorter = coarse;
+  shorter.cfl /= 2;
+  all.push_back({"half the time step", "--cfl " + shown(own.cfl / 2, 3), change(runs, coarse, shorter),
+                 coarse.spacing_m});
+  auto other = coarse;
+  other.order += other.order == orders[order_count - 1] ? -2 : 2;
+  all.push_back({"order " + std::to_string(other.order), "--order " + std::to_string(other.order),
+                 change(runs, coarse, other), coarse.spacing_m});
+  if (!runs.model().could_be_fitted()) return;
+  try {
+    all.push_back({"rows that follow horizons", "sw-layers --fit all",
+                   change(runs, coarse, coarse, Variation::fitted), coarse.spacing_m});
+  } catch (const Error&) {
+    // Rows that can not follow them are no remedy.
+  }
+}
+
+}  // namespace
+
+template <int D>
+std::vector<AccuracySetting> other_sizes(const SceneRuns<D>& runs, const AccuracySetting& setting) {
+  std::vector<AccuracySetting> others;
+  const auto add = [&](std::span<const double> ratios, Places places) {
+    for (const double ratio : ratios) {
+      const auto other = runs.resized(setting, ratio, places);
+      if (!other) continue;
+      const bool apart = std::all_of(others.begin(), others.end(), [&](const AccuracySetting& one) {
+        return std::abs(std::log(one.spacing_m / other->spacing_m)) > std::log(least_apart);
+      });
+      if (!apart) continue;
+      others.push_back(*other);
+      return;
+    }
+  };
+  // Rather other matter at some receiver than no measurement.
+  for (const auto places : {Places::in_the_same_matter, Places::anywhere}) {
+    if (others.empty()) add(first_ratios, places);
+    if (others.size() == 1) add(second_ratios, places);
+  }
+  if (others.empty()) add(finer_ratios, Places::anywhere);
+  if (others.empty())
+    throw Error("the scene holds no cells of other sizes near " + shown(setting.spacing_m, 4) +
+                " m, in which its error could be measured");
+  return others;
+}
+
+template <int D>
+std::vector<Gather> change_by_edges(SceneRuns<D>& runs, const AccuracySetting& setting) {
+  if (!any_absorbing(runs.scene())) return {};
+  auto wider = setting;
+  wider.zone_cells = 2 * runs.zone_of(setting);
+  return sum_of(runs.run(setting).observed, runs.run(wider).observed, -1);
+}
+
+template <int D>
+MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting, const Measured& what) {
+  MeasuredError measured;
+  measured.setting = setting;
+  auto settings = other_sizes(runs, setting);
+  const auto coarsest = settings.back();
+  const double before_s = runs.seconds();
+  if (what.itself) settings.insert(settings.begin(), setting);
+  // The expensive one comes last: what can not be run says so before.
+  for (auto one = settings.rbegin(); one != settings.rend(); ++one) runs.run(*one);
+  const auto derived = [&](const AccuracySetting& of) {
+    return runs.observed().response ? 0. : runs.direct().together(runs.discretisation_of(of));
+  };
+  std::vector<SizedTraces> sizes;
+  for (const auto& one : settings) {
+    sizes.push_back({one.spacing_m, &runs.run(one).observed, derived(one)});
+    if (!(one == setting)) measured.others_m.push_back(one.spacing_m);
+  }
+  if (sizes.size() < 2)
+    throw Error("the scene holds cells of one other size only, " + shown(coarsest.spacing_m, 4) +
+                " m: its error is measured by running it");
+  // Where none of the sizes is its own, of second order is the best guess there is.
+  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2);
+  measured.order = of_cells.order;
+  measured.nearest_apart = of_cells.apart;
+  measured.by_cells = of_cells.error;
+  measured.wrong = std::move(of_cells.wrong);
+  measured.extrapolated = !what.itself;
+  const auto& found = *sizes.front().traces;
+  if (!what.itself && of_cells.error > 0) {
+    const double smaller = std::pow(setting.spacing_m / sizes[0].spacing_m, of_cells.order);
+    measured.by_cells = std::hypot(of_cells.share * derived(setting), of_cells.rest * smaller);
+    measured.wrong = sum_of(measured.wrong, measured.wrong, measured.by_cells / of_cells.error - 1);
+  }
+  measured.by_edges = std::numeric_limits<double>::quiet_NaN();
+  if (what.edges)
+    if (const auto by_edges = change_by_edges(runs, coarsest); !by_edges.empty()) {
+      measured.by_edges = size_of_error(by_edges, runs.run(coarsest).observed).whole;
+      measured.wrong = sum_of(std::move(measured.wrong), by_edges, 1);
+      measured.sensitivities.push_back({"edges twice as wide",
+                                        "--edge-width " + std::to_string(2 * runs.zone_of(setting)),
+                                        measured.by_edges, coarsest.spacing_m});
+    }
+  if (what.others) add_sensitivities(runs, coarsest, setting, measured.sensitivities);
+  measured.error = size_of_error(measured.wrong, found);
+  if (const auto* own = runs.find(setting)) measured.run_s = own->seconds;
+  measured.measuring_s = runs.seconds() - before_s - (what.itself ? measured.run_s : 0);
+  return measured;
+}
+
+template <int D>
+std::vector<std::size_t> representative_shots(const Survey<D>& survey) {
+  /// Surveys from here on have a third shot measured: it costs them little.
+  constexpr std::size_t many = 12;
+  const auto count = survey.sources.size();
+  std::vector<std::size_t> shots;
+  const auto apart = [&](std::size_t a, std::size_t b) {
+    const auto &one = survey.sources[a], &other = survey.sources[b];
+    if (one.mechanism.index() != other.mechanism.index() || one.wavelet.text() != other.wavelet.text())
+      return std::numeric_limits<double>::infinity();
+    double sum = 0;
+    for (std::size_t axis = 0; axis < D; ++axis)
+      sum += std::pow(one.position_m[axis] - other.position_m[axis], 2);
+    return sum;
+  };
+  const auto farthest = [&](const std::vector<std::size_t>& from) {
+    std::size_t best = 0;
+    double most = -1;
+    for (std::size_t n = 0; n < count; ++n) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const auto shot : from) nearest = std::min(nearest, n == shot ? 0 : apart(n, shot));
+      if (nearest > most) most = nearest, best = n;
+    }
+    return best;
+  };
+  if (count > 0) shots.push_back(count > 1 ? farthest({0}) : 0);
+  for (const std::size_t wanted : {std::size_t(2), std::size_t(3)})
+    if (count >= (wanted == 3 ? many : wanted)) shots.push_back(farthest(shots));
+  for (auto& shot : shots) ++shot;
+  std::sort(shots.begin(), shots.end());
+  return shots;
+}
+
+template <int D>
+std::string sentence_of(const MeasuredError& measured, const SceneRuns<D>& runs) {
+  const auto& error = measured.error;
+  const auto percent = [](double share) { return shown(100 * share, 2); };
+  std::string parts;
+  if (error.components.size() > 1)
+    for (const auto& [component, share] : error.components)
+      parts += (parts.empty() ? "" : ", ") + std::string(name_of(component)) + ' ' + percent(share);
+  const auto shot = runs.observed().shots[error.worst_shot];
+  return percent(error.whole) + " % of " +
+         (runs.observed().response ? "what fractures add to the traces" : "all traces") + " (" + parts +
+         (parts.empty() ? "" : "; ") + "late quarter " + percent(error.late) + "; worst trace " +
+         percent(error.worst) + ": shot " + std::to_string(runs.scene().survey.label_of(shot)) +
+         ", channel " + std::to_string(error.worst_channel) + ")";
+}
+
+template std::vector<AccuracySetting> other_sizes(const SceneRuns<2>&, const AccuracySetting&);
+template std::vector<AccuracySetting> other_sizes(const SceneRuns<3>&, const AccuracySetting&);
+template std::vector<Gather> change_by_edges(SceneRuns<2>&, const AccuracySetting&);
+template std::vector<Gather> change_by_edges(SceneRuns<3>&, const AccuracySetting&);
+template MeasuredError measured_error(SceneRuns<2>&, const AccuracySetting&, const Measured&);
+template MeasuredError measured_error(SceneRuns<3>&, const AccuracySetting&, const Measured&);
+template std::vector<std::size_t> representative_shots(const Survey<2>&);
+template std::vector<std::size_t> representative_shots(const Survey<3>&);
+template std::string sentence_of(const MeasuredError&, const SceneRuns<2>&);
+template std::string sentence_of(const MeasuredError&, const SceneRuns<3>&);
+
+}  // namespace slipwave

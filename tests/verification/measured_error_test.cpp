@@ -1,0 +1,67 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "closed_forms.hpp"
+#include "planning/wanted_error.hpp"
+
+// Errors as they are measured against those found by closed forms.
+namespace slipwave::solver {
+namespace {
+
+bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
+
+/// How many promises are too small, how many too large, and how many are as they should be.
+class Score {
+ public:
+  void add(const std::string& name, double promised, double found) {
+    ++scenes_;
+    const double ratio = promised / found;
+    within_ += ratio >= 0.9 && ratio <= 3;
+    EXPECT_GE(ratio, 0.7) << name << ": promised " << 100 * promised << " %, found " << 100 * found << " %";
+    if (std::getenv("SLIPWAVE_SHOW"))
+      std::printf("%-70s promised %6.3g found %6.3g ratio %.2f\n", name.c_str(), 100 * promised, 100 * found,
+                  ratio);
+  }
+  void expect_nine_of_ten() const {
+    testing::Test::RecordProperty("within", within_);
+    EXPECT_GE(10 * within_, 9 * scenes_) << within_ << " of " << scenes_;
+  }
+
+ private:
+  int scenes_ = 0, within_ = 0;
+};
+
+template <int D>
+void add(const ClosedForm<D>& closed, Score& score) {
+  const auto scene = closed.scene();
+  SceneRuns<D> runs(scene, {{1}, false});
+  const auto measured = measured_error(runs, setting_of(scene));
+  const auto found = gather_error(runs.run(setting_of(scene)).observed, closed.exact()).whole;
+  score.add(closed.name, measured.error.whole, found);
+}
+
+TEST(MeasuredError, IsThatOfClosedForms) {
+  Score score;
+  for (const auto& closed : closed_forms())
+    if (long_form() || closed.quick) add(closed, score);
+  for (const auto& closed : closed_forms_in_space())
+    if (long_form() || closed.quick) add(closed, score);
+  score.expect_nine_of_ten();
+}
+
+TEST(MeasuredError, IsThatOfStacksDrawnAfresh) {
+  using enum DrawnStack::Kind;
+  Score score;
+  for (const auto kind : {any, shallow, near_floor, on_floor, deep_water})
+    for (std::uint64_t n = 0; n < (long_form() ? (kind == any ? 8 : 3) : kind == any ? 1 : 0); ++n) {
+      const DrawnStack drawn(first_seed() + n, kind);
+      add<2>({drawn.stack().name, true, [&] { return drawn.stack().scene(); },
+              [&] { return drawn.stack().exact(); }},
+             score);
+    }
+  score.expect_nine_of_ten();
+}
+
+}  // namespace
+}  // namespace slipwave::solver
