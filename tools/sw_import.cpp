@@ -330,14 +330,21 @@ void run(const Settings& settings, const cli::Context& context) {
   if (settings.resample_m)
     model =
         in_place("--resample", [&] { return resampled(model, *settings.resample_m, !settings.no_average); });
+  Geology geology = {.maker = Maker::sw_import, .sampled_m = sampled_m};
+  if (model.grid().spacing_m != sampled_m)
+    geology.resampling = model.grid().spacing_m > sampled_m && !settings.no_average
+                             ? Resampling::averaged
+                             : Resampling::interpolated;
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<2>(settings.crop)); });
   }
   fit(model, settings, sampled_m, context);
+  model.geology = geology;
   if (!settings.extrude_m) return write(std::move(model), settings, context, out);
   Model<3> deep;
   deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });
   deep.history = std::move(model.history);
+  deep.geology = geology;
   write(std::move(deep), settings, context, out);
 }
 

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "accuracy/expected_error.hpp"
-#include "accuracy/finer_model.hpp"
 #include "accuracy/response_error.hpp"
 #include "base/error.hpp"
+#include "model/model_in_cells.hpp"
 
 namespace slipwave {
 namespace {
@@ -84,7 +84,7 @@ Choice cheapest_setting_for_response(const Scene<2>& scene, double wanted) {
                    [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
   Choice best;
   best.of_response = true;
-  best.finer_geometry = has_finer_geometry(scene);
+  best.finer_geometry = ModelInCells(scene.model, scene.attenuation).as_built();
   for (const auto& [setting, cost] : candidates) {
     const double h = setting.spacing_m;
     const int zone =
@@ -206,7 +206,7 @@ std::string reason_of(const PromisedError& promise, double reach) {
 
 Choice cheapest_setting(const Scene<2>& scene, double wanted) {
   const double own_m = scene.model.grid().spacing_m;
-  const bool finer = has_finer_geometry(scene);
+  const bool finer = ModelInCells(scene.model, scene.attenuation).as_built();
   const WavesOfScene waves(scene, finer);
   Search search(scene, waves);
   const auto* found = search.cheapest_within(wanted / margin);
@@ -229,10 +229,7 @@ Scene<2> chosen_scene(const Scene<2>& scene, const Choice& choice) {
   auto setting = choice.setting;
   setting.spacing_m = own_m;
   auto chosen = with_setting(scene, setting);
-  auto finer = finer_model(scene, spacing_m);
-  if (!finer) return with_setting(scene, choice.setting);
-  chosen.model = std::move(*finer);
-  return chosen;
+  return in_cells_of(chosen, spacing_m);
 }
 
 std::string sentence_of(const Choice& choice, const Scene<2>& scene) {

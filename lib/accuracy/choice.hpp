@@ -9,7 +9,7 @@ struct Choice {
   AccuracySetting setting;
   double expected_error = 0;    // ExpectedError::of_reflections_too()
   bool good_enough = false;     // below what was wanted, by the margin
-  bool finer_geometry = false;  // other cells are filled from the model's horizons (finer_model())
+  bool finer_geometry = false;  // other cells are filled from the model's horizons (in_cells_of())
   double slip_error = 0;        // of the response of fractures by itself, where that is known
   bool of_response = false;     // what is expected is the error of the response of fractures
   /// What stands in the way where none is good enough: the largest cause that no setting cures, or the

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <utility>
 
-#include "accuracy/finer_model.hpp"
 #include "accuracy/straight_way.hpp"
 #include "model/anisotropy.hpp"
+#include "model/model_in_cells.hpp"
 #include "model/parted_faces.hpp"
 
 namespace slipwave {
@@ -231,7 +231,7 @@ double WavesOfScene::of_reflections_too(const Discretisation& cells, double most
 }
 
 ExpectedError expected_error(const Scene<2>& scene) {
-  auto error = WavesOfScene(scene, has_finer_geometry(scene)).expected();
+  auto error = WavesOfScene(scene, ModelInCells(scene.model, scene.attenuation).as_built()).expected();
   if (!scene.slips() && !(scene.with_slip && first_on_faces(scene.model.fracture_sets))) return error;
   const FractureResponse response(scene);
   error.response_unknown = response.why_not();

@@ -41,7 +41,7 @@ struct ExpectedError {
 /// What interfaces, slip and the edges add is in the promise (ErrorSources).
 class WavesOfScene {
  public:
-  /// `finer_geometry`: smaller cells will be filled from the model's horizons (finer_model()).
+  /// `finer_geometry`: smaller cells will be filled from the model's horizons (in_cells_of()).
   explicit WavesOfScene(const Scene<2>& scene, bool finer_geometry = false);
   /// For the cells and steps of the scene.
   ExpectedError expected() const { return expected(own_); }

@@ -6,10 +6,8 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <sstream>
 
 #include "base/error.hpp"
-#include "base/parse.hpp"
 #include "grid/locate.hpp"
 #include "model/tilted_mean.hpp"
 
@@ -357,40 +355,13 @@ void describe(const Columns& columns, const Followed& line, LocalInterface& inte
   if (interface.representation == fitted) interface.curvature_per_m = curvature_of(columns, line);
 }
 
-/// Depths of the level tops of layers that a command line of sw-layers in a model's history names.
-std::vector<double> tops_in_history(const std::string& history) {
+/// Depths of the tops of layers that are level, as far as the model knows them.
+std::vector<double> level_tops(const Geology& geology) {
   std::vector<double> tops;
-  const std::string option = "--layer";
-  for (auto at = history.find(option); at != std::string::npos; at = history.find(option, at + 1)) {
-    std::string text = history.substr(at + option.size());
-    text.erase(0, text.find_first_not_of(" =\"'"));
-    try {
-      tops.push_back(parse_number(text.substr(0, text.find(':'))));
-    } catch (const Error&) {
-      // A curve or a file: it is no level top.
-    }
-  }
+  for (const auto& layer : geology.layers)
+    if (layer.top.is_plane() && layer.top.shape().dip_deg == 0) tops.push_back(layer.top.depth_m());
+  if (geology.marmousi) tops.push_back(geology.marmousi->water_m);
   return tops;
-}
-
-Maker maker_of(const std::string& history) {
-  if (history.find("sw-marmousi") != std::string::npos) return Maker::sw_marmousi;
-  return history.find("sw-import") != std::string::npos ? Maker::sw_import : Maker::sw_layers;
-}
-
-/// Whether the last sw-import in a model's history interpolated what it read (--resample to smaller cells).
-bool is_interpolated(const std::string& history) {
-  const auto command = history.rfind("sw-import");
-  if (command == std::string::npos) return false;
-  const auto number = [&](const std::string& option) {
-    const auto at = history.find(option, command);
-    if (at == std::string::npos) return 0.;
-    std::istringstream text(history.substr(at + option.size() + 1));
-    double value = 0;
-    return text >> value ? value : 0.;
-  };
-  const double resampled_m = number("--resample");
-  return resampled_m > 0 && resampled_m < number("--step");
 }
 
 /// What is followed round one source.
@@ -402,10 +373,10 @@ class Tracker {
         source_(scene.survey.sources[shot]),
         receivers_(scene.survey.receivers_of(shot + 1)),
         column_(columns_.at(source_.position_m[0])),
-        tops_(tops_in_history(scene.model.history)),
-        interpolated_(is_interpolated(scene.model.history)),
+        tops_(level_tops(scene.model.geology)),
+        interpolated_(scene.model.geology.resampling == Resampling::interpolated),
         tilted_(tilted_means(scene.model.medium) > 0) {
-    stack_.maker = maker_of(scene.model.history);
+    stack_.maker = scene.model.geology.maker;
     low_ = high_ = column_;
     for (const auto& receiver : receivers_) {
       low_ = std::min(low_, columns_.at(receiver.point_m[0]));
@@ -535,7 +506,7 @@ class Tracker {
     return sides;
   }
 
-  /// How far from a face the top of a layer lies that the model's history names.
+  /// How far from a face the level top of a layer lies that the model knows.
   double offset_of(double depth_m) const {
     double nearest = std::numeric_limits<double>::infinity();
     for (const double top : tops_)

@@ -16,7 +16,7 @@ enum class Representation {
   on_faces,  // of the grid, level
   fitted,    // rows of cells follow it
   averaged,  // cells that it cuts have the mean of both rocks
-  gradual,   // rock changes over several cells, as the model's history says that it was interpolated
+  gradual,   // rock changes over several cells, as the model says that it was interpolated
   staircase  // of whole cells: fluid, solid or void by their centre
 };
 
@@ -45,7 +45,7 @@ struct LocalInterface {
     double slope;
   };
   std::vector<Side> sides;
-  /// Its true depth where it is level and the history of the model says it, m; that of the cells otherwise.
+  /// Its true depth where it is level and the model says it, m; that of the cells otherwise.
   double true_depth_m = 0;
   double contrast = 1;  // ratio of impedances of P, above 1; of S where that is larger
   bool is_curved() const { return steepest_deg > std::abs(dip_deg) + 3; }
@@ -53,16 +53,13 @@ struct LocalInterface {
   std::string name() const;
 };
 
-/// What cells of a model were filled by, as far as its history tells: it knows how to do better.
-enum class Maker { sw_layers, sw_marmousi, sw_import };
-
 /// The layers round a source, flattened: each shot is taken as one over parallel layers with the dip that
 /// the strongest interface has there.
 struct LocalStack {
   std::vector<LocalInterface> interfaces;  // those of places.faces_m
   LayeredPlaces places;
   double dip_deg = 0;
-  Maker maker = Maker::sw_layers;
+  Maker maker = Maker::unknown;
   /// An interface too weak to be among those that are followed.
   struct LeftOut {
     double contrast = 1, away_m = 0;  // from the source

@@ -139,7 +139,7 @@ UprightPlane plane_of(const Scene<3>& scene, const Source<3>& source, const MapL
   }
   const SliceOfCells slice(scene.model.medium, line, low, high);
   plane.scene.model.medium = slice.medium();
-  plane.scene.model.history = scene.model.history;
+  plane.scene.model.geology = scene.model.geology;
   const auto injection = point_injection(source);
   survey.sources = {{{source.position_m[0], source.position_m[2]},
                      part_along(*injection, line, plane),

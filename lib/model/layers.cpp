@@ -161,20 +161,6 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
   return named;
 }
 
-/// What a layer does not say of orthorhombic rock is as where all horizontal directions are alike.
-void set_orthorhombic(Layer& layer) {
-  auto& material = layer.material;
-  Orthorhombic of = {material.epsilon, material.delta, 0, material.gamma};
-  const Orthorhombic none = of;
-  for (const auto& [property, value] : layer.others) {
-    if (property == Property::epsilon1) of.epsilon1 = value;
-    if (property == Property::delta1) of.delta1 = value;
-    if (property == Property::delta3) of.delta3 = value;
-    if (property == Property::gamma2) of.gamma2 = value;
-  }
-  if (!(of == none)) material.orthorhombic = of;
-}
-
 /// Takes stiffnesses, NAME=VALUE, from `named`; any of them make the material of a layer without speeds.
 void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& named, const InputUnits& units) {
   GivenStiffness given;
@@ -237,14 +223,8 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     if (!is_in_range(row, value))
       throw Error(row.name + " is " + shown(value) + ", expected " + expected_values(row), ErrorKind::usage);
     layer.others.emplace_back(*property, value);
-    if (property == Property::epsilon) layer.material.epsilon = value;
-    if (property == Property::delta) layer.material.delta = value;
-    if (property == Property::tilt) layer.material.tilt = value;
-    if (property == Property::azimuth) layer.material.azimuth = value;
-    if (property == Property::rotation) layer.material.rotation = value;
-    if (property == Property::gamma) layer.material.gamma = value;
   }
-  set_orthorhombic(layer);
+  layer.complete();
 }
 
 /// The optional properties that any layer has.
@@ -387,6 +367,31 @@ Average parse_average(std::string_view text) {
   throw Error("found '" + std::string(text) + "', expected tilted, isotropic or none", ErrorKind::usage);
 }
 
+std::string name_of(Average average) {
+  return average == Average::none ? "none" : average == Average::isotropic ? "isotropic" : "tilted";
+}
+
+void Layer::complete() {
+  for (const auto& [property, value] : others) {
+    if (property == Property::epsilon) material.epsilon = value;
+    if (property == Property::delta) material.delta = value;
+    if (property == Property::tilt) material.tilt = value;
+    if (property == Property::azimuth) material.azimuth = value;
+    if (property == Property::rotation) material.rotation = value;
+    if (property == Property::gamma) material.gamma = value;
+  }
+  // What a layer does not say of orthorhombic rock is as where all horizontal directions are alike.
+  const Orthorhombic none = {material.epsilon, material.delta, 0, material.gamma};
+  Orthorhombic of = none;
+  for (const auto& [property, value] : others) {
+    if (property == Property::epsilon1) of.epsilon1 = value;
+    if (property == Property::delta1) of.delta1 = value;
+    if (property == Property::delta3) of.delta3 = value;
+    if (property == Property::gamma2) of.gamma2 = value;
+  }
+  if (!(of == none)) material.orthorhombic = of;
+}
+
 Material Layer::at_depth(double below_top_m) const {
   const double depth = std::max(below_top_m, 0.);
   Material at = material;
@@ -425,20 +430,14 @@ Layer parse_layer(std::string_view text, const InputUnits& units) {
 }
 
 template <int D>
-Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
+Grid<D> grid_over(const Point<D>& size_m, double spacing_m) {
   if (!(spacing_m > 0))
     throw Error("found a step of " + shown(spacing_m) + " m, expected it above zero", ErrorKind::usage);
   Grid<D> grid;
   grid.spacing_m = spacing_m;
   double cells = 1;
   for (std::size_t axis = 0; axis < D; ++axis) {
-    const double steps = size_m[axis] / spacing_m;
-    const double whole = std::round(steps);
-    if (whole < 1 || std::abs(steps - whole) > 1e-6) {
-      throw Error(shown(size_m[axis]) + " m are " + short_number(steps) + " steps of " + shown(spacing_m) +
-                      " m, expected a whole number",
-                  ErrorKind::usage);
-    }
+    const double whole = std::max(1., std::ceil(size_m[axis] / spacing_m - 1e-6));
     cells *= whole;
     grid.shape[axis] = whole < 9e15 ? std::int64_t(whole) : 0;
   }
@@ -449,6 +448,19 @@ Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
                 ErrorKind::usage);
   }
   return grid;
+}
+
+template <int D>
+Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m) {
+  for (std::size_t axis = 0; axis < D && spacing_m > 0; ++axis) {
+    const double steps = size_m[axis] / spacing_m, whole = std::round(steps);
+    if (whole < 1 || std::abs(steps - whole) > 1e-6) {
+      throw Error(shown(size_m[axis]) + " m are " + short_number(steps) + " steps of " + shown(spacing_m) +
+                      " m, expected a whole number",
+                  ErrorKind::usage);
+    }
+  }
+  return grid_over<D>(size_m, spacing_m);
 }
 
 template <int D>
@@ -560,6 +572,8 @@ std::vector<std::string> cut_off_layers(const Grid<D>& grid, const std::vector<L
 
 template Grid<2> grid_of_size<2>(const Point<2>&, double);
 template Grid<3> grid_of_size<3>(const Point<3>&, double);
+template Grid<2> grid_over<2>(const Point<2>&, double);
+template Grid<3> grid_over<3>(const Point<3>&, double);
 template void check_reach(const Grid<2>&, const Horizon&);
 template void check_reach(const Grid<3>&, const Horizon&);
 template Fit<2> fit_layers(const Grid<2>&, const std::vector<Layer>&, const FitChoice&);

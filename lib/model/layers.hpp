@@ -8,7 +8,7 @@
 #include "model/fit.hpp"
 #include "model/horizon.hpp"
 #include "model/input_units.hpp"
-#include "model/model.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
 
@@ -16,8 +16,9 @@ namespace slipwave {
 /// (theory.md M1, M2); or, where all of them are isotropic solids in 2-D, that with the anisotropy of the
 /// mean about the normal of the tops (theory.md (T1)), else the same.
 enum class Average { none, isotropic, tilted };
-/// Its name; throws a usage Error on others.
+/// By its name; throws a usage Error on others.
 Average parse_average(std::string_view text);
+std::string name_of(Average average);
 
 /// Everything below a top, down to the next layer. Properties may change linearly with depth below the top.
 struct Layer {
@@ -33,6 +34,8 @@ struct Layer {
   Layer(double depth_m, double vp, double vs, double rho, double dip_deg = 0)
       : top(depth_m, dip_deg), material{vp, vs, rho} {}
 
+  /// Takes the elastic ones of `others` into the material.
+  void complete();
   /// Of an optional property: what its row says where the layer does not.
   double value(Property property) const;
   /// At a depth below the top; at the top where that is negative.
@@ -50,6 +53,12 @@ Layer parse_layer(std::string_view text, const InputUnits& units = {});
 /// side is no whole number of steps (to 1e-6 of a step) or the model would not fit this machine's memory.
 template <int D>
 Grid<D> grid_of_size(const Point<D>& size_m, double spacing_m);
+
+/// The smallest grid in cells of `spacing_m` that holds `size_m`: the last cells along an axis reach beyond
+/// it where that is no whole number of steps. Throws a usage Error when it would not fit this machine's
+/// memory.
+template <int D>
+Grid<D> grid_over(const Point<D>& size_m, double spacing_m);
 
 /// Throws a usage Error unless a curve or grid reaches the centres of all columns of a grid.
 template <int D>

@@ -4,6 +4,7 @@
 
 #include "base/error.hpp"
 #include "model/averaging.hpp"
+#include "model/cluster_shares.hpp"
 #include "model/fit.hpp"
 #include "model/layers.hpp"
 #include "model/resample.hpp"
@@ -48,11 +49,12 @@ void check_ends(const Grid<D>& grid) {
 }
 
 /// Where rows of a column lie between horizons: at horizon n, counted from the top of the grid, n; between
-/// two of them the share of the way. The same for cells of any size.
+/// two of them the share of the way. The same for cells of any size, the last of which may reach below the
+/// bottom.
 class Column {
  public:
   template <int D>
-  Column(const Grid<D>& grid, Index<D> at, const std::vector<std::int64_t>& knots) {
+  Column(const Grid<D>& grid, Index<D> at, const std::vector<std::int64_t>& knots, double bottom_m) {
     std::vector<double> depths(std::size_t(grid.shape[D - 1] + 1), 0.);
     for (std::size_t row = 0; row < depths.size(); ++row) {
       at[D - 1] = std::int64_t(row);
@@ -65,11 +67,13 @@ class Column {
       depths[row] = sum / (1 << (D - 1));
     }
     for (std::size_t n = 0; n + 1 < knots.size(); ++n) {
-      const double top = depths[std::size_t(knots[n])], end = depths[std::size_t(knots[n + 1])];
+      const double top = depths[std::size_t(knots[n])];
+      const double end = n + 2 < knots.size() ? depths[std::size_t(knots[n + 1])] : bottom_m;
       for (auto row = knots[n]; row < knots[n + 1]; ++row)
         at_.push_back(double(n) + (depths[std::size_t(row)] - top) / (end - top));
     }
-    at_.push_back(double(knots.size() - 1));
+    const double last = depths[std::size_t(knots[knots.size() - 2])];
+    at_.push_back(double(knots.size() - 2) + (depths.back() - last) / (bottom_m - last));
   }
   double top(std::int64_t row) const { return at_[std::size_t(row)]; }
   double end(std::int64_t row) const { return at_[std::size_t(row) + 1]; }
@@ -112,7 +116,8 @@ std::vector<Under> under(const Grid<D>& from, const Grid<D>& to, const Index<D>&
     const auto centre = std::min(std::int64_t(std::floor((low + high) / 2 + 1e-9)), last);
     std::vector<Under> crossed;
     for (const auto& column : columns)
-      for (auto n = std::int64_t(std::floor(low + 1e-6)); n <= last && double(n) < high - 1e-6; ++n)
+      for (auto n = std::min(std::int64_t(std::floor(low + 1e-6)), last);
+           n <= last && double(n) < high - 1e-6; ++n)
         crossed.push_back({column.column + n * stride,
                            column.area * (std::min(high, double(n + 1)) - std::max(low, double(n))),
                            column.has_centre && n == centre});
@@ -127,10 +132,11 @@ template <int D>
 class Refit {
  public:
   Refit(const Model<D>& from, const Grid<D>& grid)
-      : from_(from), knots_from_(knots_of(from.grid())), knots_to_(knots_of(grid)) {
+      : from_(from), knots_from_(knots_of(from.grid())), knots_to_(knots_of(grid)), shares_(from, to_) {
     to_.title = from.title;
     to_.source = from.source;
     to_.history = from.history;
+    to_.geology = from.geology;
     to_.fracture_sets = from.fracture_sets;
     to_.medium = Medium<D>(grid, from.medium);
     // Where interfaces lie in old cells is not known.
@@ -153,10 +159,12 @@ class Refit {
   void fill_column(std::int64_t number) {
     const auto &old = from_.grid(), &grid = to_.grid();
     const std::int64_t old_stride = old.size() / old.shape[D - 1], stride = grid.size() / grid.shape[D - 1];
-    const Column here(grid, grid.index(number), knots_to_);
+    const double bottom_m = old.end(D - 1);
+    const Column here(grid, grid.index(number), knots_to_, bottom_m);
     const auto unders = under(old, grid, grid.index(number));
     std::vector<Column> columns;
-    for (const auto& column : unders) columns.emplace_back(old, old.index(column.column), knots_from_);
+    for (const auto& column : unders)
+      columns.emplace_back(old, old.index(column.column), knots_from_, bottom_m);
     const auto centre =
         std::size_t(std::find_if(unders.begin(), unders.end(), [](const Under& u) { return u.has_centre; }) -
                     unders.begin());
@@ -179,20 +187,21 @@ class Refit {
     for (const Property property : scalars_)
       means.emplace_back(row_of(property).mean, from_.medium[property][source]);
     for (const auto& [part, volume] : parts_) {
+      shares_.add(part, volume);
       if (!mean.add(material_of(from_.medium, part), volume)) continue;
       for (std::size_t n = 0; n < means.size(); ++n) means[n].add(from_.medium[scalars_[n]][part], volume);
     }
     put(to_.medium, cell, mean.mean());
     for (std::size_t n = 0; n < means.size(); ++n) to_.medium[scalars_[n]][cell] = float(means[n].mean());
-    if (!from_.fracture.empty()) to_.fracture[cell] = from_.fracture[source];
-    if (!from_.fracture_share.empty()) to_.fracture_share[cell] = from_.fracture_share[source];
     for (std::size_t c = 0; c < from_.prestress_pa.size(); ++c)
       to_.prestress_pa[c][cell] = from_.prestress_pa[c][source];
+    shares_.put(cell);
   }
 
   const Model<D>& from_;
   Model<D> to_;
   std::vector<std::int64_t> knots_from_, knots_to_;
+  ClusterShares<D> shares_;
   std::vector<Property> scalars_;  // whose means depend on nothing else
   std::vector<std::pair<std::size_t, double>> parts_;
 };
@@ -200,20 +209,20 @@ class Refit {
 }  // namespace
 
 template <int D>
-Model<D> refitted(const Model<D>& model, double spacing_m) {
+Model<D> refitted(const Model<D>& model, double spacing_m, Extent extent) {
   const auto& from = model.grid();
   check_ends(from);
   Point<D> size{};
   for (std::size_t axis = 0; axis + 1 < D; ++axis) size[axis] = double(from.shape[axis]) * from.spacing_m;
   size[D - 1] = from.end(D - 1);
-  auto regular = grid_of_size<D>(size, spacing_m);
+  auto regular = extent == Extent::kept ? grid_of_size<D>(size, spacing_m) : grid_over<D>(size, spacing_m);
   regular.origin_m = from.origin_m;
   regular.origin_m[D - 1] = 0;
   const auto fit = fit_grid(regular, horizons_of(from, regular), {true, true, true, true, true});
   return Refit<D>(model, fit.grid).filled();
 }
 
-template Model<2> refitted(const Model<2>&, double);
-template Model<3> refitted(const Model<3>&, double);
+template Model<2> refitted(const Model<2>&, double, Extent);
+template Model<3> refitted(const Model<3>&, double, Extent);
 
 }  // namespace slipwave

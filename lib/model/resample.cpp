@@ -6,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "model/averaging.hpp"
+#include "model/cluster_shares.hpp"
 #include "model/layers.hpp"
 #include "model/parted_faces.hpp"
 #include "model/single_fracture.hpp"
@@ -123,17 +124,18 @@ struct Regridding {
   Model<D> model;
   std::array<std::vector<Foot>, D> feet;
 
-  Regridding(const Model<D>& from, double spacing_m) {
+  Regridding(const Model<D>& from, double spacing_m, Extent extent = Extent::kept) {
     const auto& old = from.grid();
     Point<D> size{};
     for (std::size_t axis = 0; axis < D; ++axis) size[axis] = double(old.shape[axis]) * old.spacing_m;
-    Grid<D> grid = grid_of_size<D>(size, spacing_m);
+    Grid<D> grid = extent == Extent::kept ? grid_of_size<D>(size, spacing_m) : grid_over<D>(size, spacing_m);
     grid.origin_m = old.origin_m;
     for (std::size_t axis = 0; axis < D; ++axis)
       feet[axis] = feet_of(old.shape[axis], old.spacing_m, grid.shape[axis], spacing_m);
     model.title = from.title;
     model.source = from.source;
     model.history = from.history;
+    model.geology = from.geology;
     model.fracture_sets = from.fracture_sets;
     model.medium = Medium<D>(grid, from.medium);
     // Where interfaces lie in old cells is not known.
@@ -152,11 +154,11 @@ struct Regridding {
       Index<D> nearest{};
       for (std::size_t axis = 0; axis < D; ++axis) nearest[axis] = feet[axis][std::size_t(at[axis])].nearest;
       const auto source = std::size_t(from.grid().flat(nearest)), cell = std::size_t(n);
-      fill(cell, at, source);
       if (!from.fracture.empty()) model.fracture[cell] = from.fracture[source];
       if (!from.fracture_share.empty()) model.fracture_share[cell] = from.fracture_share[source];
       for (std::size_t c = 0; c < from.prestress_pa.size(); ++c)
         model.prestress_pa[c][cell] = from.prestress_pa[c][source];
+      fill(cell, at, source);
     }
     place_single_fractures(model);
     keep_prestress_of_faces(from, model);
@@ -176,7 +178,7 @@ std::vector<Overlap> overlaps_of(std::int64_t old_count, double old_step, std::i
   std::vector<Overlap> overlaps(std::size_t(new_count), Overlap{});
   for (std::int64_t i = 0; i < new_count; ++i) {
     const double low = double(i) * new_step / old_step, high = double(i + 1) * new_step / old_step;
-    const auto first = std::int64_t(std::floor(low + rounding));
+    const auto first = std::min(std::int64_t(std::floor(low + rounding)), old_count - 1);
     const auto last = std::min(std::int64_t(std::ceil(high - rounding)), old_count);
     Overlap& overlap = overlaps[std::size_t(i)];
     overlap.first = first;
@@ -194,9 +196,9 @@ void check_regular(const Grid<D>& grid) {
 }  // namespace
 
 template <int D>
-Model<D> regridded(const Model<D>& model, double spacing_m) {
-  if (model.grid().rows) return refitted(model, spacing_m);
-  Regridding<D> to(model, spacing_m);
+Model<D> regridded(const Model<D>& model, double spacing_m, Extent extent) {
+  if (model.grid().rows) return refitted(model, spacing_m, extent);
+  Regridding<D> to(model, spacing_m, extent);
   const auto& from = model.grid();
   auto by_themselves = model.medium.properties();  // those whose means depend on nothing else
   std::erase_if(by_themselves, [](Property property) { return row_of(property).mean == Mean::elastic; });
@@ -204,6 +206,7 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
   for (std::size_t axis = 0; axis < D; ++axis) {
     overlaps[axis] = overlaps_of(from.shape[axis], from.spacing_m, to.model.grid().shape[axis], spacing_m);
   }
+  ClusterShares<D> shares(model, to.model);
   return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
     Grid<D> block;  // the old cells that the new one overlaps
     for (std::size_t axis = 0; axis < D; ++axis)
@@ -221,6 +224,7 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
         old[axis] += overlap.first;
       }
       const auto part = std::size_t(from.flat(old));
+      shares.add(part, volume);
       if (!mean.add(material_of(model.medium, part), volume)) continue;
       for (std::size_t n = 0; n < scalars.size(); ++n)
         scalars[n].add(model.medium[by_themselves[n]][part], volume);
@@ -228,14 +232,15 @@ Model<D> regridded(const Model<D>& model, double spacing_m) {
     put(to.model.medium, cell, mean.mean());
     for (std::size_t n = 0; n < scalars.size(); ++n)
       to.model.medium[by_themselves[n]][cell] = float(scalars[n].mean());
+    shares.put(cell);
   });
 }
 
 template <int D>
-Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
+Model<D> resampled(const Model<D>& model, double spacing_m, bool average, Extent extent) {
   check_regular(model.grid());
-  if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
-  Regridding<D> to(model, spacing_m);
+  if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m, extent);
+  Regridding<D> to(model, spacing_m, extent);
   const auto properties = to.model.medium.properties();
   return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
     std::array<const Foot*, D> round{};
@@ -271,6 +276,9 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   }
   grid.origin_m[D - 1] = 0;
   Model<D> result = model;
+  // Depths count from another top.
+  result.geology.layers.clear();
+  result.geology.marmousi.reset();
   for (auto& set : result.fracture_sets)
     for (auto& trace : set.traces)
       for (auto& vertex : trace) vertex[D - 1] -= double(first[D - 1]) * from.spacing_m;
@@ -292,10 +300,10 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   return result;
 }
 
-template Model<2> regridded(const Model<2>&, double);
-template Model<3> regridded(const Model<3>&, double);
-template Model<2> resampled(const Model<2>&, double, bool);
-template Model<3> resampled(const Model<3>&, double, bool);
+template Model<2> regridded(const Model<2>&, double, Extent);
+template Model<3> regridded(const Model<3>&, double, Extent);
+template Model<2> resampled(const Model<2>&, double, bool, Extent);
+template Model<3> resampled(const Model<3>&, double, bool, Extent);
 template Model<2> cropped(const Model<2>&, const Box<2>&);
 template Model<3> cropped(const Model<3>&, const Box<3>&);
 

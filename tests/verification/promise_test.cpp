@@ -8,9 +8,9 @@
 
 #include "accuracy/choice.hpp"
 #include "accuracy/expected_error.hpp"
-#include "accuracy/finer_model.hpp"
 #include "fitted_scenes.hpp"
 #include "marmousi_parts.hpp"
+#include "model/model_in_cells.hpp"
 #include "promise_scenes.hpp"
 #include "solver/simulation.hpp"
 #include "unprepared_scenes.hpp"
@@ -424,9 +424,8 @@ TEST(Promise, OfLessErrorGivesLessError) {
   const std::vector<Layer> layers = {{0, 1500, 0, 1000}, {153, 2600, 1400, 2100, 8}};
   const auto fit = fit_layers<2>(Grid<2>{{40, 30}, 10, {0, 0}}, layers, {});
   scene.model.medium = layered_medium<2>(fit.grid, layers, Average::isotropic, fit.rows);
-  scene.model.history =
-      "sw-layers --size 400x300 --step 10 --layer 0:1500:0:1000 --layer 153:2600:1400:2100:8";
-  ASSERT_TRUE(has_finer_geometry(scene));
+  scene.model.geology = {.maker = Maker::sw_layers, .average = Average::isotropic, .layers = layers};
+  ASSERT_TRUE(ModelInCells(scene.model).as_built());
   scene.survey.sources = {{{152, 63}, Explosion{}, parse_wavelet("ricker:15"), 1e6}};
   scene.survey.receivers_m = {{60, 60}, {350, 70}, {250, 250}, {80, 230}};
   scene.edges = edges_all(EdgeLaw::absorbing);
