@@ -434,6 +434,11 @@ void build(const Settings& settings, const cli::Context& context, Inputs inputs,
   if (settings.resample_m)
     model =
         in_place("--resample", [&] { return resampled(model, *settings.resample_m, !settings.no_average); });
+  Geology geology = {.maker = Maker::sw_import, .sampled_m = sampled_m};
+  if (model.grid().spacing_m != sampled_m)
+    geology.resampling = model.grid().spacing_m > sampled_m && !settings.no_average
+                             ? Resampling::averaged
+                             : Resampling::interpolated;
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<D>(settings.crop)); });
   }
@@ -443,9 +448,11 @@ void build(const Settings& settings, const cli::Context& context, Inputs inputs,
       Model<3> deep;
       deep.medium = in_place("--extrude", [&] { return extruded(model.medium, *settings.extrude_m); });
       deep.history = std::move(model.history);
+      deep.geology = geology;
       return write(std::move(deep), settings, context, out);
     }
   }
+  model.geology = geology;
   write(std::move(model), settings, context, out);
 }
 

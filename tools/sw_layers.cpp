@@ -135,9 +135,12 @@ void build(const Settings& settings, const cli::Context& context) {
   const auto average = in_place("--average", [&] { return parse_average(settings.average); });
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<D> model;
-  model.medium = in_place("--layer", [&] {
-    return layered_medium(fit.grid, layers, settings.no_average ? Average::none : average, fit.rows);
-  });
+  model.geology = {.maker = Maker::sw_layers,
+                   .fit = choice,
+                   .average = settings.no_average ? Average::none : average,
+                   .layers = layers};
+  model.medium =
+      in_place("--layer", [&] { return layered_medium(fit.grid, layers, model.geology.average, fit.rows); });
   check(model, settings.limits);
   if (D == 2) warn_of_three_dimensions(layers, context);
   if (!fit.summary.empty()) context.say(fit.summary);

@@ -54,6 +54,10 @@ void run(const Settings& settings, const cli::Context& context) {
   OutputFile out(settings.output, OutputFile::Content::binary);
   Model<2> model;
   model.medium = marmousi_medium(fit.grid, geology, !settings.no_average);
+  model.geology = {.maker = Maker::sw_marmousi,
+                   .fit = choice,
+                   .average = settings.no_average ? Average::none : Average::isotropic,
+                   .marmousi = geology};
   check(model);
   if (!fit.summary.empty()) context.say(fit.summary);
   for (const auto& sentence : fit.left_out) context.warn(sentence + "; --fit none follows nothing");

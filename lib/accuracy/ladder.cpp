@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "accuracy/model_in_cells.hpp"
+#include "model/model_in_cells.hpp"
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -49,7 +49,7 @@ template <int D>
 Scene<D> with_setting(const Scene<D>& scene, const AccuracySetting& setting) {
   Scene<D> changed = scene;
   if (setting.spacing_m != scene.model.grid().spacing_m)
-    changed.model = ModelInCells<D>(scene).of(setting.spacing_m);
+    changed.model = in_cells_of(scene.model, setting.spacing_m, scene.attenuation);
   changed.numerics = numerics_of(setting, scene.numerics);
   return changed;
 }

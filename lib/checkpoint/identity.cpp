@@ -82,7 +82,7 @@ class Digest {
   }
   template <int D>
   void add(const Model<D>& model) {
-    const auto& [medium, fracture, sets, share, prestress_pa, title, source, history] = model;
+    const auto& [medium, fracture, sets, share, prestress_pa, title, source, history, geology] = model;
     add(medium);
     add(fracture);
     add(sets);

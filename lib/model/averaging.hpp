@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "model/model.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
 

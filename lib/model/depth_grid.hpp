@@ -28,6 +28,7 @@ class DepthGrid {
 
   const std::vector<double>& x_m() const { return x_m_; }
   const std::vector<double>& y_m() const { return y_m_; }
+  const std::vector<double>& depths_m() const { return depths_m_; }
 
  private:
   std::vector<double> x_m_, y_m_, depths_m_;

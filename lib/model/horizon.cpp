@@ -49,101 +49,103 @@ std::vector<double> smooth_slopes(const std::vector<Point<2>>& points) {
   return slopes;
 }
 
+/// The points or the grid of a file.
+void read(const std::string& path, HorizonShape& shape) {
+  const InputStart start(path, 8);
+  if (begins_netcdf({start.bytes().data(), start.bytes().size()})) {
+    shape.grid = depth_grid_from_netcdf(
+        start.is_regular() ? NetcdfFile::open(path)
+                           : NetcdfFile::open(read_all(path, start.taken()), shown_input(path)));
+    return;
+  }
+  const auto text = read_text(path, start.taken());
+  in_place(shown_input(path), [&] {
+    if (columns_of_text(text) == 3)
+      shape.grid = DepthGrid::of_points(points_of_text<3>(text));
+    else
+      shape.points_m = curve_of(points_of_text<2>(text));
+  });
+}
+
 }  // namespace
 
 Horizon::Horizon(double depth_m, double dip_deg)
-    : depth_m_(depth_m),
-      dip_deg_(dip_deg),
-      slope_(std::tan(dip_deg * std::numbers::pi / 180)),
-      name_(shown(depth_m) + " m") {
-  if (!(std::abs(dip_deg) < 90)) {
-    throw Error("found a dip of " + shown(dip_deg) + " degrees, expected it between -90 and 90",
+    : Horizon(HorizonShape{.depth_m = depth_m, .dip_deg = dip_deg, .name = shown(depth_m) + " m"}) {}
+
+Horizon::Horizon(HorizonShape shape)
+    : shape_(std::move(shape)), slope_(std::tan(shape_.dip_deg * std::numbers::pi / 180)) {
+  if (!(std::abs(shape_.dip_deg) < 90)) {
+    throw Error("found a dip of " + shown(shape_.dip_deg) + " degrees, expected it between -90 and 90",
                 ErrorKind::usage);
   }
+  if (!(shape_.wavelength_m > 0)) {
+    throw Error("found a wavelength of " + shown(shape_.wavelength_m) + " m, expected it above zero",
+                ErrorKind::usage);
+  }
+  if (shape_.smooth && !shape_.points_m.empty()) slopes_ = smooth_slopes(shape_.points_m);
 }
 
 Horizon Horizon::parse(std::string_view text, double dip_deg) {
-  Horizon horizon(0, dip_deg);
+  HorizonShape shape{.dip_deg = dip_deg, .name = std::string(text)};
   const auto parts = split(text, ',');
   constexpr std::string_view smooth = "smooth@";
   if (text.starts_with('@')) {
-    horizon.read(std::string(text.substr(1)));
+    read(std::string(text.substr(1)), shape);
   } else if (text.starts_with(smooth)) {
-    horizon.smooth_ = true;
-    horizon.read(std::string(text.substr(smooth.size())));
+    shape.smooth = true;
+    read(std::string(text.substr(smooth.size())), shape);
   } else if (parts.front() == "sine") {
     if (parts.size() != 4 && parts.size() != 5) {
       throw Error("found '" + std::string(text) + "', expected sine,MEAN,AMPLITUDE,WAVELENGTH[,PHASE]",
                   ErrorKind::usage);
     }
-    horizon.depth_m_ = parse_number(parts[1]);
-    horizon.amplitude_m_ = parse_number(parts[2]);
-    horizon.wavelength_m_ = parse_number(parts[3]);
-    horizon.phase_deg_ = parts.size() == 5 ? parse_number(parts[4]) : 0;
-    if (!(horizon.wavelength_m_ > 0)) {
-      throw Error("found a wavelength of " + parts[3] + " m, expected it above zero", ErrorKind::usage);
-    }
+    shape.depth_m = parse_number(parts[1]);
+    shape.amplitude_m = parse_number(parts[2]);
+    shape.wavelength_m = parse_number(parts[3]);
+    shape.phase_deg = parts.size() == 5 ? parse_number(parts[4]) : 0;
   } else {
     return Horizon(parse_number(text), dip_deg);
   }
-  horizon.name_ = text;
-  return horizon;
-}
-
-void Horizon::read(const std::string& path) {
-  const InputStart start(path, 8);
-  if (begins_netcdf({start.bytes().data(), start.bytes().size()})) {
-    grid_ = depth_grid_from_netcdf(start.is_regular()
-                                       ? NetcdfFile::open(path)
-                                       : NetcdfFile::open(read_all(path, start.taken()), shown_input(path)));
-    return;
-  }
-  const auto text = read_text(path, start.taken());
-  in_place(shown_input(path), [&] {
-    if (columns_of_text(text) == 3) {
-      grid_ = DepthGrid::of_points(points_of_text<3>(text));
-      return;
-    }
-    points_ = curve_of(points_of_text<2>(text));
-    if (smooth_) slopes_ = smooth_slopes(points_);
-  });
+  return Horizon(std::move(shape));
 }
 
 std::string Horizon::name_with_dip() const {
-  return dip_deg_ == 0 ? name_ : name_ + " dip " + shown(dip_deg_);
+  return shape_.dip_deg == 0 ? name() : name() + " dip " + shown(shape_.dip_deg);
 }
 
 double Horizon::at(double x_m, double y_m) const {
-  double depth = depth_m_ + slope_ * x_m;
-  if (amplitude_m_ != 0) {
-    const double phase = 2 * std::numbers::pi * (x_m / wavelength_m_ + phase_deg_ / 360);
-    depth += amplitude_m_ * std::sin(phase);
+  double depth = shape_.depth_m + slope_ * x_m;
+  if (shape_.amplitude_m != 0) {
+    const double phase = 2 * std::numbers::pi * (x_m / shape_.wavelength_m + shape_.phase_deg / 360);
+    depth += shape_.amplitude_m * std::sin(phase);
   }
-  if (grid_) return depth + grid_->at(x_m, y_m, smooth_);
-  if (points_.empty()) return depth;
-  const auto behind = std::upper_bound(points_.begin(), points_.end(), x_m,
+  if (shape_.grid) return depth + shape_.grid->at(x_m, y_m, shape_.smooth);
+  if (shape_.points_m.empty()) return depth;
+  const auto behind = std::upper_bound(shape_.points_m.begin(), shape_.points_m.end(), x_m,
                                        [](double x, const Point<2>& point) { return x < point[0]; });
-  if (behind == points_.begin()) return depth + points_.front()[1];
-  if (behind == points_.end()) return depth + points_.back()[1];
+  if (behind == shape_.points_m.begin()) return depth + shape_.points_m.front()[1];
+  if (behind == shape_.points_m.end()) return depth + shape_.points_m.back()[1];
   const auto& a = *(behind - 1);
   const auto& b = *behind;
   const double width = b[0] - a[0], t = (x_m - a[0]) / width;
   depth += a[1] + (b[1] - a[1]) * t;
   if (slopes_.empty()) return depth;
   // What a cubic with the slopes of both ends adds to the straight line.
-  const auto n = std::size_t(behind - points_.begin());
+  const auto n = std::size_t(behind - shape_.points_m.begin());
   const double slope = slope_between(a, b);
   return depth + width * t * (1 - t) * ((slopes_[n - 1] - slope) * (1 - t) - (slopes_[n] - slope) * t);
 }
 
 double Horizon::from_m(int axis) const {
-  if (grid_) return (axis == 0 ? grid_->x_m() : grid_->y_m()).front();
-  return points_.empty() || axis != 0 ? -std::numeric_limits<double>::infinity() : points_.front()[0];
+  if (shape_.grid && !shape_.endless) return (axis == 0 ? shape_.grid->x_m() : shape_.grid->y_m()).front();
+  return shape_.points_m.empty() || shape_.endless || axis != 0 ? -std::numeric_limits<double>::infinity()
+                                                                : shape_.points_m.front()[0];
 }
 
 double Horizon::to_m(int axis) const {
-  if (grid_) return (axis == 0 ? grid_->x_m() : grid_->y_m()).back();
-  return points_.empty() || axis != 0 ? std::numeric_limits<double>::infinity() : points_.back()[0];
+  if (shape_.grid && !shape_.endless) return (axis == 0 ? shape_.grid->x_m() : shape_.grid->y_m()).back();
+  return shape_.points_m.empty() || shape_.endless || axis != 0 ? std::numeric_limits<double>::infinity()
+                                                                : shape_.points_m.back()[0];
 }
 
 }  // namespace slipwave

@@ -161,20 +161,6 @@ std::vector<std::string> take_named(std::vector<std::string>& parts) {
   return named;
 }
 
-/// What a layer does not say of orthorhombic rock is as where all horizontal directions are alike.
-void set_orthorhombic(Layer& layer) {
-  auto& material = layer.material;
-  Orthorhombic of = {material.epsilon, material.delta, 0, material.gamma};
-  const Orthorhombic none = of;
-  for (const auto& [property, value] : layer.others) {
-    if (property == Property::epsilon1) of.epsilon1 = value;
-    if (property == Property::delta1) of.delta1 = value;
-    if (property == Property::delta3) of.delta3 = value;
-    if (property == Property::gamma2) of.gamma2 = value;
-  }
-  if (!(of == none)) material.orthorhombic = of;
-}
-
 /// Takes stiffnesses, NAME=VALUE, from `named`; any of them make the material of a layer without speeds.
 void set_stiffness(Layer& layer, bool has_speeds, std::vector<std::string>& named, const InputUnits& units) {
   GivenStiffness given;
@@ -237,14 +223,8 @@ void set_others(Layer& layer, const std::vector<std::string>& named) {
     if (!is_in_range(row, value))
       throw Error(row.name + " is " + shown(value) + ", expected " + expected_values(row), ErrorKind::usage);
     layer.others.emplace_back(*property, value);
-    if (property == Property::epsilon) layer.material.epsilon = value;
-    if (property == Property::delta) layer.material.delta = value;
-    if (property == Property::tilt) layer.material.tilt = value;
-    if (property == Property::azimuth) layer.material.azimuth = value;
-    if (property == Property::rotation) layer.material.rotation = value;
-    if (property == Property::gamma) layer.material.gamma = value;
   }
-  set_orthorhombic(layer);
+  layer.complete();
 }
 
 /// The optional properties that any layer has.
@@ -385,6 +365,31 @@ Average parse_average(std::string_view text) {
   if (text == "isotropic") return Average::isotropic;
   if (text == "tilted") return Average::tilted;
   throw Error("found '" + std::string(text) + "', expected tilted, isotropic or none", ErrorKind::usage);
+}
+
+std::string name_of(Average average) {
+  return average == Average::none ? "none" : average == Average::isotropic ? "isotropic" : "tilted";
+}
+
+void Layer::complete() {
+  for (const auto& [property, value] : others) {
+    if (property == Property::epsilon) material.epsilon = value;
+    if (property == Property::delta) material.delta = value;
+    if (property == Property::tilt) material.tilt = value;
+    if (property == Property::azimuth) material.azimuth = value;
+    if (property == Property::rotation) material.rotation = value;
+    if (property == Property::gamma) material.gamma = value;
+  }
+  // What a layer does not say of orthorhombic rock is as where all horizontal directions are alike.
+  const Orthorhombic none = {material.epsilon, material.delta, 0, material.gamma};
+  Orthorhombic of = none;
+  for (const auto& [property, value] : others) {
+    if (property == Property::epsilon1) of.epsilon1 = value;
+    if (property == Property::delta1) of.delta1 = value;
+    if (property == Property::delta3) of.delta3 = value;
+    if (property == Property::gamma2) of.gamma2 = value;
+  }
+  if (!(of == none)) material.orthorhombic = of;
 }
 
 Material Layer::at_depth(double below_top_m) const {

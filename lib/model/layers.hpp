@@ -8,7 +8,7 @@
 #include "model/fit.hpp"
 #include "model/horizon.hpp"
 #include "model/input_units.hpp"
-#include "model/model.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
 
@@ -16,8 +16,9 @@ namespace slipwave {
 /// (theory.md M1, M2); or, where all of them are isotropic solids in 2-D, that with the anisotropy of the
 /// mean about the normal of the tops (theory.md (T1)), else the same.
 enum class Average { none, isotropic, tilted };
-/// Its name; throws a usage Error on others.
+/// By its name; throws a usage Error on others.
 Average parse_average(std::string_view text);
+std::string name_of(Average average);
 
 /// What a layer is made of down to a depth below its top.
 struct LayerBlock {
@@ -40,6 +41,8 @@ struct Layer {
   Layer(double depth_m, double vp, double vs, double rho, double dip_deg = 0)
       : top(depth_m, dip_deg), material{vp, vs, rho} {}
 
+  /// Takes the elastic ones of `others` into the material.
+  void complete();
   /// Of an optional property: what its row says where the layer does not.
   double value(Property property) const;
   /// At a depth below the top; at the top where that is negative.

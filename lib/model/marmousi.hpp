@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "model/fit.hpp"
-#include "model/model.hpp"
+#include "model/medium.hpp"
 
 namespace slipwave {
 

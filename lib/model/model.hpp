@@ -7,6 +7,7 @@
 #include "fracture/friction_policy.hpp"
 #include "fracture/linear_slip.hpp"
 #include "grid/field.hpp"
+#include "model/geology.hpp"
 #include "model/medium.hpp"
 
 namespace slipwave {
@@ -71,6 +72,7 @@ struct Model {
   /// waves come on top of it.
   std::vector<Field<D>> prestress_pa;
   std::string title, source, history;
+  Geology geology = {};
 
   const Grid<D>& grid() const { return medium.grid(); }
 };

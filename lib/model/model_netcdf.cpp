@@ -10,6 +10,7 @@
 #include "io/netcdf_units.hpp"
 #include "io/output_file.hpp"
 #include "model/anisotropy.hpp"
+#include "model/geology_netcdf.hpp"
 #include "model/prestress.hpp"
 
 namespace slipwave {
@@ -443,6 +444,7 @@ Model<D> read_on(const NetcdfFile& file, const Grid<D>& grid) {
   model.title = file.text_attribute("", "title").value_or("");
   model.source = file.text_attribute("", "source").value_or("");
   model.history = file.text_attribute("", "history").value_or("");
+  model.geology = read_geology(file);
   return model;
 }
 
@@ -490,9 +492,11 @@ void write_model(const Model<D>& model, OutputFile& out) {
     define_property(file, model.prestress_pa[c], prestress_variable(name),
                     "static stress " + name + ", tension positive", "Pa");
   }
+  define_geology(file, model.geology);
   put_grid(file, model.grid());
   for (const Property property : properties) file.put(row_of(property).name, model.medium[property].data());
   if (fractured) put_sets(file, model);
+  put_geology(file, model.geology);
   if (any_cut) file.put("fracture_share", model.fracture_share.data());
   for (std::size_t c = 0; fractured && c < model.prestress_pa.size(); ++c)
     file.put(prestress_variable(stress_names<D>()[c]), model.prestress_pa[c].data());

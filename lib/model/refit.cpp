@@ -136,6 +136,7 @@ class Refit {
     to_.title = from.title;
     to_.source = from.source;
     to_.history = from.history;
+    to_.geology = from.geology;
     to_.fracture_sets = from.fracture_sets;
     to_.medium = Medium<D>(grid, from.medium);
     // Where interfaces lie in old cells is not known.

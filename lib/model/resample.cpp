@@ -135,6 +135,7 @@ struct Regridding {
     model.title = from.title;
     model.source = from.source;
     model.history = from.history;
+    model.geology = from.geology;
     model.fracture_sets = from.fracture_sets;
     model.medium = Medium<D>(grid, from.medium);
     // Where interfaces lie in old cells is not known.
@@ -236,10 +237,10 @@ Model<D> regridded(const Model<D>& model, double spacing_m, Extent extent) {
 }
 
 template <int D>
-Model<D> resampled(const Model<D>& model, double spacing_m, bool average) {
+Model<D> resampled(const Model<D>& model, double spacing_m, bool average, Extent extent) {
   check_regular(model.grid());
-  if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m);
-  Regridding<D> to(model, spacing_m);
+  if (average && spacing_m > model.grid().spacing_m) return regridded(model, spacing_m, extent);
+  Regridding<D> to(model, spacing_m, extent);
   const auto properties = to.model.medium.properties();
   return to.filled(model, [&](std::size_t cell, const Index<D>& at, std::size_t source) {
     std::array<const Foot*, D> round{};
@@ -275,6 +276,9 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
   }
   grid.origin_m[D - 1] = 0;
   Model<D> result = model;
+  // Depths count from another top.
+  result.geology.layers.clear();
+  result.geology.marmousi.reset();
   for (auto& set : result.fracture_sets)
     for (auto& trace : set.traces)
       for (auto& vertex : trace) vertex[D - 1] -= double(first[D - 1]) * from.spacing_m;
@@ -298,8 +302,8 @@ Model<D> cropped(const Model<D>& model, const Box<D>& box) {
 
 template Model<2> regridded(const Model<2>&, double, Extent);
 template Model<3> regridded(const Model<3>&, double, Extent);
-template Model<2> resampled(const Model<2>&, double, bool);
-template Model<3> resampled(const Model<3>&, double, bool);
+template Model<2> resampled(const Model<2>&, double, bool, Extent);
+template Model<3> resampled(const Model<3>&, double, bool, Extent);
 template Model<2> cropped(const Model<2>&, const Box<2>&);
 template Model<3> cropped(const Model<3>&, const Box<3>&);
 

@@ -10,13 +10,13 @@ namespace slipwave {
 enum class Extent { kept, covered };
 
 /// The same geology in cells of another size; the extent stays and must be a whole number of new steps (usage
-/// Error), or is covered. A new cell is fluid, solid or void, and fractured, as the old cell its centre lies in (the one
-/// behind, where it lies on a face), and its material is the mean over the parts of old cells of that kind in
-/// it (theory.md M1, M2; of other properties as their rows say), each part weighted by its exact volume. So a
-/// cell split into whole ones gives copies of itself, and joining those gives it back, bit for bit. A fitted
-/// grid follows the same horizons with other cells (fit_grid()), and parts of old cells count by their
-/// heights between the same two horizons; Error where it cannot, or where its bottom is not level. A cluster
-/// of slip planes whose edges cut larger cells slips in the share of each that it fills.
+/// Error), or is covered. A new cell is fluid, solid or void, and fractured, as the old cell its centre lies
+/// in (the one behind, where it lies on a face), and its material is the mean over the parts of old cells of
+/// that kind in it (theory.md M1, M2; of other properties as their rows say), each part weighted by its exact
+/// volume. So a cell split into whole ones gives copies of itself, and joining those gives it back, bit for
+/// bit. A fitted grid follows the same horizons with other cells (fit_grid()), and parts of old cells count
+/// by their heights between the same two horizons; Error where it cannot, or where its bottom is not level. A
+/// cluster of slip planes whose edges cut larger cells slips in the share of each that it fills.
 template <int D>
 Model<D> regridded(const Model<D>& model, double spacing_m, Extent extent = Extent::kept);
 
@@ -27,7 +27,8 @@ Model<D> regridded(const Model<D>& model, double spacing_m, Extent extent = Exte
 /// weights scaled up to 1: exact for linear fields where all of them are, never outside the range of the old
 /// values. `average` = false interpolates for larger cells, too. No fitted grids.
 template <int D>
-Model<D> resampled(const Model<D>& model, double spacing_m, bool average = true);
+Model<D> resampled(const Model<D>& model, double spacing_m, bool average = true,
+                   Extent extent = Extent::kept);
 
 /// The cells whose centres lie in `box`. x (and y) keep their coordinates; depth is counted from the new top,
 /// which becomes the surface. The box must hold a cell and not reach out of the model (usage Error). No

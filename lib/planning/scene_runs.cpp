@@ -36,7 +36,7 @@ SceneRuns<D>::SceneRuns(const Scene<D>& scene, Observed observed, SceneInCells<D
     : scene_(scene),
       observed_(std::move(observed)),
       in_cells_(std::move(in_cells)),
-      model_(scene),
+      model_(scene.model, scene.attenuation),
       direct_(scene) {}
 
 template <int D>

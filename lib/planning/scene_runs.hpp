@@ -7,7 +7,7 @@
 
 #include "accuracy/direct_waves.hpp"
 #include "accuracy/ladder.hpp"
-#include "accuracy/model_in_cells.hpp"
+#include "model/model_in_cells.hpp"
 #include "base/progress.hpp"
 
 namespace slipwave {

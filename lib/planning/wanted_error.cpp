@@ -98,7 +98,7 @@ class Search {
   AccuracySetting with_possible_cells(AccuracySetting setting) const {
     const double own_m = runs_.scene().model.grid().spacing_m;
     // Cells of models that nothing tells more of are split, not filled anew.
-    if (setting.spacing_m < own_m && !runs_.model().from_layers())
+    if (setting.spacing_m < own_m && !runs_.model().as_built())
       setting.spacing_m = own_m / std::ceil(own_m / setting.spacing_m - 1e-9);
     for (const double smaller : {1., 0.95, 0.9, 0.8, 0.7, 0.6, 0.5}) {
       auto other = setting;

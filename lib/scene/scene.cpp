@@ -13,6 +13,7 @@
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
 #include "model/coefficients.hpp"
+#include "model/model_in_cells.hpp"
 #include "model/parted_faces.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/anisotropy_check.hpp"
@@ -168,6 +169,14 @@ bool Scene<D>::slips() const {
 template <int D>
 bool Scene<D>::attenuates() const {
   return attenuation && attenuating_cells(model.medium) > 0;
+}
+
+template <int D>
+Scene<D> in_cells_of(const Scene<D>& scene, double spacing_m) {
+  Scene<D> changed = scene;
+  changed.model = in_cells_of(scene.model, spacing_m, scene.attenuation);
+  if (auto& step_s = changed.numerics.time_step_s) *step_s *= spacing_m / scene.model.grid().spacing_m;
+  return changed;
 }
 
 template <int D>
@@ -339,6 +348,8 @@ double highest_frequency_hz(const Survey<D>& survey) {
 }
 
 template struct Scene<2>;
+template Scene<2> in_cells_of(const Scene<2>&, double);
+template Scene<3> in_cells_of(const Scene<3>&, double);
 template std::vector<std::string> set_attenuation(Scene<2>&, const AttenuationChoice&);
 template double stable_time_step_s(const Scene<2>&);
 template double time_step_s(const Scene<2>&);

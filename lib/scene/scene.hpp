@@ -75,6 +75,12 @@ struct Scene {
   bool slips() const;
 };
 
+/// A scene in cells of another size, whatever that is: its model is made anew as by ModelInCells,
+/// the unrelaxed one where the scene attenuates, and a time step given in seconds keeps its Courant number;
+/// everything else stays. Of a whole model (Subdomain). Throws as that.
+template <int D>
+Scene<D> in_cells_of(const Scene<D>& scene, double spacing_m);
+
 /// How attenuation is wanted; what is not said follows from the wavelets.
 struct AttenuationChoice {
   int mechanisms = 3;

@@ -104,7 +104,8 @@ std::string result_in_words(const Scene<D>& scene) {
   std::string words = std::to_string(shots) + (shots == 1 ? " shot, " : " shots, ");
   const DirectWaves<D> waves(scene);
   const auto& numerics = scene.numerics;
-  const double error = waves.together({numerics.order, numerics.cfl, scene.model.grid().spacing_m, numerics.time_order});
+  const double error =
+      waves.together({numerics.order, numerics.cfl, scene.model.grid().spacing_m, numerics.time_order});
   words += "expected error " + shown(100 * error, 2) + " % in direct arrivals, ";
   return words;
 }

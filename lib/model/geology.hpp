@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/fit.hpp"
+#include "model/layers.hpp"
+#include "model/marmousi.hpp"
+#include "model/medium.hpp"
+
+namespace slipwave {
+
+/// The tool that filled the cells of a model.
+enum class Maker { unknown, sw_layers, sw_marmousi, sw_import };
+
+/// How the cells that a model was imported from became its own.
+enum class Resampling { none, averaged, interpolated };
+
+/// What the builder of a model knows of it besides its cells; model files hold it. A model in other cells is
+/// made from it, as far as it still gives the model (ModelInCells).
+struct Geology {
+  Maker maker = Maker::unknown;
+  FitChoice fit = {};                             // of sw-layers and sw-marmousi: what rows follow
+  Average average = Average::tilted;              // of both: what cells with several materials are made of
+  std::vector<Layer> layers = {};                 // of sw-layers
+  std::optional<MarmousiSettings> marmousi = {};  // of sw-marmousi
+  double sampled_m = 0;                           // of sw-import: size of the cells that were read
+  Resampling resampling = Resampling::none;
+
+  /// Whether it says what is where, not only how cells came about.
+  bool knows_places() const { return !layers.empty() || marmousi.has_value(); }
+};
+
+/// The medium of a geology in the cells of a regular grid, or of one whose rows follow its horizons as far as
+/// they can (Geology::fit); tops of layers that end with the model it was built for are level beyond. Throws
+/// as fit_layers(), layered_medium() and marmousi_medium().
+template <int D>
+Medium<D> medium_of(const Geology& geology, const Grid<D>& regular);
+
+/// How many tops of layers the rows of such a medium cannot follow, though they were to.
+template <int D>
+std::size_t tops_left_out(const Geology& geology, const Grid<D>& regular);
+
+}  // namespace slipwave

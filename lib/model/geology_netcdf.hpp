@@ -1,0 +1,17 @@
+#pragma once
+
+#include "model/geology.hpp"
+
+namespace slipwave {
+
+class NetcdfFile;
+
+/// The variables of a geology in a model file (docs/formats.md, What its builder knows); none where the maker
+/// is unknown.
+void define_geology(NetcdfFile& file, const Geology& geology);
+void put_geology(NetcdfFile& file, const Geology& geology);
+
+/// That of a model file; of an unknown maker where it has none. Throws Error naming file and variable.
+Geology read_geology(const NetcdfFile& file);
+
+}  // namespace slipwave

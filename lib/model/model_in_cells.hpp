@@ -1,0 +1,58 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "model/attenuation.hpp"
+#include "model/model.hpp"
+
+namespace slipwave {
+
+/// A model in cells of other sizes, finer or coarser, whatever they are, as its builder would have filled
+/// them: from where horizons and beds are, as far as the model knows (Geology) and still is what was built,
+/// else from the old cells: regridded(), or resampled() where the builder had interpolated for smaller ones.
+/// Cells begin where those of the model do; where its extent is no whole number of them it is covered
+/// (Extent). Clusters are as regridded() has them, single fractures stay where they are.
+template <int D>
+class ModelInCells {
+ public:
+  /// `unrelaxed`: how the medium was made the unrelaxed one (unrelax()), if it was; so is that in other cells
+  /// then. Model and attenuation outlive this.
+  explicit ModelInCells(const Model<D>& model, const std::optional<Attenuation>& unrelaxed = {});
+  ModelInCells(const Model<D>&&, const std::optional<Attenuation>& = {}) = delete;
+
+  /// Whether the model's geology gives all its cells, to the bit: as long as nothing but effects was taken
+  /// out of it and fractures added. Then other cells have their own geometry.
+  bool as_built() const { return as_built_; }
+  /// Whether it does and rows follow fewer kinds of horizons than they might (fitted()).
+  bool could_be_fitted() const;
+  /// How many tops of layers rows of other cells cannot follow, though they were to; 0 where none are known.
+  std::size_t left_out(double spacing_m) const;
+  /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
+  /// regridded() where a fitted grid cannot be made anew.
+  Model<D> of(double spacing_m) const;
+  /// The same with rows that follow all horizons they can; as_built() only.
+  Model<D> fitted(double spacing_m) const;
+
+ private:
+  Medium<D> medium_of_geology(double spacing_m, const FitChoice& choice) const;
+  Model<D> of_cells(double spacing_m) const;
+  Model<D> with_medium(Medium<D> medium) const;
+
+  const Model<D>& model_;
+  std::optional<Attenuation> unrelaxed_;
+  std::vector<Property> left_out_;  // taken out of what was built
+  bool as_built_ = false;
+};
+
+/// ModelInCells::of(), once.
+template <int D>
+Model<D> in_cells_of(const Model<D>& model, double spacing_m,
+                     const std::optional<Attenuation>& unrelaxed = {}) {
+  return ModelInCells<D>(model, unrelaxed).of(spacing_m);
+}
+
+extern template class ModelInCells<2>;
+extern template class ModelInCells<3>;
+
+}  // namespace slipwave
