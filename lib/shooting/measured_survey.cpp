@@ -35,7 +35,8 @@ Observed observed_of(const Scene<D>& scene, const ShootingOptions& options) {
 
 template <int D>
 SceneInCells<D> in_cells_of(const ShootingOptions& options, const Messages& messages) {
-  return {[&options](Scene<D>& scene) { options.scene.place_again(scene); }, messages.progress};
+  return {[&options](Scene<D>& scene) { options.scene.place_again(scene); },
+          [&messages](const std::string& title) { return messages.progress(title, "steps"); }};
 }
 
 SearchLimits limits_of(const ShootingOptions& options) {
