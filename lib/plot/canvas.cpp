@@ -43,13 +43,6 @@ cairo_status_t append(void* to, const unsigned char* bytes, unsigned int count) 
   }
 }
 
-/// Throws std::bad_alloc where there is little memory left: cairo and the font libraries under it do not
-/// always look whether they got any, and crash.
-void expect_room() {
-  constexpr std::size_t room = std::size_t(32) << 20;
-  ::operator delete(::operator new(room));
-}
-
 Surface surface_of(const Page& page, std::vector<char>& bytes) {
   expect_room();
   if (page.format == Format::png)

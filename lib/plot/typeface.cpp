@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "base/error.hpp"
@@ -24,6 +25,7 @@ using Owned = std::unique_ptr<Thing, Destroy>;
 
 /// The text as one line of shaped glyphs.
 Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold) {
+  expect_room();
   const Owned<PangoContext> context(pango_font_map_create_context(pango_cairo_font_map_get_default()));
   const Owned<cairo_font_options_t> options(cairo_font_options_create());
   cairo_font_options_set_antialias(options.get(), CAIRO_ANTIALIAS_GRAY);
@@ -44,6 +46,13 @@ Owned<PangoLayout> layout_of(const std::string& text, double size_pt, bool bold)
 }
 
 }  // namespace
+
+void expect_room() {
+  // Typefaces, and three threads that look for them with a stack of 8 MiB each, take some 60 MiB of
+  // addresses.
+  constexpr std::size_t room = std::size_t(96) << 20;
+  ::operator delete(::operator new(room));
+}
 
 void draw_text(_cairo* drawing, const std::string& text, double size_pt, bool bold) {
   const auto layout = layout_of(text, size_pt, bold);
