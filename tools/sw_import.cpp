@@ -437,8 +437,8 @@ void build(const Settings& settings, const cli::Context& context, Inputs inputs,
   Geology geology = {.maker = Maker::sw_import, .sampled_m = sampled_m};
   if (model.grid().spacing_m != sampled_m)
     geology.resampling = model.grid().spacing_m > sampled_m && !settings.no_average
-                             ? Resampling::averaged
-                             : Resampling::interpolated;
+                             ? CellResampling::averaged
+                             : CellResampling::interpolated;
   if (!settings.crop.empty()) {
     model = in_place("--crop", [&] { return cropped(model, parse_box<D>(settings.crop)); });
   }

@@ -14,7 +14,7 @@ namespace slipwave {
 enum class Maker { unknown, sw_layers, sw_marmousi, sw_import };
 
 /// How the cells that a model was imported from became its own.
-enum class Resampling { none, averaged, interpolated };
+enum class CellResampling { none, averaged, interpolated };
 
 /// What the builder of a model knows of it besides its cells; model files hold it. A model in other cells is
 /// made from it, as far as it still gives the model (ModelInCells).
@@ -25,7 +25,7 @@ struct Geology {
   std::vector<Layer> layers = {};                 // of sw-layers
   std::optional<MarmousiSettings> marmousi = {};  // of sw-marmousi
   double sampled_m = 0;                           // of sw-import: size of the cells that were read
-  Resampling resampling = Resampling::none;
+  CellResampling resampling = CellResampling::none;
 
   /// Whether it says what is where, not only how cells came about.
   bool knows_places() const { return !layers.empty() || marmousi.has_value(); }

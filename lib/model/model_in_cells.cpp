@@ -90,7 +90,7 @@ Model<D> ModelInCells<D>::fitted(double spacing_m) const {
 
 template <int D>
 Model<D> ModelInCells<D>::of_cells(double spacing_m) const {
-  const bool smooth = model_.geology.resampling == Resampling::interpolated && !model_.grid().rows;
+  const bool smooth = model_.geology.resampling == CellResampling::interpolated && !model_.grid().rows;
   return smooth ? resampled(model_, spacing_m, true, Extent::covered)
                 : regridded(model_, spacing_m, Extent::covered);
 }

@@ -108,12 +108,12 @@ TEST(Geology, OfMarmousiComesFromItsSettings) {
 
 TEST(Geology, OfAnImportSaysHowItsCellsCameAbout) {
   auto model = water_over_rock(grid_of(8, 8, 5), 3);
-  model.geology = {.maker = Maker::sw_import, .sampled_m = 20, .resampling = Resampling::interpolated};
+  model.geology = {.maker = Maker::sw_import, .sampled_m = 20, .resampling = CellResampling::interpolated};
   const ModelFile file(model);
   const auto read = read_model<2>(file.path()).geology;
   EXPECT_EQ(read.maker, Maker::sw_import);
   EXPECT_EQ(read.sampled_m, 20);
-  EXPECT_EQ(read.resampling, Resampling::interpolated);
+  EXPECT_EQ(read.resampling, CellResampling::interpolated);
   EXPECT_FALSE(read.knows_places());
 }
 
@@ -167,7 +167,7 @@ TEST(CellsOfSize, AreInterpolatedWhereAnImportWas) {
   for (std::size_t cell = 0; cell < model.medium.vp.size(); ++cell) model.medium.vp[cell] += float(cell);
   model.geology = {.maker = Maker::sw_import, .sampled_m = 5};
   expect_same_cells(in_cells_of(model, 2.5), regridded(model, 2.5));
-  model.geology = {.maker = Maker::sw_import, .sampled_m = 20, .resampling = Resampling::interpolated};
+  model.geology = {.maker = Maker::sw_import, .sampled_m = 20, .resampling = CellResampling::interpolated};
   expect_same_cells(in_cells_of(model, 2.5), resampled(model, 2.5));
 }
 
