@@ -6,7 +6,6 @@
 
 #include "base/fft.hpp"
 #include "model/plane_motion.hpp"
-#include "model/plane_strain.hpp"
 #include "model/spline_shares.hpp"
 
 namespace slipwave {
@@ -135,8 +134,8 @@ Slower slower_in_springs(const FractureSet<2>& set, const UniformMedium& rock, c
   const double mu = rock.mu(), lambda = rock.lambda(), whole = 4 * mu * (lambda + mu);
   if (!(mu > 0)) return {};
   // Compliances of rock and planes add up; Hooke's law the other way round then gives the stiffness.
-  PlaneStiffness compliance{
-      (lambda + 2 * mu) / whole, -lambda / whole, 0, (lambda + 2 * mu) / whole, 0, 1 / mu};
+  auto compliance =
+      vertical_symmetry((lambda + 2 * mu) / whole, -lambda / whole, (lambda + 2 * mu) / whole, 1 / mu).voigt;
   for (const auto& system : set.systems) {
     const auto springs = slip::bounded(compliance_in(system.compliance, lambda, mu), lambda, mu);
     const auto give = [&](double of, double damping) {
@@ -144,12 +143,11 @@ Slower slower_in_springs(const FractureSet<2>& set, const UniformMedium& rock, c
     };
     const auto of = strain_of_plane<2>(system.normal, give(springs.normal, springs.normal_damping),
                                        give(springs.tangential, springs.tangential_damping));
-    compliance.c11 += of[0], compliance.c13 += of[1], compliance.c15 += of[2];
-    compliance.c33 += of[4], compliance.c35 += of[5], compliance.c55 += 2 * of[8];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = i; j < 3; ++j)
+        compliance[j][i] = compliance[i][j] += (i == 2 ? 2 : 1) * of[3 * i + j];
   }
-  const auto xx = strain_of_stress(compliance, {1, 0, 0}), zz = strain_of_stress(compliance, {0, 1, 0}),
-             xz = strain_of_stress(compliance, {0, 0, 1});
-  const PlaneStiffness stiffness{xx[0], xx[1], xx[2], zz[1], zz[2], xz[2]};
+  const Elasticity<2> stiffness{inverse_of(compliance)};
   const auto times = [&](double speed, bool shear) {
     return std::max(1., speed / plane_motion(stiffness, rock.rho, n[0], n[1], shear).speed);
   };

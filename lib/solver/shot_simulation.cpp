@@ -91,7 +91,7 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
   if (scene.with_slip) domain.parted = parted_faces(model), domain.soft = soft_cells(domain, model);
   for (auto& face : domain.parted) face.behind = domain.computed_cell(face.behind);
   if (scene.slips())
-    domain.drop_tilted(
+    domain.drop_anisotropic_cells(
         [&](std::size_t cell) { return model.fracture[cell] != 0 && is_tilted_mean(model.medium, cell); });
   return domain;
 }

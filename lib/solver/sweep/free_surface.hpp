@@ -83,7 +83,7 @@ class FreeSurface {
     Real factor;
     /// Of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
     bool anisotropic = false;
-    std::array<RowVector<D, Real>, std::size_t(D)> tensor{};
+    SmallMatrix<std::size_t(D), Real> tensor{};
   };
   static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
                           double factor, BentEnd& end);

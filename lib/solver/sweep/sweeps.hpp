@@ -1,14 +1,12 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
 #include <vector>
 
 #include "scene/edges.hpp"
 #include "solver/effect/effect.hpp"
+#include "solver/sweep/anisotropic_cells.hpp"
 #include "solver/sweep/bent_stencils.hpp"
-#include "solver/sweep/bent_tilted_cells.hpp"
-#include "solver/sweep/bent_tilted_cells_in_space.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
@@ -17,7 +15,6 @@
 #include "solver/sweep/parted_faces.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
-#include "solver/sweep/tilted_cells_in_space.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -107,7 +104,7 @@ class Sweeps {
   /// What it holds of each cell: stencils beside interfaces and the metric.
   std::int64_t memory_bytes() const {
     return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes() +
-           tilted_cells_.memory_bytes() + bent_tilted_cells_.memory_bytes();
+           anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes();
   }
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
@@ -171,25 +168,14 @@ class Sweeps {
                    OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
-  /// The outgoing waves of tilted means of a row.
-  void reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns, const Real* fields,
-                          std::int64_t pitch, std::int64_t stride, const Real* b, Real scale,
-                          OutgoingWaves<Real> outgoing) const;
-  /// The states of faces beside tilted cells. `lo` and `hi` are the numbers of the lines before and behind
-  /// them, -1 beyond the grid; the cell before a face stands `shift` columns before that behind it.
-  struct FaceLines {
-    std::int64_t lo, hi, shift;
-  };
-  void solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns, OutgoingWaves<Real> below,
-                    OutgoingWaves<Real> above, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                    InterfaceStates<Real> faces) const;
-  typename TiltedCells<D, Real>::Pairs tilted_pairs(int axis, const Real* fields, std::int64_t pitch) const;
-  /// The same of the faces across bent rows, before `row`.
-  void solve_bent_tilted(const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                         const BentSolve<Real>& face, Real sign, bool fluid) const;
-  /// What is missing in the stresses of tilted cells.
-  void add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                         std::int64_t pitch, Real size, const Flux& flux) const;
+  using Cells = AnisotropicCells<D, Real>;
+  typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch) const;
+  /// The states of faces across curvilinear rows, before `row`, beside anisotropic cells.
+  void solve_anisotropic_across(const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                const BentSolve<Real>& face, Real sign, bool fluid) const;
+  /// What is missing in the stresses of anisotropic cells.
+  void add_missing_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                          std::int64_t pitch, Real size, const Flux& flux) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
@@ -242,7 +228,8 @@ class Sweeps {
       if (stencils_of(axis, pair).any(line, columns)) return true;
     return false;
   }
-  TiltedCells<D, Real> tilted_cells_;
+  Cells anisotropic_cells_;
+  AnisotropicCellsAcross<D, Real> anisotropic_across_;  // in curvilinear rows
   PartedFaces<D, Real>* parted_ = nullptr;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
@@ -255,8 +242,6 @@ class Sweeps {
     return {corrections_.velocity(pair), corrections_.traction(pair), parted};
   }
   BentStencils<D, Real> bent_stencils_;
-  /// In 2-D of all sweeps, in 3-D of those across the rows.
-  std::conditional_t<D == 2, BentTiltedCells<Real>, BentTiltedCellsInSpace<Real>> bent_tilted_cells_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]
