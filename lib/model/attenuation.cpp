@@ -51,31 +51,35 @@ std::optional<Material> rock_with_axis(const Medium<D>& medium, std::size_t cell
 template <int D>
 double shear_part(double vs, const std::optional<Material>& rock) {
   if (!rock) return of_shear<D> * vs * vs;
-  if (D == 3) return (1 - bulk_part(stiffness_in_space(*rock)).share) * rock->vp * rock->vp;
-  const auto c = stiffness_of(*rock);
-  return (c.c33 - c.c13 * std::sqrt(c.c33 / c.c11)) / (2 * rock->rho);
+  if (D == 3) return (1 - bulk_part(upright_elasticity<3>(*rock)).share) * rock->vp * rock->vp;
+  const auto c = upright_elasticity<2>(*rock);
+  return (c(3, 3) - c(1, 3) * std::sqrt(c(3, 3) / c(1, 1))) / (2 * rock->rho);
 }
 
 /// Sets the delta of a rock to what is left of both parts of its P modulus over the density (Q10).
 void set_delta(Medium<2>& medium, std::size_t cell, const Material& rock, double bulk, double shear) {
   const double p = bulk + shear, vs = medium.vs[cell], along = 1 + 2 * rock.epsilon;
-  const auto left = material_of_stiffness({p * along, (bulk - shear) * std::sqrt(along), p, vs * vs}, 1);
+  const auto left =
+      material_of(vertical_symmetry(p * along, (bulk - shear) * std::sqrt(along), p, vs * vs), 1);
   medium[is_tilted_mean(medium, cell) ? Property::cut_delta : Property::delta][cell] = float(left.delta);
 }
 
 /// The same of a rock in space (Q12) whose speeds in the medium have changed.
 void set_deltas(Medium<3>& medium, std::size_t cell, const Material& rock) {
   const double p = std::pow(medium.vp[cell] / rock.vp, 2), s = std::pow(medium.vs[cell] / rock.vs, 2);
-  auto c = stiffness_in_space(rock);
+  const auto c = upright_elasticity<3>(rock);
   // Sums below 0 have no delta (O2).
-  const auto left = [&](double mixed, double one, double other, double shear) {
-    return std::max((p - s) * std::sqrt(one * other) + s * mixed, -s * shear);
-  };
-  c.c12 = left(c.c12, c.c11, c.c22, c.c66), c.c13 = left(c.c13, c.c11, c.c33, c.c55);
-  c.c23 = left(c.c23, c.c22, c.c33, c.c44);
-  for (double* of : {&c.c11, &c.c22, &c.c33}) *of *= p;
-  for (double* of : {&c.c44, &c.c55, &c.c66}) *of *= s;
-  const auto now = material_of_stiffness_in_space(c, rock.rho);
+  auto left = c;
+  for (int one = 1; one <= 3; ++one) {
+    left.set(one, one, p * c(one, one)), left.set(one + 3, one + 3, s * c(one + 3, one + 3));
+    for (int other = one + 1; other <= 3; ++other) {
+      const int shear = 9 - one - other;
+      left.set(one, other,
+               std::max((p - s) * std::sqrt(c(one, one) * c(other, other)) + s * c(one, other),
+                        -s * c(shear, shear)));
+    }
+  }
+  const auto now = material_of(left, rock.rho);
   medium[Property::delta][cell] = float(now.delta);
   if (!medium.has(Property::delta1)) return;
   const auto of = now.orthorhombic.value_or(Orthorhombic{0, now.delta, 0, 0});

@@ -19,20 +19,19 @@ bool MaterialMean::add(const Material& part, double volume) {
   if (part.rho > 0) compliance_p_ += volume / (part.rho * part.vp * part.vp);
   if (part.vs > 0) compliance_s_ += volume / (part.rho * part.vs * part.vs);
   if (part.vs > 0) {
-    const auto [c11, c13, c33, c55] = stiffness_of(part);
+    const auto c = upright_elasticity<3>(part);
     anisotropic_ = anisotropic_ || part.is_anisotropic_in_space();
     if (part.is_anisotropic_in_space() && volume > tilted_volume_) {
       tilted_volume_ = volume;
       tilt_ = part.tilt, azimuth_ = part.azimuth, rotation_ = part.rotation;
     }
-    ratio_ += volume * c13 / c33;
-    plate_ += volume * (c11 - c13 * c13 / c33);
-    const auto of = stiffness_in_space(part);
-    ratio_y_ += volume * of.c23 / c33;
-    plate_y_ += volume * (of.c22 - of.c23 * of.c23 / c33);
-    plate_xy_ += volume * (of.c12 - c13 * of.c23 / c33);
-    level_ += volume * of.c66;
-    compliance_yz_ += volume / of.c44;
+    ratio_ += volume * c(1, 3) / c(3, 3);
+    plate_ += volume * (c(1, 1) - c(1, 3) * c(1, 3) / c(3, 3));
+    ratio_y_ += volume * c(2, 3) / c(3, 3);
+    plate_y_ += volume * (c(2, 2) - c(2, 3) * c(2, 3) / c(3, 3));
+    plate_xy_ += volume * (c(1, 2) - c(1, 3) * c(2, 3) / c(3, 3));
+    level_ += volume * c(6, 6);
+    compliance_yz_ += volume / c(4, 4);
   }
   return true;
 }
@@ -49,15 +48,12 @@ Material MaterialMean::mean() const {
 Material MaterialMean::of_layers() const {
   if (volume_ == 0 || uniform_ || compliance_s_ == 0) return mean();
   const double c33 = volume_ / compliance_p_, ratio = ratio_ / volume_;
-  auto mean = material_of_stiffness(
-      {plate_ / volume_ + c33 * ratio * ratio, c33 * ratio, c33, volume_ / compliance_s_}, mass_ / volume_);
   const double ratio_y = ratio_y_ / volume_;
-  const auto in_space = material_of_stiffness_in_space(
-      {plate_ / volume_ + c33 * ratio * ratio, plate_y_ / volume_ + c33 * ratio_y * ratio_y, c33,
-       volume_ / compliance_yz_, volume_ / compliance_s_, level_ / volume_,
-       plate_xy_ / volume_ + c33 * ratio * ratio_y, c33 * ratio, c33 * ratio_y},
+  auto mean = material_of(
+      orthorhombic({plate_ / volume_ + c33 * ratio * ratio, plate_y_ / volume_ + c33 * ratio_y * ratio_y, c33,
+                    volume_ / compliance_yz_, volume_ / compliance_s_, level_ / volume_,
+                    plate_xy_ / volume_ + c33 * ratio * ratio_y, c33 * ratio, c33 * ratio_y}),
       mass_ / volume_);
-  mean.gamma = in_space.gamma, mean.orthorhombic = in_space.orthorhombic;
   // Rounding makes no isotropic rock of one with an axis; parts may make one.
   if (mean.is_anisotropic_in_space()) mean.tilt = tilt_, mean.azimuth = azimuth_, mean.rotation = rotation_;
   return mean;

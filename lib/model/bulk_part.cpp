@@ -7,12 +7,13 @@
 
 namespace slipwave {
 
-BulkPart bulk_part(const OrthorhombicStiffness& c) {
+BulkPart bulk_part(const Elasticity<3>& c) {
   const auto over = [](double of, double one, double other) { return of / std::sqrt(one * other); };
-  const double a = over(c.c23, c.c22, c.c33), b = over(c.c13, c.c11, c.c33), d = over(c.c12, c.c11, c.c22);
+  const double a = over(c(2, 3), c(2, 2), c(3, 3)), b = over(c(1, 3), c(1, 1), c(3, 3)),
+               d = over(c(1, 2), c(1, 1), c(2, 2));
   // The sums of the rows of the adjugate of ((1, d, b), (d, 1, a), (b, a, 1)), and its determinant.
-  const SpaceVector rows = {(1 - a * a) + (a * b - d) + (a * d - b), (a * b - d) + (1 - b * b) + (b * d - a),
-                            (a * d - b) + (b * d - a) + (1 - d * d)};
+  const Point<3> rows = {(1 - a * a) + (a * b - d) + (a * d - b), (a * b - d) + (1 - b * b) + (b * d - a),
+                         (a * d - b) + (b * d - a) + (1 - d * d)};
   const double sum = rows[0] + rows[1] + rows[2], determinant = 1 + 2 * a * b * d - a * a - b * b - d * d;
   return {std::clamp(determinant / sum, 0., 1.), {rows[0] / sum, rows[1] / sum, rows[2] / sum}};
 }
@@ -28,10 +29,10 @@ bool BulkTensors::are_turned() const {
 }
 
 BulkTensors bulk_tensors(const Material& rock) {
-  const auto c = stiffness_in_space(rock);
+  const auto c = upright_elasticity<3>(rock);
   const auto part = bulk_part(c);
-  const auto axes = axes_of(rock);
-  const SpaceVector stretch = {std::sqrt(c.c11 / c.c33), std::sqrt(c.c22 / c.c33), 1};
+  const auto axes = axes_of<3>(rock);
+  const Point<3> stretch = {std::sqrt(c(1, 1) / c(3, 3)), std::sqrt(c(2, 2) / c(3, 3)), 1};
   BulkTensors tensors{{}, {}};
   using Tensor = SymmetricTensor<3, double>;
   for (int i = 0; i < 3; ++i)

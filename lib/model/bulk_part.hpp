@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "model/space_stiffness.hpp"
+#include "model/elasticity.hpp"
 
 namespace slipwave {
 
@@ -12,10 +12,10 @@ namespace slipwave {
 struct BulkPart {
   double share = 0;
   /// Of s_aa/sqrt(c_aa): their sum is 1.
-  SpaceVector weights{};
+  Point<3> weights{};
 };
 /// Of a positive stiffness.
-BulkPart bulk_part(const OrthorhombicStiffness& stiffness);
+BulkPart bulk_part(const Elasticity<3>& orthorhombic);
 
 /// Both tensors of (Q11) in the axes of the grid, by SymmetricTensor<3>: `weights` : s is the size of the
 /// bulk part of a stress, with both components off the diagonal counted in one number, and `stress` times

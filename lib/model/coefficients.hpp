@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "model/anisotropy.hpp"
-#include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 
 namespace slipwave {
@@ -23,12 +22,8 @@ double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave
   if (medium.is_void(cell)) return 0;
   if (has_tilted_axis(medium, cell)) {
     const double rho = medium.rho[cell];
-    if constexpr (D == 3) {
-      const auto c = space_stiffness_of(material_of(medium, cell)).along_grid();
-      return std::sqrt((wave == wave_s ? c.c55 : c.normal(axis, axis)) / rho);
-    }
-    const auto c = plane_stiffness_of(medium, cell);
-    return std::sqrt((wave == wave_s ? c.c55 : axis < D - 1 ? c.c11 : c.c33) / rho);
+    const auto c = elasticity_of<D>(material_of(medium, cell));
+    return std::sqrt((wave == wave_s ? c(5, 5) : c(axis, axis, axis, axis)) / rho);
   }
   if (D == 3 && wave == wave_p && axis == 1 && is_orthorhombic(medium, cell))
     return double(medium.vp[cell]) * std::sqrt(1 + 2 * medium.value(Property::epsilon1, cell));
@@ -37,11 +32,12 @@ double wave_speed(const Medium<D>& medium, std::size_t cell, int axis, Wave wave
   return double(wave == wave_p ? medium.vp[cell] : medium.vs[cell]);
 }
 
-/// The stiffness by which sweeps load stresses, of a cell in space: that of the nine along the grid.
-inline OrthorhombicStiffness stiffness_along_grid(const Medium<3>& medium, std::size_t cell) {
+/// The elasticity by which sweeps load stresses of a cell: what rock has of it along the grid.
+template <int D>
+Elasticity<D> elasticity_along_grid(const Medium<D>& medium, std::size_t cell) {
   const auto material = material_of(medium, cell);
-  return has_tilted_axis(medium, cell) ? space_stiffness_of(material).along_grid()
-                                       : stiffness_in_space(material);
+  return has_tilted_axis(medium, cell) ? elasticity_of<D>(material).along_grid()
+                                       : upright_elasticity<D>(material);
 }
 
 /// Of S waves with motion along `motion` in sweeps along `axis`, m/s: those of the shear stiffness of the
@@ -50,25 +46,17 @@ template <int D>
 double shear_speed(const Medium<D>& medium, std::size_t cell, int axis, int motion) {
   if constexpr (D == 3)
     if (is_anisotropic(medium, cell) && !medium.is_void(cell))
-      return std::sqrt(stiffness_along_grid(medium, cell).shear(axis, motion) / double(medium.rho[cell]));
+      return std::sqrt(elasticity_along_grid(medium, cell)(axis, motion, axis, motion) /
+                       double(medium.rho[cell]));
   return wave_speed(medium, cell, axis, wave_s);
 }
 
-/// The density times c13, by which the strain along x loads szz and that along z sxx: lambda of an isotropic
-/// medium. kg2/(m4 s2).
+/// The density times the stiffness by which the strain along one axis loads the normal stress of another: by
+/// default c13, of an isotropic medium lambda. kg2/(m4 s2).
 template <int D>
-double wave_coupling(const Medium<D>& medium, std::size_t cell) {
+double wave_coupling(const Medium<D>& medium, std::size_t cell, int one = 0, int other = D - 1) {
   if (medium.is_void(cell)) return 0;
-  const double rho = medium.rho[cell];
-  if (!has_tilted_axis(medium, cell)) return rho * stiffness_of(medium, cell).c13;
-  if constexpr (D == 3) return rho * stiffness_along_grid(medium, cell).c13;
-  return rho * plane_stiffness_of(medium, cell).c13;
-}
-
-/// In 3-D, by the axes: the density times c12, c13 or c23.
-inline double wave_coupling(const Medium<3>& medium, std::size_t cell, int one, int other) {
-  if (medium.is_void(cell)) return 0;
-  return double(medium.rho[cell]) * stiffness_along_grid(medium, cell).normal(one, other);
+  return double(medium.rho[cell]) * elasticity_along_grid(medium, cell)(one, one, other, other);
 }
 
 /// Their impedance rho c, kg/(m2 s); 0 in a cell that does not carry the wave.

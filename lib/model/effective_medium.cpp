@@ -21,18 +21,18 @@ void check(const SlipSystem<2>& system) {
 
 }  // namespace
 
-Stiffness effective_stiffness(const Stiffness& rock, const std::vector<SlipSystem<2>>& systems) {
-  const double determinant = rock.c11 * rock.c33 - rock.c13 * rock.c13;
-  double s11 = rock.c33 / determinant, s33 = rock.c11 / determinant, s55 = 1 / rock.c55;
-  const double s13 = -rock.c13 / determinant;
+Elasticity<2> effective_elasticity(const Elasticity<2>& rock, const std::vector<SlipSystem<2>>& systems) {
+  const double determinant = rock(1, 1) * rock(3, 3) - rock(1, 3) * rock(1, 3);
+  double s11 = rock(3, 3) / determinant, s33 = rock(1, 1) / determinant, s55 = 1 / rock(5, 5);
+  const double s13 = -rock(1, 3) / determinant;
   for (const auto& system : systems) {
     check(system);
-    const auto of = compliance_in(system.compliance, rock.c33 - 2 * rock.c55, rock.c55);
+    const auto of = compliance_in(system.compliance, rock(3, 3) - 2 * rock(5, 5), rock(5, 5));
     (std::abs(system.normal[0]) > 0.5 ? s11 : s33) += of.normal;
     s55 += of.tangential;
   }
   const double inverse = s11 * s33 - s13 * s13;
-  return {s33 / inverse, -s13 / inverse, s11 / inverse, 1 / s55};
+  return vertical_symmetry(s33 / inverse, -s13 / inverse, s11 / inverse, 1 / s55);
 }
 
 namespace {
@@ -79,12 +79,12 @@ FractureCount make_effective(Model<2>& model, const std::vector<SlipSystem<2>>& 
                (rock.is_anisotropic() ? "rock whose beds dip by " : "rock with planes that dip by ") +
                shown(tilt, 4) + " at " + place_of(model.grid(), std::int64_t(cell)) +
                ", expected the same dip or a right angle to it; other planes are springs");
-    const auto stiffness = effective_stiffness(stiffness_of(rock), of_beds);
-    if (stiffness.c33 <= stiffness.c55)
+    const auto c = effective_elasticity(upright_elasticity<2>(rock), of_beds);
+    if (c(3, 3) <= c(5, 5))
       refuse("in the cell at " + place_of(model.grid(), std::int64_t(cell)) +
              " P waves across the planes would be slower than S waves; expected less normal compliance, or "
              "leave --effective out and the planes are springs");
-    auto effective = material_of_stiffness(stiffness, rock.rho);
+    auto effective = material_of(c, rock.rho);
     if (effective.is_anisotropic()) effective.tilt = tilt;
     if (effective.tilt != 0 && !medium.has(Property::tilt)) medium[Property::tilt] = Field<2>(medium.grid());
     put(medium, cell, effective);

@@ -11,7 +11,7 @@ namespace slipwave {
 /// add up (Schoenberg & Sayers 1995, eq. 5; theory.md (S26)). Waves much longer than the spacing feel nothing
 /// else. Throws a usage Error where planes slide, have dashpots, do not give way or are neither level nor
 /// upright.
-Stiffness effective_stiffness(const Stiffness& rock, const std::vector<SlipSystem<2>>& systems);
+Elasticity<2> effective_elasticity(const Elasticity<2>& rock, const std::vector<SlipSystem<2>>& systems);
 
 /// Gives the solid cells whose centres are inside, in true depth, the effective medium of their rock and
 /// these planes, which may dip: all along the beds of the rock, or in isotropic rock of the first of them, or

@@ -15,26 +15,26 @@ using Complex = std::complex<double>;
 template <class Number>
 struct Inertia {
   Number xx, zz, xz;
-  Inertia(const PlaneStiffness& c, double rho, double along, Number down)
-      : xx(c.c11 * along * along + 2 * c.c15 * along * down + c.c55 * down * down - rho),
-        zz(c.c55 * along * along + 2 * c.c35 * along * down + c.c33 * down * down - rho),
-        xz(c.c15 * along * along + (c.c13 + c.c55) * along * down + c.c35 * down * down) {}
+  Inertia(const Elasticity<2>& c, double rho, double along, Number down)
+      : xx(c(1, 1) * along * along + 2 * c(1, 5) * along * down + c(5, 5) * down * down - rho),
+        zz(c(5, 5) * along * along + 2 * c(3, 5) * along * down + c(3, 3) * down * down - rho),
+        xz(c(1, 5) * along * along + (c(1, 3) + c(5, 5)) * along * down + c(3, 5) * down * down) {}
 };
 
 /// The four slownesses down of a slowness along x.
-std::array<Complex, 4> slownesses(const PlaneStiffness& c, double rho, double along) {
-  const std::array<double, 3> xx{c.c11 * along * along - rho, 2 * c.c15 * along, c.c55},
-      zz{c.c55 * along * along - rho, 2 * c.c35 * along, c.c33},
-      xz{c.c15 * along * along, (c.c13 + c.c55) * along, c.c35};
+std::array<Complex, 4> slownesses(const Elasticity<2>& c, double rho, double along) {
+  const std::array<double, 3> xx{c(1, 1) * along * along - rho, 2 * c(1, 5) * along, c(5, 5)},
+      zz{c(5, 5) * along * along - rho, 2 * c(3, 5) * along, c(3, 3)},
+      xz{c(1, 5) * along * along, (c(1, 3) + c(5, 5)) * along, c(3, 5)};
   std::array<double, 5> of{};
   for (std::size_t a = 0; a < 3; ++a)
     for (std::size_t b = 0; b < 3; ++b) of[a + b] += xx[a] * zz[b] - xz[a] * xz[b];
-  const double size = std::sqrt(rho / c.c55) + std::abs(along);
+  const double size = std::sqrt(rho / c(5, 5)) + std::abs(along);
   return roots_of(of, size);
 }
 
 /// Motion that the equation of motion lets through, of unit size.
-LayerWave wave_of(const PlaneStiffness& c, double rho, double along, Complex down) {
+LayerWave wave_of(const Elasticity<2>& c, double rho, double along, Complex down) {
   const Inertia<Complex> of(c, rho, along, down);
   // Either row gives the motion; one of them may say nothing.
   const bool first = std::norm(of.xx) > std::norm(of.zz);
@@ -55,10 +55,10 @@ bool goes_down(const Material& rock, double along, const LayerWave& wave) {
 template <class Number>
 std::array<Number, 3> stress_of_motion(const Material& rock, double along, Number down, Number vx,
                                        Number vz) {
-  const auto c = plane_stiffness_of(rock);
+  const auto c = elasticity_of<2>(rock);
   const Number xx = -along * vx, zz = -down * vz, xz = -(along * vz + down * vx);
-  return {c.c11 * xx + c.c13 * zz + c.c15 * xz, c.c13 * xx + c.c33 * zz + c.c35 * xz,
-          c.c15 * xx + c.c35 * zz + c.c55 * xz};
+  return {c(1, 1) * xx + c(1, 3) * zz + c(1, 5) * xz, c(1, 3) * xx + c(3, 3) * zz + c(3, 5) * xz,
+          c(1, 5) * xx + c(3, 5) * zz + c(5, 5) * xz};
 }
 
 template std::array<double, 3> stress_of_motion(const Material&, double, double, double, double);
@@ -67,16 +67,13 @@ template std::array<Complex, 3> stress_of_motion(const Material&, double, Comple
 PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear) {
   if (!rock.is_anisotropic())
     return shear ? PlaneMotion{rock.vs, down, -across} : PlaneMotion{rock.vp, across, down};
-  return plane_motion(plane_stiffness_of(rock), rock.rho, across, down, shear);
+  return plane_motion(elasticity_of<2>(rock), rock.rho, across, down, shear);
 }
 
-PlaneMotion plane_motion(const PlaneStiffness& stiffness, double rho, double across, double down,
-                         bool shear) {
-  const Inertia<double> of(stiffness, 0, across, down);
-  const double mean = (of.xx + of.zz) / 2, half = std::hypot((of.xx - of.zz) / 2, of.xz),
-               angle = std::atan2(of.xz, (of.xx - of.zz) / 2) / 2;
-  PlaneMotion motion{std::sqrt((mean + (shear ? -half : half)) / rho), std::cos(angle), std::sin(angle)};
-  if (shear) motion.x = -std::sin(angle), motion.z = std::cos(angle);
+PlaneMotion plane_motion(const Elasticity<2>& c, double rho, double across, double down, bool shear) {
+  const auto waves = waves_along<2>(c, {across, down});
+  const auto& [x, z] = waves.vectors[shear];
+  PlaneMotion motion{std::sqrt(waves.values[shear] / rho), x, z};
   if (shear ? motion.x * down - motion.z * across < 0 : motion.x * across + motion.z * down < 0)
     motion.x = -motion.x, motion.z = -motion.z;
   return motion;
@@ -90,7 +87,7 @@ std::complex<double> slowness_across(double speed, double along) {
 }
 
 std::array<LayerWave, 2> layer_waves(const Material& rock, double along, bool down) {
-  const auto c = plane_stiffness_of(rock);
+  const auto c = elasticity_of<2>(rock);
   std::array<LayerWave, 4> all;
   const auto roots = slownesses(c, rock.rho, along);
   std::transform(roots.begin(), roots.end(), all.begin(),

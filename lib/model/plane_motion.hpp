@@ -17,7 +17,7 @@ struct PlaneMotion {
 };
 /// The front moves along the unit vector (across, down). Of an isotropic rock along it, or across it.
 PlaneMotion plane_motion(const Material& rock, double across, double down, bool shear);
-PlaneMotion plane_motion(const PlaneStiffness& stiffness, double rho, double across, double down, bool shear);
+PlaneMotion plane_motion(const Elasticity<2>& c, double rho, double across, double down, bool shear);
 
 /// The slowness across layers of a wave of a speed that is alike in all directions: down it decays, or
 /// travels down.

@@ -12,14 +12,12 @@ namespace {
 using Complex = std::complex<double>;
 using ComplexVector = std::array<Complex, 3>;
 
-double dot(const SpaceVector& a, const SpaceVector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Numbers from the constant on.
 using Quadratic = std::array<double, 3>;
 using QuadraticMatrix = std::array<std::array<Quadratic, 3>, 3>;
 
 /// The Christoffel matrix less the density, of slownesses along x and y, by powers of that down.
-QuadraticMatrix inertia(const SpaceStiffness& c, double rho, const std::array<double, 2>& along) {
+QuadraticMatrix inertia(const Elasticity<3>& c, double rho, const std::array<double, 2>& along) {
   QuadraticMatrix of{};
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -71,20 +69,20 @@ ComplexVector motion_of(const QuadraticMatrix& of, Complex down) {
 }
 
 /// Whether it decays downwards or carries energy down.
-bool goes_down(const SpaceStiffness& stiffness, const std::array<double, 2>& along,
+bool goes_down(const Elasticity<3>& stiffness, const std::array<double, 2>& along,
                const SpaceLayerWave& wave) {
   if (wave.down.imag() != 0) return wave.down.imag() < 0;
   const auto stress = stress_of_motion<Complex>(stiffness, {along[0], along[1], wave.down}, wave.motion);
   Complex power = 0;
   for (int i = 0; i < 3; ++i)
-    power += std::conj(wave.motion[std::size_t(i)]) * stress[SpaceStiffness::pair(i, 2)];
+    power += std::conj(wave.motion[std::size_t(i)]) * stress[Elasticity<3>::pair(i, 2)];
   return power.real() < 0;
 }
 
 /// Of any stiffness.
 std::vector<SpaceLayerWave> waves_of_any(const Material& rock, const std::array<double, 2>& along,
                                          bool down) {
-  const auto stiffness = space_stiffness_of(rock);
+  const auto stiffness = elasticity_of<3>(rock);
   const auto of = inertia(stiffness, rock.rho, along);
   const double size = std::sqrt(rock.rho / std::min({stiffness.voigt[3][3], stiffness.voigt[4][4]})) +
                       std::hypot(along[0], along[1]);
@@ -127,7 +125,7 @@ std::vector<SpaceLayerWave> waves_of_level_beds(const Material& rock, const std:
 }  // namespace
 
 template <class Number>
-std::array<Number, 6> stress_of_motion(const SpaceStiffness& stiffness, const std::array<Number, 3>& slowness,
+std::array<Number, 6> stress_of_motion(const Elasticity<3>& stiffness, const std::array<Number, 3>& slowness,
                                        const std::array<Number, 3>& velocity) {
   const auto& [x, y, z] = slowness;
   const auto& [vx, vy, vz] = velocity;
@@ -138,22 +136,22 @@ std::array<Number, 6> stress_of_motion(const SpaceStiffness& stiffness, const st
     for (std::size_t j = 0; j < 6; ++j) stress[i] += stiffness.voigt[i][j] * strain[j];
   return stress;
 }
-template std::array<double, 6> stress_of_motion(const SpaceStiffness&, const std::array<double, 3>&,
+template std::array<double, 6> stress_of_motion(const Elasticity<3>&, const std::array<double, 3>&,
                                                 const std::array<double, 3>&);
-template std::array<Complex, 6> stress_of_motion(const SpaceStiffness&, const std::array<Complex, 3>&,
+template std::array<Complex, 6> stress_of_motion(const Elasticity<3>&, const std::array<Complex, 3>&,
                                                  const std::array<Complex, 3>&);
 
-SpaceMotion space_motion(const Material& rock, const SpaceVector& direction,
-                         const std::array<double, 2>& along, bool shear) {
+SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const std::array<double, 2>& along,
+                         bool shear) {
   const double level = direction[0] * along[0] + direction[1] * along[1];
   // Towards which P moves, and S waves of isotropic rock.
-  const SpaceVector usual =
-      shear ? SpaceVector{direction[2] * along[0], direction[2] * along[1], -level} : direction;
+  const Point<3> usual =
+      shear ? Point<3>{direction[2] * along[0], direction[2] * along[1], -level} : direction;
   if (!rock.is_anisotropic_in_space()) return {shear ? rock.vs : rock.vp, usual};
-  const auto waves = waves_along(space_stiffness_of(rock), direction);
-  const auto share = [&](std::size_t wave) { return dot(waves.motions[wave], usual); };
+  const auto waves = waves_along<3>(elasticity_of<3>(rock), direction);
+  const auto share = [&](std::size_t wave) { return dot_product(waves.vectors[wave], usual); };
   const std::size_t wave = !shear ? 0 : std::abs(share(1)) >= std::abs(share(2)) ? 1 : 2;
-  SpaceMotion found{std::sqrt(waves.moduli[wave] / rock.rho), waves.motions[wave]};
+  SpaceMotion found{std::sqrt(waves.values[wave] / rock.rho), waves.vectors[wave]};
   if (share(wave) < 0)
     for (auto& part : found.motion) part = -part;
   return found;

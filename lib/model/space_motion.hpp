@@ -4,7 +4,7 @@
 #include <complex>
 #include <vector>
 
-#include "model/space_stiffness.hpp"
+#include "model/elasticity.hpp"
 
 namespace slipwave {
 
@@ -13,13 +13,13 @@ namespace slipwave {
 /// A wave of one direction of its front: phase speed, m/s, and the direction of its motion, a unit vector.
 struct SpaceMotion {
   double speed = 0;
-  SpaceVector motion{};
+  Point<3> motion{};
 };
 /// The front moves along a unit vector, in the vertical plane whose horizontal direction is `along`. P moves
 /// forward; S is the one of both S waves that moves more in that plane, towards `along` where it travels
 /// down.
-SpaceMotion space_motion(const Material& rock, const SpaceVector& direction,
-                         const std::array<double, 2>& along, bool shear);
+SpaceMotion space_motion(const Material& rock, const Point<3>& direction, const std::array<double, 2>& along,
+                         bool shear);
 
 /// A wave of one slowness along x and y, that and down in s/m: it decays or carries energy the way it goes.
 /// Motion is of unit size.
@@ -32,7 +32,7 @@ std::vector<SpaceLayerWave> layer_waves(const Material& rock, const std::array<d
 
 /// The stresses by Voigt's pairs, per unit of velocity, that a wave of a slowness brings with it. Pa s/m.
 template <class Number>
-std::array<Number, 6> stress_of_motion(const SpaceStiffness& stiffness, const std::array<Number, 3>& slowness,
+std::array<Number, 6> stress_of_motion(const Elasticity<3>& stiffness, const std::array<Number, 3>& slowness,
                                        const std::array<Number, 3>& velocity);
 
 }  // namespace slipwave

@@ -13,51 +13,56 @@ namespace {
 /// Less, as a share of c33 or of 1, is the rounding of floats.
 constexpr double rounding = 1e-5, least_parameter = 1e-6;
 constexpr std::array always = {Modulus::c11, Modulus::c13, Modulus::c33, Modulus::c55};
-constexpr std::array orthorhombic = {Modulus::c22, Modulus::c44, Modulus::c12, Modulus::c23};
+constexpr std::array of_orthorhombic = {Modulus::c22, Modulus::c44, Modulus::c12, Modulus::c23};
 
 const std::string& name_of(Modulus of) { return modulus_names()[std::size_t(of)]; }
 
 /// A stiffness in the plane of x and z and its axes: the upright one and the dip of its beds.
 struct AxesOfPlane {
-  Stiffness upright;
+  Elasticity<2> upright;
   double dip_rad = 0;
 };
 
 /// By the parts of a stiffness that turn with twice and four times the angle; beds are the stiffer side.
-AxesOfPlane axes_of(const PlaneStiffness& c) {
-  const double twice[] = {c.c11 - c.c33, 2 * (c.c15 + c.c35)};
-  const double four[] = {c.c11 + c.c33 - 2 * c.c13 - 4 * c.c55, 4 * (c.c15 - c.c35)};
-  const double still = c.c11 + c.c33 + 2 * c.c13, shear = c.c55 - c.c13;
+AxesOfPlane axes_of_plane(const Elasticity<2>& c) {
+  const double twice[] = {c(1, 1) - c(3, 3), 2 * (c(1, 5) + c(3, 5))};
+  const double four[] = {c(1, 1) + c(3, 3) - 2 * c(1, 3) - 4 * c(5, 5), 4 * (c(1, 5) - c(3, 5))};
+  const double still = c(1, 1) + c(3, 3) + 2 * c(1, 3), shear = c(5, 5) - c(1, 3);
   double dip = std::atan2(twice[1], twice[0]) / 2;
-  if (std::hypot(twice[0], twice[1]) < rounding * c.c33) dip = std::atan2(four[1], four[0]) / 4;
+  if (std::hypot(twice[0], twice[1]) < rounding * c(3, 3)) dip = std::atan2(four[1], four[0]) / 4;
   const double apart = twice[0] * std::cos(2 * dip) + twice[1] * std::sin(2 * dip),
                of_four = four[0] * std::cos(4 * dip) + four[1] * std::sin(4 * dip);
   const double sum = (of_four + 3 * still + 4 * shear) / 4, c13 = (still - sum) / 2;
-  return {{(sum + apart) / 2, c13, (sum - apart) / 2, shear + c13}, dip};
+  return {vertical_symmetry((sum + apart) / 2, c13, (sum - apart) / 2, shear + c13), dip};
 }
 
-bool differ(const PlaneStiffness& one, const PlaneStiffness& other) {
-  const auto apart = {one.c11 - other.c11, one.c13 - other.c13, one.c15 - other.c15,
-                      one.c33 - other.c33, one.c35 - other.c35, one.c55 - other.c55};
-  return std::any_of(apart.begin(), apart.end(), [&](double by) { return std::abs(by) > 1e-3 * one.c33; });
+bool differ(const Elasticity<2>& one, const Elasticity<2>& other) {
+  for (std::size_t i = 0; i < one.components; ++i)
+    for (std::size_t j = 0; j < one.components; ++j)
+      if (std::abs(one.voigt[i][j] - other.voigt[i][j]) > 1e-3 * one(3, 3)) return true;
+  return false;
 }
 
 /// All of them, those that are not given as where rock is alike in all horizontal directions.
-OrthorhombicStiffness completed(const GivenStiffness& given, const Stiffness& plane) {
-  const auto [c11, c13, c33, c55] = plane;
+Elasticity<3> completed(const GivenStiffness& given, const Elasticity<2>& plane) {
+  const double c11 = plane(1, 1), c13 = plane(1, 3), c33 = plane(3, 3), c55 = plane(5, 5);
   const double c66 = given[Modulus::c66].value_or(c55);
-  if (!given[Modulus::c22]) return {c11, c11, c33, c55, c55, c66, c11 - 2 * c66, c13, c13};
-  return {c11, *given[Modulus::c22], c33, *given[Modulus::c44], c55,
-          c66, *given[Modulus::c12], c13, *given[Modulus::c23]};
+  if (!given[Modulus::c22]) return orthorhombic({c11, c11, c33, c55, c55, c66, c11 - 2 * c66, c13, c13});
+  return orthorhombic({c11, *given[Modulus::c22], c33, *given[Modulus::c44], c55, c66, *given[Modulus::c12],
+                       c13, *given[Modulus::c23]});
+}
+
+Elasticity<2> in_plane(const GivenStiffness& given) {
+  auto c = vertical_symmetry(*given[Modulus::c11], *given[Modulus::c13], *given[Modulus::c33],
+                             *given[Modulus::c55]);
+  if (given[Modulus::c15]) c.set(1, 5, *given[Modulus::c15]), c.set(3, 5, *given[Modulus::c35]);
+  return c;
 }
 
 AxesOfPlane plane_of(const GivenStiffness& given) {
-  const double c11 = *given[Modulus::c11], c13 = *given[Modulus::c13], c33 = *given[Modulus::c33],
-               c55 = *given[Modulus::c55];
-  if (!given[Modulus::c15]) return {{c11, c13, c33, c55}};
-  const double c15 = *given[Modulus::c15], c35 = *given[Modulus::c35];
-  if (std::max(std::abs(c15), std::abs(c35)) < rounding * c33) return {{c11, c13, c33, c55}};
-  return axes_of({c11, c13, c15, c33, c35, c55});
+  const auto c = in_plane(given);
+  const bool tilted = std::max(std::abs(c(1, 5)), std::abs(c(3, 5))) >= rounding * c(3, 3);
+  return tilted ? axes_of_plane(c) : AxesOfPlane{c.along_grid()};
 }
 
 std::string gpa(double pascal) { return shown(pascal / 1e9, 6) + " GPa"; }
@@ -78,43 +83,41 @@ std::optional<StiffnessFault> fault_of_pair(Modulus mixed, double value, double 
   return {};
 }
 
-std::optional<StiffnessFault> fault_of_fluid(const GivenStiffness& given, const Stiffness& plane) {
-  for (const auto& [modulus, value] : {std::pair{Modulus::c11, plane.c11}, {Modulus::c13, plane.c13}})
-    if (std::abs(value - plane.c33) > 1e-3 * plane.c33)
-      return fault(modulus, value, "c33 = " + gpa(plane.c33) + " in fluid, where c55 is 0");
+std::optional<StiffnessFault> fault_of_fluid(const GivenStiffness& given, const Elasticity<2>& plane) {
+  for (const auto& [modulus, value] : {std::pair{Modulus::c11, plane(1, 1)}, {Modulus::c13, plane(1, 3)}})
+    if (std::abs(value - plane(3, 3)) > 1e-3 * plane(3, 3))
+      return fault(modulus, value, "c33 = " + gpa(plane(3, 3)) + " in fluid, where c55 is 0");
   for (const auto modulus : {Modulus::c66, Modulus::c44})
     if (given[modulus].value_or(0) != 0) return fault(modulus, *given[modulus], "0 in fluid, where c55 is 0");
   return {};
 }
 
-std::optional<StiffnessFault> fault_of_plane(const Stiffness& plane) {
-  const auto& [c11, c13, c33, c55] = plane;
+std::optional<StiffnessFault> fault_of_plane(const Elasticity<2>& plane) {
+  const double c11 = plane(1, 1), c13 = plane(1, 3), c33 = plane(3, 3), c55 = plane(5, 5);
   const std::string slower = ", or P waves would be slower than S waves";
   if (!(c33 > c55)) return fault(Modulus::c33, c33, "more than c55 = " + gpa(c55) + slower);
   if (!(c11 > c55)) return fault(Modulus::c11, c11, "more than c55 = " + gpa(c55) + slower);
   return fault_of_pair(Modulus::c13, c13, c11, c33, c55, "c11 c33");
 }
 
-std::optional<StiffnessFault> fault_in_space(const OrthorhombicStiffness& c, bool alike) {
-  if (!(c.c66 > 0)) return fault(Modulus::c66, c.c66, "more than 0, as c55 is");
+std::optional<StiffnessFault> fault_in_space(const Elasticity<3>& c, bool alike) {
+  if (!(c(6, 6) > 0)) return fault(Modulus::c66, c(6, 6), "more than 0, as c55 is");
   if (alike) {
-    const double most = c.c11 - c.c13 * c.c13 / c.c33;
-    if (c.c66 < most) return {};
-    return fault(Modulus::c66, c.c66,
+    const double most = c(1, 1) - c(1, 3) * c(1, 3) / c(3, 3);
+    if (c(6, 6) < most) return {};
+    return fault(Modulus::c66, c(6, 6),
                  "less than " + gpa(most) +
                      ": (c11 - c66) c33 must be more than c13^2, or the rock would give "
                      "energy");
   }
-  if (!(c.c44 > 0 && c.c44 < c.c33)) return fault(Modulus::c44, c.c44, "more than 0 and less than c33");
-  if (!(c.c66 < c.c11)) return fault(Modulus::c66, c.c66, "less than c11 = " + gpa(c.c11));
-  if (!(c.c22 > std::max(c.c44, c.c66))) return fault(Modulus::c22, c.c22, "more than c44 and c66");
-  if (auto of_xy = fault_of_pair(Modulus::c12, c.c12, c.c11, c.c22, c.c66, "c11 c22")) return of_xy;
-  if (auto of_yz = fault_of_pair(Modulus::c23, c.c23, c.c22, c.c33, c.c44, "c22 c33")) return of_yz;
-  const double determinant = c.c11 * (c.c22 * c.c33 - c.c23 * c.c23) -
-                             c.c12 * (c.c12 * c.c33 - c.c13 * c.c23) +
-                             c.c13 * (c.c12 * c.c23 - c.c13 * c.c22);
-  if (determinant > 0) return {};
-  return fault(Modulus::c12, c.c12,
+  if (!(c(4, 4) > 0 && c(4, 4) < c(3, 3)))
+    return fault(Modulus::c44, c(4, 4), "more than 0 and less than c33");
+  if (!(c(6, 6) < c(1, 1))) return fault(Modulus::c66, c(6, 6), "less than c11 = " + gpa(c(1, 1)));
+  if (!(c(2, 2) > std::max(c(4, 4), c(6, 6)))) return fault(Modulus::c22, c(2, 2), "more than c44 and c66");
+  if (auto of_xy = fault_of_pair(Modulus::c12, c(1, 2), c(1, 1), c(2, 2), c(6, 6), "c11 c22")) return of_xy;
+  if (auto of_yz = fault_of_pair(Modulus::c23, c(2, 3), c(2, 2), c(3, 3), c(4, 4), "c22 c33")) return of_yz;
+  if (is_positive(c.voigt)) return {};
+  return fault(Modulus::c12, c(1, 2),
                "another value: with c13 and c23 the determinant of c11 to c33 must be above 0, or the rock "
                "would give energy");
 }
@@ -160,8 +163,8 @@ void GivenStiffness::check_kind() const {
   };
   const auto given = [&](Modulus modulus) { return all[modulus].has_value(); };
   with(always, "stiffnesses are");
-  if (std::any_of(orthorhombic.begin(), orthorhombic.end(), given)) {
-    with(orthorhombic, "orthorhombic rock has");
+  if (std::any_of(of_orthorhombic.begin(), of_orthorhombic.end(), given)) {
+    with(of_orthorhombic, "orthorhombic rock has");
     with(std::array{Modulus::c66}, "orthorhombic rock has c11 to c66, c12, c13, c23;");
   }
   if (!given(Modulus::c15) && !given(Modulus::c35)) return;
@@ -186,12 +189,12 @@ std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
   if (c55 == 0) return fault_of_fluid(given, plane);
   if (given[Modulus::c15]) {
     const double c15 = *given[Modulus::c15];
-    const auto found = tilted(plane, dip);
-    if (differ({*given[Modulus::c11], *given[Modulus::c13], c15, c33, *given[Modulus::c35], c55}, found))
+    const double tilt = dip * 180 / std::numbers::pi;
+    const auto found = turned(plane, axes_of<2>({.tilt = tilt}));
+    if (differ(in_plane(given), found))
       return fault(Modulus::c15, c15,
-                   gpa(found.c15) + " of the axes of symmetry that are nearest, tilted by " +
-                       shown(dip * 180 / std::numbers::pi, 4) +
-                       " degrees: rock of two axes in the plane is swept, none without");
+                   gpa(found(1, 5)) + " of the axes of symmetry that are nearest, tilted by " +
+                       shown(tilt, 4) + " degrees: rock of two axes in the plane is swept, none without");
   }
   if (auto of_plane = fault_of_plane(plane)) return of_plane;
   if (!given[Modulus::c66]) return {};
@@ -200,8 +203,8 @@ std::optional<StiffnessFault> fault_of_stiffness(const GivenStiffness& given) {
 
 Material material_of_given(const GivenStiffness& given, double rho) {
   const auto [plane, dip] = plane_of(given);
-  if (plane.c55 == 0) return {std::sqrt(plane.c33 / rho), 0, rho};
-  auto material = material_of_stiffness_in_space(completed(given, plane), rho);
+  if (plane(5, 5) == 0) return {std::sqrt(plane(3, 3) / rho), 0, rho};
+  auto material = material_of(completed(given, plane), rho);
   const auto tidy = [](double& parameter) {
     if (std::abs(parameter) < least_parameter) parameter = 0;
   };

@@ -39,10 +39,6 @@ std::vector<std::size_t> cells_of_tilted_means(const Medium<D>& medium) {
   return cells;
 }
 
-PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell) {
-  return plane_stiffness_of(tilted_mean_of(medium, cell));
-}
-
 template <int D>
 void add_tilted_means(Medium<D>& medium) {
   for (const auto property : cut_properties) medium[property] = Field<D>(medium.grid());

@@ -28,9 +28,6 @@ std::int64_t tilted_means(const Medium<D>& medium) {
   return std::int64_t(cells_of_tilted_means(medium).size());
 }
 
-/// The stiffness of such a cell.
-PlaneStiffness tilted_mean_stiffness(const Medium<2>& medium, std::size_t cell);
-
 /// What it is about the normal, with the dip as its tilt.
 template <int D>
 Material tilted_mean_of(const Medium<D>& medium, std::size_t cell);

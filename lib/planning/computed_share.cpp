@@ -66,9 +66,9 @@ class Arrivals {
       auto& slowest = slowness_[number];
       const auto material = material_of(medium, cell);
       if (D == 3 && material.orthorhombic && !(material == last))
-        fastest_of_last = fastest_p_speed_in_space(last = material);
-      slowest = std::min(slowest,
-                         1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed(material)));
+        fastest_of_last = fastest_p_speed<3>(last = material);
+      slowest = std::min(
+          slowest, 1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed<2>(material)));
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];
     }

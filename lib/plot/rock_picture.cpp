@@ -9,7 +9,7 @@
 #include "base/error.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
-#include "model/space_stiffness.hpp"
+#include "model/elasticity.hpp"
 #include "model/tilted_mean.hpp"
 #include "plot/panel.hpp"
 
@@ -54,10 +54,11 @@ Curves curves_of(const Axis& x, const Axis& y, bool solid, const std::array<std:
 Axis angles() { return {"angle of the front from the vertical, towards +x", "degrees", -90, 90}; }
 
 Curves speeds_by_angle(const Material& material) {
-  const auto stiffness = stiffness_of(material);
+  const auto c = elasticity_of<2>(material);
   return curves_of(angles(), {"phase speed", "m/s"}, material.vs > 0, {"P", "S"}, [&](double angle) {
-    // The axis of beds that deepen towards +x leans towards -x.
-    return phase_speeds(stiffness, material.rho, (angle + material.tilt) * degree);
+    const auto speeds =
+        phase_speeds<2>(c, material.rho, {std::sin(angle * degree), std::cos(angle * degree)});
+    return PlaneSpeeds{speeds[0], speeds[1]};
   });
 }
 
@@ -65,14 +66,14 @@ Curves speeds_by_angle(const Material& material) {
 Curves speeds_in_space(const Material& material, std::size_t axis) {
   auto x = angles();
   if (axis == 1) x.name = "angle of the front from the vertical, towards +y";
-  const auto stiffness = space_stiffness_of(material);
+  const auto c = elasticity_of<3>(material);
   Curves curves{x, {"phase speed", "m/s"}, {{"P", {}}, {"S1", {}}, {"S2", {}}}};
   double low = 1e300, high = 0;
   for (int n = 0; n < points; ++n) {
     const double angle = curves.at(n) * degree;
-    SpaceVector direction{0, 0, std::cos(angle)};
+    Point<3> direction{0, 0, std::cos(angle)};
     direction[axis] = std::sin(angle);
-    const auto speeds = phase_speeds(stiffness, material.rho, direction);
+    const auto speeds = phase_speeds<3>(c, material.rho, direction);
     for (std::size_t wave = 0; wave < 3; ++wave) curves.lines[wave].second.push_back(speeds[wave]);
     low = std::min(low, speeds[2]), high = std::max(high, speeds[0]);
   }

@@ -91,7 +91,7 @@ Domain<D> domain_of(const Scene<D>& scene, const Medium<D>& medium, std::size_t 
   if (scene.with_slip) domain.parted = parted_faces(model), domain.soft = soft_cells(domain, model);
   for (auto& face : domain.parted) face.behind = domain.computed_cell(face.behind);
   if (scene.slips())
-    domain.drop_tilted(
+    domain.drop_anisotropic_cells(
         [&](std::size_t cell) { return model.fracture[cell] != 0 && is_tilted_mean(model.medium, cell); });
   return domain;
 }
@@ -120,6 +120,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       halo_(make_halo()),
       executor_(builder().executor(sweeps_, step_, halo_.get())),
       stability_(state_, domain_, unit_, largest_velocity(scene, shot, ranks)) {
+  sweeps_.split_faces(domain_, dt_s_, unit_);
   // Everything that depends on them is built.
   domain_.release_impedances();
   attenuating_.reset();
@@ -144,6 +145,7 @@ std::unique_ptr<Halo<D, Real>> ShotSimulation<D, Real>::make_halo() {
   return std::make_unique<Halo<D, Real>>(*ranks_, domain_, state_,
                                          [this](const IndexRange& rows, const auto& to) {
                                            for (auto& effect : effects_) effect->exchange(rows, to);
+                                           if (auto* const faces = sweeps_.split()) faces->exchange(rows, to);
                                          });
 }
 
@@ -171,6 +173,7 @@ void ShotSimulation<D, Real>::serialize(Archive& archive) {
   archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
   executor_->serialize(archive);
   for (const auto& effect : effects_) effect->serialize(archive);
+  if (auto* const faces = sweeps_.split()) faces->serialize(archive);
   recorder_.serialize(archive, done_);
 }
 
@@ -228,6 +231,7 @@ template <int D, class Real>
 ShotReport ShotSimulation<D, Real>::report() const {
   ShotReport report;
   for (const auto& effect : effects_) effect->report(report);
+  if (const auto* const faces = sweeps_.split()) faces->report(report);
   report.energy_left += energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
   return ranks_ ? of_all(report, *ranks_) : report;
 }
@@ -248,8 +252,11 @@ std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
     entries.push_back({std::string("sweep along ") + axis_names<D>()[std::size_t(axis)] +
                            (sweeps_.shear() ? ", P and S" : ", P only"),
                        1});
-  for (const auto& effect : effects_)
-    for (const auto& share : effect->shares()) entries.push_back({share.name, double(share.cells) / all});
+  const auto add = [&](const std::vector<EffectShare>& shares) {
+    for (const auto& share : shares) entries.push_back({share.name, double(share.cells) / all});
+  };
+  for (const auto& effect : effects_) add(effect->shares());
+  if (const auto* const faces = sweeps_.split()) add(faces->shares());
   entries.push_back({"stability check", 1. / StabilityCheck<D, Real>::every});
   entries.push_back({"receivers", double(recorder_.cells()) / all});
   return entries;
@@ -257,9 +264,7 @@ std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
 
 template <int D, class Real>
 std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
-  std::int64_t bytes = (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
-                       std::int64_t(state_.uniform_runs.size() * sizeof(UniformRun<Real>)) +
-                       sweeps_.memory_bytes() + executor_->memory_bytes() +
+  std::int64_t bytes = state_.memory_bytes() + sweeps_.memory_bytes() + executor_->memory_bytes() +
                        (halo_ ? halo_->memory_bytes() : 0);
   for (const auto& effect : effects_) bytes += effect->memory_bytes();
   return bytes;

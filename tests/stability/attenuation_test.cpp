@@ -132,9 +132,9 @@ class AttenuatingBox {
   }
   /// Moduli of the three parts of the stress: of isotropic rock lambda + mu, mu and mu.
   std::array<double, 3> moduli(std::size_t cell) const {
-    const auto c = stiffness_of(medium_, cell);
-    const double mean = std::sqrt(c.c11 * c.c33);
-    return {(mean + c.c13) / 2, (mean - c.c13) / 2, c.c55};
+    const auto c = upright_elasticity<2>(material_of(medium_, cell));
+    const double mean = std::sqrt(c(1, 1) * c(3, 3));
+    return {(mean + c(1, 3)) / 2, (mean - c(1, 3)) / 2, c(5, 5)};
   }
   double of_cell(std::size_t cell, const double* relaxed, bool anisotropic) const {
     if (medium_.is_void(cell)) return 0;
@@ -170,17 +170,17 @@ class AttenuatingBox {
     const auto rock = material_of(medium_, cell);
     const bool solid = medium_.is_solid(cell);
     const auto tensors = is_anisotropic(medium_, cell) ? bulk_tensors(rock) : BulkTensors{};
-    const auto stiffness = space_stiffness_of(rock);
+    const auto stiffness = elasticity_of<3>(rock);
     // B counts from the c33 of the upright rock.
     const double bulk =
-        rock.rho * rock.vp * rock.vp * (solid ? bulk_part(stiffness_in_space(rock)).share : 1);
+        rock.rho * rock.vp * rock.vp * (solid ? bulk_part(upright_elasticity<3>(rock)).share : 1);
     const auto energies = [&](const Tensor& z) {
       double size = 0;
       for (std::size_t c = 0; c < 6; ++c) size += tensors.weights[c] * z[c];
       Tensor rest;
-      for (std::size_t c = 0; c < 6; ++c) rest[c < 3 ? c : 8 - c] = z[c] - size * tensors.stress[c];
+      for (std::size_t c = 0; c < 6; ++c) rest[c] = z[c] - size * tensors.stress[c];
       const double of_bulk = size * size / bulk / 2;
-      return std::array{of_bulk, solid ? complementary(stiffness, rest) / 2 : 0};
+      return std::array{of_bulk, solid ? complementary<3>(stiffness, rest) / 2 : 0};
     };
     Tensor all{};
     double sum = 0;

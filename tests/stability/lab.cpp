@@ -34,23 +34,14 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
   return rho * (vx * vx + vz * vz) / 2 + elastic;
 }
 
-double energy_density(const Stiffness& c, double rho, const CellFields& fields) {
-  const auto& [vx, vz, sxx, szz, sxz] = fields;
-  // The strains of the normal stresses.
-  const double determinant = c.c11 * c.c33 - c.c13 * c.c13;
-  const double exx = (c.c33 * sxx - c.c13 * szz) / determinant,
-               ezz = (c.c11 * szz - c.c13 * sxx) / determinant;
-  return rho * (vx * vx + vz * vz) / 2 + (sxx * exx + szz * ezz + sxz * sxz / c.c55) / 2;
-}
-
-double energy_density(const PlaneStiffness& c, double rho, const CellFields& fields) {
+double energy_density(const Elasticity<2>& c, double rho, const CellFields& fields) {
   const auto& [vx, vz, sxx, szz, sxz] = fields;
   // Strains by elimination; the shear strain is twice exz.
-  const double a = c.c33 - c.c13 * c.c13 / c.c11, b = c.c35 - c.c13 * c.c15 / c.c11,
-               d = c.c55 - c.c15 * c.c15 / c.c11;
-  const double normal = szz - c.c13 / c.c11 * sxx, shear = sxz - c.c15 / c.c11 * sxx;
+  const double a = c(3, 3) - c(1, 3) * c(1, 3) / c(1, 1), b = c(3, 5) - c(1, 3) * c(1, 5) / c(1, 1),
+               d = c(5, 5) - c(1, 5) * c(1, 5) / c(1, 1);
+  const double normal = szz - c(1, 3) / c(1, 1) * sxx, shear = sxz - c(1, 5) / c(1, 1) * sxx;
   const double exz = (shear - b / a * normal) / (d - b * b / a), ezz = (normal - b * exz) / a,
-               exx = (sxx - c.c13 * ezz - c.c15 * exz) / c.c11;
+               exx = (sxx - c(1, 3) * ezz - c(1, 5) * exz) / c(1, 1);
   return rho * (vx * vx + vz * vz) / 2 + (sxx * exx + szz * ezz + sxz * exz) / 2;
 }
 
@@ -73,10 +64,7 @@ Lab<Real>::Lab(const Setup& setup)
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   if (setup.monotone) sweeps_->keep_monotone();
-  if (!domain_.parted.empty()) {
-    parted_ = std::make_unique<solver::PartedFaces<2, Real>>(state_, domain_, dt_s_, 1);
-    sweeps_->part(parted_.get());
-  }
+  sweeps_->split_faces(domain_, dt_s_, 1);
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
   const double vp_max = fastest_speed(model.medium);
   if (zones && setup.layer_hz > 0) {
@@ -134,7 +122,7 @@ void Lab<Real>::fill_energies() {
     const bool solid = vs > 0;
     energies_.push_back({of(1, 0, 0, 0), of(0, 0.5, 0.5, 0), solid ? of(0, 0.5, -0.5, 0) : 0,
                          solid ? of(0, 0, 0, 1) : 0,
-                         !domain_.is_tilted(at) && !is_anisotropic(medium, cell)});
+                         !domain_.anisotropic_cell(at) && !is_anisotropic(medium, cell)});
   }
 }
 
@@ -208,10 +196,11 @@ double Lab<Real>::sum(Stress which) const {
         continue;
       }
       const CellFields fields = {vx, vz, s[0], s[1], s[2]};
-      total += h * h *
-               (domain_.is_tilted({i, k})
-                    ? energy_density(domain_.tilted_at({i, k})->stiffness, medium.rho[cell], fields)
-                    : energy_density(stiffness_of(medium, cell), medium.rho[cell], fields));
+      total +=
+          h * h *
+          energy_density(domain_.anisotropic_cell({i, k}) ? domain_.anisotropic_medium({i, k})->elasticity
+                                                          : upright_elasticity<2>(material_of(medium, cell)),
+                         medium.rho[cell], fields);
     }
   }
   return total;
@@ -220,7 +209,7 @@ double Lab<Real>::sum(Stress which) const {
 template <class Real>
 double Lab<Real>::energy() const {
   return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0) +
-         (parted_ ? parted_->stored_energy() : 0);
+         (sweeps_->split() ? sweeps_->split()->stored_energy() : 0);
 }
 
 template <class Real>
@@ -238,7 +227,7 @@ double Lab<Real>::kinetic_energy() const {
 
 template <class Real>
 double Lab<Real>::energy_with_prestress() const {
-  return sum(Stress::all) + (parted_ ? parted_->stored_energy() : 0);
+  return sum(Stress::all) + (sweeps_->split() ? sweeps_->split()->stored_energy() : 0);
 }
 
 template <class Real>

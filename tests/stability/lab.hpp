@@ -62,10 +62,7 @@ double energy_density(double vp, double vs, double rho, double vx, double vz, do
 using CellFields = std::array<double, 5>;
 
 /// The same of an anisotropic cell.
-double energy_density(const Stiffness& stiffness, double rho, const CellFields& fields);
-
-/// The same where the axes of symmetry do not lie along the grid.
-double energy_density(const PlaneStiffness& stiffness, double rho, const CellFields& fields);
+double energy_density(const Elasticity<2>& stiffness, double rho, const CellFields& fields);
 
 /// A wave field of random values in every cell, that evolves freely: sweeps, PML and slip as a shot has
 /// them, without a source, or a sponge in place of the PML. Fields in the sponge start random too, in the PML
@@ -125,7 +122,6 @@ class Lab {
   std::unique_ptr<solver::Pml<2, Real>> layer_;
   std::unique_ptr<Sponge<2, Real>> sponge_;
   std::unique_ptr<solver::Effect<2, Real>> slip_;
-  std::unique_ptr<solver::PartedFaces<2, Real>> parted_;
   std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
   /// What (vx2 + vz2), (sxx + szz)2, (sxx - szz)2 and sxz2 count for in the energy of isotropic cells.
   struct CellEnergy {

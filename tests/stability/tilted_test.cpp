@@ -93,7 +93,7 @@ TEST(EnergyOfTiltedMeans, NeverRisesWhateverTheyAre) {
                                 : std::function<Material()>([&] { return random_anisotropic(random); });
         const auto medium = tilted_blocks(n, block, draw, random);
         if (alike && n % 2 == 0) {
-          ASSERT_EQ(solver::make_domain<2>(medium, all_edges(EdgeLaw::rigid), 0).tilted().size(),
+          ASSERT_EQ(solver::make_domain<2>(medium, all_edges(EdgeLaw::rigid), 0).anisotropic_cells().size(),
                     cells_of_tilted_means(medium).size());
         }
         expect_no_growth_of<double>(medium, n % 2 ? EdgeLaw::free : EdgeLaw::rigid, order, n % 3 ? 1 : 0.6,
@@ -114,7 +114,8 @@ TEST(EnergyOfTiltedMeans, NeverRisesUpToTheLargestContrastTheyPart) {
       for (const int order : long_form() ? std::vector{3, 5, 7, 9, 11} : std::vector{5, 9}) {
         SCOPED_TRACE("dip " + std::to_string(dip) + " order " + std::to_string(order));
         const auto medium = cut(32, dip, slow, fast);
-        ASSERT_GT(solver::make_domain<2>(medium, all_edges(EdgeLaw::rigid), 0).tilted().size(), 20U);
+        ASSERT_GT(solver::make_domain<2>(medium, all_edges(EdgeLaw::rigid), 0).anisotropic_cells().size(),
+                  20U);
         expect_no_growth_of<double>(medium, EdgeLaw::rigid, order, 1, steps);
         if (long_form() && order == 7)
           expect_no_growth_of<double>(medium, EdgeLaw::rigid, order, 1.9, steps / 4, 4);

@@ -211,10 +211,11 @@ TEST(UnrelaxedMedium, HasThePhaseSpeedsOfAnisotropicRockAtTheReferenceFrequency)
       const auto stiffness = relaxation.stiffness(0, 13);
       for (int angle = 0; angle <= 90; angle += 15) {
         const double rad = angle * std::numbers::pi / 180;
-        const auto given = phase_speeds(stiffness_of(rock), rock.rho, rad);
+        const auto given =
+            phase_speeds<2>(upright_elasticity<2>(rock), rock.rho, {std::sin(rad), std::cos(rad)});
         const auto found = lossy_waves(stiffness, rock.rho, rad);
-        EXPECT_NEAR(found.speed.p, given.p, 2e-4 * given.p) << angle;
-        EXPECT_NEAR(found.speed.s, given.s, 2e-4 * given.s) << angle;
+        EXPECT_NEAR(found.speed.p, given[0], 2e-4 * given[0]) << angle;
+        EXPECT_NEAR(found.speed.s, given[1], 2e-4 * given[1]) << angle;
         // Along and across the beds Q is what is given, in between not far off.
         const bool axis = angle % 90 == 0;
         EXPECT_NEAR(found.quality.p, 60, axis ? 0.5 : 7) << angle;
@@ -234,38 +235,36 @@ TEST(StepwiseRelaxation, LeavesTheStiffnessOfAnisotropicRockAtRest) {
   const auto sum = [](const RelaxedShares& shares) { return shares[0] + shares[1] + shares[2]; };
   const auto shares = by_steps.shares(0);
   const auto rest = always.stiffness(0, 1e-9);
-  const auto of = stiffness_of(stepped, 0);
-  const double along = std::sqrt(of.c11 / of.c33), mean = of.c33 * along;
-  const double bulk = (mean + of.c13) / 2 * (1 - sum(shares.bulk)),
-               shear = (mean - of.c13) / 2 * (1 - sum(shares.shear));
+  const auto of = upright_elasticity<2>(material_of(stepped, 0));
+  const double along = std::sqrt(of(1, 1) / of(3, 3)), mean = of(3, 3) * along;
+  const double bulk = (mean + of(1, 3)) / 2 * (1 - sum(shares.bulk)),
+               shear = (mean - of(1, 3)) / 2 * (1 - sum(shares.shear));
   EXPECT_NEAR(bulk + shear, rest.c33.real() * along, 1e-6 * mean);
   EXPECT_NEAR(bulk - shear, rest.c13.real(), 1e-6 * mean);
-  EXPECT_NEAR(of.c55 * (1 - sum(shares.shear)), rest.c55.real(), 1e-6 * mean);
+  EXPECT_NEAR(of(5, 5) * (1 - sum(shares.shear)), rest.c55.real(), 1e-6 * mean);
 }
 
 /// The speed of none of its axes is another's.
 const Material cracked =
-    material_of_stiffness_in_space({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
-                                    2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
-                                   2300);
+    material_of(orthorhombic({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
+                              2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6}),
+                2300);
 
 // Proves (Q11).
 TEST(BulkPart, IsTheLargestThatLeavesAPositiveRest) {
   const Material isotropic{3000, 1600, 2300}, shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15};
-  const auto of_isotropic = bulk_part(stiffness_in_space(isotropic));
+  const auto of_isotropic = bulk_part(upright_elasticity<3>(isotropic));
   EXPECT_NEAR(of_isotropic.share, 1 - 4. / 3 * std::pow(1600. / 3000, 2), 1e-12);
   for (const double weight : of_isotropic.weights) EXPECT_NEAR(weight, 1. / 3, 1e-12);
   for (const auto& rock : {isotropic, shale, cracked}) {
-    const auto c = stiffness_in_space(rock);
+    const auto c = upright_elasticity<3>(rock);
     const auto part = bulk_part(c);
     // The rest takes nothing from the strain that belongs to the weights, and is positive.
-    std::array<SpaceVector, 3> rest{};
+    std::array<Point<3>, 3> rest{};
     for (std::size_t a = 0; a < 3; ++a) {
       double none = 0;
       for (std::size_t b = 0; b < 3; ++b) {
-        rest[a][b] =
-            c.normal(int(a), int(b)) / std::sqrt(c.normal(int(a), int(a)) * c.normal(int(b), int(b))) -
-            part.share;
+        rest[a][b] = c.voigt[a][b] / std::sqrt(c.voigt[a][a] * c.voigt[b][b]) - part.share;
         none += rest[a][b] * part.weights[b];
       }
       EXPECT_NEAR(none, 0, 1e-12);
@@ -307,33 +306,32 @@ TEST(UnrelaxedMedium, HasTheStiffnessOfOrthorhombicRockAtTheReferenceFrequency) 
     const auto p = attenuation.mechanisms.modulus(attenuation.mechanisms.shares(60), 13),
                s = attenuation.mechanisms.modulus(attenuation.mechanisms.shares(30), 13);
     const auto speed = [](std::complex<double> modulus) { return 1 / (1. / std::sqrt(modulus)).real(); };
-    const auto given = stiffness_in_space(rock), now = stiffness_in_space(material_of(medium, 0));
+    const auto given = upright_elasticity<3>(rock), now = upright_elasticity<3>(material_of(medium, 0));
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b) {
         if (a == b) {
-          EXPECT_NEAR(speed(now.normal(a, a) * p), std::sqrt(given.normal(a, a)), 1e-6 * speed(now.c11));
+          EXPECT_NEAR(speed(now(a, a, a, a) * p), std::sqrt(given(a, a, a, a)), 1e-6 * speed(now(1, 1)));
           continue;
         }
-        EXPECT_NEAR(speed(now.shear(a, b) * s), std::sqrt(given.shear(a, b)), 1e-6 * speed(now.c11));
-        const double root = std::sqrt(now.normal(a, a) * now.normal(b, b));
-        const auto mixed = root * p - (root - now.normal(a, b)) * s;
-        EXPECT_NEAR(mixed.real(), given.normal(a, b), 2e-3 * given.normal(a, b)) << a << b;
+        EXPECT_NEAR(speed(now(a, b, a, b) * s), std::sqrt(given(a, b, a, b)), 1e-6 * speed(now(1, 1)));
+        const double root = std::sqrt(now(a, a, a, a) * now(b, b, b, b));
+        const auto mixed = root * p - (root - now(a, a, b, b)) * s;
+        EXPECT_NEAR(mixed.real(), given(a, a, b, b), 2e-3 * given(a, a, b, b)) << a << b;
       }
     // Of a stepwise medium what is left at rest is the same.
     const StepwiseRelaxation<3> always(medium, attenuation.mechanisms, 0),
         by_steps(medium, attenuation.mechanisms, 0.003);
-    const auto stepped = stiffness_in_space(material_of(by_steps.medium(), 0));
-    EXPECT_LT(stepped.c33, now.c33);
-    const auto at_rest = [](const StepwiseRelaxation<3>& relaxation, const OrthorhombicStiffness& c, int a,
-                            int b) {
+    const auto stepped = upright_elasticity<3>(material_of(by_steps.medium(), 0));
+    EXPECT_LT(stepped(3, 3), now(3, 3));
+    const auto at_rest = [](const StepwiseRelaxation<3>& relaxation, const Elasticity<3>& c, int a, int b) {
       const auto shares = relaxation.shares(0);
       const auto left = [](const RelaxedShares& of) { return 1 - of[0] - of[1] - of[2]; };
-      const double kappa = bulk_part(c).share, root = std::sqrt(c.normal(a, a) * c.normal(b, b));
-      return kappa * root * left(shares.bulk) + (c.normal(a, b) - kappa * root) * left(shares.shear);
+      const double kappa = bulk_part(c).share, root = std::sqrt(c(a, a, a, a) * c(b, b, b, b));
+      return kappa * root * left(shares.bulk) + (c(a, a, b, b) - kappa * root) * left(shares.shear);
     };
     for (int a = 0; a < 3; ++a)
       for (int b = 0; b < 3; ++b)
-        EXPECT_NEAR(at_rest(by_steps, stepped, a, b), at_rest(always, now, a, b), 1e-6 * now.c11) << a << b;
+        EXPECT_NEAR(at_rest(by_steps, stepped, a, b), at_rest(always, now, a, b), 1e-6 * now(1, 1)) << a << b;
   }
 }
 

@@ -18,9 +18,9 @@ inline bool long_form() { return std::getenv("SLIPWAVE_LONG") != nullptr; }
 inline const Material shale{3000, 1600, 2300, 0.2, 0.1, 0, 0.15},
     crossed{3200, 1700, 2400, -0.05, 0.2, 0, -0.1};
 inline const Material cracked =
-    material_of_stiffness_in_space({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
-                                    2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6},
-                                   2300);
+    material_of(orthorhombic({2300 * 9e6, 2300 * 9.84e6, 2300 * 5.9375e6, 2300 * 2e6, 2300 * 1.6e6,
+                              2300 * 2.182e6, 2300 * 3.6e6, 2300 * 2.25e6, 2300 * 2.4e6}),
+                2300);
 
 /// The rock with its axes turned so, in degrees.
 inline Material turned_by(Material rock, double tilt, double azimuth, double rotation = 0) {
@@ -109,7 +109,7 @@ struct ForceInSpace {
 inline ForceInSpace force_in_space(const Material& rock, int cells) {
   const std::int64_t n = (34 * cells + 23) / 24;
   constexpr double h = 5;
-  const double peak_hz = slowest_speeds_in_space(rock).s / (cells * h), share = cells / 24.;
+  const double peak_hz = slowest_speeds<3>(rock).s / (cells * h), share = cells / 24.;
   const bool tilted = rock.tilt != 0, mirrored = !tilted || rock.azimuth == 90;
   auto edges = edges_all_3d(EdgeLaw::absorbing);
   if (mirrored) edges[0][0] = EdgeLaw::mirror;

@@ -20,7 +20,7 @@ TEST(SpaceLayerWaves, SolveTheChristoffelEquationAndGoTheWayTheyShould) {
   const std::array<double, 2> along = {1.2e-4, -0.9e-4};
   for (const auto& rock : {Material{3000, 1600, 2300}, shale, turned_by(shale, 30, 40),
                            turned_by(cracked, 0, 35), turned_by(cracked, 40, 25, -50)}) {
-    const auto stiffness = space_stiffness_of(rock);
+    const auto stiffness = elasticity_of<3>(rock);
     const double modulus = stiffness.voigt[2][2];
     for (const bool down : {true, false}) {
       const auto waves = layer_waves(rock, along, down);
@@ -33,9 +33,9 @@ TEST(SpaceLayerWaves, SolveTheChristoffelEquationAndGoTheWayTheyShould) {
         double size = 0;
         for (int i = 0; i < 3; ++i) {
           Complex force = 0;
-          for (int j = 0; j < 3; ++j) force += stress[SpaceStiffness::pair(i, j)] * slowness[std::size_t(j)];
+          for (int j = 0; j < 3; ++j) force += stress[Elasticity<3>::pair(i, j)] * slowness[std::size_t(j)];
           EXPECT_LT(std::abs(rock.rho * wave.motion[std::size_t(i)] + force), 1e-6 * rock.rho) << rock.tilt;
-          power -= std::conj(wave.motion[std::size_t(i)]) * stress[SpaceStiffness::pair(i, 2)];
+          power -= std::conj(wave.motion[std::size_t(i)]) * stress[Elasticity<3>::pair(i, 2)];
           size += std::norm(wave.motion[std::size_t(i)]);
         }
         EXPECT_NEAR(size, 1, 1e-9);
@@ -92,22 +92,22 @@ TEST(AnisotropicPlaneWaveInSpace, GoesThroughARockUndisturbed) {
       auto scene =
           box(rock, rock, 12, (shear ? "plane-s:25," : "plane:25,") + std::string("40"), shear ? 0.24 : 0.15);
       check(scene);
-      const SpaceVector direction = {std::sin(angle * degree) * std::cos(azimuth * degree),
-                                     std::sin(angle * degree) * std::sin(azimuth * degree),
-                                     std::cos(angle * degree)};
+      const Point<3> direction = {std::sin(angle * degree) * std::cos(azimuth * degree),
+                                  std::sin(angle * degree) * std::sin(azimuth * degree),
+                                  std::cos(angle * degree)};
       // Moduli and motions by the Christoffel equation of the nine or more stiffnesses.
-      const auto waves = waves_along(space_stiffness_of(rock), direction);
-      const SpaceVector usual = {std::cos(angle * degree) * std::cos(azimuth * degree),
-                                 std::cos(angle * degree) * std::sin(azimuth * degree),
-                                 -std::sin(angle * degree)};
-      const auto share = [&](std::size_t wave, const SpaceVector& of) {
+      const auto waves = slipwave::waves_along<3>(elasticity_of<3>(rock), direction);
+      const Point<3> usual = {std::cos(angle * degree) * std::cos(azimuth * degree),
+                              std::cos(angle * degree) * std::sin(azimuth * degree),
+                              -std::sin(angle * degree)};
+      const auto share = [&](std::size_t wave, const Point<3>& of) {
         double sum = 0;
-        for (std::size_t axis = 0; axis < 3; ++axis) sum += waves.motions[wave][axis] * of[axis];
+        for (std::size_t axis = 0; axis < 3; ++axis) sum += waves.vectors[wave][axis] * of[axis];
         return sum;
       };
       const std::size_t wave = !shear ? 0 : std::abs(share(1, usual)) > std::abs(share(2, usual)) ? 1 : 2;
       const double sign = share(wave, shear ? usual : direction) < 0 ? -1 : 1,
-                   c = std::sqrt(waves.moduli[wave] / rock.rho);
+                   c = std::sqrt(waves.values[wave] / rock.rho);
       const auto gather = shoot(scene, 1);
       const auto& at = scene.survey.receivers_m;
       std::vector<double> found = samples_of(gather), wanted;
@@ -116,7 +116,7 @@ TEST(AnisotropicPlaneWaveInSpace, GoesThroughARockUndisturbed) {
           const auto& place = at[n % at.size()];
           const double later =
               (direction[0] * place[0] + direction[1] * place[1] + direction[2] * (place[2] + 60)) / c;
-          wanted.push_back(sign * waves.motions[wave][n / at.size()] *
+          wanted.push_back(sign * waves.vectors[wave][n / at.size()] *
                            scene.survey.sources[0].wavelet(double(k) * 0.001 - later));
         }
       EXPECT_LT(relative_error(found, wanted), shear ? 0.05 : 0.01) << rock.tilt << shear;

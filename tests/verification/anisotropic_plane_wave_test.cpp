@@ -35,7 +35,7 @@ std::vector<std::pair<Arrival, std::array<double, 4>>> real_waves(const Material
                                                                   bool down) {
   const Complex omega(1, -1e-9);
   std::vector<std::pair<Arrival, std::array<double, 4>>> all;
-  for (const auto& wave : AnisotropicStack::waves(plane_stiffness_of(rock), rock.rho, down, omega, along)) {
+  for (const auto& wave : AnisotropicStack::waves(AnisotropicStack::RealPlane(elasticity_of<2>(rock)), rock.rho, down, omega, along)) {
     // exp(-m z) down, exp(m z) up, is exp(-i omega q z).
     const auto slowness = (down ? 1. : -1.) * wave.m / (Complex(0, 1) * omega);
     if (std::abs(slowness.imag()) > 1e-6 * std::abs(slowness.real())) continue;  // evanescent
@@ -54,8 +54,7 @@ std::vector<std::pair<Arrival, std::array<double, 4>>> real_waves(const Material
 /// What comes of a plane wave in a rock: itself alone, or with what an interface to another rock makes of it.
 Waves waves_of(const Material& rock, const std::optional<Material>& under, double angle_deg, bool shear) {
   const double x = std::sin(angle_deg * degree), z = std::cos(angle_deg * degree);
-  const auto speeds = phase_speeds(stiffness_of(rock), rock.rho, (angle_deg + rock.tilt) * degree);
-  const double c = shear ? speeds.s : speeds.p;
+  const double c = phase_speeds<2>(elasticity_of<2>(rock), rock.rho, {x, z})[shear];
   Waves waves;
   waves.along = x / c;
   const auto down = real_waves(rock, waves.along, true);

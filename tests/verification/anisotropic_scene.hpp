@@ -17,7 +17,7 @@ namespace slipwave::solver {
 constexpr double peak_hz = 20;
 
 inline AnisotropicStack::Layer layer_of(const Material& material) {
-  return {plane_stiffness_of(material), material.rho};
+  return {elasticity_of<2>(material), material.rho};
 }
 
 /// The stiffness of rock that attenuates, by frequency: c11 and c33 as Qp says, c55 as Qs, and c13 between
@@ -27,14 +27,14 @@ inline std::function<AnisotropicStack::ComplexPlane(Complex omega)> relaxed(
   const Mechanisms mechanisms(3, peak_hz / 5, 2.5 * peak_hz);
   const auto p = standard_linear(mechanisms, quality[0], peak_hz),
              s = standard_linear(mechanisms, quality[1], peak_hz);
-  const auto about_axis = stiffness_of(rock);
+  const auto about_axis = upright_elasticity<2>(rock);
   const double dip = rock.tilt * std::numbers::pi / 180;
   return [=](Complex omega) -> AnisotropicStack::ComplexPlane {
     const auto hz = omega / (2 * std::numbers::pi);
-    const double along = std::sqrt(about_axis.c11 / about_axis.c33),
-                 twice_shear = about_axis.c33 - about_axis.c13 / along;
-    const Complex of_p = p(hz), of_s = s(hz), c11 = about_axis.c11 * of_p, c33 = about_axis.c33 * of_p,
-                  c55 = about_axis.c55 * of_s, c13 = along * (c33 - twice_shear * of_s);
+    const double along = std::sqrt(about_axis(1, 1) / about_axis(3, 3)),
+                 twice_shear = about_axis(3, 3) - about_axis(1, 3) / along;
+    const Complex of_p = p(hz), of_s = s(hz), c11 = about_axis(1, 1) * of_p, c33 = about_axis(3, 3) * of_p,
+                  c55 = about_axis(5, 5) * of_s, c13 = along * (c33 - twice_shear * of_s);
     // By Bond's rule, with stresses along and across the beds.
     const double c = std::cos(dip), sn = std::sin(dip);
     const std::array<std::array<double, 3>, 3> to_beds = {
@@ -67,7 +67,7 @@ struct Stack {
   double spacing() const {
     double slowest = 1e9;
     for (const auto& layer : layers) {
-      const auto speeds = slowest_speeds(layer);
+      const auto speeds = slowest_speeds<2>(layer);
       slowest = std::min(slowest, speeds.s > 0 ? speeds.s : speeds.p);
     }
     // Interfaces lie on faces: a whole number of cells in 20 m.

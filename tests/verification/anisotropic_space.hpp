@@ -28,10 +28,7 @@ class AnisotropicSpace {
     turn(angles);
   }
   explicit AnisotropicSpace(const Material& material) : rho_(material.rho) {
-    const auto c = stiffness_in_space(material);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) c_[i][j] = c.normal(int(i), int(j));
-    c_[3][3] = c.c44, c_[4][4] = c.c55, c_[5][5] = c.c66;
+    c_ = upright_elasticity<3>(material).voigt;
     turn(material);
   }
   double stiffness(std::size_t one, std::size_t other) const { return c_[one][other]; }

@@ -19,15 +19,20 @@ namespace slipwave::solver {
 /// them, by wave number: in each layer plane quasi-P and quasi-S waves go down and up, the roots of the
 /// Christoffel equation for a horizontal wave number; motion and traction are continuous at interfaces, one
 /// system of equations for all of them (the plane-wave coefficients of Daley & Hron 1977 are its solution for
-/// one interface). Nothing is shared with the solver but the struct of stiffnesses.
+/// one interface). Nothing is shared with the solver but the stiffnesses of a rock.
 struct AnisotropicStack {
   using Complex = std::complex<double>;
+  struct RealPlane {
+    RealPlane(const Elasticity<2>& c)  // NOLINT(google-explicit-constructor): a layer is given either
+        : c11(c(1, 1)), c13(c(1, 3)), c15(c(1, 5)), c33(c(3, 3)), c35(c(3, 5)), c55(c(5, 5)) {}
+    double c11, c13, c15, c33, c35, c55;
+  };
   /// Of rock that attenuates.
   struct ComplexPlane {
     Complex c11, c13, c15, c33, c35, c55;
   };
   struct Layer {
-    PlaneStiffness c;
+    RealPlane c;
     double rho;
     std::function<ComplexPlane(Complex omega)> relaxed = {};  // by frequency; none where it is elastic
   };

@@ -11,14 +11,14 @@ namespace {
 
 /// The rock with two axes exchanged.
 Material exchanged(const Material& rock, int one, int other) {
-  const auto c = stiffness_in_space(rock);
+  const auto c = upright_elasticity<3>(rock);
   std::array<int, 3> axis = {0, 1, 2};
   std::swap(axis[std::size_t(one)], axis[std::size_t(other)]);
-  const auto normal = [&](std::size_t i, std::size_t j) { return c.normal(axis[i], axis[j]); };
-  const auto shear = [&](std::size_t i, std::size_t j) { return c.shear(axis[i], axis[j]); };
-  return material_of_stiffness_in_space({normal(0, 0), normal(1, 1), normal(2, 2), shear(1, 2), shear(0, 2),
-                                         shear(0, 1), normal(0, 1), normal(0, 2), normal(1, 2)},
-                                        rock.rho);
+  const auto normal = [&](std::size_t i, std::size_t j) { return c(axis[i], axis[i], axis[j], axis[j]); };
+  const auto shear = [&](std::size_t i, std::size_t j) { return c(axis[i], axis[j], axis[i], axis[j]); };
+  return material_of(orthorhombic({normal(0, 0), normal(1, 1), normal(2, 2), shear(1, 2), shear(0, 2),
+                                   shear(0, 1), normal(0, 1), normal(0, 2), normal(1, 2)}),
+                     rock.rho);
 }
 
 // Proves (O3).
@@ -78,8 +78,8 @@ TEST(AnisotropyInSpace, OfASliceIsThatInTwoDimensions) {
   EXPECT_LT(error_of(slice({1, 2}, cracked, shale, flat(exchanged(cracked, 0, 1)), flat(shale))), 7e-3);
   // Level ones are isotropic, with the speeds along them.
   const auto level = [](const Material& rock) {
-    const auto c = stiffness_in_space(rock);
-    return Material{std::sqrt(c.c11 / rock.rho), std::sqrt(c.c66 / rock.rho), rock.rho};
+    const auto c = upright_elasticity<3>(rock);
+    return Material{std::sqrt(c(1, 1) / rock.rho), std::sqrt(c(6, 6) / rock.rho), rock.rho};
   };
   EXPECT_LT(error_of(slice({0, 1}, shale, crossed, level(shale), level(crossed))), 7e-3);
 }
@@ -183,10 +183,10 @@ TEST(AnisotropyInSpace, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   scene.edges[2][0] = EdgeLaw::free;
   check(scene);
   const auto gather = shoot(scene, 1);
-  const auto c = stiffness_in_space(cracked);
+  const auto c = upright_elasticity<3>(cracked);
   auto wanted = gather.traces[0].samples;
   for (std::size_t n = 0; n < wanted.size(); ++n)
-    wanted[n] = -(c.c13 * wanted[n] + c.c23 * gather.traces[1].samples[n]) / c.c33;
+    wanted[n] = -(c(1, 3) * wanted[n] + c(2, 3) * gather.traces[1].samples[n]) / c(3, 3);
   EXPECT_LT(relative_error(gather.traces[2].samples, wanted), 1e-4);
 }
 
@@ -195,8 +195,9 @@ TEST(AnisotropyInSpace, LeavesThroughAPmlWhereWavesTurn) {
   const ThreadLimit one_thread(1);
   // Medium III of Becache, Fauqueux and Joly (2003) in the plane of x and y; those of z are isotropic or
   // nearly.
-  const auto rock = material_of_stiffness_in_space({4e9, 20e9, 20e9, 2e9, 2e9, 2e9, 7.5e9, 6e9, 16e9}, 2500);
-  for (const int axis : {0, 1}) EXPECT_GT(largest_turning(stiffness_in_space(rock), axis), 0.1) << axis;
+  const auto rock = material_of(orthorhombic({4e9, 20e9, 20e9, 2e9, 2e9, 2e9, 7.5e9, 6e9, 16e9}), 2500);
+  for (const int axis : {0, 1})
+    EXPECT_GT(backward_group_velocity(upright_elasticity<3>(rock), axis), 0.1) << axis;
   auto edges = edges_all_3d(EdgeLaw::absorbing);
   edges[2] = {EdgeLaw::mirror, EdgeLaw::mirror};
   auto scene = scene_of(uniform_rock({30, 30, 1}, 25, rock), edges, {375, 375, 12.5}, "force:0.6,0.8,0",

@@ -82,13 +82,13 @@ TEST(AskewSpringsInSpace, OfASliceAreThoseInTwoDimensions) {
 /// Rock of level beds with families of upright planes at right angles, one of whose normals points along x,
 /// as an orthorhombic rock: compliances add up (Schoenberg & Sayers 1995). Of one family C loses
 /// Z/(1 + Z c_aa) (C e)(C e), e being its strain, and shear in planes with its normal gives way besides.
-OrthorhombicStiffness with_upright_planes(OrthorhombicStiffness c, int axis, double normal,
-                                          double tangential) {
-  const double share = normal / (1 + normal * c.normal(axis, axis));
-  const std::array<double, 3> loss = {c.normal(axis, 0), c.normal(axis, 1), c.normal(axis, 2)};
-  c.c11 -= share * loss[0] * loss[0], c.c22 -= share * loss[1] * loss[1], c.c33 -= share * loss[2] * loss[2];
-  c.c12 -= share * loss[0] * loss[1], c.c13 -= share * loss[0] * loss[2], c.c23 -= share * loss[1] * loss[2];
-  for (double* const of : {axis == 0 ? &c.c55 : &c.c44, &c.c66}) *of /= 1 + tangential * *of;
+Elasticity<3> with_upright_planes(Elasticity<3> c, int axis, double normal, double tangential) {
+  const double share = normal / (1 + normal * c(axis, axis, axis, axis));
+  const auto of_strain = c.voigt[std::size_t(axis)];
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) c.voigt[i][j] -= share * of_strain[i] * of_strain[j];
+  for (const int shear : {axis == 0 ? 5 : 4, 6})
+    c.set(shear, shear, c(shear, shear) / (1 + tangential * c(shear, shear)));
   return c;
 }
 
@@ -98,10 +98,10 @@ TEST(AskewSpringsInSpace, AreToLongWavesTheMediumOfSchoenbergAndSayers) {
   // Upright planes 30 degrees from x and across them in a shale of level beds.
   constexpr double azimuth = 30, normal = 0.1, tangential = 0.2;
   const auto error_in = [&](double spacing_m, const std::vector<std::array<double, 2>>& dips) {
-    auto stiffness = stiffness_in_space(shale);
+    auto stiffness = upright_elasticity<3>(shale);
     for (int axis = 0; axis < int(dips.size()); ++axis)
       stiffness = with_upright_planes(stiffness, axis, normal / usual_mu, tangential / usual_mu);
-    const auto wanted = turned_by(material_of_stiffness_in_space(stiffness, shale.rho), 0, azimuth);
+    const auto wanted = turned_by(material_of(stiffness, shale.rho), 0, azimuth);
     const auto cells = std::int64_t(std::llround(180 / spacing_m));
     const auto shot = [&](const Material& rock, bool gives) {
       auto scene =

@@ -34,7 +34,7 @@ class SwingingCells {
     EXPECT_EQ(unrelax(medium_, attenuation), "");
     const StepwiseRelaxation<3> relaxation(medium_, attenuation.mechanisms, interval_s);
     const auto now = material_of(relaxation.medium(), 0);
-    stiffness_ = space_stiffness_of(now);
+    stiffness_ = elasticity_of<3>(now);
     const auto tensors = bulk_tensors(now);
     what_ = tensors.are_turned() ? Relaxing::turned : Relaxing::upright;
     const int components = axis_values(3, what_) / 2;
@@ -84,7 +84,7 @@ class SwingingCells {
   Medium<3> medium_;
   double interval_s_;
   int count_;
-  SpaceStiffness stiffness_;
+  Elasticity<3> stiffness_;
   Relaxing what_;
   std::vector<double> stress_ = std::vector<double>(6 * block), memory_, shares_, axes_;
   RelaxationRows<double> rows_{};

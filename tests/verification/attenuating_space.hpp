@@ -26,7 +26,7 @@ class AttenuatingSpace {
 
   /// Pa.
   Voigt stiffness(double hz) const {
-    const auto c = stiffness_in_space(rock_);
+    const auto c = upright_elasticity<3>(rock_);
     const auto p = p_(hz), s = s_(hz);
     std::array<std::array<double, 6>, 6> real{}, imaginary{};
     const auto put = [&](std::size_t i, std::size_t j, const Complex& value) {
@@ -34,10 +34,10 @@ class AttenuatingSpace {
     };
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
-        const double root = std::sqrt(c.normal(int(i), int(i)) * c.normal(int(j), int(j)));
-        put(i, j, root * p - (root - c.normal(int(i), int(j))) * s);
+        const double root = std::sqrt(c.voigt[i][i] * c.voigt[j][j]);
+        put(i, j, root * p - (root - c.voigt[i][j]) * s);
       }
-    put(3, 3, c.c44 * s), put(4, 4, c.c55 * s), put(5, 5, c.c66 * s);
+    put(3, 3, c(4, 4) * s), put(4, 4, c(5, 5) * s), put(5, 5, c(6, 6) * s);
     const AnisotropicSpace one(real, rock_), other(imaginary, rock_);
     Voigt turned;
     for (std::size_t i = 0; i < 6; ++i)

@@ -163,7 +163,7 @@ TEST(FittedAnisotropyInSpace, LeavesStrainsAtASurfaceThatDipsThatPutNoTractionOn
   scene.edges[2][0] = EdgeLaw::free;
   check(scene);
   const auto gather = shoot(scene, 1);
-  const auto c = space_stiffness_of(rock);
+  const auto c = elasticity_of<3>(rock);
   const std::array<double, 3> normal = {-0.3, 0.2, 1};
   for (std::size_t i = 0; i < 3; ++i) {
     double sum = 0, size = 0;
@@ -171,7 +171,7 @@ TEST(FittedAnisotropyInSpace, LeavesStrainsAtASurfaceThatDipsThatPutNoTractionOn
       double traction = 0;
       for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t k = 0; k < 6; ++k)
-          traction += normal[j] * c.voigt[SpaceStiffness::pair(int(i), int(j))][k] * (k < 3 ? 1 : 2) *
+          traction += normal[j] * c.voigt[Elasticity<3>::pair(int(i), int(j))][k] * (k < 3 ? 1 : 2) *
                       gather.traces[k].samples[n];
       sum += traction * traction, size += std::pow(c.voigt[2][2] * gather.traces[2].samples[n], 2);
     }
@@ -354,11 +354,11 @@ struct TurnedExperiment {
   static constexpr double h = 5, slope_x = 0.25, slope_y = 0.15;
   double wavelength() const { return h * cells; }
   /// Of the dipping frame; that of the level one is the grid.
-  static std::array<SpaceVector, 3> frame() {
+  static std::array<Point<3>, 3> frame() {
     const double over = 1 / std::sqrt(1 + slope_x * slope_x + slope_y * slope_y);
-    const SpaceVector down = {-slope_x * over, -slope_y * over, over};
+    const Point<3> down = {-slope_x * over, -slope_y * over, over};
     const double along = 1 / std::sqrt(1 + slope_x * slope_x);
-    const SpaceVector one = {along, 0, slope_x * along};
+    const Point<3> one = {along, 0, slope_x * along};
     return {one,
             {down[1] * one[2] - down[2] * one[1], down[2] * one[0] - down[0] * one[2],
              down[0] * one[1] - down[1] * one[0]},
@@ -366,8 +366,8 @@ struct TurnedExperiment {
   }
   /// The rock as the dipping frame sees it: its axis in components of the frame.
   Material seen_level() const {
-    const auto axis = axes_of(rock)[2];
-    SpaceVector seen{};
+    const auto axis = axes_of<3>(rock)[2];
+    Point<3> seen{};
     const auto axes = frame();
     for (std::size_t n = 0; n < 3; ++n)
       for (std::size_t i = 0; i < 3; ++i) seen[n] += axes[n][i] * axis[i];
@@ -405,7 +405,7 @@ struct TurnedExperiment {
     std::vector<Point<3>> receivers;
     for (const auto& at : {Point<3>{0.8, 0.3, 0.3}, {-0.7, 0.6, 0.5}, {0.2, -0.9, 0.25}, {-0.5, -0.6, 0.8}})
       receivers.push_back(place(at[0] * l, at[1] * l, at[2] * l));
-    const double peak_hz = slowest_speeds_in_space(rock).s / l;
+    const double peak_hz = slowest_speeds<3>(rock).s / l;
     auto edges = edges_all_3d(EdgeLaw::absorbing);
     if (!sea) edges[2][0] = EdgeLaw::free;
     auto scene = scene_of(std::move(medium), edges, place(0.05 * l, -0.1 * l, (sea ? -0.6 : 0.7) * l),

@@ -35,7 +35,7 @@ struct DippingRocks {
   Scene<2> scene(double cells) const {
     double slowest = 1e9;
     for (const auto& layer : layers) {
-      const auto speeds = slowest_speeds(layer);
+      const auto speeds = slowest_speeds<2>(layer);
       slowest = std::min(slowest, speeds.s > 0 ? speeds.s : speeds.p);
     }
     constexpr double left = 800, right = 1000;

@@ -387,7 +387,8 @@ Waves waves_in(const std::vector<SlipSystem<2>>& systems) {
     const auto e = strain_of<2>(unit, systems);
     for (int r = 0; r < 3; ++r) s[r][c] = e.values[std::size_t(r)];
   }
-  // Stiffness for strains zz and xz without strain xx: what is left of the compliance when sxx is solved for.
+  // Elasticity<2> for strains zz and xz without strain xx: what is left of the compliance when sxx is solved
+  // for.
   const auto minor = [&](int r, int c) { return s[r][c] * s[0][0] - s[r][0] * s[0][c]; };
   const double zz_zz = minor(1, 1), zz_xz = minor(1, 2), xz_zz = minor(2, 1), xz_xz = minor(2, 2);
   const double determinant = (zz_zz * xz_xz - zz_xz * xz_zz) / s[0][0];

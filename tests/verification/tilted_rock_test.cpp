@@ -91,9 +91,9 @@ TEST(TiltedRock, LeavesStrainsAtAFreeSurfaceThatPutNoTractionOnIt) {
   auto scene = stack.scene();
   scene.recording.components = {Component::exx, Component::ezz};
   const auto gather = shoot(scene, 1);
-  const auto c = plane_stiffness_of(dipping);
+  const auto c = elasticity_of<2>(dipping);
   // (V7)
-  const double a = (c.c13 * c.c55 - c.c15 * c.c35) / (c.c33 * c.c55 - c.c35 * c.c35);
+  const double a = (c(1, 3) * c(5, 5) - c(1, 5) * c(3, 5)) / (c(3, 3) * c(5, 5) - c(3, 5) * c(3, 5));
   for (std::size_t n = 0; n < 2; ++n) {
     auto wanted = gather.traces[n].samples;
     for (auto& value : wanted) value *= -a;

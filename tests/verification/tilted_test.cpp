@@ -67,7 +67,7 @@ TEST(TiltedMeans, OfAWholeRockAreARotatedOne) {
   scene.recording = {{Component::vx, Component::vz}, 0.2, 0.001};
   check(scene);
   const auto gather = shoot(scene, 1);
-  AnisotropicStack stack{{{plane_stiffness_of(shale), shale.rho}}, {}};
+  AnisotropicStack stack{{{elasticity_of<2>(shale), shale.rho}}, {}};
   stack.force = {0.6, 0.8};
   const auto exact = stack.ricker(20, 0.001, std::size_t(gather.axis.count), receivers);
   std::vector<double> found, wanted;

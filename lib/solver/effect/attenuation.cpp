@@ -16,7 +16,8 @@ template <int D>
 Relaxing what_relaxes(const Domain<D>& domain) {
   if (domain.material_kind() == MaterialKind::fluid) return Relaxing::pressure;
   if (!domain.shear() && !domain.subdomain.shear) return Relaxing::mean;
-  return D == 2 && (domain.anisotropic() || !domain.tilted().empty()) ? Relaxing::turned : Relaxing::all;
+  return D == 2 && (domain.anisotropic() || !domain.anisotropic_cells().empty()) ? Relaxing::turned
+                                                                                 : Relaxing::all;
 }
 
 template <class Real>
@@ -59,7 +60,7 @@ std::size_t RelaxingStress<D, Real>::model_cell(const Domain<D>& domain, std::in
 template <int D, class Real>
 bool RelaxingStress<D, Real>::is_taken_for_isotropic(const Domain<D>& domain, const Medium<D>& medium,
                                                      std::int64_t line, std::int64_t x) const {
-  return is_tilted_mean(medium, model_cell(domain, line, x)) && !domain.is_tilted(place_of(line, x));
+  return is_tilted_mean(medium, model_cell(domain, line, x)) && !domain.anisotropic_cell(place_of(line, x));
 }
 
 template <int D, class Real>

@@ -65,7 +65,7 @@ class RelaxingStress : public Effect<D, Real> {
                            std::int64_t first) const;
   Index<D> place_of(std::int64_t line, std::int64_t x) const;
   std::size_t model_cell(const Domain<D>& domain, std::int64_t line, std::int64_t x) const;
-  /// Whether the solver takes a tilted mean for an isotropic one (Domain::tilted()).
+  /// Whether the solver takes a tilted mean for an isotropic one (Domain::anisotropic_cells()).
   bool is_taken_for_isotropic(const Domain<D>& domain, const Medium<D>& medium, std::int64_t line,
                               std::int64_t x) const;
 

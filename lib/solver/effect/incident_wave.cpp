@@ -77,8 +77,8 @@ void transpose_rocks(Medium<2>& column) {
     if (rock.tilt != 0) {
       rock.tilt = rock.tilt > 0 ? 90 - rock.tilt : -90 - rock.tilt;
     } else {
-      const auto [c11, c13, c33, c55] = stiffness_of(rock);
-      rock = material_of_stiffness({c33, c13, c11, c55}, rock.rho);
+      const auto c = upright_elasticity<2>(rock);
+      rock = material_of(vertical_symmetry(c(3, 3), c(1, 3), c(1, 1), c(5, 5)), rock.rho);
     }
     put(column, cell, rock);
   }
@@ -168,8 +168,7 @@ class Column {
         work_(sweeps_.make_workspace(state_.layout.padded_nx())),
         pml_(make_pml(scene, source, depths_of_rows(main), form, dt_s, vp_max)),
         cells_(domain_.grid.shape[0]),
-        slots_(std::size_t((Effect<2, Real>::most_steps_in_progress + 1) *
-                               SweepClocks<2>(sweeps_of_step_, dt_s).along_last() +
+        slots_(std::size_t((most_steps_in_progress + 1) * SweepClocks<2>(sweeps_of_step_, dt_s).along_last() +
                            1)) {
     domain_.release_impedances();
     sweeps_.use(pml_.get());

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <type_traits>
 #include <unordered_map>
 #include <utility>
 
+#include "base/small_matrix.hpp"
 #include "model/anisotropy.hpp"
 #include "model/cluster_edge.hpp"
-#include "model/plane_strain.hpp"
 #include "model/single_fracture.hpp"
-#include "model/space_stiffness.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -19,8 +17,9 @@ namespace {
 
 /// Compliance of planes in a rock. Of cracks it is that in the isotropic rock with its vertical speeds.
 template <int D>
-CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_friction, const Stiffness& rock) {
-  return compliance_of<D>(system, below_friction, rock.c33 - 2 * rock.c55, rock.c55);
+CellCompliance compliance_in_rock(const SlipSystem<D>& system, bool below_friction,
+                                  const Elasticity<D>& rock) {
+  return compliance_of<D>(system, below_friction, rock(3, 3) - 2 * rock(5, 5), rock(5, 5));
 }
 
 template <int D>
@@ -30,17 +29,15 @@ using Tensor = SymmetricTensor<D, double>;
 /// the grid: in 2-D where the axis is tilted, in 3-D where rock is anisotropic.
 template <int D>
 struct Rock {
-  Stiffness upright;
-  std::optional<std::conditional_t<D == 2, PlaneStiffness, SpaceStiffness>> in_grid;
+  Elasticity<D> upright;
+  std::optional<Elasticity<D>> in_grid;
 };
 template <int D>
 Rock<D> rock_in_grid(const Medium<D>& medium, std::size_t cell) {
-  Rock<D> rock{stiffness_of(medium, cell), {}};
-  if constexpr (D == 2) {
-    if (has_tilted_axis(medium, cell)) rock.in_grid = plane_stiffness_of(medium, cell);
-  } else {
-    if (is_anisotropic(medium, cell)) rock.in_grid = space_stiffness_of(material_of(medium, cell));
-  }
+  const auto material = material_of(medium, cell);
+  Rock<D> rock{upright_elasticity<D>(material), {}};
+  if (D == 2 ? has_tilted_axis(medium, cell) : is_anisotropic(medium, cell))
+    rock.in_grid = elasticity_of<D>(material);
   return rock;
 }
 
@@ -54,15 +51,15 @@ auto doubled_shear(Tensor<D> strain, double by = 2) {
 /// Stress that belongs to a strain.
 template <int D>
 Tensor<D> stress_of(const Tensor<D>& strain, const Rock<D>& of) {
-  if (of.in_grid) return {stress_of_strain(*of.in_grid, doubled_shear(strain))};
-  const Stiffness& rock = of.upright;
+  if (of.in_grid) return {stress_of_strain<D>(*of.in_grid, doubled_shear(strain))};
+  const Elasticity<D>& rock = of.upright;
   Tensor<D> stress;
   double trace = 0;
   for (int i = 0; i < D; ++i) trace += strain(i, i);
-  for (std::size_t c = 0; c < strain.values.size(); ++c) stress.values[c] = 2 * rock.c55 * strain.values[c];
+  for (std::size_t c = 0; c < strain.values.size(); ++c) stress.values[c] = 2 * rock(5, 5) * strain.values[c];
   for (int i = 0; i < D; ++i) {
-    const double modulus = i + 1 == D ? rock.c33 : rock.c11;
-    stress(i, i) = rock.c13 * (trace - strain(i, i)) + modulus * strain(i, i);
+    const double modulus = i + 1 == D ? rock(3, 3) : rock(1, 1);
+    stress(i, i) = rock(1, 3) * (trace - strain(i, i)) + modulus * strain(i, i);
   }
   return stress;
 }
@@ -70,26 +67,28 @@ Tensor<D> stress_of(const Tensor<D>& strain, const Rock<D>& of) {
 /// Strain that belongs to a stress.
 template <int D>
 Tensor<D> strain_of(const Tensor<D>& stress, const Rock<D>& of) {
-  if (of.in_grid) return {doubled_shear(Tensor<D>{strain_of_stress(*of.in_grid, stress.values)}, 0.5)};
-  const Stiffness& rock = of.upright;
+  if (of.in_grid) return {doubled_shear(Tensor<D>{strain_of_stress<D>(*of.in_grid, stress.values)}, 0.5)};
+  const Elasticity<D>& rock = of.upright;
   Tensor<D> strain;
-  for (std::size_t c = D; c < strain.values.size(); ++c) strain.values[c] = stress.values[c] / (2 * rock.c55);
+  for (std::size_t c = D; c < strain.values.size(); ++c)
+    strain.values[c] = stress.values[c] / (2 * rock(5, 5));
   if constexpr (D == 2) {
-    const double determinant = rock.c11 * rock.c33 - rock.c13 * rock.c13;
-    strain(0, 0) = (rock.c33 * stress(0, 0) - rock.c13 * stress(1, 1)) / determinant;
-    strain(1, 1) = (rock.c11 * stress(1, 1) - rock.c13 * stress(0, 0)) / determinant;
+    const double determinant = rock(1, 1) * rock(3, 3) - rock(1, 3) * rock(1, 3);
+    strain(0, 0) = (rock(3, 3) * stress(0, 0) - rock(1, 3) * stress(1, 1)) / determinant;
+    strain(1, 1) = (rock(1, 1) * stress(1, 1) - rock(1, 3) * stress(0, 0)) / determinant;
   } else {
     const double trace = stress(0, 0) + stress(1, 1) + stress(2, 2);
     for (int i = 0; i < D; ++i)
-      strain(i, i) = (stress(i, i) - rock.c13 * trace / (3 * rock.c13 + 2 * rock.c55)) / (2 * rock.c55);
+      strain(i, i) =
+          (stress(i, i) - rock(1, 3) * trace / (3 * rock(1, 3) + 2 * rock(5, 5))) / (2 * rock(5, 5));
   }
   return strain;
 }
 
 /// Of a strain along the normal of planes, which are level or upright where rock is anisotropic.
 template <int D>
-double modulus_across(const Point<D>& normal, const Stiffness& rock) {
-  return std::abs(normal[D - 1]) > 0.5 ? rock.c33 : rock.c11;
+double modulus_across(const Point<D>& normal, const Elasticity<D>& rock) {
+  return std::abs(normal[D - 1]) > 0.5 ? rock(3, 3) : rock(1, 1);
 }
 
 /// Whether planes of a set may lie askew in the rock of some cell of the model, of any process: then strains
@@ -109,7 +108,7 @@ bool may_lie_askew(const FractureSet<D>& set, const Domain<D>& domain, const Sce
 
 /// Strain of the planes of all families under a stress, dashpots at rest.
 template <int D>
-Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Stiffness& rock) {
+Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, const Elasticity<D>& rock) {
   Tensor<D> strain;
   for (const auto& system : set.systems) {
     const auto of = compliance_in_rock(system, slides(set), rock);
@@ -124,34 +123,13 @@ Tensor<D> strain_of_planes(const FractureSet<D>& set, const Tensor<D>& stress, c
   return strain;
 }
 
-/// Solves a x = b in place by Gauss's elimination; a is row after row.
-template <std::size_t N>
-void solve(std::array<double, N * N> a, std::array<double, N>& b) {
-  for (std::size_t k = 0; k < N; ++k) {
-    std::size_t pivot = k;
-    for (std::size_t i = k; i < N; ++i)
-      if (std::abs(a[i * N + k]) > std::abs(a[pivot * N + k])) pivot = i;
-    for (std::size_t j = 0; j < N; ++j) std::swap(a[k * N + j], a[pivot * N + j]);
-    std::swap(b[k], b[pivot]);
-    for (std::size_t i = k + 1; i < N; ++i) {
-      const double factor = a[i * N + k] / a[k * N + k];
-      for (std::size_t j = k; j < N; ++j) a[i * N + j] -= factor * a[k * N + j];
-      b[i] -= factor * b[k];
-    }
-  }
-  for (std::size_t k = N; k-- > 0;) {
-    for (std::size_t j = k + 1; j < N; ++j) b[k] -= a[k * N + j] * b[j];
-    b[k] /= a[k * N + k];
-  }
-}
-
-/// The same of a cell that the edge of the set cuts, as its mean: the stress s' in the part that has planes
-/// is that of the cell less what the rest holds of their strain, s' + (1 - share) Q(Z s') = s (S38). In
-/// anisotropic rock, and below friction, the part has the stress of the cell.
+/// The strain of planes of a cell that the edge of the set cuts, as its mean: the stress s' in the part that
+/// has planes is that of the cell less what the rest holds of their strain, s' + (1 - share) Q(Z s') = s
+/// (S38). In anisotropic rock, and below friction, the part has the stress of the cell.
 template <int D>
 Tensor<D> strain_of_part(const FractureSet<D>& set, const Model<D>& model, std::size_t cell,
                          const Tensor<D>& stress) {
-  const auto rock = stiffness_of(model.medium, cell);
+  const auto rock = upright_elasticity<D>(material_of(model.medium, cell));
   const double share = fracture_share_of(model, cell);
   const auto scaled = [share](Tensor<D> strain) {
     for (double& value : strain.values) value *= share;
@@ -161,28 +139,17 @@ Tensor<D> strain_of_part(const FractureSet<D>& set, const Model<D>& model, std::
     return scaled(strain_of_planes<D>(set, stress, rock));
   const auto edge = edge_normal(model, cell);
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
-  std::array<double, n * n> of_part{};
+  SmallMatrix<n> of_part{};
   for (std::size_t k = 0; k < n; ++k) {
     Tensor<D> unit;
     unit.values[k] = 1;
-    const auto held = held_strain<D, double>(strain_of_planes<D>(set, unit, rock), edge, rock.c13 / rock.c33);
+    const auto held =
+        held_strain<D, double>(strain_of_planes<D>(set, unit, rock), edge, rock(1, 3) / rock(3, 3));
     for (std::size_t c = 0; c < n; ++c)
-      of_part[c * n + k] = unit.values[c] + (1 - share) * 2 * rock.c55 * held.values[c];
+      of_part[c][k] = unit.values[c] + (1 - share) * 2 * rock(5, 5) * held.values[c];
   }
-  Tensor<D> inside = stress;
-  solve<n>(of_part, inside.values);
+  const Tensor<D> inside{solved(of_part, stress.values)};
   return scaled(strain_of_planes<D>(set, inside, rock));
-}
-
-/// Whether a symmetric matrix, row after row, is positive definite (Cholesky).
-template <std::size_t N>
-bool is_positive(std::array<double, N * N> m) {
-  for (std::size_t k = 0; k < N; ++k) {
-    if (!(m[k * N + k] > 0)) return false;
-    for (std::size_t i = k + 1; i < N; ++i)
-      for (std::size_t j = k + 1; j <= i; ++j) m[i * N + j] -= m[i * N + k] * m[j * N + k] / m[k * N + k];
-  }
-  return true;
 }
 
 /// Whether under every stress planes give way by more than the rock, times softness_without_stress.
@@ -190,15 +157,15 @@ template <int D>
 bool carries_no_stress(const FractureSet<D>& set, const Medium<D>& medium, std::size_t cell) {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
   const auto rock = rock_in_grid(medium, cell);
-  std::array<double, n * n> left{};
+  SmallMatrix<n> left{};
   for (std::size_t k = 0; k < n; ++k) {
     Tensor<D> unit;
     unit.values[k] = 1;
     const auto planes = doubled_shear(strain_of_planes<D>(set, unit, rock.upright));
     const auto alone = doubled_shear(strain_of<D>(unit, rock));
-    for (std::size_t c = 0; c < n; ++c) left[c * n + k] = planes[c] - softness_without_stress * alone[c];
+    for (std::size_t c = 0; c < n; ++c) left[c][k] = planes[c] - softness_without_stress * alone[c];
   }
-  return is_positive<n>(left);
+  return is_positive(left);
 }
 
 }  // namespace
@@ -263,9 +230,9 @@ void LinearSlip<D, Real>::add(const FractureSet<D>& set, const Scene<D>& scene, 
 template <int D, class Real>
 void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
   group.places.each(state_.layout, domain_, model_, [&](std::size_t place, std::size_t cell) {
-    const auto rock = stiffness_of(model_.medium, cell);
+    const auto rock = upright_elasticity<D>(material_of(model_.medium, cell));
     const auto& system = group.set->systems[0];
-    const double modulus = modulus_across<D>(system.normal, rock), mu = rock.c55;
+    const double modulus = modulus_across<D>(system.normal, rock), mu = rock(5, 5);
     const auto of =
         in_share(compliance_in_rock(system, group.of.slides, rock), fracture_share_of(model_, cell));
     const auto normal = slip::spring_step(modulus, of.normal, of.normal_damping, dt_s);
@@ -275,7 +242,7 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
       group.coefficients[at] = Real(value);
       at += group.places.stored();
     };
-    put(rock.c13 / modulus);
+    put(rock(1, 3) / modulus);
     put(normal.of_end), put(tangential.of_end);
     if (group.of.damped)
       for (const auto& each : {normal, tangential}) put(each.left), put(each.of_start);
@@ -289,20 +256,20 @@ void LinearSlip<D, Real>::add_family(Group& group, double dt_s) const {
 template <int D, class StrainOf, class Put>
 static void each_entry(const Rock<D>& rock, const StrainOf& strain_of, const Put& put) {
   constexpr std::size_t n = std::size_t(Tensor<D>::components);
-  std::array<double, n * n> taken{}, with_rock{};
+  SmallMatrix<n> taken{}, with_rock{};
   for (std::size_t k = 0; k < n; ++k) {
     Tensor<D> stress;
     stress.values[k] = 1;
     const auto off = stress_of<D>(strain_of(stress), rock);
-    for (std::size_t c = 0; c < n; ++c) taken[c * n + k] = off.values[c];
+    for (std::size_t c = 0; c < n; ++c) taken[c][k] = off.values[c];
   }
   with_rock = taken;
-  for (std::size_t k = 0; k < n; ++k) with_rock[k * n + k] += 1;
+  for (std::size_t k = 0; k < n; ++k) with_rock[k][k] += 1;
   for (std::size_t k = 0; k < n; ++k) {
     std::array<double, n> column{};
-    for (std::size_t c = 0; c < n; ++c) column[c] = taken[c * n + k];
-    solve<n>(with_rock, column);
-    for (std::size_t c = 0; c < n; ++c) put(c, k, column[c], taken[c * n + k]);
+    for (std::size_t c = 0; c < n; ++c) column[c] = taken[c][k];
+    column = solved(with_rock, column);
+    for (std::size_t c = 0; c < n; ++c) put(c, k, column[c], taken[c][k]);
   }
 }
 
@@ -442,7 +409,7 @@ double LinearSlip<D, Real>::stored_energy(const Group& group, std::size_t place,
     const auto of =
         in_share(compliance_in_rock(system, group.of.slides, rock), fracture_share_of(model_, cell));
     for (std::size_t k = 0; k < D; ++k) {
-      const double modulus = k == 0 ? modulus_across<D>(system.normal, rock) : rock.c55;
+      const double modulus = k == 0 ? modulus_across<D>(system.normal, rock) : rock(5, 5);
       const double compliance = k == 0 ? of.normal : of.tangential;
       if (compliance > 0) energy += std::pow(taken(k) / modulus, 2) / compliance / 2;
     }

@@ -25,12 +25,12 @@ TimeSeries table_of(const Wavelet& wavelet) {
 MotionAlongX::MotionAlongX(const Material& rock) : vp(rock.vp), vs(rock.vs) {
   passive = 1 - 2 * vs * vs / (vp * vp);
   if (rock.is_anisotropic()) {
-    const auto c = plane_stiffness_of(rock);
-    const auto waves = waves_along({0, rock.rho, c}, 0);
-    vp = waves.z[0] / rock.rho, vs = waves.z[1] / rock.rho;
-    cosine = waves.cosine, sine = rock.tilt == 0 ? 0 : waves.sine;
-    passive = (c.c13 * cosine + c.c35 * sine) / (rock.rho * vp * vp);
-    passive_s = (c.c35 * cosine - c.c13 * sine) / (rock.rho * vs * vs);
+    const auto c = elasticity_of<2>(rock);
+    const auto waves = slipwave::waves_along<2>(c, {1, 0});
+    vp = std::sqrt(waves.values[0] / rock.rho), vs = std::sqrt(waves.values[1] / rock.rho);
+    cosine = waves.vectors[0][0], sine = rock.tilt == 0 ? 0 : waves.vectors[0][1];
+    passive = (c(1, 3) * cosine + c(3, 5) * sine) / (rock.rho * vp * vp);
+    passive_s = (c(3, 5) * cosine - c(1, 3) * sine) / (rock.rho * vs * vs);
   }
   zp = rock.rho * vp, zs = rock.rho * vs;
 }

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "model/anisotropy.hpp"
-#include "model/space_stiffness.hpp"
 #include "scene/splitting.hpp"
 
 namespace slipwave::solver {
@@ -40,44 +39,36 @@ std::vector<double> fractions_along(int axis, int dimension, int time_order) {
   return all;
 }
 
-/// (V6) at a cell along an axis, from the last one of like rock.
-class Turning {
+/// (V6) at a cell along an axis: found once for a medium, and for neighbours of like rock.
+template <int D>
+class BackwardGroupVelocity {
  public:
-  explicit Turning(int axis) : axis_(axis) {}
-  double operator()(const Domain<2>& domain, const Index<2>& at) {
-    const double across = domain.impedance(wave_p, 0)(at), down = domain.impedance(wave_p)(at),
-                 s = domain.impedance(wave_s)(at);
-    // Times the density; only ratios count.
-    const auto* const tilted = domain.tilted_at(at);
-    const PlaneStiffness stiffness =
-        tilted ? tilted->stiffness
-               : PlaneStiffness{across * across, domain.coupling(at), 0, down * down, 0, s * s};
-    return of(stiffness, last_plane_, axis_ == 1);
-  }
-  double operator()(const Domain<3>& domain, const Index<3>& at) {
-    if (const auto* const tilted = domain.tilted_medium(at)) {
-      // Cells of a medium share what is found of it.
-      const auto number = std::size_t(domain.tilted_at(at)->medium);
-      if (of_media_.empty()) of_media_.assign(domain.tilted_media().size(), not_known);
-      if (of_media_[number] == not_known) of_media_[number] = largest_turning(tilted->stiffness, axis_);
-      return of_media_[number];
+  explicit BackwardGroupVelocity(int axis) : axis_(axis) {}
+  double operator()(const Domain<D>& domain, const Index<D>& at) {
+    if (const auto* const cell = domain.anisotropic_cell(at)) {
+      const auto& media = domain.anisotropic_media();
+      if (of_media_.empty()) of_media_.assign(media.size(), not_known);
+      auto& of = of_media_[std::size_t(cell->medium)];
+      if (of == not_known) of = find(media[std::size_t(cell->medium)].elasticity);
+      return of;
     }
-    const auto c = stiffness_at(domain, at);
-    if (domain.material_kind() == MaterialKind::orthorhombic) return of(c, last_, axis_);
-    // Alike in all horizontal directions: in a plane, since the SH wave never turns.
-    return of(PlaneStiffness{c.c11, c.c13, 0, c.c33, 0, c.c55}, last_plane_, axis_ == 2);
+    // Times the density; only ratios count.
+    const auto c = elasticity_of_loops(domain, at);
+    if (c == last_) return of_last_;
+    last_ = c;
+    // Where horizontal directions are alike in a plane, since the SH wave never moves back.
+    const bool in_plane = D == 3 && domain.material_kind() != MaterialKind::orthorhombic;
+    of_last_ = in_plane ? backward_group_velocity<2>(vertical_symmetry(c(1, 1), c(1, 3), c(3, 3), c(5, 5)),
+                                                     axis_ / (D - 1))
+                        : find(c);
+    return of_last_;
   }
 
  private:
-  template <class Stiffness, class Along>
-  double of(const Stiffness& stiffness, Stiffness& last, Along along) {
-    if (!(stiffness == last)) turning_ = largest_turning(last = stiffness, along);
-    return turning_;
-  }
+  double find(const Elasticity<D>& c) const { return backward_group_velocity<D>(c, axis_); }
   int axis_;
-  PlaneStiffness last_plane_;
-  OrthorhombicStiffness last_;
-  double turning_ = 0;
+  Elasticity<D> last_;
+  double of_last_ = 0;
   static constexpr double not_known = -1;
   std::vector<double> of_media_;
 };
@@ -199,7 +190,7 @@ void Pml<D, Real>::find_turning(int axis, int side, const Domain<D>& domain) {
   const double most = most_damped(axis);
   Grid<D> edge = domain.grid;
   edge.shape[std::size_t(axis)] = 1;
-  Turning turning_of(axis);
+  BackwardGroupVelocity<D> turning_of(axis);
   for (std::int64_t n = 0; n < edge.size(); ++n) {
     auto at = edge.index(n);
     at[std::size_t(axis)] = side ? layout_.shape()[std::size_t(axis)] - 1 : 0;

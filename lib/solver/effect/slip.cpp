@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/plane_strain.hpp"
-
 namespace slipwave::solver {
 
 template <int D, class Real>
@@ -105,7 +103,7 @@ void Slip<D, Real>::record(std::size_t group, std::size_t place, std::int64_t n,
 
 /// The same of one cell in which planes lie askew to the axes of anisotropic rock; they do not open.
 template <int D, class Real>
-void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const RockStiffness<D>& stiffness,
+void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const Elasticity<D>& stiffness,
                                  std::int64_t i, const Real* before, const Real* after, std::int64_t pitch,
                                  SlipAct act) {
   constexpr std::int64_t piece = 64;
@@ -123,7 +121,7 @@ void Slip<D, Real>::record_askew(std::size_t group, std::size_t at, const RockSt
     if (centred && act == SlipAct::begin) ahead = off[c];
   }
   // Shear strains are doubled.
-  const auto strain = strain_of_stress(stiffness, off), slip = strain_of_stress(stiffness, in_step);
+  const auto strain = strain_of_stress<D>(stiffness, off), slip = strain_of_stress<D>(stiffness, in_step);
   for (std::size_t c = 0; c < components; ++c) {
     entry.out_of_waves += strain[c] * mean[c];
     entry.heat += strain[c] * (mean[c] + double(prestress.values[c]));

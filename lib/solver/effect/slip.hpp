@@ -53,7 +53,7 @@ class Slip : public Effect<D, Real> {
                     std::initializer_list<SlipAct> acts);
   void record(std::size_t group, std::size_t place, std::int64_t n, const Real* before, const Real* after,
               std::int64_t pitch, SlipAct act);
-  void record_askew(std::size_t group, std::size_t at, const RockStiffness<D>& stiffness, std::int64_t i,
+  void record_askew(std::size_t group, std::size_t at, const Elasticity<D>& stiffness, std::int64_t i,
                     const Real* before, const Real* after, std::int64_t pitch, SlipAct act);
 
   State<D, Real>& state_;

@@ -6,7 +6,6 @@
 
 #include "model/cluster_edge.hpp"
 #include "model/fracture.hpp"
-#include "model/plane_strain.hpp"
 #include "solver/effect/slip_planes.hpp"
 
 namespace slipwave::solver {
@@ -54,8 +53,8 @@ bool SlipGroup<D, Real>::lie_askew_anywhere(const Domain<D>& domain, const Scene
 namespace {
 
 /// What a unit of slip strain on planes takes off the stress, C : (n t + t n)/2 with t = (-n_z, n_x).
-std::array<double, 3> stress_of_slip(const Point<2>& n, const PlaneStiffness& c) {
-  return stress_of_strain(c, {-n[0] * n[1], n[1] * n[0], n[0] * n[0] - n[1] * n[1]});
+std::array<double, 3> stress_of_slip(const Point<2>& n, const Elasticity<2>& c) {
+  return stress_of_strain<2>(c, {-n[0] * n[1], n[1] * n[0], n[0] * n[0] - n[1] * n[1]});
 }
 
 /// Of that the traction along t.
@@ -65,19 +64,19 @@ double traction_along(const Point<2>& n, const std::array<double, 3>& stress) {
 
 /// Fills in the response of planes with that normal, and returns the modulus that relaxation counts.
 template <class Real>
-double respond(PlaneResponse<2, Real>& response, const Point<2>& normal, const PlaneStiffness& c) {
+double respond(PlaneResponse<2, Real>& response, const Point<2>& normal, const Elasticity<2>& c) {
   const auto stress = stress_of_slip(normal, c);
   const double modulus = traction_along(normal, stress);
   for (std::size_t k = 0; k < stress.size(); ++k) response.stress.values[k] = Real(stress[k] / modulus);
   return modulus;
 }
 template <class Real>
-double respond(PlaneResponse<3, Real>& response, const Point<3>& n, const SpaceStiffness& c) {
+double respond(PlaneResponse<3, Real>& response, const Point<3>& n, const Elasticity<3>& c) {
   // What slip along either tangent takes off the stress, and off the traction along both.
   auto along = tangents_of<3>(n);
   const auto stress_along = [&](const Point<3>& t) {
-    return stress_of_strain(c, {n[0] * t[0], n[1] * t[1], n[2] * t[2], n[0] * t[1] + n[1] * t[0],
-                                n[0] * t[2] + n[2] * t[0], n[1] * t[2] + n[2] * t[1]});
+    return stress_of_strain<3>(c, {n[0] * t[0], n[1] * t[1], n[2] * t[2], n[0] * t[1] + n[1] * t[0],
+                                   n[0] * t[2] + n[2] * t[0], n[1] * t[2] + n[2] * t[1]});
   };
   const auto traction = [&](const std::array<double, 6>& s, const Point<3>& t) {
     Point<3> of;
@@ -103,18 +102,10 @@ double respond(PlaneResponse<3, Real>& response, const Point<3>& n, const SpaceS
   return larger;
 }
 
-/// Of the rock of a cell as it lies in the grid.
-RockStiffness<2> rock_stiffness(const Medium<2>& medium, std::size_t cell) {
-  return plane_stiffness_of(medium, cell);
-}
-RockStiffness<3> rock_stiffness(const Medium<3>& medium, std::size_t cell) {
-  return space_stiffness_of(material_of(medium, cell));
-}
-
 }  // namespace
 
 template <int D, class Real>
-std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const RockStiffness<D>& stiffness) {
+std::vector<double> SlipGroup<D, Real>::put_response(std::size_t place, const Elasticity<D>& stiffness) {
   if (!stiffness_.empty()) stiffness_[place] = stiffness;
   const auto& systems = set_->systems;
   std::vector<double> moduli;
@@ -176,8 +167,8 @@ void SlipGroup<D, Real>::fill(const Domain<D>& domain, const Scene<D>& scene, co
     const double rock_mu = rho * vs * vs, lambda = rho * vp * vp - 2 * rock_mu;
     double mu = shear_modulus_above_springs(systems, lambda, rock_mu, fracture_share_of(model, cell), dt_s);
     const double of_part = cut_ ? put_edge(model, place, cell, lambda, rock_mu) : 1;
-    const auto moduli =
-        askew ? put_response(place, rock_stiffness(model.medium, cell)) : std::vector<double>{};
+    const auto moduli = askew ? put_response(place, elasticity_of<D>(material_of(model.medium, cell)))
+                              : std::vector<double>{};
     for (std::size_t n = 0; n < systems.size(); ++n) {
       if (askew) mu = moduli[n];
       if (systems[n].slides())
@@ -422,7 +413,7 @@ std::int64_t SlipGroup<D, Real>::memory_bytes() const {
        {&shut_, &lambda_, &modulus_, &mu_, &prestress_, &resolved_, &retained_, &slip_per_pa_})
     values += row->size();
   return std::int64_t(values * sizeof(Real) + responses_.size() * sizeof(responses_[0]) +
-                      stiffness_.size() * sizeof(RockStiffness<D>)) +
+                      stiffness_.size() * sizeof(Elasticity<D>)) +
          places_.memory_bytes() + (cut_ ? cut_->memory_bytes() : 0);
 }
 

@@ -10,7 +10,7 @@
 #include "fracture/joint_slip.hpp"
 #include "fracture/slip_weakening.hpp"
 #include "model/anisotropy.hpp"
-#include "model/space_stiffness.hpp"
+#include "model/elasticity.hpp"
 #include "scene/scene.hpp"
 #include "solver/effect/fracture_cells.hpp"
 #include "solver/effect/held_slip.hpp"
@@ -21,10 +21,6 @@ namespace slipwave::solver {
 /// The acts of slip on cells: planes open or close, slip to the end of a step, take the explicit half of the
 /// next step.
 enum class SlipAct { open, slip, begin };
-
-/// All stiffnesses of a rock.
-template <int D>
-using RockStiffness = std::conditional_t<D == 2, PlaneStiffness, SpaceStiffness>;
 
 /// Cells of one fracture set (0-based) of the model.
 struct CellsOfSet {
@@ -69,7 +65,7 @@ class SlipGroup {
   Real lambda(std::size_t place) const { return lambda_.empty() ? Real(0) : lambda_[place]; }
   /// Stiffness of a cell in whose anisotropic rock planes of this set may lie askew; null where none do. In
   /// 3-D only where a diary is written.
-  const RockStiffness<D>* stiffness(std::size_t place) const {
+  const Elasticity<D>* stiffness(std::size_t place) const {
     return stiffness_.empty() ? nullptr : &stiffness_[place];
   }
   std::int64_t memory_bytes() const;
@@ -89,7 +85,7 @@ class SlipGroup {
   /// Whether planes lie askew in the rock of any cell: then all of them slip one by one.
   bool lie_askew_anywhere(const Domain<D>& domain, const Scene<D>& scene, const Layout<D>& layout) const;
   /// Of all systems at a place, (S34), (S34a). Returns the modulus of each that its relaxation counts.
-  std::vector<double> put_response(std::size_t place, const RockStiffness<D>& stiffness);
+  std::vector<double> put_response(std::size_t place, const Elasticity<D>& stiffness);
   void open(Real* stress, std::int64_t pitch, std::size_t place, std::int64_t n);
   /// The law for all systems: one that covers those of each.
   FrictionLaw law() const;
@@ -127,7 +123,7 @@ class SlipGroup {
   std::vector<Real> slip_per_pa_;              // h/mu, where the law has a state
   // Where planes lie askew in anisotropic rock: [cell][system], and by cell.
   std::vector<PlaneResponse<D, Real>> responses_;
-  std::vector<RockStiffness<D>> stiffness_;
+  std::vector<Elasticity<D>> stiffness_;
   std::optional<HeldSlip<D, Real>> cut_;  // of cells that the edge cuts
 };
 

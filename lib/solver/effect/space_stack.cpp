@@ -20,7 +20,7 @@ std::size_t traction(int axis) {
 }
 
 template <class Number>
-std::array<Number, std::size_t(Rows::count)> nine_fields(const SpaceStiffness& stiffness,
+std::array<Number, std::size_t(Rows::count)> nine_fields(const Elasticity<3>& stiffness,
                                                          const std::array<Number, 3>& slowness,
                                                          const std::array<Number, 3>& motion) {
   std::array<Number, std::size_t(Rows::count)> fields{};
@@ -29,15 +29,15 @@ std::array<Number, std::size_t(Rows::count)> nine_fields(const SpaceStiffness& s
     fields[velocity(i)] = motion[std::size_t(i)];
     fields[std::size_t(Rows::normal_stress(i))] = stress[std::size_t(i)];
     for (int j = i + 1; j < 3; ++j)
-      fields[std::size_t(Rows::shear_stress(i, j))] = stress[SpaceStiffness::pair(i, j)];
+      fields[std::size_t(Rows::shear_stress(i, j))] = stress[Elasticity<3>::pair(i, j)];
   }
   return fields;
 }
 
 }  // namespace
 
-SpaceFields fields_of_motion(const SpaceStiffness& stiffness, const SpaceVector& slowness,
-                             const SpaceVector& velocity) {
+SpaceFields fields_of_motion(const Elasticity<3>& stiffness, const Point<3>& slowness,
+                             const Point<3>& velocity) {
   return nine_fields<double>(stiffness, slowness, velocity);
 }
 
@@ -46,7 +46,7 @@ SpaceStackResponse::SpaceStackResponse(SpaceStack stack) : stack_(std::move(stac
   const auto& p = stack_.slowness;
   const auto add = [&](std::size_t layer, bool down, Complex q, const std::array<Complex, 3>& motion) {
     waves_.push_back({{layer, reference_of(layer, down), q},
-                      nine_fields<Complex>(space_stiffness_of(layers[layer]), {p[0], p[1], q}, motion)});
+                      nine_fields<Complex>(elasticity_of<3>(layers[layer]), {p[0], p[1], q}, motion)});
   };
   for (std::size_t layer = 0; layer < layers.size(); ++layer) {
     first_wave_.push_back(waves_.size());

@@ -15,15 +15,15 @@ namespace slipwave::solver {
 using SpaceFields = std::array<double, std::size_t(FieldRows<3>::count)>;
 
 /// Fields of a wave of a slowness and velocity in a rock, s/m and m/s.
-SpaceFields fields_of_motion(const SpaceStiffness& stiffness, const SpaceVector& slowness,
-                             const SpaceVector& velocity);
+SpaceFields fields_of_motion(const Elasticity<3>& stiffness, const Point<3>& slowness,
+                             const Point<3>& velocity);
 
 /// A plane wave of any direction that falls on layers of any symmetry.
 struct SpaceStack {
   ColumnOfLayers column;
   std::array<EdgeLaw, 2> ends{};  // of top and bottom
   bool from_top = true;
-  SpaceVector slowness{}, motion{};  // of the incident wave, s/m and of unit size
+  Point<3> slowness{}, motion{};  // of the incident wave, s/m and of unit size
 };
 
 /// All waves in such a stack for one angular frequency, as PlaneStackResponse has those of a plane: three a

@@ -44,18 +44,16 @@ std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const MotionAl
 }
 
 /// The same of a rock of any symmetry.
-std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const SpaceStiffness& stiffness, double rho,
+std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const Elasticity<3>& stiffness, double rho,
                                                         const SpaceFields& fields) {
   std::vector<std::pair<SpaceFields, double>> waves;
   SpaceFields rest = fields;
-  SpaceVector direction{};
-  direction[std::size_t(axis)] = 1;
-  const auto all = slipwave::waves_along(stiffness, direction);
+  const auto all = slipwave::waves_along<3>(stiffness, unit_vector<3>(std::size_t(axis)));
   for (std::size_t n = 0; n < 3; ++n) {
     constexpr double rounding = 1e-12;
-    if (all.moduli[n] < rounding * all.moduli[0]) continue;
-    const auto& motion = all.motions[n];
-    const double c = std::sqrt(all.moduli[n] / rho);
+    if (all.values[n] < rounding * all.values[0]) continue;
+    const auto& motion = all.vectors[n];
+    const double c = std::sqrt(all.values[n] / rho);
     double v = 0, t = 0;
     for (int i = 0; i < 3; ++i) {
       const int row = i == axis ? Rows::normal_stress(axis) : shear(axis, i);
@@ -64,7 +62,7 @@ std::vector<std::pair<SpaceFields, double>> waves_along(int axis, const SpaceSti
     }
     for (const double sign : {1., -1.}) {
       const double size = (v - sign * t / (rho * c)) / 2;
-      SpaceVector slowness{}, velocity = motion;
+      Point<3> slowness{}, velocity = motion;
       slowness[std::size_t(axis)] = sign / c;
       for (auto& part : velocity) part *= size;
       const auto wave = fields_of_motion(stiffness, slowness, velocity);
@@ -251,7 +249,7 @@ std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFi
                      [&](int axis, const SpaceFields& of) { return waves_along(axis, medium, of); });
 }
 
-std::vector<ShiftedFields> parts_ahead(const SpaceStiffness& stiffness, double rho, const SpaceFields& fields,
+std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho, const SpaceFields& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead) {
   return split_ahead(fields, slowness, ahead,
                      [&](int axis, const SpaceFields& of) { return waves_along(axis, stiffness, rho, of); });
@@ -290,7 +288,7 @@ namespace {
 
 /// The motion and slowness that a plane wave has where it comes from.
 struct Incident {
-  SpaceVector slowness{}, motion{};
+  Point<3> slowness{}, motion{};
   double depth_m = 0;  // of the source
   Incident(const Source<3>& source, const Material& rock) : depth_m(source.position_m[2]) {
     const auto& plane = std::get<PlaneWave<3>>(source.mechanism);
@@ -321,7 +319,7 @@ void add_layers(const Scene<3>& scene, const Source<3>& source, const Domain<3>&
   const auto depths = depths_of_rows(domain);
   for (std::size_t row = 0; row < depths.size(); ++row) {
     const auto& rock = column.layers[column.of_row[row]];
-    const auto stiffness = space_stiffness_of(rock);
+    const auto stiffness = elasticity_of<3>(rock);
     const auto spectra = series.sums_at<field_count>(
         depths[row], column.of_row[row], [&](std::size_t n) { return response.waves()[n].fields; });
     for (std::size_t stage = 0; stage < stages.size(); ++stage)
@@ -349,7 +347,7 @@ std::unique_ptr<IncidentWave<3, Real>> make_anisotropic_wave(const Scene<3>& sce
   const auto depths = depths_of_rows(domain);
   for (std::size_t row = 0; row < depths.size(); ++row)
     wave->set_delay(row, incident.slowness[2] * (depths[row] - incident.depth_m));
-  const auto stiffness = space_stiffness_of(rock);
+  const auto stiffness = elasticity_of<3>(rock);
   auto velocity = incident.motion;
   for (auto& part : velocity) part *= source.amplitude;
   const auto fields = fields_of_motion(stiffness, incident.slowness, velocity);

@@ -28,7 +28,7 @@ std::vector<ShiftedFields> parts_ahead(const MotionAlongX& medium, const SpaceFi
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead);
 
 /// The same in a rock of any symmetry (theory.md (A19)).
-std::vector<ShiftedFields> parts_ahead(const SpaceStiffness& stiffness, double rho, const SpaceFields& fields,
+std::vector<ShiftedFields> parts_ahead(const Elasticity<3>& stiffness, double rho, const SpaceFields& fields,
                                        const std::array<double, 2>& slowness, const SweepsAhead& ahead);
 
 /// Fields of a wave that travels in the x-z plane, turned about z from x towards y.

@@ -108,35 +108,15 @@ Motion<D, Real> load(const BentFields<const Real>& fields, const BentAcross<Real
                       cell_normal<D>(metric.half_n + offset * metric.stride, metric.pitch, metric.stride))};
 }
 
-template <class Real>
-RowVector<2, Real> through(const typename AnisotropicStencil<2, Real>::Weld& weld,
-                           const RowVector<2, Real>& v) {
-  const auto& [z, x] = weld.share;
-  return {z[0] * v.z + z[1] * v.x, x[0] * v.z + x[1] * v.x};
-}
-template <class Real>
-RowVector<3, Real> through(const typename AnisotropicStencil<3, Real>::Weld& weld,
-                           const RowVector<3, Real>& v) {
-  const auto of = [&](std::size_t c) {
-    const auto& row = weld.share[c];
-    return row[0] * v.z + row[1] * v.x + row[2] * v.y;
-  };
-  return {of(0), of(1), of(2)};
+template <int D, class Real>
+RowVector<D, Real> through(const SmallMatrix<std::size_t(D), Real>& share, const RowVector<D, Real>& v) {
+  return row_vector<D>(product_of(share, components<D>(v)));
 }
 /// Of tractions: the vector less what the transposed matrix makes of it.
-template <class Real>
-RowVector<2, Real> tractions_through(const typename AnisotropicStencil<2, Real>::Weld& weld,
-                                     const RowVector<2, Real>& t) {
-  const auto& [z, x] = weld.share;
-  return {t.z - (z[0] * t.z + x[0] * t.x), t.x - (z[1] * t.z + x[1] * t.x)};
-}
-template <class Real>
-RowVector<3, Real> tractions_through(const typename AnisotropicStencil<3, Real>::Weld& weld,
-                                     const RowVector<3, Real>& t) {
-  const auto of = [&](std::size_t c) {
-    return weld.share[0][c] * t.z + weld.share[1][c] * t.x + weld.share[2][c] * t.y;
-  };
-  return {t.z - of(0), t.x - of(1), t.y - of(2)};
+template <int D, class Real>
+RowVector<D, Real> tractions_through(const SmallMatrix<std::size_t(D), Real>& share,
+                                     const RowVector<D, Real>& t) {
+  return t - through<D>(transposed(share), t);
 }
 
 /// What (E11a) adds in a ghost. `scale`: negative beyond the upper end.
@@ -157,8 +137,8 @@ void add_correction(const BentStencil& stencil, const BentStencil::Side& side,
                     scaled(normal, Real(1), solid, of([&](int c) { return corrections.velocity(c); }));
   if constexpr (Anisotropic)
     if (weld) {
-      at.t = at.t +
-             (2 * scale) * tractions_through<Real>(*weld, of([&](int c) { return corrections.traction(c); }));
+      at.t = at.t + (2 * scale) *
+                        tractions_through<D>(weld->share, of([&](int c) { return corrections.traction(c); }));
       return;
     }
   at.t = at.t + scale * scaled(normal, 2 - 2 * Real(side.share_p), solid * (2 - 2 * Real(side.share_s)),
@@ -205,73 +185,53 @@ Motion<D, Real> extended(const BentStencil& stencil, const BentFields<const Real
             at.t + scaled(normal, 2 - p, solid * (2 - s), across.t - at.t)};
     if constexpr (Anisotropic)
       if (weld)
-        at = {at.v + Real(2) * through<Real>(*weld, across.v - at.v),
-              at.t + Real(2) * tractions_through<Real>(*weld, across.t - at.t)};
+        at = {at.v + Real(2) * through<D>(weld->share, across.v - at.v),
+              at.t + Real(2) * tractions_through<D>(weld->share, across.t - at.t)};
   }
   if (side.slot >= 0)
     add_correction<Anisotropic>(stencil, side, normal, corrections, ghost, below ? scale : -scale, weld, at);
   return at;
 }
 
-/// The outgoing waves of an anisotropic cell (F12), from velocities and tractions at the places of its
+template <int D, class Real>
+void put_outgoing(const RowVector<D, Real>& up, const RowVector<D, Real>& down,
+                  OutgoingWaves<Real> outgoing) {
+  const auto all_up = components<D>(up), all_down = components<D>(down);
+  for (int c = 0; c < D; ++c)
+    outgoing.up(c)[0] = all_up[std::size_t(c)], outgoing.down(c)[0] = all_down[std::size_t(c)];
+}
+
+/// The outgoing waves of an anisotropic cell (F12), (F15), from velocities and tractions at the places of its
 /// stencil.
-template <int Order, class Real>
-void reconstruct_anisotropic(const BentWaves<Real>& waves,
-                             const std::array<Motion<2, Real>, std::size_t(Order)>& at, Real scale, Real b,
+template <int Order, int D, class Real>
+void reconstruct_anisotropic(const RowWaves<D, Real>& waves,
+                             const std::array<Motion<D, Real>, std::size_t(Order)>& at, Real scale, Real b,
                              const BentAcross<Real>& metric, OutgoingWaves<Real> outgoing) {
   constexpr int reach = reach_of(Order);
   const Real sign = scale < 0 ? -1 : 1;
-  Real up[2], down[2];
-  for (const std::size_t wave : {0, 1}) {
+  const auto& [before, behind] = waves.faces;
+  std::array<Real, std::size_t(D)> all_up{}, all_down{};
+  for (std::size_t wave = 0; wave < D; ++wave) {
     const Real z = waves.courant_z[wave];
-    const auto pair = wave_pair<Real>(waves.faces[0], waves.faces[1], z, wave, sign);
-    Real v[Order], s[Order];
+    const auto pair = wave_pair<D, Real>(before.motions[wave].data(), before.z[wave],
+                                         behind.motions[wave].data(), behind.z[wave], 1, z, sign);
+    Real v[Order] = {}, s[Order] = {}, up = 0, down = 0;
     for (std::size_t k = 0; k < std::size_t(Order); ++k) {
-      const auto sum = [&](const typename WavePair<Real>::Sum& by) {
-        return by.v_along * at[k].v.z + by.v_across * at[k].v.x + by.t_along * at[k].t.z +
-               by.t_across * at[k].t.x;
-      };
-      v[k] = sum(pair.v), s[k] = sum(pair.s);
-    }
-    reconstruct_cell<Order>(v + reach, s + reach, 1, sign * z, sign * scale * (z * b), up[wave], down[wave]);
-  }
-  const auto resolve = [&](std::size_t side, const Real* sizes, Real* along, Real* across) {
-    const Real nx = normal_of_face(metric, side ? metric.stride : 0);
-    resolve_on_face<Real>(waves.faces[side], sizes[0], sizes[1], nx, 1 / root_of(1 + nx * nx), *along,
-                          *across);
-  };
-  resolve(1, up, outgoing.up(0), outgoing.up(1));
-  resolve(0, down, outgoing.down(0), outgoing.down(1));
-}
-/// The same in 3-D (F15).
-template <int Order, class Real>
-void reconstruct_anisotropic(const BentWavesInSpace<Real>& waves,
-                             const std::array<Motion<3, Real>, std::size_t(Order)>& at, Real scale, Real b,
-                             const BentAcross<Real>& /*metric*/, OutgoingWaves<Real> outgoing) {
-  constexpr int reach = reach_of(Order);
-  const Real sign = scale < 0 ? -1 : 1;
-  std::array<Real, 3> all_up{}, all_down{};
-  for (std::size_t wave = 0; wave < 3; ++wave) {
-    const Real z = waves.courant_z[wave];
-    const auto& [before, behind] = waves.faces;
-    const auto pair = wave_pair_in_space<Real>(before.motions[wave].data(), before.z[wave],
-                                               behind.motions[wave].data(), behind.z[wave], z, sign);
-    Real v[Order], s[Order], up = 0, down = 0;
-    for (std::size_t k = 0; k < std::size_t(Order); ++k) {
-      const auto sum = [&](const std::array<Real, 6>& by) {
-        return by[0] * at[k].v.z + by[1] * at[k].v.x + by[2] * at[k].v.y + by[3] * at[k].t.z +
-               by[4] * at[k].t.x + by[5] * at[k].t.y;
-      };
-      v[k] = sum(pair.v), s[k] = sum(pair.s);
+      const auto velocity = components<D>(at[k].v), traction = components<D>(at[k].t);
+      for (std::size_t c = 0; c < D; ++c) {
+        v[k] += pair.v[c] * velocity[c] + pair.v[D + c] * traction[c];
+        s[k] += pair.s[c] * velocity[c] + pair.s[D + c] * traction[c];
+      }
     }
     reconstruct_cell<Order>(v + reach, s + reach, 1, sign * z, sign * scale * (z * b), up, down);
-    for (std::size_t c = 0; c < 3; ++c) {
-      all_up[c] += behind.motions[wave][c] * up;
-      all_down[c] += before.motions[wave][c] * down;
-    }
+    for (std::size_t c = 0; c < D; ++c)
+      all_up[c] += behind.motions[wave][c] * up, all_down[c] += before.motions[wave][c] * down;
   }
-  for (const int c : {0, 1, 2})
-    outgoing.up(c)[0] = all_up[std::size_t(c)], outgoing.down(c)[0] = all_down[std::size_t(c)];
+  const auto resolved = [&](const std::array<Real, std::size_t(D)>& all, std::int64_t face) {
+    const auto of = bent_face<D>(face_normal<D>(metric.half_n + face, metric.pitch));
+    return resolved_on_face<D>(row_vector<D>(all), of.normal, of.over);
+  };
+  put_outgoing<D>(resolved(all_up, metric.stride), resolved(all_down, 0), outgoing);
 }
 
 template <int Order, bool Anisotropic, int D, class Real>
@@ -301,9 +261,7 @@ void correct_cell(const BentStencil& stencil, Real scale, const BentFields<const
   RowVector<D, Real> up, down;
   reconstruct_bent_cell<Order, D>([&](long k) { return at[std::size_t(k + reach)].v; },
                                   [&](long k) { return at[std::size_t(k + reach)].t; }, cell, up, down);
-  outgoing.up(0)[0] = up.z, outgoing.up(1)[0] = up.x;
-  outgoing.down(0)[0] = down.z, outgoing.down(1)[0] = down.x;
-  if constexpr (D == 3) outgoing.up(2)[0] = up.y, outgoing.down(2)[0] = down.y;
+  put_outgoing<D>(up, down, outgoing);
 }
 
 template <int D, class Real>
@@ -364,67 +322,38 @@ BentStencils<D, Real>::BentStencils(const Domain<D>& domain, int reach,
 }
 
 template <int D, class Real>
-void BentStencils<D, Real>::find_own_waves(const Domain<D>& domain, const Index<D>& at,
-                                           const BentAcross<Real>& of, Anisotropic& found) {
-  found.own_waves = domain.is_tilted(at);
-  if (!found.own_waves) return;
-  if constexpr (D == 2) {
-    const auto waves = waves_across_rows(plane_stiffness_at(domain, at), of);
+RowWaves<D, Real> BentStencils<D, Real>::own_waves(const Domain<D>& domain, const Index<D>& at,
+                                                   const BentAcross<Real>& of) {
+  const auto waves = waves_across_rows<D>(elasticity_at(domain, at), of);
+  RowWaves<D, Real> rounded;
+  for (std::size_t wave = 0; wave < D; ++wave) {
+    rounded.courant_z[wave] = Real(waves.courant_z[wave]);
     for (const std::size_t side : {0, 1}) {
-      const auto& face = waves.faces[side];
-      found.waves.faces[side] = {Real(face.along), Real(face.across), {Real(face.z[0]), Real(face.z[1])}};
-      found.waves.courant_z[side] = Real(waves.courant_z[side]);
-    }
-  } else {
-    const auto waves = waves_across_rows(space_stiffness_at(domain, at), of);
-    for (std::size_t wave = 0; wave < D; ++wave) {
-      found.waves.courant_z[wave] = Real(waves.courant_z[wave]);
-      for (const std::size_t side : {0, 1}) {
-        found.waves.faces[side].z[wave] = Real(waves.faces[side].z[wave]);
-        for (std::size_t c = 0; c < D; ++c)
-          found.waves.faces[side].motions[wave][c] = Real(waves.faces[side].motions[wave][c]);
-      }
+      rounded.faces[side].z[wave] = Real(waves.faces[side].z[wave]);
+      for (std::size_t c = 0; c < D; ++c)
+        rounded.faces[side].motions[wave][c] = Real(waves.faces[side].motions[wave][c]);
     }
   }
+  return rounded;
 }
 
 template <int D, class Real>
 void BentStencils<D, Real>::find_weld(const Domain<D>& domain, const Index<D>& near, const Index<D>& beyond,
                                       const RowVector<D, Real>& normal, typename Anisotropic::Weld& weld) {
   weld.holds = true;
-  if constexpr (D == 2) {
-    const auto impedance = [&](const Index<2>& at) {
-      return root_of(acoustic_tensor(plane_stiffness_at(domain, at), double(normal.x), 1));
-    };
-    const auto own = impedance(near), other = impedance(beyond);
-    const double zz = own.zz + other.zz, zx = own.zx + other.zx, xx = own.xx + other.xx,
-                 over = 1 / (zz * xx - zx * zx);
-    weld.share = {
-        {{Real(over * (xx * other.zz - zx * other.zx)), Real(over * (xx * other.zx - zx * other.xx))},
-         {Real(over * (zz * other.zx - zx * other.zz)), Real(over * (zz * other.xx - zx * other.zx))}}};
-  } else {
-    const auto impedance = [&](const Index<3>& at) {
-      return impedance_across_rows(space_stiffness_at(domain, at), normal_in_space(normal));
-    };
-    auto sum = impedance(near);
-    const auto other = impedance(beyond);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) sum[i][k] += other[i][k];
-    const auto share = product_of(inverse_of(sum), other);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t k = 0; k < 3; ++k) weld.share[i][k] = Real(share[i][k]);
-  }
+  const auto impedance = [&](const Index<D>& at) {
+    return impedance_across_rows<D>(elasticity_at(domain, at), normal_in_grid<D>(normal));
+  };
+  const auto other = impedance(beyond);
+  const auto share = product_of(inverse_of(sum_of(impedance(near), other, 1.)), other);
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) weld.share[i][k] = Real(share[i][k]);
 }
 
 template <int D, class Real>
 void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric) {
   if (!domain.anisotropic()) return;
-  const auto unlike_isotropic = [&](const Index<D>& at) {
-    if constexpr (D == 2)
-      return domain.is_tilted(at);
-    else
-      return anisotropic_across_rows(domain, at);
-  };
+  const auto unlike_isotropic = [&](const Index<D>& at) { return anisotropic_across_rows(domain, at); };
   anisotropic_of_.assign(cells_.size(), -1);
   for (std::int64_t line = 0; line + 1 < std::int64_t(starts_.size()); ++line) {
     const auto first_of_line = domain.grid.index(line * domain.grid.shape[0]);
@@ -436,7 +365,8 @@ void BentStencils<D, Real>::find_anisotropic(const Domain<D>& domain, const Metr
       at[0] = cell.x;
       const auto of = metric.across(first_of_line, at[0]);
       Anisotropic found;
-      find_own_waves(domain, at, of, found);
+      found.own_waves = domain.anisotropic_cell(at);
+      if (found.own_waves) found.waves = own_waves(domain, at, of);
       bool welded = false;
       for (const std::size_t side : {0, 1}) {
         const auto& end_of = side ? cell.high : cell.low;

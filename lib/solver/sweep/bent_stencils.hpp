@@ -2,17 +2,15 @@
 
 #include <array>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 #include "grid/field.hpp"
 #include "solver/kernels/kernels.hpp"
-#include "solver/sweep/bent_waves.hpp"
-#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
+#include "solver/sweep/row_waves.hpp"
 
 namespace slipwave::solver {
 
@@ -40,11 +38,11 @@ struct AnisotropicStencil {
   /// Of the velocities z, x and in 3-D y, (Z_l + Z_r)^-1 Z_r for the cell as l.
   struct Weld {
     bool holds = false;
-    std::array<std::array<Real, std::size_t(D)>, std::size_t(D)> share{};
+    SmallMatrix<std::size_t(D), Real> share{};
   };
   std::array<Weld, 2> welds;
   bool own_waves = false;
-  std::conditional_t<D == 2, BentWaves<Real>, BentWavesInSpace<Real>> waves;
+  RowWaves<D, Real> waves{};
 };
 
 /// Such cells of all bent rows, for sweeps along z.
@@ -56,6 +54,9 @@ class BentStencils {
                const Metric<D, Real>& metric);
 
   std::size_t size() const { return cells_.size(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(cells_) + bytes_of(starts_) + bytes_of(anisotropic_of_) + bytes_of(anisotropic_);
+  }
   /// Overwrites the outgoing waves of the listed cells of these columns of a row. All pointers begin with the
   /// first of them.
   void correct(int order, std::int64_t line, const IndexRange& columns, Real scale,
@@ -67,8 +68,7 @@ class BentStencils {
   void find_anisotropic(const Domain<D>& domain, const Metric<D, Real>& metric);
   using Anisotropic = AnisotropicStencil<D, Real>;
   /// `of`: the metric from the cell on.
-  static void find_own_waves(const Domain<D>& domain, const Index<D>& at, const BentAcross<Real>& of,
-                             Anisotropic& found);
+  static RowWaves<D, Real> own_waves(const Domain<D>& domain, const Index<D>& at, const BentAcross<Real>& of);
   /// Of a face with this N between two cells.
   static void find_weld(const Domain<D>& domain, const Index<D>& near, const Index<D>& beyond,
                         const RowVector<D, Real>& normal, typename Anisotropic::Weld& weld);

@@ -198,95 +198,84 @@ bool contrast_is_too_strong(const Domain<2>& domain, const Index<2>& at) {
   return false;
 }
 
-/// Rock continues beyond the edges of the model as it is. In bent rows upright rock is no simpler.
-void add_tilted_rock(const Domain<2>& domain, const Medium<2>& medium, std::vector<TiltedMedium>& found) {
-  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
-    const auto at = domain.grid.index(n);
-    const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
-    if (has_tilted_axis(medium, cell) || (domain.bent(at[1]) && is_anisotropic(medium, cell)))
-      found.push_back({n, double(medium.rho[cell]), plane_stiffness_of(medium, cell), false});
-  }
-  std::sort(found.begin(), found.end(),
-            [](const TiltedMedium& one, const TiltedMedium& other) { return one.cell < other.cell; });
-}
-
-std::vector<TiltedMedium> find_tilted(const Domain<2>& domain, const Medium<2>& medium) {
-  std::vector<TiltedMedium> found;
-  const std::int64_t last = domain.grid.shape[1] - 1;
-  for (const auto cell : cells_of_tilted_means(medium)) {
-    const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
-    if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
-        domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
-      continue;
-    found.push_back(
-        {domain.grid.flat(at), double(medium.rho[cell]), tilted_mean_stiffness(medium, cell), true});
-  }
-  if (medium.has(Property::tilt) || (domain.anisotropic() && !domain.bent_rows.empty()))
-    add_tilted_rock(domain, medium, found);
-  return found;
-}
-
 /// Less, as a share of c33, is rounding.
 constexpr double least_coupling = 1e-12;
 
 /// Whether sweeps along the grid couple the pairs of a medium: axes turned by right angles do not.
-bool couples_pairs(const SpaceStiffness& c) {
-  const auto& m = c.voigt;
-  const double least = least_coupling * m[2][2];
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = std::max<std::size_t>(i + 1, 3); j < 6; ++j)
-      if (std::abs(m[i][j]) > least) return true;
+template <int D>
+bool couples_pairs(const Elasticity<D>& c) {
+  const auto along_grid = c.along_grid();
+  for (std::size_t i = 0; i < c.components; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (std::abs(c.voigt[i][j] - along_grid.voigt[i][j]) > least_coupling * c(3, 3)) return true;
   return false;
 }
 
-/// Numbers the distinct media of cells whose axes are turned.
-class TiltedMedia {
+/// Numbers the distinct media of anisotropic cells.
+template <int D>
+class AnisotropicMedia {
  public:
-  static constexpr std::int32_t none = -1;
-  std::int32_t number(const Material& material) {
-    if (number_ != none && material == last_) return number_;
-    last_ = material;
+  /// `mean`: an equivalent TTI cell; `bent`: in bent rows.
+  std::int32_t number(const Material& material, bool mean, bool bent) {
     const auto extra =
         material.orthorhombic.value_or(Orthorhombic{material.epsilon, material.delta, 0, material.gamma});
-    const auto [found, is_new] =
-        numbers_.try_emplace(Key{material.vp, material.vs, material.rho, material.epsilon, material.delta,
-                                 material.gamma, material.tilt, material.azimuth, material.rotation,
-                                 extra.epsilon1, extra.delta1, extra.delta3, extra.gamma2},
-                             none);
+    const Key key{material.vp,    material.vs,   material.rho,     material.epsilon,  material.delta,
+                  material.gamma, material.tilt, material.azimuth, material.rotation, extra.epsilon1,
+                  extra.delta1,   extra.delta3,  extra.gamma2,     double(mean),      double(bent)};
+    if (key == last_ && !media_.empty()) return number_;
+    last_ = key;
+    const auto [found, is_new] = numbers_.try_emplace(key, std::int32_t(media_.size()));
     if (is_new) {
-      const auto stiffness = space_stiffness_of(material);
-      found->second = std::int32_t(media_.size());
-      media_.push_back({material.rho, stiffness, couples_pairs(stiffness)});
+      const auto c = elasticity_of<D>(material);
+      const double p = material.rho * material.vp * material.vp,
+                   mu = material.rho * material.vs * material.vs;
+      media_.push_back({material.rho, c,
+                        bent   ? isotropic<D>(c(3, 3), c(5, 5))
+                        : mean ? isotropic<D>(p, mu)
+                               : c.along_grid(),
+                        couples_pairs(c), mean});
     }
     return number_ = found->second;
   }
-  const TiltedMediumInSpace& operator[](std::int32_t number) const { return media_[std::size_t(number)]; }
-  std::vector<TiltedMediumInSpace> take() { return std::move(media_); }
+  const AnisotropicMedium<D>& operator[](std::int32_t number) const { return media_[std::size_t(number)]; }
+  std::vector<AnisotropicMedium<D>> take() { return std::move(media_); }
 
  private:
-  using Key = std::array<double, 13>;
+  using Key = std::array<double, 15>;
   std::map<Key, std::int32_t> numbers_;
-  std::vector<TiltedMediumInSpace> media_;
-  Material last_;
-  std::int32_t number_ = none;
+  std::vector<AnisotropicMedium<D>> media_;
+  Key last_{};
+  std::int32_t number_ = 0;
 };
 
-/// Rock continues beyond the edges of the model as it is. In level rows sweeps need no more of some than the
-/// nine stiffnesses along the grid.
-void find_tilted(Domain<3>& domain, const Medium<3>& medium) {
-  if (!any_tilted_axes(medium) && (domain.bent_rows.empty() || !domain.anisotropic())) return;
-  TiltedMedia media;
-  std::vector<TiltedCellInSpace> cells;
-  for (std::int64_t n = 0; n < domain.grid.size(); ++n) {
+/// Rock continues beyond the edges of the model as it is. In level rows sweeps need no more of some than
+/// their stiffnesses along the grid.
+template <int D>
+void find_anisotropic_cells(Domain<D>& domain, const Medium<D>& medium) {
+  AnisotropicMedia<D> media;
+  std::vector<AnisotropicCell> cells;
+  const bool any = any_tilted_axes(medium) || (domain.anisotropic() && !domain.bent_rows.empty());
+  for (std::int64_t n = 0; any && n < domain.grid.size(); ++n) {
     const auto at = domain.grid.index(n);
     const auto cell = std::size_t(domain.model_grid.flat(domain.model_cell(at)));
-    const bool bent = domain.bent(at[2]);
+    const bool bent = domain.bent(at[D - 1]);
     if (!has_tilted_axis(medium, cell) && !(bent && is_anisotropic(medium, cell))) continue;
-    const auto of = media.number(material_of(medium, cell));
+    const auto of = media.number(material_of(medium, cell), false, bent);
     if (bent || media[of].turned) cells.push_back({n, of});
   }
-  domain.set_tilted(std::move(cells));
-  domain.set_tilted_media(media.take());
+  if constexpr (D == 2) {
+    const std::int64_t last = domain.grid.shape[1] - 1;
+    for (const auto cell : cells_of_tilted_means(medium)) {
+      const auto at = domain.computed_cell(domain.model_grid.index(std::int64_t(cell)));
+      if (domain.bent(std::max<std::int64_t>(at[1] - 1, 0)) || domain.bent(at[1]) ||
+          domain.bent(std::min(at[1] + 1, last)) || contrast_is_too_strong(domain, at))
+        continue;
+      cells.push_back({domain.grid.flat(at), media.number(tilted_mean_of(medium, cell), true, false)});
+    }
+    std::sort(cells.begin(), cells.end(),
+              [](const auto& one, const auto& other) { return one.cell < other.cell; });
+  }
+  domain.set_anisotropic_cells(std::move(cells), media.take());
 }
 
 /// The run of cells first <= x < last of a row that are like the first.
@@ -327,22 +316,22 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
       if (state.material_row(line, row)[i] != state.material_row(line, row)[j]) return false;
     return true;
   };
-  const auto& all_tilted = domain.tilted();
-  std::vector<char> tilted(std::size_t(nx), 0);
+  const auto& anisotropic = domain.anisotropic_cells();
+  std::vector<char> own_loops(std::size_t(nx), 1);
   const auto parted = cells_beside_parted(domain);
   auto next_parted = parted.begin();
-  auto next = all_tilted.begin();
+  auto next = anisotropic.begin();
   for (std::int64_t line = 0; line < state.layout.lines(); ++line) {
     const auto at = state.layout.line_index(line);
     const auto material = state.material_from(at, 0);
-    while (next != all_tilted.end() && next->cell < line * nx) ++next;
-    std::fill(tilted.begin(), tilted.end(), 0);
-    for (auto of = next; of != all_tilted.end() && of->cell < (line + 1) * nx; ++of)
-      tilted[std::size_t(of->cell - line * nx)] = 1;
+    while (next != anisotropic.end() && next->cell < line * nx) ++next;
+    std::fill(own_loops.begin(), own_loops.end(), 1);
+    for (auto of = next; of != anisotropic.end() && of->cell < (line + 1) * nx; ++of)
+      own_loops[std::size_t(of->cell - line * nx)] = 0;
     for (; next_parted != parted.end() && *next_parted < (line + 1) * nx; ++next_parted)
-      tilted[std::size_t(*next_parted - line * nx)] = 1;
+      own_loops[std::size_t(*next_parted - line * nx)] = 0;
     const auto same = [&](std::int64_t i, std::int64_t j) {
-      return !tilted[std::size_t(i)] && !tilted[std::size_t(j)] && material.b[i] == material.b[j] &&
+      return own_loops[std::size_t(i)] && own_loops[std::size_t(j)] && material.b[i] == material.b[j] &&
              material.zp[i] == material.zp[j] && material.zs[i] == material.zs[j] &&
              (!state.anisotropic || same_anisotropy(at, i, j));
     };
@@ -350,7 +339,7 @@ void find_uniform_runs(State<D, Real>& state, const Domain<D>& domain) {
     const std::int64_t last = domain.bent(at[D - 1]) ? 0 : nx;
     for (std::int64_t first = 0, x = 1; x <= last; ++x) {
       if (x < nx && same(first, x)) continue;
-      if (x - first >= std::min(shortest_run, nx) && !tilted[std::size_t(first)])
+      if (x - first >= std::min(shortest_run, nx) && own_loops[std::size_t(first)])
         state.uniform_runs.push_back(run_of(state, at, first, x));
       first = x;
     }
@@ -440,74 +429,34 @@ void set_impedances(Domain<D>& domain, const Medium<D>& medium) {
 
 }  // namespace
 
-TiltedWaves waves_along(const TiltedMedium& medium, int axis) {
-  const auto& c = medium.stiffness;
-  const double normal = axis == 0 ? c.c11 : c.c33, mixed = axis == 0 ? c.c15 : c.c35;
-  const double angle = std::atan2(2 * mixed, normal - c.c55) / 2;
-  const double mean = (normal + c.c55) / 2, half = std::hypot(normal - c.c55, 2 * mixed) / 2;
-  const double cosine = std::cos(angle), sine = std::sin(angle);
-  const std::array<double, 2> z{std::sqrt(medium.rho * (mean + half)), std::sqrt(medium.rho * (mean - half))};
-  return {cosine,
-          sine,
-          z,
-          z[0] * cosine * cosine + z[1] * sine * sine,
-          (z[0] - z[1]) * cosine * sine,
-          z[0] * sine * sine + z[1] * cosine * cosine};
-}
-
-PlaneTensor acoustic_tensor(const PlaneStiffness& c, double nx, double nz) {
-  return {c.c55 * nx * nx + 2 * c.c35 * nx * nz + c.c33 * nz * nz,
-          c.c15 * nx * nx + (c.c13 + c.c55) * nx * nz + c.c35 * nz * nz,
-          c.c11 * nx * nx + 2 * c.c15 * nx * nz + c.c55 * nz * nz};
-}
-
-PlaneTensor root_of(const PlaneTensor& of) {
-  const double root = std::sqrt(std::max(of.zz * of.xx - of.zx * of.zx, 0.));
-  const double trace = std::sqrt(of.zz + of.xx + 2 * root);
-  if (trace == 0) return {};
-  return {(of.zz + root) / trace, of.zx / trace, (of.xx + root) / trace};
-}
-
-PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell) {
-  if (const auto* const of = domain.tilted_at(cell)) {
-    const auto& c = of->stiffness;
-    return {c.c11 * of->rho, c.c13 * of->rho, c.c15 * of->rho,
-            c.c33 * of->rho, c.c35 * of->rho, c.c55 * of->rho};
+template <int D>
+Elasticity<D> elasticity_of_loops(const Domain<D>& domain, const Index<D>& cell) {
+  Elasticity<D> c;
+  const auto modulus = [&](int axis, int pair) {
+    const double z = domain.impedance_of_pair(axis, pair)(cell);
+    return z * z;
+  };
+  for (int one = 0; one < D; ++one) {
+    c.voigt[std::size_t(one)][std::size_t(one)] = modulus(one, 0);
+    for (int pair = 1; pair < D; ++pair) {
+      const int other = axis_of_pair<D>(one, pair);
+      const auto both = c.pair(one, other);
+      c.voigt[std::size_t(one)][std::size_t(other)] =
+          domain.coupling(cell, std::min(one, other), std::max(one, other));
+      // Sweeps along z have both of its planes.
+      if (one == D - 1 || other != D - 1) c.voigt[both][both] = modulus(one, pair);
+    }
   }
-  if (domain.anisotropic()) {
-    const auto c = stiffness_at(domain, cell);
-    return {c.c11, c.c13, 0, c.c33, 0, c.c55};
-  }
+  return c;
+}
+
+template <int D>
+Elasticity<D> elasticity_at(const Domain<D>& domain, const Index<D>& cell) {
+  if (const auto* const medium = domain.anisotropic_medium(cell))
+    return medium->elasticity.times(medium->rho);
   const double zp = domain.impedance(wave_p)(cell), zs = domain.impedance(wave_s)(cell);
-  return {zp * zp, zp * zp - 2 * zs * zs, 0, zp * zp, 0, zs * zs};
-}
-
-SpaceStiffness space_stiffness_at(const Domain<3>& domain, const Index<3>& cell) {
-  SpaceStiffness stiffness;
-  auto& c = stiffness.voigt;
-  if (const auto* const of = domain.tilted_medium(cell)) {
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j < 6; ++j) c[i][j] = of->rho * of->stiffness.voigt[i][j];
-    return stiffness;
-  }
-  // A fluid that is rounded carries some shear across rows that dip.
-  if (const double zp = domain.impedance(wave_p)(cell); domain.impedance(wave_s)(cell) == 0) {
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) c[i][j] = zp * zp;
-    return stiffness;
-  }
-  const auto rock = stiffness_at(domain, cell);
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) c[std::size_t(i)][std::size_t(j)] = rock.normal(i, j);
-  c[3][3] = rock.c44, c[4][4] = rock.c55, c[5][5] = rock.c66;
-  return stiffness;
-}
-
-bool anisotropic_across_rows(const Domain<3>& domain, const Index<3>& cell) {
-  if (domain.is_tilted(cell)) return true;
-  const double one = domain.impedance_of_pair(2, 1)(cell), other = domain.impedance_of_pair(2, 2)(cell);
-  constexpr double rounding = 1e-6;
-  return std::abs(one - other) > rounding * one;
+  // A fluid that is rounded would carry some shear across rows that dip.
+  return domain.anisotropic() && zs > 0 ? elasticity_of_loops(domain, cell) : isotropic<D>(zp * zp, zs * zs);
 }
 
 template <int D>
@@ -532,52 +481,19 @@ const Field<D>& Domain<D>::impedance_of_pair(int axis, int pair) const {
 }
 
 template <int D>
-const TiltedCell<D>* Domain<D>::tilted_at(const Index<D>& at) const {
-  if (tilted_.empty()) return nullptr;
+const AnisotropicCell* Domain<D>::anisotropic_cell(const Index<D>& at) const {
+  if (cells_.empty()) return nullptr;
   const auto cell = grid.flat(at);
   const auto found =
-      std::lower_bound(tilted_.begin(), tilted_.end(), cell,
-                       [](const TiltedCell<D>& of, std::int64_t wanted) { return of.cell < wanted; });
-  return found != tilted_.end() && found->cell == cell ? &*found : nullptr;
+      std::lower_bound(cells_.begin(), cells_.end(), cell,
+                       [](const AnisotropicCell& of, std::int64_t wanted) { return of.cell < wanted; });
+  return found != cells_.end() && found->cell == cell ? &*found : nullptr;
 }
 
 template <int D>
-const TiltedMediumInSpace* Domain<D>::tilted_medium(const Index<D>& at) const {
-  if constexpr (D == 3)
-    if (const auto* const of = tilted_at(at)) return &tilted_media_[std::size_t(of->medium)];
-  return nullptr;
-}
-
-std::array<SpaceVector, 3> tractions_of_motion(const SpaceStiffness& stiffness, int axis, int along) {
-  std::array<SpaceVector, 3> matrix{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) matrix[std::size_t(i)][std::size_t(j)] = stiffness(i, axis, j, along);
-  return matrix;
-}
-
-std::array<SpaceVector, 3> coupling_at_edge_in_space(const SpaceStiffness& stiffness, int axis, int along) {
-  const auto across = tractions_of_motion(stiffness, axis, axis),
-             load = tractions_of_motion(stiffness, axis, along);
-  std::array<SpaceVector, 3> coupling{};
-  for (std::size_t j = 0; j < 3; ++j) {
-    const auto column = solved<double>(across, {load[0][j], load[1][j], load[2][j]});
-    for (std::size_t i = 0; i < 3; ++i) coupling[i][j] = column[i];
-  }
-  return coupling;
-}
-
-template <int D>
-EdgeCoupling Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
-  if constexpr (D == 2)
-    if (const auto* const tilted = tilted_at(cell)) {
-      const auto& [c11, c13, c15, c33, c35, c55] = tilted->stiffness;
-      const bool upright = axis < D - 1;
-      const double across = upright ? c11 : c33, mixed = upright ? c15 : c35, beside = upright ? c35 : c15;
-      const double determinant = across * c55 - mixed * mixed;
-      return {(c13 * c55 - mixed * beside) / determinant, (across * beside - mixed * c13) / determinant};
-    }
+double Domain<D>::coupling_at_edge(const Index<D>& cell, int axis, int along) const {
   const double zp = impedance(wave_p, axis)(cell), zs = impedance(wave_s)(cell);
-  return {anisotropic_ ? coupling(cell, axis, along) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp), 0};
+  return anisotropic_ ? coupling(cell, axis, along) / (zp * zp) : 1 - 2 * zs * zs / (zp * zp);
 }
 
 template <int D>
@@ -627,10 +543,7 @@ Domain<D> make_domain(const Medium<D>& medium, const EdgeLaws<D>& edges, int zon
   if (part.cut(1)) domain.own.last = part.last - held + domain.low_zone[z];
   set_impedances(domain, medium);
   domain.find_material_kind();
-  if constexpr (D == 2)
-    domain.set_tilted(find_tilted(domain, medium));
-  else
-    find_tilted(domain, medium);
+  find_anisotropic_cells(domain, medium);
   return domain;
 }
 
@@ -684,37 +597,6 @@ void fill_material(State<D, Real>& state, const Domain<D>& domain, const Medium<
   state.uniform_interior = find_uniform_interior(state);
 }
 
-namespace {
-
-/// s:C^-1:s of all stresses, of a stiffness whose axes do not lie along the grid.
-double complementary(const PlaneStiffness& c, double sxx, double szz, double sxz) {
-  const double a = c.c33 * c.c55 - c.c35 * c.c35, b = c.c15 * c.c35 - c.c13 * c.c55,
-               d = c.c13 * c.c35 - c.c15 * c.c33, e = c.c11 * c.c55 - c.c15 * c.c15,
-               f = c.c13 * c.c15 - c.c11 * c.c35, g = c.c11 * c.c33 - c.c13 * c.c13;
-  const double determinant = c.c11 * a + c.c13 * b + c.c15 * d;
-  return (a * sxx * sxx + e * szz * szz + g * sxz * sxz +
-          2 * (b * sxx * szz + d * sxx * sxz + f * szz * sxz)) /
-         determinant;
-}
-
-/// The same in space where its axes do.
-double complementary(const OrthorhombicStiffness& c, const SymmetricTensor<3, double>& s) {
-  const double a = c.c22 * c.c33 - c.c23 * c.c23, b = c.c13 * c.c23 - c.c12 * c.c33,
-               d = c.c12 * c.c23 - c.c13 * c.c22, e = c.c11 * c.c33 - c.c13 * c.c13,
-               f = c.c12 * c.c13 - c.c11 * c.c23, g = c.c11 * c.c22 - c.c12 * c.c12;
-  const double x = s(0, 0), y = s(1, 1), z = s(2, 2), xy = s(0, 1), xz = s(0, 2), yz = s(1, 2);
-  return (a * x * x + e * y * y + g * z * z + 2 * (b * x * y + d * x * z + f * y * z)) /
-             (c.c11 * a + c.c12 * b + c.c13 * d) +
-         xy * xy / c.c66 + xz * xz / c.c55 + yz * yz / c.c44;
-}
-
-/// s:C^-1:s of normal stresses along x and z in plane strain.
-double complementary(const Stiffness& c, double sxx, double szz) {
-  return (c.c33 * sxx * sxx - 2 * c.c13 * sxx * szz + c.c11 * szz * szz) / (c.c11 * c.c33 - c.c13 * c.c13);
-}
-
-}  // namespace
-
 template <int D, class Real>
 double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, const Medium<D>& medium,
                       Index<D> at) {
@@ -743,29 +625,18 @@ double energy_of_cell(const State<D, Real>& state, const Domain<D>& domain, cons
   const auto energy_with = [&](double elastic) {
     return 0.5 * (kinetic + elastic) * std::pow(domain.grid.spacing_m, D - 1) * height;
   };
-  if constexpr (D == 3)
-    if (anisotropic) {
-      SymmetricTensor<3, double> s;
-      for (int axis = 0; axis < D; ++axis)
-        for (int other = axis; other < D; ++other)
-          s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
-      if (const auto* const in_space = domain.tilted_medium(whole))
-        return energy_with(
-            complementary(in_space->stiffness, {s(0, 0), s(1, 1), s(2, 2), s(1, 2), s(0, 2), s(0, 1)}));
-      return energy_with(complementary(stiffness_along_grid(medium, cell), s));
-    }
+  const auto* const of = domain.anisotropic_medium(whole);
+  if (anisotropic || of) {
+    SymmetricTensor<D, double> s;
+    for (int axis = 0; axis < D; ++axis)
+      for (int other = axis; other < D; ++other)
+        s(axis, other) = value(other == axis ? Rows::normal_stress(axis) : Rows::shear_stress(axis, other));
+    return energy_with(complementary<D>(of ? of->elasticity : elasticity_along_grid(medium, cell), s.values));
+  }
   // s:C^-1:s; in plane strain C acts on the in-plane components alone.
-  if constexpr (D == 2)
-    if (const auto* const tilted = domain.tilted_at(whole))
-      return energy_with(complementary(tilted->stiffness, value(Rows::normal_stress(0)),
-                                       value(Rows::normal_stress(1)), value(Rows::shear_stress(0, 1))));
-  const double elastic =
-      anisotropic ? complementary(stiffness_of(medium, cell), value(Rows::normal_stress(0)),
-                                  value(Rows::normal_stress(D - 1))) +
-                        shear / mu
-      : mu > 0 ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
-               : trace * trace / (D * D * lambda);
-  return energy_with(elastic);
+  return energy_with(mu > 0
+                         ? (squares - lambda / (D * lambda + 2 * mu) * trace * trace) / (2 * mu) + shear / mu
+                         : trace * trace / (D * D * lambda));
 }
 
 template <int D, class Real>
@@ -778,6 +649,10 @@ double energy(const State<D, Real>& state, const Domain<D>& domain, const Medium
   return total;
 }
 
+template Elasticity<2> elasticity_of_loops(const Domain<2>&, const Index<2>&);
+template Elasticity<3> elasticity_of_loops(const Domain<3>&, const Index<3>&);
+template Elasticity<2> elasticity_at(const Domain<2>&, const Index<2>&);
+template Elasticity<3> elasticity_at(const Domain<3>&, const Index<3>&);
 template class Domain<2>;
 template double corner_depth(const Domain<2>&, Index<2>);
 template double corner_depth(const Domain<3>&, Index<3>);

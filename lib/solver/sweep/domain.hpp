@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "model/elasticity.hpp"
 #include "model/model.hpp"
 #include "model/parted_faces.hpp"
-#include "model/space_stiffness.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/edges.hpp"
 #include "scene/subdomain.hpp"
@@ -18,51 +19,20 @@
 
 namespace slipwave::solver {
 
-/// A cell of the computed grid that is a tilted mean, or rock whose axis of symmetry is tilted.
-struct TiltedMedium {
-  std::int64_t cell;
-  double rho;
-  PlaneStiffness stiffness;
-  bool mean = false;
-};
-
-/// In 3-D: the number of its medium, and that.
-struct TiltedCellInSpace {
+/// A cell of the computed grid whose rock is more than the loops of its row know, and the number of its
+/// medium: one that an interface cuts (an equivalent TTI cell), or rock whose axes are turned from those of
+/// the grid; in bent rows all anisotropic rock.
+struct AnisotropicCell {
   std::int64_t cell;
   std::int32_t medium;
 };
-struct TiltedMediumInSpace {
-  double rho;
-  SpaceStiffness stiffness;
-  bool turned = true;  // whether sweeps along the grid couple its pairs
-};
+/// What cells of one medium share: its elasticity, and that which the loops take it for.
 template <int D>
-using TiltedCell = std::conditional_t<D == 2, TiltedMedium, TiltedCellInSpace>;
-
-/// The waves of such a cell in 2-D in sweeps along an axis: the motion of the faster one along the axis and
-/// across it, the impedances of both, and the impedance as a matrix of these components (theory.md (T3)).
-struct TiltedWaves {
-  double cosine, sine;
-  std::array<double, 2> z;
-  double along, mixed, across;
-};
-TiltedWaves waves_along(const TiltedMedium& medium, int axis);
-
-/// A symmetric tensor of components along z and x, the order of the pairs of a sweep along z.
-struct PlaneTensor {
-  double zz = 0, zx = 0, xx = 0;
-};
-/// The acoustic tensor N.C.N of a face with this vector, of any length.
-PlaneTensor acoustic_tensor(const PlaneStiffness& stiffness, double nx, double nz);
-/// The root of one that is not negative: the impedances of the waves across that face, where the stiffness is
-/// times the density (theory.md (T3)).
-PlaneTensor root_of(const PlaneTensor& tensor);
-
-/// What strains along an edge leave of strains across it where no traction acts there: strain across =
-/// -normal times strain along, shear strain = -shear times that. lambda/(lambda + 2 mu) and 0 in isotropic
-/// media (theory.md (V4), (V7)).
-struct EdgeCoupling {
-  double normal = 0, shear = 0;
+struct AnisotropicMedium {
+  double rho;
+  Elasticity<D> elasticity, of_loops;
+  bool turned;  // whether sweeps along the grid couple its pairs
+  bool mean;    // an equivalent TTI cell
 };
 
 /// How rows of a fitted grid continue beyond a side of the model (theory.md (F10)), in cells: as they are for
@@ -110,30 +80,34 @@ class Domain {
   double coupling(const Index<D>& cell, int one = 0, int other = D - 1) const {
     return more_[std::size_t(coupling_row<D>(material_kind_, one, other))](cell);
   }
-  /// Of the edge across an axis, to motion along another.
-  EdgeCoupling coupling_at_edge(const Index<D>& cell, int axis, int along) const;
-  /// Tilted means and cells of rock whose axis is tilted, by cell; in bent rows all anisotropic cells.
-  /// Tilted means of zones are isotropic, and those in bent rows and beside them.
-  const std::vector<TiltedCell<D>>& tilted() const { return tilted_; }
-  bool is_tilted(const Index<D>& at) const { return tilted_at(at) != nullptr; }
-  /// Null where a cell is none.
-  const TiltedCell<D>* tilted_at(const Index<D>& at) const;
-  void set_tilted(std::vector<TiltedCell<D>> cells) { tilted_ = std::move(cells); }
-  /// In 3-D: the distinct media of those cells; of any part whether it has some; null where a cell is none.
-  const std::vector<TiltedMediumInSpace>& tilted_media() const { return tilted_media_; }
-  bool any_tilted_in_space() const { return D == 3 && (subdomain.tilted || !tilted_.empty()); }
-  const TiltedMediumInSpace* tilted_medium(const Index<D>& at) const;
-  void set_tilted_media(std::vector<TiltedMediumInSpace> media) { tilted_media_ = std::move(media); }
-  /// Takes those cells of the model for isotropic ones.
-  void drop_tilted(const std::function<bool(std::size_t cell)>& which) {
-    std::erase_if(tilted_, [&](const TiltedCell<D>& of) {
+  /// The share of a strain along an edge that is left of strain across it, of an axis, where no traction acts
+  /// there, with the sign turned: lambda/(lambda + 2 mu) in isotropic rock (theory.md (V4)). Rock whose axes
+  /// are turned has edge_coupling().
+  double coupling_at_edge(const Index<D>& cell, int axis, int along) const;
+  /// By cell, ascending. Equivalent TTI cells of zones are isotropic, and those in bent rows and beside them.
+  const std::vector<AnisotropicCell>& anisotropic_cells() const { return cells_; }
+  const std::vector<AnisotropicMedium<D>>& anisotropic_media() const { return media_; }
+  /// Null where a cell is none of them.
+  const AnisotropicCell* anisotropic_cell(const Index<D>& at) const;
+  const AnisotropicMedium<D>* anisotropic_medium(const Index<D>& at) const {
+    const auto* const of = anisotropic_cell(at);
+    return of ? &media_[std::size_t(of->medium)] : nullptr;
+  }
+  void set_anisotropic_cells(std::vector<AnisotropicCell> cells, std::vector<AnisotropicMedium<D>> media) {
+    cells_ = std::move(cells), media_ = std::move(media);
+  }
+  /// Whether sweeps in 3-D change the shear stress across their axis: any process has such cells.
+  bool changes_shear_across() const { return D == 3 && (subdomain.tilted || !cells_.empty()); }
+  /// Takes those cells of the model for what loops take them for.
+  void drop_anisotropic_cells(const std::function<bool(std::size_t cell)>& which) {
+    std::erase_if(cells_, [&](const AnisotropicCell& of) {
       return which(std::size_t(model_grid.flat(model_cell(grid.index(of.cell)))));
     });
   }
   /// Frees their memory.
   void release_impedances() {
     impedances_ = {}, more_ = {};
-    if (D == 3) tilted_ = {}, tilted_media_ = {};
+    if (D == 3) cells_ = {}, media_ = {};
   }
   void set_impedances(std::array<Field<D>, 2> of_waves) { impedances_ = std::move(of_waves); }
   /// Of an anisotropic medium, besides: the other rows of its material, by MaterialRow.
@@ -173,55 +147,35 @@ class Domain {
   bool anisotropic_ = false;
   MaterialKind material_kind_ = MaterialKind::isotropic;
   Rows more_;
-  std::vector<TiltedCell<D>> tilted_;
-  std::vector<TiltedMediumInSpace> tilted_media_;
+  std::vector<AnisotropicCell> cells_;
+  std::vector<AnisotropicMedium<D>> media_;
 };
 
-/// Of a free edge across an axis of a tilted medium in space: what a difference of the velocity along another
-/// leaves of that across it where no traction acts there, as a matrix of x, y and z: the difference across is
-/// minus the matrix times that along (theory.md (O9)).
-std::array<SpaceVector, 3> coupling_at_edge_in_space(const SpaceStiffness& stiffness, int axis, int along);
-/// The rows of C_iajb, axis a: its acoustic tensor for b = a, else what motion along b puts on the face.
-std::array<SpaceVector, 3> tractions_of_motion(const SpaceStiffness& stiffness, int axis, int along);
-/// What a symmetric positive matrix times it is `right`.
-template <class Real>
-std::array<Real, 3> solved(const std::array<std::array<Real, 3>, 3>& m, const std::array<Real, 3>& right) {
-  const Real a = m[1][1] * m[2][2] - m[1][2] * m[1][2], b = m[0][2] * m[1][2] - m[0][1] * m[2][2],
-             c = m[0][1] * m[1][2] - m[0][2] * m[1][1], d = m[0][0] * m[2][2] - m[0][2] * m[0][2],
-             e = m[0][1] * m[0][2] - m[0][0] * m[1][2], f = m[0][0] * m[1][1] - m[0][1] * m[0][1];
-  const Real share = 1 / (m[0][0] * a + m[0][1] * b + m[0][2] * c);
-  return {share * (a * right[0] + b * right[1] + c * right[2]),
-          share * (b * right[0] + d * right[1] + e * right[2]),
-          share * (c * right[0] + e * right[1] + f * right[2])};
-}
-
-/// The stiffness of a cell of an anisotropic domain times the density, tilted ones as upright.
+/// What a difference of the velocity along another axis leaves of that across a free edge of an axis where no
+/// traction acts there, as a matrix of the axes of the grid: the difference across is minus the matrix times
+/// that along (theory.md (V8), (O9)).
 template <int D>
-auto stiffness_at(const Domain<D>& domain, const Index<D>& cell) {
-  const auto square = [&](int axis, int pair) {
-    const double z = domain.impedance_of_pair(axis, pair)(cell);
-    return z * z;
-  };
-  if constexpr (D == 2)
-    return Stiffness{square(0, 0), domain.coupling(cell), square(1, 0), square(1, 1)};
-  else
-    return OrthorhombicStiffness{square(0, 0),
-                                 square(1, 0),
-                                 square(2, 0),
-                                 square(2, 2),
-                                 square(2, 1),
-                                 square(0, 1),
-                                 domain.coupling(cell, 0, 1),
-                                 domain.coupling(cell, 0, 2),
-                                 domain.coupling(cell, 1, 2)};
+SmallMatrix<std::size_t(D)> edge_coupling(const Elasticity<D>& elasticity, int axis, int along) {
+  const auto across = unit_vector<std::size_t(D)>(std::size_t(axis)),
+             beside = unit_vector<std::size_t(D)>(std::size_t(along));
+  return product_of(inverse_of(christoffel<D>(elasticity, across)), tractions<D>(elasticity, across, beside));
 }
 
-/// That in the plane of x and z of any cell in 2-D, times the density.
-PlaneStiffness plane_stiffness_at(const Domain<2>& domain, const Index<2>& cell);
-/// That of any cell in 3-D, times the density.
-SpaceStiffness space_stiffness_at(const Domain<3>& domain, const Index<3>& cell);
-/// Whether a cell in 3-D is listed as tilted(), or S waves along z have two speeds there.
-bool anisotropic_across_rows(const Domain<3>& domain, const Index<3>& cell);
+/// The elasticity that loops of sweeps take a cell of an anisotropic domain for, times the density.
+template <int D>
+Elasticity<D> elasticity_of_loops(const Domain<D>& domain, const Index<D>& cell);
+/// That of any cell, times the density.
+template <int D>
+Elasticity<D> elasticity_at(const Domain<D>& domain, const Index<D>& cell);
+/// Whether a cell is one of anisotropic_cells(), or in 3-D S waves along z have two speeds there.
+template <int D>
+bool anisotropic_across_rows(const Domain<D>& domain, const Index<D>& cell) {
+  if (domain.anisotropic_cell(cell)) return true;
+  const double one = domain.impedance_of_pair(D - 1, 1)(cell),
+               other = domain.impedance_of_pair(D - 1, D - 1)(cell);
+  constexpr double rounding = 1e-6;
+  return std::abs(one - other) > rounding * one;
+}
 
 /// Depth in cells of a corner of the computed grid of a fitted model. Beyond the sides of the model rows bend
 /// until they are level, so that absorbing zones there act on a regular grid; above and below it they keep

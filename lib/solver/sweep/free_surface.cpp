@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/motion_along.hpp"
+#include "solver/sweep/row_waves.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -56,46 +56,24 @@ std::vector<SurfaceTerm<D>> bent_slope(const Domain<D>& domain, const Index<D>& 
 
 /// The same of an anisotropic cell: the tensor of N times what it bends is the traction of motion along the
 /// rows.
-std::vector<SurfaceTerm<2>> anisotropic_bent_slope(const Domain<2>& domain, const Index<2>& at, int side,
+template <int D>
+std::vector<SurfaceTerm<D>> anisotropic_bent_slope(const Domain<D>& domain, const Index<D>& at, int side,
                                                    int row) {
   const auto [normal, height] = end_of_rows(domain, at, side);
-  if (thin(domain, 0)) return {};
-  const auto c = plane_stiffness_at(domain, at);
-  const double nx = normal.x, outward = side ? -1 : 1;
-  const auto tensor = acoustic_tensor(c, nx, 1);
-  const double over = outward * height / (tensor.zz * tensor.xx - tensor.zx * tensor.zx);
-  std::vector<SurfaceTerm<2>> terms;
-  for (const int of : {0, 1}) {
-    const double t_z = of == 0 ? c.c13 + nx * c.c15 : c.c35 + nx * c.c55,
-                 t_x = of == 0 ? c.c15 + nx * c.c11 : c.c55 + nx * c.c15;
-    const double share =
-        over * (row == 0 ? tensor.zz * t_x - tensor.zx * t_z : tensor.xx * t_z - tensor.zx * t_x);
-    if (share != 0 && !add_difference(domain, at, 0, of, share, terms)) return {};
-  }
-  return terms;
-}
-
-std::vector<SurfaceTerm<3>> anisotropic_bent_slope(const Domain<3>& domain, const Index<3>& at, int side,
-                                                   int row) {
-  const auto [normal, height] = end_of_rows(domain, at, side);
-  const auto c = space_stiffness_at(domain, at);
-  const auto n = normal_in_space(normal);
-  const auto over = inverse_of(traction_of_rows(c, n, n));
+  const auto c = elasticity_at(domain, at);
+  const auto n = normal_in_grid<D>(normal);
+  const auto over = inverse_of(christoffel<D>(c, n));
   const double outward = (side ? -1 : 1) * height;
-  const auto component_of = std::size_t(row == 2 ? 0 : row + 1);
-  std::vector<SurfaceTerm<3>> terms;
-  for (const int along : {0, 1}) {
+  std::vector<SurfaceTerm<D>> terms;
+  for (int along = 0; along < D - 1; ++along) {
     if (thin(domain, along)) {
       if (ends_free(domain, along)) return {};
       continue;
     }
-    SpaceVector axis{};
-    axis[std::size_t(along)] = 1;
-    const auto bend = product_of(over, traction_of_rows(c, n, axis));
-    for (std::size_t of = 0; of < 3; ++of) {
-      const double share = outward * bend[component_of][of];
-      if (share != 0 &&
-          !add_difference(domain, at, along, FieldRows<3>::velocity(axes_of_rows[of]), share, terms))
+    const auto bend = product_of(over, tractions<D>(c, n, unit_vector<std::size_t(D)>(std::size_t(along))));
+    for (int of = 0; of < D; ++of) {
+      const double share = outward * bend[std::size_t(row)][std::size_t(of)];
+      if (share != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), share, terms))
         return {};
     }
   }
@@ -104,12 +82,13 @@ std::vector<SurfaceTerm<3>> anisotropic_bent_slope(const Domain<3>& domain, cons
 
 /// Adds what motion along one axis of the edge bends of a velocity in rock whose axes are turned; false where
 /// there is no difference.
-bool add_tilted(const Domain<3>& domain, const TiltedMediumInSpace& medium, const Index<3>& at, int axis,
-                int along, int row, double outward, std::vector<SurfaceTerm<3>>& terms) {
-  const auto coupling = coupling_at_edge_in_space(medium.stiffness, axis, along);
-  for (int of = 0; of < 3; ++of) {
+template <int D>
+bool add_turned(const Domain<D>& domain, const Elasticity<D>& elasticity, const Index<D>& at, int axis,
+                int along, int row, double outward, std::vector<SurfaceTerm<D>>& terms) {
+  const auto coupling = edge_coupling<D>(elasticity, axis, along);
+  for (int of = 0; of < D; ++of) {
     const double factor = outward * coupling[std::size_t(row)][std::size_t(of)];
-    if (factor != 0 && !add_difference(domain, at, along, FieldRows<3>::velocity(of), factor, terms))
+    if (factor != 0 && !add_difference(domain, at, along, FieldRows<D>::velocity(of), factor, terms))
       return false;
   }
   return true;
@@ -188,7 +167,7 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
     if (place < 0 || place >= domain.grid.shape[std::size_t(axis)] || !alike(domain, before, next)) return {};
     before = next;
   }
-  if (bent && domain.is_tilted(at)) return anisotropic_bent_slope(domain, at, side, row);
+  if (bent && domain.anisotropic_cell(at)) return anisotropic_bent_slope(domain, at, side, row);
   if (bent) return bent_slope(domain, at, side, row);
   const double height = domain.height(at[D - 1]);
   std::vector<SurfaceTerm<D>> terms;
@@ -200,20 +179,18 @@ std::vector<SurfaceTerm<D>> surface_slope(const Domain<D>& domain, const Index<D
       if (ends_free(domain, along)) return {};
       continue;
     }
-    if constexpr (D == 3)
-      if (const auto* const tilted = domain.tilted_medium(at)) {
-        if (!add_tilted(domain, *tilted, at, axis, along, row, outward, terms)) return {};
-        continue;
-      }
-    const auto coupling = domain.coupling_at_edge(at, axis, along);
+    if (const auto* const medium = domain.anisotropic_medium(at)) {
+      if (!add_turned(domain, medium->elasticity, at, axis, along, row, outward, terms)) return {};
+      continue;
+    }
     const auto add = [&](int of, double factor) {
       return factor == 0 || add_difference(domain, at, along, Rows::velocity(of), outward * factor, terms);
     };
     bool found = true;
     if (row == Rows::velocity(axis))
-      found = add(along, coupling.normal);
+      found = add(along, domain.coupling_at_edge(at, axis, along));
     else if (row == Rows::velocity(along))
-      found = add(axis, 1) && add(along, coupling.shear);
+      found = add(axis, 1);
     if (!found) return {};
   }
   return terms;
@@ -253,12 +230,12 @@ FreeSurface<D, Real>::FreeSurface(const Layout<D>& layout, const Domain<D>& doma
         BentEnd end{number(at), place(row_b), place(row_zp), place(row_zs), {}, {}};
         end.normal.z = Real(normal.z), end.normal.x = Real(normal.x);
         if constexpr (D == 3) end.normal.y = Real(normal.y);
-        if (domain.is_tilted(at)) find_tensor(domain, at, normal, outward_ / rows_height, end);
+        if (domain.anisotropic_cell(at)) find_tensor(domain, at, normal, outward_ / rows_height, end);
         end.factor = Real(dot(normal, normal) * outward_ / rows_height);
         bent_ends_.push_back(end);
       }
       ++pair;
-      if (pair == D && !terms.empty() && domain.is_tilted(at) && !domain.bent(at[D - 1]))
+      if (pair == D && !terms.empty() && domain.anisotropic_cell(at) && !domain.bent(at[D - 1]))
         tilted_ends_.push_back({number(at), place(row_b), mixed_stiffness(domain, at, outward_ / height)});
     };
     add(FieldRows<D>::velocity(axis), p_row<D>(kind, axis));
@@ -277,34 +254,24 @@ template <int D, class Real>
 void FreeSurface<D, Real>::find_tensor(const Domain<D>& domain, const Index<D>& at,
                                        const RowVector<D, double>& normal, double factor, BentEnd& end) {
   end.anisotropic = true;
-  if constexpr (D == 2) {
-    const auto of = acoustic_tensor(plane_stiffness_at(domain, at), normal.x, 1);
-    end.tensor = {
-        {{Real(factor * of.zz), Real(factor * of.zx)}, {Real(factor * of.zx), Real(factor * of.xx)}}};
-  } else {
-    const auto n = normal_in_space(normal);
-    const auto of = traction_of_rows(space_stiffness_at(domain, at), n, n);
-    for (std::size_t c = 0; c < 3; ++c)
-      end.tensor[c] = {Real(factor * of[c][0]), Real(factor * of[c][1]), Real(factor * of[c][2])};
-  }
+  const auto tensor = in_pairs<D>(christoffel<D>(elasticity_at(domain, at), normal_in_grid<D>(normal)));
+  for (std::size_t i = 0; i < D; ++i)
+    for (std::size_t k = 0; k < D; ++k) end.tensor[i][k] = Real(factor * tensor[i][k]);
 }
 
 /// Of both pairs, in 3-D of the first two, of the first and the last, and of the last two.
 template <int D, class Real>
 auto FreeSurface<D, Real>::mixed_stiffness(const Domain<D>& domain, const Index<D>& at, double factor) const
     -> Mixed {
-  if constexpr (D == 2) {
-    const auto& tilted = *domain.tilted_at(at);
-    const double mixed = axis_ < D - 1 ? tilted.stiffness.c15 : tilted.stiffness.c35;
-    return {Real(mixed * tilted.rho * factor)};
-  } else {
-    const auto& tilted = *domain.tilted_medium(at);
-    const int one = axis_of_pair<D>(axis_, 1), two = axis_of_pair<D>(axis_, 2);
-    const auto mixed = [&](int i, int j) {
-      return Real(tilted.stiffness(i, axis_, j, axis_) * tilted.rho * factor);
-    };
-    return {mixed(axis_, one), mixed(axis_, two), mixed(one, two)};
-  }
+  const auto& medium = *domain.anisotropic_medium(at);
+  Mixed all;
+  std::size_t n = 0;
+  for (int one = 0; one < D; ++one)
+    for (int other = one + 1; other < D; ++other) {
+      const auto motion = [&](int pair) { return pair == 0 ? axis_ : axis_of_pair<D>(axis_, pair); };
+      all[n++] = Real(medium.elasticity(motion(one), axis_, motion(other), axis_) * medium.rho * factor);
+    }
+  return all;
 }
 
 template <int D, class Real>
@@ -381,8 +348,7 @@ void FreeSurface<D, Real>::correct_bent_ends(const State<D, Real>& state, std::i
     const Real b = material[end->b], zp = material[end->zp], zs = material[end->zs];
     auto t = end->factor * scaled(end->normal, zp * zp * b, zs * zs * b, bend);
     if (end->anisotropic) {
-      t.z = b * dot(end->tensor[0], bend), t.x = b * dot(end->tensor[1], bend);
-      if constexpr (D == 3) t.y = b * dot(end->tensor[2], bend);
+      t = b * row_vector<D>(product_of(end->tensor, components<D>(bend)));
     }
     traction_corrections_[0][n] = t.z - end->normal.x * t.x;
     traction_corrections_[1][n] = t.x;

@@ -50,6 +50,10 @@ class FreeSurface {
   FreeSurface(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
 
   bool empty() const { return cells_.empty(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(cells_) + bytes_of(bent_ends_) + bytes_of(tilted_ends_) + bytes_of(terms_) +
+           bytes_of(retained_) + bytes_of(velocity_corrections_) + bytes_of(traction_corrections_);
+  }
   /// Copies the velocities of the edge's cells on this row as they are now, at an edge of another axis than
   /// the last: update_corrections() reads the copy, since sweeps change row after row.
   void retain(const State<D, Real>& state, std::int64_t line);
@@ -83,7 +87,7 @@ class FreeSurface {
     Real factor;
     /// Of anisotropic rock: the acoustic tensor of N times the density, over J, as N.N is.
     bool anisotropic = false;
-    std::array<RowVector<D, Real>, std::size_t(D)> tensor{};
+    SmallMatrix<std::size_t(D), Real> tensor{};
   };
   static void find_tensor(const Domain<D>& domain, const Index<D>& at, const RowVector<D, double>& normal,
                           double factor, BentEnd& end);

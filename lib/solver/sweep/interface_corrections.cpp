@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "scene/edges.hpp"
-#include "solver/sweep/bent_waves_in_space.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/motion_along.hpp"
+#include "solver/sweep/row_waves.hpp"
 
 namespace slipwave::solver {
 namespace {
@@ -87,72 +87,11 @@ bool corrected(const Domain<D>& domain, const Index<D>& below) {
   return extends_far(domain, above, -1) && extends_far(domain, below, 1);
 }
 
-/// The vector that a symmetric matrix of the components along z and x turns into this one, in 2-D.
-template <class Real, class Vector>
-Vector solved_in_plane(Real along, Real mixed, Real across, const Vector& product) {
-  const Real share = 1 / (along * across - mixed * mixed);
-  Vector found{};
-  found.z = share * (across * product.z - mixed * product.x);
-  found.x = share * (along * product.x - mixed * product.z);
-  return found;
-}
-
 template <int D>
 Index<D> above(Index<D> at) {
   --at[D - 1];
   return at;
 }
-bool unlike_isotropic(const Domain<2>& domain, const Index<2>& at) { return domain.is_tilted(at); }
-bool unlike_isotropic(const Domain<3>& domain, const Index<3>& at) {
-  return anisotropic_across_rows(domain, at);
-}
-
-/// Across rows with the vector N: the impedance of a cell, and the tractions that motion along an axis puts
-/// on them, times the density, of components z, x, in 3-D y.
-template <int D>
-class Rows;
-template <>
-class Rows<2> {
- public:
-  using Square = std::array<std::array<double, 2>, 2>;
-  Rows(const Domain<2>& domain, const Index<2>& cell, const RowVector<2, double>& normal)
-      : stiffness_(plane_stiffness_at(domain, cell)), nx_(normal.x) {}
-  Square impedance() const {
-    const auto z = root_of(acoustic_tensor(stiffness_, nx_, 1));
-    return {{{z.zz, z.zx}, {z.zx, z.xx}}};
-  }
-  Square load_along(int /*axis*/) const {
-    const auto& c = stiffness_;
-    return {{{c.c35 + nx_ * c.c55, c.c13 + nx_ * c.c15}, {c.c55 + nx_ * c.c15, c.c15 + nx_ * c.c11}}};
-  }
-
- private:
-  PlaneStiffness stiffness_;
-  double nx_;
-};
-template <>
-class Rows<3> {
- public:
-  using Square = RowMatrix;
-  Rows(const Domain<3>& domain, const Index<3>& cell, const RowVector<3, double>& normal)
-      : stiffness_(space_stiffness_at(domain, cell)), normal_(normal_in_space(normal)) {}
-  Square impedance() const { return impedance_across_rows(stiffness_, normal_); }
-  Square load_along(int axis) const {
-    SpaceVector along{};
-    along[std::size_t(axis)] = 1;
-    return traction_of_rows(stiffness_, normal_, along);
-  }
-
- private:
-  SpaceStiffness stiffness_;
-  SpaceVector normal_;
-};
-Rows<2>::Square inverse(const Rows<2>::Square& of) {
-  const double over = 1 / (of[0][0] * of[1][1] - of[0][1] * of[0][1]);
-  return {{{over * of[1][1], -over * of[0][1]}, {-over * of[0][1], over * of[0][0]}}};
-}
-RowMatrix inverse(const RowMatrix& of) { return inverse_of(of); }
-
 /// Differences of the velocity along x and, in 3-D, y.
 template <int D, class Real, std::size_t N>
 std::array<RowVector<D, Real>, std::size_t(D - 1)> differences_along(const std::array<std::int64_t, N>& cells,
@@ -209,14 +148,17 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
         to.b = state.material_layout.cell(cell);
         to.j = metric.volume(cell);
         to.coupled = domain.anisotropic() && !bent_face(domain, row);
-        if (!bent_face(domain, row) && domain.is_tilted(cell)) to.tilted = add_tilted(domain, cell);
       }
-      if (bent_face(domain, row) &&
-          (unlike_isotropic(domain, at) || unlike_isotropic(domain, above<D>(at)))) {
+      // Level rows know what upright rock does.
+      const auto by_matrices = [&](const Index<D>& cell) {
+        return bent_face(domain, row) ? anisotropic_across_rows(domain, cell)
+                                      : domain.anisotropic_cell(cell) != nullptr;
+      };
+      if (by_matrices(at) || by_matrices(above<D>(at))) {
         RowVector<D, double> normal{};
         normal.z = 1, normal.x = double(slot.normal[0]);
         if constexpr (D == 3) normal.y = double(slot.normal[1]);
-        slot.bent = add_bent(state, domain, metric, at, normal);
+        slot.matrices = add_matrices(state, domain, metric, at, normal);
       }
       slots_.push_back(slot);
     }
@@ -226,44 +168,41 @@ InterfaceCorrections<D, Real>::InterfaceCorrections(const State<D, Real>& state,
     for (auto& list : *lists) list.assign(slots_.size(), 0);
 }
 
-/// Of a face of bent rows: the sums of update_slot() with impedances and tensors of the vector N.
+/// Of a face beside anisotropic cells: the sums of update_slot() with impedances and tensors of the vector N.
 template <int D, class Real>
-std::int32_t InterfaceCorrections<D, Real>::add_bent(const State<D, Real>& state, const Domain<D>& domain,
-                                                     const Metric<D, Real>& metric, const Index<D>& below,
-                                                     const RowVector<D, double>& normal) {
-  using Square = typename Rows<D>::Square;
+std::int32_t InterfaceCorrections<D, Real>::add_matrices(const State<D, Real>& state, const Domain<D>& domain,
+                                                         const Metric<D, Real>& metric, const Index<D>& below,
+                                                         const RowVector<D, double>& normal) {
+  using Square = SmallMatrix<std::size_t(D)>;
   constexpr std::size_t axes = D - 1;
-  std::array<double, std::size_t(D)> n{};
-  n[0] = normal.z, n[1] = normal.x;
-  if constexpr (D == 3) n[2] = normal.y;
+  const auto n = components<D>(normal);
+  const auto in_grid = normal_in_grid<D>(normal);
   Square sum{};
   std::array<std::array<Square, axes>, 2> load{}, bend{};
   bool beside_void = false;
-  Bent found{};
+  Matrices found{};
   for (const std::size_t side : {0, 1}) {
     const auto cell = side ? below : above<D>(below);
     if (domain.impedance(wave_p)(cell) == 0) {
       beside_void = true;
       continue;
     }
-    const Rows<D> rows(domain, cell, normal);
-    const auto z = rows.impedance();
+    const auto c = elasticity_at(domain, cell);
+    const auto z = impedance_across_rows<D>(c, in_grid);
+    sum = sum_of(sum, z, 1.);
     double trace = 0;
-    for (std::size_t i = 0; i < D; ++i) {
-      trace += z[i][i];
-      for (std::size_t k = 0; k < D; ++k) sum[i][k] += z[i][k];
-    }
+    for (std::size_t i = 0; i < D; ++i) trace += z[i][i];
     // (T3): Z over the tensor is the density times the inverse of Z; of a fluid along the normal alone.
     Square of_fluid{};
     for (std::size_t i = 0; i < D; ++i)
       for (std::size_t k = 0; k < D; ++k) of_fluid[i][k] = n[i] * n[k] / (trace * dot(normal, normal));
-    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse(z) : of_fluid;
+    const auto over = domain.impedance(wave_s)(cell) > 0 ? inverse_of(z) : of_fluid;
     for (std::size_t axis = 0; axis < axes; ++axis) {
-      load[side][axis] = rows.load_along(int(axis));
+      load[side][axis] = in_pairs<D>(tractions<D>(c, in_grid, unit_vector<std::size_t(D)>(axis)));
       bend[side][axis] = product_of(over, load[side][axis]);
     }
   }
-  const auto share = inverse(sum);
+  const auto share = inverse_of(sum);
   for (const std::size_t side : {0, 1}) {
     const auto cell = side ? below : above<D>(below);
     const double sign = side ? -1 : 1, j = double(metric.volume(cell)),
@@ -279,44 +218,26 @@ std::int32_t InterfaceCorrections<D, Real>::add_bent(const State<D, Real>& state
         }
     }
   }
-  bent_.push_back(found);
-  return std::int32_t(bent_.size()) - 1;
+  matrices_.push_back(found);
+  return std::int32_t(matrices_.size()) - 1;
 }
 
 template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_bent_slot(const State<D, Real>& state, std::size_t n) {
+void InterfaceCorrections<D, Real>::update_by_matrices(const State<D, Real>& state, std::size_t n) {
   const Slot& slot = slots_[n];
-  const Bent& of = bent_[std::size_t(slot.bent)];
-  std::array<Real, Bent::differences> along{};
+  const Matrices& of = matrices_[std::size_t(slot.matrices)];
+  std::array<Real, Matrices::differences> along{};
   std::size_t place = 0;
   for (const auto& side : slot.sides)
     for (const auto& difference :
          differences_along<D>(side.cells, state.fields.data(), state.layout.row_pitch())) {
-      along[place++] = difference.z, along[place++] = difference.x;
-      if constexpr (D == 3) along[place++] = difference.y;
+      for (const Real part : components<D>(difference)) along[place++] = part;
     }
   for (std::size_t i = 0; i < D; ++i) {
     Real velocity = 0, traction = 0;
-    for (std::size_t k = 0; k < Bent::differences; ++k)
+    for (std::size_t k = 0; k < Matrices::differences; ++k)
       velocity += of.velocity[i][k] * along[k], traction += of.traction[i][k] * along[k];
     velocities_[i][n] = velocity, tractions_[i][n] = traction;
-  }
-}
-
-/// The place of what is known of such a cell.
-template <int D, class Real>
-std::int32_t InterfaceCorrections<D, Real>::add_tilted(const Domain<D>& domain, const Index<D>& cell) {
-  if constexpr (D == 2) {
-    const auto& tilted = *domain.tilted_at(cell);
-    const auto& c = tilted.stiffness;
-    const auto of = waves_along(tilted, D - 1);
-    const auto real = [&](double value) { return Real(value); };
-    tilted_.push_back({real(c.c13 * tilted.rho), real(c.c15 * tilted.rho), real(c.c35 * tilted.rho),
-                       real(c.c55 * tilted.rho), real(of.along), real(of.mixed), real(of.across)});
-    return std::int32_t(tilted_.size()) - 1;
-  } else {
-    tilted_in_space_.push_back(tilted_in_space(*domain.tilted_medium(cell)));
-    return std::int32_t(tilted_in_space_.size()) - 1;
   }
 }
 
@@ -361,14 +282,12 @@ template <int D, class Real>
 void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std::size_t n) {
   using Vector = RowVector<D, Real>;
   const Slot& slot = slots_[n];
-  if (slot.bent != none) return update_bent_slot(state, n);
-  if (D == 3 && (slot.sides[0].tilted != none || slot.sides[1].tilted != none))
-    return update_tilted_slot(state, n);
+  if (slot.matrices != none) return update_by_matrices(state, n);
   const Vector normal = row_normal<D>(slot.normal.data(), 1);
   const Real square = dot(normal, normal);
   const std::int64_t pitch = state.layout.row_pitch();
   Vector velocity{}, traction{};
-  Real sum_p = 0, sum_s = 0, sum_s_y = 0, sum_mixed = 0;
+  Real sum_p = 0, sum_s = 0, sum_s_y = 0;
   bool beside_void = false;
   for (const int which : {0, 1}) {
     const Side& side = slot.sides[std::size_t(which)];
@@ -381,16 +300,6 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
     }
     const auto along = differences_along<D>(side.cells, state.fields.data(), pitch);
     const Real sign = which ? Real(-1) : Real(1);  // Z_l a_l - Z_r a_r
-    if constexpr (D == 2)
-      if (side.tilted != none) {
-        const Tilted& of = tilted_[std::size_t(side.tilted)];
-        const Vector t{of.c13 * along[0].x + of.c35 * along[0].z, of.c15 * along[0].x + of.c55 * along[0].z};
-        // (T3): Z over the tensor is the density times the inverse of Z.
-        velocity = velocity + (-sign * side.j) * solved_in_plane(of.z_along, of.z_mixed, of.z_across, t);
-        traction = traction + (-sign / 2 * b) * t;
-        sum_p += of.z_along, sum_s += of.z_across, sum_mixed += of.z_mixed;
-        continue;
-      }
     // Moduli times dt/h.
     const Real p = zp * zp * b, mu = zs * zs * b;
     const Real zs_y = side.coupled ? material[zs_y_row_ * material_pitch_] : zs;
@@ -409,75 +318,12 @@ void InterfaceCorrections<D, Real>::update_slot(const State<D, Real>& state, std
   }
   const Vector of_p = (dot(normal, velocity) / square) * normal, of_s = velocity - of_p;
   Vector v = (1 / sum_p) * of_p + (1 / sum_s) * of_s;
-  if (sum_mixed != 0) v = solved_in_plane(sum_p, sum_mixed, sum_s, velocity);
   velocities_[0][n] = v.z, velocities_[1][n] = v.x;
   if (!beside_void) traction = Real(traction_share) * traction;
   tractions_[0][n] = traction.z, tractions_[1][n] = traction.x;
   if constexpr (D == 3) {
     if (sum_s_y != sum_s) v.y = (1 / sum_s_y) * velocity.y;
     velocities_[2][n] = v.y, tractions_[2][n] = traction.y;
-  }
-}
-
-template <int D, class Real>
-auto InterfaceCorrections<D, Real>::tilted_in_space(const TiltedMediumInSpace& medium) -> TiltedInSpace {
-  constexpr int z = 2;
-  constexpr std::array<int, 3> component = {2, 0, 1};
-  TiltedInSpace of{};
-  SpaceVector down{};
-  down[z] = 1;
-  const auto waves = waves_along(medium.stiffness, down);
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) {
-      const auto at = [&](std::size_t k) { return std::size_t(component[k]); };
-      for (const int along : {0, 1})
-        of.motion[std::size_t(along)][i][j] =
-            Real(medium.rho * medium.stiffness(component[i], z, component[j], along));
-      double impedance = 0;
-      for (std::size_t wave = 0; wave < 3; ++wave)
-        impedance += std::sqrt(medium.rho * waves.moduli[wave]) * waves.motions[wave][at(i)] *
-                     waves.motions[wave][at(j)];
-      of.z[i][j] = Real(impedance);
-    }
-  return of;
-}
-
-/// The same of a level face with rock on one side whose axes are turned, in 3-D; the other is fluid.
-template <int D, class Real>
-void InterfaceCorrections<D, Real>::update_tilted_slot(const State<D, Real>& state, std::size_t n) {
-  if constexpr (D == 3) {
-    using Vector = std::array<Real, 3>;
-    const Slot& slot = slots_[n];
-    typename TiltedInSpace::Matrix sum{};
-    Vector velocity{}, traction{};
-    for (const int which : {0, 1}) {
-      const Side& side = slot.sides[std::size_t(which)];
-      const Real* const material = state.material.data() + side.b;
-      const Real b = material[0], zp = material[row_zp * material_pitch_];
-      const auto along = differences_along<D>(side.cells, state.fields.data(), state.layout.row_pitch());
-      const Real sign = which ? Real(-1) : Real(1);
-      if (side.tilted == none) {
-        // Pressure alone, by lambda = lambda + 2 mu.
-        const Real t = zp * zp * (along[0].x + along[1].y);
-        velocity[0] += -sign * side.j * (t / zp), traction[0] += -sign / 2 * b * t, sum[0][0] += zp;
-        continue;
-      }
-      const auto& of = tilted_in_space_[std::size_t(side.tilted)];
-      Vector t{};
-      for (const std::size_t axis : {0, 1}) {
-        const Vector motion = {along[axis].z, along[axis].x, along[axis].y};
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t k = 0; k < 3; ++k) t[i] += of.motion[axis][i][k] * motion[k];
-      }
-      const auto bend = solved(of.z, t);
-      for (std::size_t i = 0; i < 3; ++i) {
-        velocity[i] += -sign * side.j * bend[i], traction[i] += -sign / 2 * b * t[i];
-        for (std::size_t k = 0; k < 3; ++k) sum[i][k] += of.z[i][k];
-      }
-    }
-    const auto v = solved(sum, velocity);
-    for (std::size_t i = 0; i < 3; ++i)
-      velocities_[i][n] = v[i], tractions_[i][n] = Real(traction_share) * traction[i];
   }
 }
 

@@ -22,6 +22,10 @@ class InterfaceCorrections {
   InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric);
 
   bool empty() const { return slots_.empty(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(slots_) + bytes_of(matrices_) + bytes_of(first_) + bytes_of(velocities_) +
+           bytes_of(tractions_);
+  }
   /// Slot of the face between a cell and the one before it along z, or `none` where nothing is corrected.
   std::int32_t slot(const Index<D>& below_face) const;
   static constexpr std::int32_t none = -1;
@@ -43,23 +47,11 @@ class InterfaceCorrections {
     std::array<std::int64_t, std::size_t(lateral)> cells;  // row 0 of the fields
     std::int64_t b;                                        // of the material
     Real j;
-    bool coupled;                // on a level face of an anisotropic medium, which its material describes
-    std::int32_t tilted = none;  // of rock whose axis is tilted: its place in tilted_
+    bool coupled;  // on a level face of an anisotropic medium, which its material describes
   };
-  /// Stiffnesses times the density, and the inverse of the impedance matrix of sweeps along z.
-  struct Tilted {
-    Real c13, c15, c35, c55;
-    Real z_along, z_mixed, z_across;
-  };
-  /// The same in 3-D; components z, x, y.
-  struct TiltedInSpace {
-    using Matrix = std::array<std::array<Real, 3>, 3>;
-    std::array<Matrix, 2> motion;  // by the axis along the face: what motion along it puts on it
-    Matrix z;
-  };
-  /// Of a face in bent rows beside anisotropic rock: what the differences along x, in 3-D also y, of the
-  /// velocities of its two sides make of its corrections (theory.md (F14)).
-  struct Bent {
+  /// What the differences along x, in 3-D also y, of the velocities of both sides of a face make of its
+  /// corrections beside anisotropic cells (theory.md (F14)).
+  struct Matrices {
     static constexpr std::size_t differences = std::size_t(2) * (D - 1) * D;
     /// [component][side, axis, component]
     using Matrix = std::array<std::array<Real, differences>, std::size_t(D)>;
@@ -67,25 +59,21 @@ class InterfaceCorrections {
   };
   struct Slot {
     std::int64_t row, column;
-    std::int32_t bent = none;                     // its place in bent_
+    std::int32_t matrices = none;                 // its place in matrices_
     std::array<Real, std::size_t(D - 1)> normal;  // horizontal components of N of the face
     std::array<Side, 2> sides;
   };
   std::size_t first_at(std::size_t row, std::int64_t column) const;
   void update_slot(const State<D, Real>& state, std::size_t slot);
-  std::int32_t add_tilted(const Domain<D>& domain, const Index<D>& cell);
-  std::int32_t add_bent(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric,
-                        const Index<D>& below, const RowVector<D, double>& normal);
-  void update_bent_slot(const State<D, Real>& state, std::size_t slot);
-  static TiltedInSpace tilted_in_space(const TiltedMediumInSpace& medium);
-  void update_tilted_slot(const State<D, Real>& state, std::size_t slot);
+  std::int32_t add_matrices(const State<D, Real>& state, const Domain<D>& domain,
+                            const Metric<D, Real>& metric, const Index<D>& below,
+                            const RowVector<D, double>& normal);
+  void update_by_matrices(const State<D, Real>& state, std::size_t slot);
 
   std::int64_t padded_nx_ = 0, material_pitch_ = 0;
   int zs_y_row_ = row_zs, coupling_y_row_ = row_coupling;  // of the plane of y and z
   std::vector<Slot> slots_;                                // by row, then column
-  std::vector<Bent> bent_;
-  std::vector<Tilted> tilted_;
-  std::vector<TiltedInSpace> tilted_in_space_;
+  std::vector<Matrices> matrices_;
   std::vector<std::size_t> first_;  // of each row in slots_, and the end
   std::array<std::vector<Real>, std::size_t(D)> velocities_, tractions_;
 };

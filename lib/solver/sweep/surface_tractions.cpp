@@ -202,7 +202,7 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
     Index<D> at = surface.index(n);
     at[z] = side ? domain.grid.shape[z] - 1 : 0;
     number = (D == 3 ? at[1] * layout.padded_nx() : 0) + at[0];
-    if (domain.tilted_at(at) || !corrected(domain, at, side)) continue;
+    if (domain.anisotropic_cell(at) || !corrected(domain, at, side)) continue;
     const bool bent = domain.bent(at[z]);
     std::vector<PairSums<D>> pairs = {normal_sums(domain, at)};
     if (bent) add_bend(domain, at, side, z, pairs[0]);
@@ -218,7 +218,7 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
               material.cell(at) + row_b * material.row_pitch(),
               {},
               Real(shares.tangential * zs * zs),
-              Real(domain.coupling_at_edge(at, z, 0).normal * zp * zp),
+              Real(domain.coupling_at_edge(at, z, 0) * zp * zp),
               Real(shares.bend),
               surface_normal<D, Real>(domain, at, side),
               0};
@@ -243,6 +243,14 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
   if (cells_.empty()) return;
   for (auto& list : tractions_) list.assign(std::size_t(number + layout.padded_nx()), 0);
   for (auto& list : bends_) list.assign(std::size_t(number + layout.padded_nx()), 0);
+}
+
+template <int D, class Real>
+std::int64_t SurfaceTractions<D, Real>::memory_bytes() const {
+  auto bytes = bytes_of(cells_) + bytes_of(patterns_) + bytes_of(tractions_) + bytes_of(bends_);
+  for (const auto& pattern : patterns_)
+    for (const auto& of_pair : pattern) bytes += bytes_of(of_pair);
+  return bytes;
 }
 
 template <int D, class Real>

@@ -26,12 +26,8 @@ namespace {
 /// Whether the axes of a cell's rock, or of its mean, do not lie along the grid.
 template <int D>
 bool couples_pairs(const Domain<D>& domain, const Index<D>& at) {
-  const auto* const tilted = domain.tilted_at(at);
-  // Upright rock is among those of bent rows.
-  if constexpr (D == 2)
-    return tilted && !(domain.bent(at[1]) && tilted->stiffness.c15 == 0 && tilted->stiffness.c35 == 0);
-  else
-    return tilted && domain.tilted_media()[std::size_t(tilted->medium)].turned;
+  const auto* const medium = domain.anisotropic_medium(at);
+  return medium && (medium->turned || medium->mean);
 }
 
 /// Whether edges of more than one axis are free.
@@ -126,7 +122,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
       reach_(reach_of(order)),
       shear_(!state.fluid),
       anisotropic_(domain.anisotropic()),
-      couples_all_(domain.any_tilted_in_space()),
+      couples_all_(domain.changes_shear_across()),
       metric_(domain),
       corrections_(state, domain, metric_),
       bent_stencils_(domain, reach_, corrections_, metric_) {
@@ -140,7 +136,7 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
     if (reach_ > 0 && shear_)
       surface_tractions_[std::size_t(side)] = SurfaceTractions<D, Real>(state.layout, domain, side);
   std::array<TiltedFaces<D>, std::size_t(D)> tilted;
-  for (int axis = 0; axis < D && !domain.tilted().empty(); ++axis) {
+  for (int axis = 0; axis < D && !domain.anisotropic_cells().empty(); ++axis) {
     tilted[std::size_t(axis)].contrasts = tilted_contrasts(domain, axis, reach_);
     tilted[std::size_t(axis)].crossed = [&](const Index<D>& at, const Index<D>& beside) {
       const auto& s_waves = domain.impedance(wave_s);
@@ -167,13 +163,8 @@ Sweeps<D, Real>::Sweeps(State<D, Real>& state, const Domain<D>& domain, int orde
           tilted[std::size_t(axis)], parted_along(domain, axis, pair, reach_), bounds[std::size_t(axis)]);
     }
   });
-  if constexpr (D == 2) {
-    tilted_cells_ = TiltedCells<D, Real>(state, domain, reach_, stencils_);
-    bent_tilted_cells_ = BentTiltedCells<Real>(state, domain, metric_, reach_, stencils_[0]);
-  } else {
-    tilted_cells_ = TiltedCells<D, Real>(domain, reach_, stencils_);
-    bent_tilted_cells_ = BentTiltedCellsInSpace<Real>(domain, metric_, reach_);
-  }
+  anisotropic_cells_ = Cells(domain, reach_, stencils_);
+  anisotropic_across_ = AnisotropicCellsAcross<D, Real>(domain, metric_, reach_);
   find_plain_lines();
 }
 
@@ -185,15 +176,20 @@ void Sweeps<D, Real>::find_plain_lines() {
     for (std::int64_t line = 0; line < state_.layout.lines(); ++line) {
       const IndexRange all{0, state_.layout.padded_nx()};
       plain[std::size_t(line)] =
-          !metric_.bent(line) && !any_stencils(axis, line, all) && !tilted_cells_.any(line, all);
+          !metric_.bent(line) && !any_stencils(axis, line, all) && !anisotropic_cells_.any(line, all);
     }
   }
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::use(Effect<D, Real>* filter) {
+void Sweeps<D, Real>::use(SweepFilter<D, Real>* filter) {
   if (filters_.size() == most_filters) throw std::length_error("too many effects filter sweeps");
   filters_.push_back(filter);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::split_faces(const Domain<D>& domain, double dt_s, double unit) {
+  if (!domain.parted.empty()) split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
 }
 
 template <int D, class Real>
@@ -223,6 +219,19 @@ std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
   for (const auto& axis : stencils_)
     for (const auto& wave : axis) cells += wave.size();
   return std::int64_t(cells + bent_stencils_.size());
+}
+
+template <int D, class Real>
+std::int64_t Sweeps<D, Real>::memory_bytes() const {
+  std::int64_t bytes = bent_stencils_.memory_bytes() + metric_.memory_bytes() + corrections_.memory_bytes() +
+                       anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes() +
+                       bytes_of(plain_lines_) + (split_ ? split_->memory_bytes() : 0);
+  for (const auto& of_axis : stencils_)
+    for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
+  for (const auto& of_axis : free_surfaces_)
+    for (const auto& of_side : of_axis) bytes += of_side.memory_bytes();
+  for (const auto& of_side : surface_tractions_) bytes += of_side.memory_bytes();
+  return bytes;
 }
 
 template <int D, class Real>
@@ -300,23 +309,17 @@ void Sweeps<D, Real>::reconstruct_row(int axis, const Index<D>& line, const Inde
                              impedance_of(p, material), material.b, scale, up, down);
     prefetch.prefetch_one();
   }
-  reconstruct_tilted(axis, number, columns, fields, pitch, stride, material.b, scale, outgoing);
-}
-
-template <int D, class Real>
-void Sweeps<D, Real>::reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns,
-                                         const Real* fields, std::int64_t pitch, std::int64_t stride,
-                                         const Real* b, Real scale, OutgoingWaves<Real> outgoing) const {
-  if (tilted_cells_.empty()) return;
-  tilted_cells_.reconstruct(axis, row, columns, *kernels_[false], stride,
-                            tilted_pairs(axis, fields + columns.first, pitch), b, scale, outgoing);
+  if (!anisotropic_cells_.empty())
+    anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
+                                   pairs_from(axis, fields + columns.first, pitch), material.b, scale,
+                                   outgoing);
 }
 
 /// From the first cell on.
 template <int D, class Real>
-auto Sweeps<D, Real>::tilted_pairs(int axis, const Real* fields, std::int64_t pitch) const ->
-    typename TiltedCells<D, Real>::Pairs {
-  typename TiltedCells<D, Real>::Pairs pairs{};
+auto Sweeps<D, Real>::pairs_from(int axis, const Real* fields, std::int64_t pitch) const ->
+    typename Cells::Pairs {
+  typename Cells::Pairs pairs{};
   for (int p = 0; p < D; ++p) {
     const auto& of = pairs_[axis][std::size_t(p)];
     pairs[std::size_t(p)] = {fields + of.v * pitch, fields + of.s * pitch, corrections_of(axis, p)};
@@ -336,9 +339,8 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
     const BentFields<const Real> all{fields + columns.first, pitch, stride};
     const auto metric = metric_.across(line, columns.first);
     bent_kernels().reconstruct_across(columns.count(), scale, all, material, metric, outgoing);
-    if (!bent_tilted_cells_.empty())
-      bent_tilted_cells_.reconstruct_across(number, columns, *kernels_[false], all, metric, material.b, scale,
-                                            outgoing);
+    anisotropic_across_.reconstruct(number, columns, *kernels_[false], all, metric, material.b, scale,
+                                    outgoing);
     bent_stencils_.correct(order_, number, columns, scale, all, material, metric, corrections_, outgoing);
     return;
   }
@@ -352,29 +354,23 @@ void Sweeps<D, Real>::reconstruct_bent_row(int axis, const Index<D>& line, const
   for (int p = 0; p < D; ++p)
     stencils_of(axis, p).correct(order_, number, columns, stride, pairs.v[p], pairs.s[p], material, scale,
                                  outgoing.up(p), outgoing.down(p), corrections_of(axis, p), &metric);
-  if (bent_tilted_cells_.empty()) return;
-  const auto all = tilted_pairs(axis, fields + columns.first, pitch);
-  if constexpr (D == 3)
-    tilted_cells_.reconstruct(axis, number, columns, *kernels_[false], stride, all, material.b, scale,
-                              outgoing, &metric);
-  else
-    bent_tilted_cells_.reconstruct_along(number, columns, *kernels_[false], {all, metric, material.b}, scale,
-                                         outgoing);
+  if (!anisotropic_cells_.empty())
+    anisotropic_cells_.reconstruct(axis, number, columns, *kernels_[false], stride,
+                                   pairs_from(axis, fields + columns.first, pitch), material.b, scale,
+                                   outgoing, &metric);
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::solve_bent_tilted(const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                                        const BentSolve<Real>& face, Real sign, bool fluid) const {
-  if (bent_tilted_cells_.empty()) return;
-  if constexpr (D == 2) {
-    bent_tilted_cells_.solve_across(row, columns, face, sign, fluid);
-  } else {
-    const auto line = [&](std::int64_t k) {
-      const bool inside = k >= 0 && k < state_.layout.shape()[z_axis];
-      return inside ? state_.layout.line_number(Index<D>{0, at[1], k}) : -1;
-    };
-    bent_tilted_cells_.solve_across(line(row - 1), line(row), columns, face, sign, fluid);
-  }
+void Sweeps<D, Real>::solve_anisotropic_across(const Index<D>& at, std::int64_t row,
+                                               const IndexRange& columns, const BentSolve<Real>& face,
+                                               Real sign, bool fluid) const {
+  if (anisotropic_across_.empty()) return;
+  const auto line = [&](std::int64_t k) {
+    auto of = at;
+    of[z_axis] = k;
+    return k >= 0 && k < state_.layout.shape()[z_axis] ? state_.layout.line_number(of) : -1;
+  };
+  anisotropic_across_.solve(line(row - 1), line(row), columns, face, sign, fluid);
 }
 
 template <int D, class Real>
@@ -428,18 +424,13 @@ void Sweeps<D, Real>::update_bent(int axis, const Index<D>& line, const IndexRan
   if (axis == z_axis) {
     const auto of = bent_update(line, columns.first, fields, pitch, flux.lo, flux.hi);
     bent_kernels().update_across(columns.count(), scale, of);
-    bent_tilted_cells_.add_stress_across(number, columns, std::abs(scale), of);
+    anisotropic_across_.add_stress(number, columns, std::abs(scale), of);
     return;
   }
   bent_kernels().update_along(columns.count(), scale, flux.lo, flux.hi,
                               state_.material_from(line, columns.first),
                               metric_.along(axis, line, columns.first).over_j, rows);
-  if constexpr (D == 3)
-    tilted_cells_.add_bent_stress(axis, number, columns, std::abs(scale),
-                                  state_.material_row(line, row_b) + columns.first, flux.lo, flux.hi, rows,
-                                  fields + columns.first + changed_[axis][changed] * pitch);
-  else
-    bent_tilted_cells_.add_stress_along(number, columns, std::abs(scale), flux.lo, flux.hi, rows);
+  add_missing_stress(axis, line, columns, fields, pitch, std::abs(scale), flux);
 }
 
 /// Advances these columns by advance(), and lets effects filter what that adds.
@@ -511,38 +502,23 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
     } else {
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
-      add_tilted_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
-      if (parted_)
-        parted_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
+      add_missing_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
+      if (split_)
+        split_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
     }
     work.prefetch().prefetch_one();
   });
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns,
-                                   OutgoingWaves<Real> below, OutgoingWaves<Real> above,
-                                   const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                                   InterfaceStates<Real> faces) const {
-  if (tilted_cells_.empty()) return;
-  if constexpr (D == 3)
-    tilted_cells_.solve(axis, {lines.lo, lines.hi, lines.shift}, columns, below, above, lo, hi, faces);
-  else
-    tilted_cells_.solve(axis, axis == 0 ? lines.hi : lines.lo + 1, columns, below, above, lo, hi, faces);
-}
-
-template <int D, class Real>
-void Sweeps<D, Real>::add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns,
-                                        Real* fields, std::int64_t pitch, Real size, const Flux& flux) const {
-  if (tilted_cells_.empty()) return;
-  const auto number = state_.layout.line_number(line);
-  const auto rows = swept_rows(axis, fields + columns.first, pitch);
-  if constexpr (D == 3)
-    tilted_cells_.add_stress(axis, number, columns, size, state_.material_row(line, row_b) + columns.first,
-                             flux.lo, flux.hi, rows,
-                             fields + columns.first + changed_[axis][changed] * pitch);
-  else
-    tilted_cells_.add_stress(axis, number, columns, size, flux.lo, flux.hi, rows);
+void Sweeps<D, Real>::add_missing_stress(int axis, const Index<D>& line, const IndexRange& columns,
+                                         Real* fields, std::int64_t pitch, Real size,
+                                         const Flux& flux) const {
+  if (anisotropic_cells_.empty()) return;
+  Real* const shear = D == 3 ? fields + columns.first + changed_[axis][changed_at_most - 1] * pitch : nullptr;
+  anisotropic_cells_.add_stress(axis, state_.layout.line_number(line), columns, size,
+                                state_.material_row(line, row_b) + columns.first, flux.lo, flux.hi,
+                                swept_rows(axis, fields + columns.first, pitch), shear);
 }
 
 template <int D, class Real>
@@ -575,7 +551,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
       surface_tractions_[std::size_t(side)].update(state_, 0, std::numeric_limits<std::int64_t>::max());
   }
   if (axis == z_axis) corrections_.update_all(state_);
-  if (axis == z_axis && parted_) parted_->update_all();
+  if (axis == z_axis && split_) split_->update_all();
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -737,19 +713,16 @@ void Sweeps<D, Real>::solve_along(std::int64_t line, const IndexRange& cells, bo
       const Real* const half_face = metric_.along(0, at, part.first).half_lo;
       bent_kernels().solve_along(part.count(), here.at(-1), here, material,
                                  state_.material_from(at, part.first), half_face, faces.at(from));
-      if constexpr (D == 3)
-        tilted_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
-                            state_.material_from(at, part.first, 0), faces.at(from), half_face);
-      else
-        bent_tilted_cells_.solve_along(line, part, here.at(-1), here, half_face, faces.at(from));
+      anisotropic_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
+                               state_.material_from(at, part.first, 0), faces.at(from), half_face);
       return;
     }
     const auto* run = state_.uniform_run(line, part.first - 1, part.last);
     const auto lo = run ? run->template rows<D>(0) : material;
     face_kernels(run).solve_riemann(part.count(), here.at(-1), here, lo,
                                     run ? lo : state_.material_from(at, part.first, 0), faces.at(from));
-    solve_tilted(0, {line, line, 1}, part, here.at(-1), here, material,
-                 state_.material_from(at, part.first, 0), faces.at(from));
+    anisotropic_cells_.solve(0, {line, line, 1}, part, here.at(-1), here, material,
+                             state_.material_from(at, part.first, 0), faces.at(from));
   };
   if (metric_.bent(line)) return solve(cells);
   // The faces at the ends of a row have other material on one side.
@@ -803,8 +776,8 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   Index<D> line_lo = at, line_hi = at;
   line_lo[axis] = row - 1, line_hi[axis] = row;
   const bool has_lo = row > 0, has_hi = row < rows;
-  const FaceLines lines{has_lo ? layout.line_number(line_lo) : -1, has_hi ? layout.line_number(line_hi) : -1,
-                        0};
+  const typename Cells::Sides lines{has_lo ? layout.line_number(line_lo) : -1,
+                                    has_hi ? layout.line_number(line_hi) : -1, 0};
   const auto up = ring.outgoing(row - 1, x), down = ring.outgoing(row, x);
   const auto faces = ring.faces(row, x);
   const auto material_lo = state_.material_from(line_lo, x, axis),
@@ -815,14 +788,12 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
       const Real sign = scale < 0 ? -1 : 1;
       const auto face = bent_face(at, row, x, ring);
       bent_kernels().solve_across[fluid](columns.count(), sign, face);
-      solve_bent_tilted(at, row, columns, face, sign, fluid);
+      solve_anisotropic_across(at, row, columns, face, sign, fluid);
       return;
     }
     const Real* const half_face = metric_.along(axis, line_hi, x).half_lo;
     bent_kernels().solve_along(columns.count(), up, down, material_lo, material_hi, half_face, faces);
-    if constexpr (D == 3)
-      tilted_cells_.solve(axis, {lines.lo, lines.hi, 0}, columns, up, down, material_lo, material_hi, faces,
-                          half_face);
+    anisotropic_cells_.solve(axis, lines, columns, up, down, material_lo, material_hi, faces, half_face);
     return;
   }
   const auto run = [&](const Index<D>& line, bool is_there) {
@@ -833,7 +804,7 @@ void Sweeps<D, Real>::solve_across(int axis, const Index<D>& at, std::int64_t ro
   face_kernels(uniform).solve_riemann(columns.count(), up, down,
                                       uniform ? lo->template rows<D>(axis) : material_lo,
                                       uniform ? hi->template rows<D>(axis) : material_hi, faces);
-  solve_tilted(axis, lines, columns, up, down, material_lo, material_hi, faces);
+  anisotropic_cells_.solve(axis, lines, columns, up, down, material_lo, material_hi, faces);
 }
 
 template <int D, class Real>
@@ -911,8 +882,8 @@ bool Sweeps<D, Real>::advance_bent(int axis, const Index<D>& at, std::int64_t ro
   const auto of = bent_update(advanced, x, state_.field_row(advanced, 0), state_.layout.row_pitch(),
                               ring.faces(done, x), ring.faces(done + 1, x));
   bent_kernels().advance_across[fluid](columns.count(), scale, face, of);
-  solve_bent_tilted(at, row, columns, face, scale < 0 ? -1 : 1, fluid);
-  bent_tilted_cells_.add_stress_across(state_.layout.line_number(advanced), columns, std::abs(scale), of);
+  solve_anisotropic_across(at, row, columns, face, scale < 0 ? -1 : 1, fluid);
+  anisotropic_across_.add_stress(state_.layout.line_number(advanced), columns, std::abs(scale), of);
   work.prefetch().prefetch(prefetched_by_bent + 2);
   return true;
 }
@@ -940,7 +911,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
-  if (parted_ && parted_->beside(axis, layout.line_number(advanced))) return false;
+  if (split_ && split_->beside(axis, layout.line_number(advanced))) return false;
   // Rows in between become those before and behind others.
   if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
   const auto& plain = plain_lines_[std::size_t(axis)];
@@ -951,7 +922,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   if (std::all_of(lines.begin(), lines.end(), is_plain)) return true;
   const auto number = *lines.begin();
   for (const auto line : lines)
-    if (metric_.bent(line) || tilted_cells_.any(line, columns)) return false;
+    if (metric_.bent(line) || anisotropic_cells_.any(line, columns)) return false;
   // Uniform runs are faster with their own loops.
   if (state_.uniform_run(number, columns.first, columns.last)) return false;
   // The outgoing waves downwards are not stored, which uniform runs would need.
@@ -1058,7 +1029,7 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
     const auto row = state_.layout.line_index(line)[std::size_t(axis)];
     return IndexRange{row, row + 1};
   }();
-  if (axis == 0 && parted_) parted_->retain(line, lagging(columns));
+  if (axis == 0 && split_) split_->retain(line, lagging(columns));
   auto& edges = free_surfaces_[axis];
   if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
   if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
@@ -1066,7 +1037,7 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
-  if (parted_) parted_->update_line(line, lagging(columns));
+  if (split_) split_->update_line(line, lagging(columns));
   for (auto& edge : free_surfaces_[0])
     if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
 }
@@ -1088,7 +1059,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
   corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
-  if (parted_) parted_->update(step, columns);
+  if (split_) split_->update(step, columns);
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

@@ -1,23 +1,21 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
+#include <memory>
 #include <vector>
 
 #include "scene/edges.hpp"
-#include "solver/effect/effect.hpp"
+#include "solver/sweep/anisotropic_cells.hpp"
 #include "solver/sweep/bent_stencils.hpp"
-#include "solver/sweep/bent_tilted_cells.hpp"
-#include "solver/sweep/bent_tilted_cells_in_space.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/free_surface.hpp"
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
-#include "solver/sweep/parted_faces.hpp"
+#include "solver/sweep/split_faces.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
-#include "solver/sweep/tilted_cells_in_space.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -33,11 +31,14 @@ class Sweeps {
   /// Where the state has the rows of fluid alone, all loops are of the P pair. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
-  /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
+  /// From now on this filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
-  void use(Effect<D, Real>* filter);
-  /// From now on these faces are parted; they must outlive this.
-  void part(PartedFaces<D, Real>* faces) { parted_ = faces; }
+  void use(SweepFilter<D, Real>* filter);
+  /// From now on the faces of the domain that fractures split are so; `unit` of the fields. Does nothing
+  /// where there are none.
+  void split_faces(const Domain<D>& domain, double dt_s, double unit);
+  /// Null where there are none.
+  SplitFaces<D, Real>* split() const { return split_.get(); }
   static constexpr std::size_t most_filters = 2;
   /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
   /// rows are bent.
@@ -84,7 +85,7 @@ class Sweeps {
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
-           (axis == z_axis && !corrections_.empty()) || (parted_ && parted_->any(axis));
+           (axis == z_axis && !corrections_.empty()) || (split_ && split_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -104,11 +105,8 @@ class Sweeps {
   Workspace<Real> make_workspace(std::int64_t widest) const;
   /// Cells with stencils of their own, beside strong interfaces, voids and contrasts: all axes and waves.
   std::int64_t interface_stencil_cells() const;
-  /// What it holds of each cell: stencils beside interfaces and the metric.
-  std::int64_t memory_bytes() const {
-    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes() +
-           tilted_cells_.memory_bytes() + bent_tilted_cells_.memory_bytes();
-  }
+  /// What it holds besides the state.
+  std::int64_t memory_bytes() const;
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
 
@@ -171,25 +169,14 @@ class Sweeps {
                    OutgoingWaves<Real> outgoing, InterfaceStates<Real> faces) const;
   void solve_across(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                     Ring<Real>& ring) const;
-  /// The outgoing waves of tilted means of a row.
-  void reconstruct_tilted(int axis, std::int64_t row, const IndexRange& columns, const Real* fields,
-                          std::int64_t pitch, std::int64_t stride, const Real* b, Real scale,
-                          OutgoingWaves<Real> outgoing) const;
-  /// The states of faces beside tilted cells. `lo` and `hi` are the numbers of the lines before and behind
-  /// them, -1 beyond the grid; the cell before a face stands `shift` columns before that behind it.
-  struct FaceLines {
-    std::int64_t lo, hi, shift;
-  };
-  void solve_tilted(int axis, const FaceLines& lines, const IndexRange& columns, OutgoingWaves<Real> below,
-                    OutgoingWaves<Real> above, const MaterialRows<Real>& lo, const MaterialRows<Real>& hi,
-                    InterfaceStates<Real> faces) const;
-  typename TiltedCells<D, Real>::Pairs tilted_pairs(int axis, const Real* fields, std::int64_t pitch) const;
-  /// The same of the faces across bent rows, before `row`.
-  void solve_bent_tilted(const Index<D>& at, std::int64_t row, const IndexRange& columns,
-                         const BentSolve<Real>& face, Real sign, bool fluid) const;
-  /// What is missing in the stresses of tilted cells.
-  void add_tilted_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
-                         std::int64_t pitch, Real size, const Flux& flux) const;
+  using Cells = AnisotropicCells<D, Real>;
+  typename Cells::Pairs pairs_from(int axis, const Real* fields, std::int64_t pitch) const;
+  /// The states of faces across curvilinear rows, before `row`, beside anisotropic cells.
+  void solve_anisotropic_across(const Index<D>& at, std::int64_t row, const IndexRange& columns,
+                                const BentSolve<Real>& face, Real sign, bool fluid) const;
+  /// What is missing in the stresses of anisotropic cells.
+  void add_missing_stress(int axis, const Index<D>& line, const IndexRange& columns, Real* fields,
+                          std::int64_t pitch, Real size, const Flux& flux) const;
   bool fused_row(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns, Real scale,
                  Ring<Real>& ring, Workspace<Real>& work);
   bool fuses(int axis, const Index<D>& at, std::int64_t row, const IndexRange& columns) const;
@@ -225,7 +212,7 @@ class Sweeps {
 
   State<D, Real>& state_;
   std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
-  std::vector<Effect<D, Real>*> filters_;
+  std::vector<SweepFilter<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_, anisotropic_, couples_all_, monotone_ = false;
@@ -242,21 +229,20 @@ class Sweeps {
       if (stencils_of(axis, pair).any(line, columns)) return true;
     return false;
   }
-  TiltedCells<D, Real> tilted_cells_;
-  PartedFaces<D, Real>* parted_ = nullptr;
+  Cells anisotropic_cells_;
+  AnisotropicCellsAcross<D, Real> anisotropic_across_;  // in curvilinear rows
+  std::unique_ptr<SplitFaces<D, Real>> split_;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.
   PairCorrections<Real> corrections_of(int axis, int pair) const {
-    const auto* const parted = parted_ ? parted_->images(pair) : nullptr;
-    if (axis != z_axis) return {nullptr, nullptr, parted};
-    return {corrections_.velocity(pair), corrections_.traction(pair), parted};
+    const auto* const images = split_ ? split_->images(pair) : nullptr;
+    if (axis != z_axis) return {nullptr, nullptr, images};
+    return {corrections_.velocity(pair), corrections_.traction(pair), images};
   }
   BentStencils<D, Real> bent_stencils_;
-  /// In 2-D of all sweeps, in 3-D of those across the rows.
-  std::conditional_t<D == 2, BentTiltedCells<Real>, BentTiltedCellsInSpace<Real>> bent_tilted_cells_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes
   std::array<std::array<int, changed_at_most>, D> changed_;           // [axis]
   std::array<std::array<FreeSurface<D, Real>, 2>, D> free_surfaces_;  // [axis][side]

@@ -11,35 +11,13 @@ namespace {
 
 /// A symmetric matrix of components along the axes of the grid.
 template <int D>
-using Tensor = std::array<std::array<double, std::size_t(D)>, std::size_t(D)>;
+using Tensor = SmallMatrix<std::size_t(D)>;
 
-/// The acoustic tensor of a cell along an axis, times the density: the square of its impedance.
-Tensor<2> tensor_along(const Domain<2>& domain, const Index<2>& cell, int axis) {
-  const auto c = plane_stiffness_at(domain, cell);
-  if (axis == 0) return {{{c.c11, c.c15}, {c.c15, c.c55}}};
-  return {{{c.c55, c.c35}, {c.c35, c.c33}}};
-}
-Tensor<3> tensor_along(const Domain<3>& domain, const Index<3>& cell, int axis) {
-  const auto rows = tractions_of_motion(space_stiffness_at(domain, cell), axis, axis);
-  return {rows[0], rows[1], rows[2]};
-}
-
-/// Whether times the square of a ratio the first is nowhere less than the other: pivots of the difference.
-template <int D>
-bool is_no_less(const Tensor<D>& one, const Tensor<D>& other, double ratio) {
-  Tensor<D> rest;
-  for (std::size_t i = 0; i < D; ++i)
-    for (std::size_t j = 0; j < D; ++j) rest[i][j] = ratio * ratio * one[i][j] - other[i][j];
-  for (std::size_t k = 0; k < D; ++k) {
-    if (!(rest[k][k] > 0)) return false;
-    for (std::size_t i = k + 1; i < D; ++i)
-      for (std::size_t j = k + 1; j < D; ++j) rest[i][j] -= rest[i][k] * rest[k][j] / rest[k][k];
-  }
-  return true;
-}
 template <int D>
 bool differ(const Tensor<D>& one, const Tensor<D>& other, double ratio) {
-  return !is_no_less<D>(one, other, ratio) || !is_no_less<D>(other, one, ratio);
+  const double square = ratio * ratio;
+  return !is_positive(sum_of(times(one, square), other, -1.)) ||
+         !is_positive(sum_of(times(other, square), one, -1.));
 }
 
 /// Whether waves along an axis of the grid move along one.
@@ -52,12 +30,12 @@ bool is_diagonal(const Tensor<D>& tensor) {
   return true;
 }
 
-/// Rock, not the mean of a cell that an interface cuts.
-bool is_rock(const Domain<2>& domain, const Index<2>& cell) {
-  const auto* const of = domain.tilted_at(cell);
+/// Rock, not the equivalent TTI cell of an interface.
+template <int D>
+bool is_rock(const Domain<D>& domain, const Index<D>& cell) {
+  const auto* const of = domain.anisotropic_medium(cell);
   return of && !of->mean;
 }
-bool is_rock(const Domain<3>& domain, const Index<3>& cell) { return domain.is_tilted(cell); }
 
 /// Of the face between two cells, one of which is tilted rock.
 template <int D>
@@ -65,7 +43,11 @@ TiltedContrast contrast_of(const Domain<D>& domain, const Index<D>& before, cons
                            int axis) {
   const auto& s_waves = domain.impedance(wave_s);
   if (s_waves(before) == 0 || s_waves(behind) == 0) return TiltedContrast::none;
-  const auto one = tensor_along(domain, before, axis), other = tensor_along(domain, behind, axis);
+  // The square of impedances along the axis.
+  const auto tensor_of = [&](const Index<D>& cell) {
+    return christoffel<D>(elasticity_at(domain, cell), unit_vector<std::size_t(D)>(std::size_t(axis)));
+  };
+  const auto one = tensor_of(before), other = tensor_of(behind);
   if (is_diagonal<D>(one) && is_diagonal<D>(other)) return TiltedContrast::none;
   return differ<D>(one, other, strong_interface_ratio)  ? TiltedContrast::strong
          : differ<D>(one, other, tilted_contrast_ratio) ? TiltedContrast::weak
@@ -77,7 +59,7 @@ template <int D>
 std::vector<Index<D>> faces_of_rock(const Domain<D>& domain, int axis) {
   const auto along = std::size_t(axis);
   std::vector<Index<D>> faces;
-  for (const auto& tilted : domain.tilted()) {
+  for (const auto& tilted : domain.anisotropic_cells()) {
     auto at = domain.grid.index(tilted.cell);
     if (!is_rock(domain, at)) continue;
     if (at[along] > 0) faces.push_back(at);

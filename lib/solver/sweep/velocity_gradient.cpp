@@ -22,13 +22,6 @@ double centre_depth(const Domain<D>& domain, const Index<D>& cell) {
   return sum / corners;
 }
 
-template <int D>
-double dot(const Point<D>& one, const Point<D>& other) {
-  double sum = 0;
-  for (std::size_t axis = 0; axis < D; ++axis) sum += one[axis] * other[axis];
-  return sum;
-}
-
 /// What a free surface of normal n (of any length) makes of a change of the velocity v_k along a coordinate
 /// of gradient g on it: the change it forces along the coordinate whose gradient is n. With w the latter,
 ///   lambda tr(G) n + mu (G + G^T) n = 0,  G = w n^T + e_k g^T + .. (the other changes),
@@ -37,81 +30,20 @@ template <int D>
 Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, double lambda, double mu) {
   Point<D> load;
   for (std::size_t i = 0; i < D; ++i)
-    load[i] = lambda * g[k] * n[i] + mu * ((i == k ? dot<D>(g, n) : 0) + g[i] * n[k]);
-  const double square = dot<D>(n, n), along = dot<D>(load, n) * (lambda + mu) / (lambda + 2 * mu) / square;
+    load[i] = lambda * g[k] * n[i] + mu * ((i == k ? dot_product(g, n) : 0) + g[i] * n[k]);
+  const double square = dot_product(n, n),
+               along = dot_product(load, n) * (lambda + mu) / (lambda + 2 * mu) / square;
   Point<D> change;
   for (std::size_t i = 0; i < D; ++i) change[i] = -(load[i] - along * n[i]) / (mu * square);
   return change;
 }
 
-/// The same in an anisotropic rock, in 2-D: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
-Point<2> forced_change(const Point<2>& n, const Point<2>& g, std::size_t k, const PlaneStiffness& c) {
-  const auto of = [&](const Point<2>& a, std::size_t column) {
-    const double crossed = n[0] * a[1] + n[1] * a[0], mixed = c.c15 * n[0] * a[0] + c.c35 * n[1] * a[1];
-    return column == 0 ? Point<2>{c.c11 * n[0] * a[0] + c.c55 * n[1] * a[1] + c.c15 * crossed,
-                                  c.c13 * n[1] * a[0] + c.c55 * n[0] * a[1] + mixed}
-                       : Point<2>{c.c13 * n[0] * a[1] + c.c55 * n[1] * a[0] + mixed,
-                                  c.c33 * n[1] * a[1] + c.c55 * n[0] * a[0] + c.c35 * crossed};
-  };
-  const auto one = of(n, 0), other = of(n, 1), load = of(g, k);
-  const double determinant = one[0] * other[1] - one[1] * other[0];
-  return {-(load[0] * other[1] - load[1] * other[0]) / determinant,
-          -(one[0] * load[1] - one[1] * load[0]) / determinant};
-}
-
-Point<2> forced_change_in_rock(const Domain<2>& domain, const Index<2>& cell, const Point<2>& n,
-                               const Point<2>& g, std::size_t k) {
-  return forced_change(n, g, k, plane_stiffness_at(domain, cell));
-}
-
-/// The same in an orthorhombic rock, in 3-D; stiffnesses over density.
-Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, const OrthorhombicStiffness& c) {
-  const auto of = [&](const Point<3>& a, int i, int column) {
-    const auto row = std::size_t(i), to = std::size_t(column);
-    if (i != column) return c.normal(i, column) * n[row] * a[to] + c.shear(i, column) * n[to] * a[row];
-    double sum = c.normal(i, i) * n[row] * a[row];
-    for (int j = 0; j < 3; ++j)
-      if (j != i) sum += c.shear(i, j) * n[std::size_t(j)] * a[std::size_t(j)];
-    return sum;
-  };
-  double m[3][3];
-  Point<3> load;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) m[i][j] = of(n, i, j);
-    load[std::size_t(i)] = of(g, i, int(k));
-  }
-  const auto determinant = [&](int replaced) {
-    double a[3][3];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) a[i][j] = j == replaced ? load[std::size_t(i)] : m[i][j];
-    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) -
-           a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0]) +
-           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
-  };
-  const double whole = determinant(-1);
-  return {-determinant(0) / whole, -determinant(1) / whole, -determinant(2) / whole};
-}
-
-/// The same in a rock whose axes are turned.
-Point<3> forced_change(const Point<3>& n, const Point<3>& g, std::size_t k, const SpaceStiffness& c) {
-  const auto of = [&](const Point<3>& a) {
-    std::array<SpaceVector, 3> matrix{};
-    for (int i = 0; i < 3; ++i)
-      for (int m = 0; m < 3; ++m)
-        for (int j = 0; j < 3; ++j)
-          for (int l = 0; l < 3; ++l)
-            matrix[std::size_t(i)][std::size_t(m)] += c(i, j, m, l) * n[std::size_t(j)] * a[std::size_t(l)];
-    return matrix;
-  };
-  const auto load = of(g);
-  const auto change = solved<double>(of(n), {load[0][k], load[1][k], load[2][k]});
-  return {-change[0], -change[1], -change[2]};
-}
-
-Point<3> forced_change_in_rock(const Domain<3>& domain, const Index<3>& cell, const Point<3>& n,
-                               const Point<3>& g, std::size_t k) {
-  if (const auto* const tilted = domain.tilted_medium(cell)) return forced_change(n, g, k, tilted->stiffness);
-  return forced_change(n, g, k, stiffness_at(domain, cell));
+/// The same in anisotropic rock: T(n, n) w = -T(n, g) e_k, T(n, g)_ik the sum of C_ijkl n_j g_l.
+template <int D>
+Point<D> forced_change(const Point<D>& n, const Point<D>& g, std::size_t k, const Elasticity<D>& c) {
+  auto load = product_of(tractions<D>(c, n, g), unit_vector<std::size_t(D)>(k));
+  for (double& part : load) part = -part;
+  return solved(christoffel<D>(c, n), load);
 }
 
 template <int D, class Add>
@@ -232,10 +164,10 @@ void VelocityGradient<D>::add_enforced_slope(const Place& at, int row, const Fac
     for (int moved = 0; along != face.axis && moved < D; ++moved) {
       const auto& normal = gradients[std::size_t(face.axis)];
       const auto& tangent = gradients[std::size_t(along)];
-      double change =
-          domain_.anisotropic()
-              ? forced_change_in_rock(domain_, cell, normal, tangent, std::size_t(moved))[std::size_t(row)]
-              : forced_change<D>(normal, tangent, std::size_t(moved), lambda, mu)[std::size_t(row)];
+      double change = domain_.anisotropic() ? forced_change<D>(normal, tangent, std::size_t(moved),
+                                                               elasticity_at(domain_, cell))[std::size_t(row)]
+                                            : forced_change<D>(normal, tangent, std::size_t(moved), lambda,
+                                                               mu)[std::size_t(row)];
       if (change == 0) continue;
       change *= face.side ? -factor : factor;
       if (values == Values::one_sided)
