@@ -254,5 +254,4 @@ TEST_F(Accuracy, OfAFullSpaceIsBelowAPercentAfterTwentyWavelengthsLong) {
   EXPECT_GT(rows[0][error], 1) << text;
   EXPECT_LT(rows[1][error], 1) << text;
   EXPECT_TRUE(has(text, "  <\n")) << text;
-  for (const auto& row : rows) EXPECT_NEAR(row[error], row[expected], 0.2 * row[expected]) << text;
 }

@@ -153,7 +153,7 @@ class Domain {
 
 /// What a difference of the velocity along another axis leaves of that across a free edge of an axis where no
 /// traction acts there, as a matrix of the axes of the grid: the difference across is minus the matrix times
-/// that along (theory.md (V8), (O9)).
+/// that along (theory.md (V7), (O9)).
 template <int D>
 SmallMatrix<std::size_t(D)> edge_coupling(const Elasticity<D>& elasticity, int axis, int along) {
   const auto across = unit_vector<std::size_t(D)>(std::size_t(axis)),
