@@ -98,9 +98,18 @@ ModelInCells<D>::ModelInCells(const Scene<D>& scene) : scene_(scene) {
     if (command_ &&
         !equal(medium_of(parse_number(command_->step), command_->choice, false), scene.model.medium))
       command_.reset();
+    if (command_ && on_faces()) command_->choice = {};
   } catch (const Error&) {
     command_.reset();
   }
+}
+
+/// Whether every top lies on faces of the cells as they are. In other cells that takes rows that follow them.
+template <int D>
+bool ModelInCells<D>::on_faces() const {
+  if (scene_.model.grid().rows) return false;
+  const auto fit = fit_layers<D>(scene_.model.grid(), command_->layers, {});
+  return !fit.grid.rows && fit.left_out.empty();
 }
 
 template <int D>

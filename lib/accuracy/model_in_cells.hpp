@@ -11,7 +11,8 @@ namespace slipwave {
 /// The model of a scene in cells of other sizes, finer or coarser. Where sw-layers made its medium it is made
 /// anew from the tops of the layers: other cells have their own geometry, not parts or means of the old ones.
 /// The history of the model names the command, which must give the medium again, bit for bit. Elsewhere, and
-/// fractures in any case, it is regridded() to cover the same extent.
+/// fractures in any case, it is regridded() to cover the same extent. Tops that lie on faces of the cells are
+/// followed by rows in cells of other sizes.
 template <int D>
 class ModelInCells {
  public:
@@ -32,6 +33,7 @@ class ModelInCells {
 
  private:
   struct Command;
+  bool on_faces() const;
   Medium<D> medium_of(double spacing_m, const FitChoice& choice, bool covered) const;
   Model<D> with_medium(Medium<D> medium, double spacing_m) const;
 
