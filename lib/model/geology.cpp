@@ -45,6 +45,15 @@ std::size_t tops_left_out(const Geology& geology, const Grid<D>& regular) {
   return fit_layers(regular, endless(geology.layers), as_can_be(geology.fit)).left_out.size();
 }
 
+template <int D>
+bool tops_on_faces(const Geology& geology, const Grid<D>& regular) {
+  if (geology.layers.empty()) return false;
+  const auto fit = fit_layers(regular, endless(geology.layers), {});
+  return !fit.grid.rows && fit.left_out.empty();
+}
+
+template bool tops_on_faces(const Geology&, const Grid<2>&);
+template bool tops_on_faces(const Geology&, const Grid<3>&);
 template std::size_t tops_left_out(const Geology&, const Grid<2>&);
 template std::size_t tops_left_out(const Geology&, const Grid<3>&);
 template Medium<2> medium_of(const Geology&, const Grid<2>&);

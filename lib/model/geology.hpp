@@ -41,4 +41,8 @@ Medium<D> medium_of(const Geology& geology, const Grid<D>& regular);
 template <int D>
 std::size_t tops_left_out(const Geology& geology, const Grid<D>& regular);
 
+/// Whether all tops of layers, and there are some, lie on faces of the cells of a regular grid.
+template <int D>
+bool tops_on_faces(const Geology& geology, const Grid<D>& regular);
+
 }  // namespace slipwave

@@ -50,6 +50,9 @@ ModelInCells<D>::ModelInCells(const Model<D>& model, const std::optional<Attenua
     for (const auto property : own.properties())
       if (!model.medium.has(property)) left_out_.push_back(property), own[property] = {};
     as_built_ = equal(own, model.medium);
+    const bool on_faces =
+        !model.grid().rows && tops_on_faces(model.geology, covering(model.grid(), model.grid().spacing_m));
+    fit_ = on_faces ? FitChoice{} : model.geology.fit;
   } catch (const Error&) {
     // It cannot be built so any more.
   }
@@ -68,7 +71,7 @@ Medium<D> ModelInCells<D>::medium_of_geology(double spacing_m, const FitChoice& 
 
 template <int D>
 bool ModelInCells<D>::could_be_fitted() const {
-  const auto& [surfaces, floors, layers, asked, always] = model_.geology.fit;
+  const auto& [surfaces, floors, layers, asked, always] = fit_;
   return as_built_ && !(surfaces && floors && layers);
 }
 
@@ -80,7 +83,7 @@ std::size_t ModelInCells<D>::left_out(double spacing_m) const {
 template <int D>
 Model<D> ModelInCells<D>::of(double spacing_m) const {
   if (spacing_m == model_.grid().spacing_m) return model_;
-  return as_built_ ? with_medium(medium_of_geology(spacing_m, model_.geology.fit)) : of_cells(spacing_m);
+  return as_built_ ? with_medium(medium_of_geology(spacing_m, fit_)) : of_cells(spacing_m);
 }
 
 template <int D>

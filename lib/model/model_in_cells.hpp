@@ -42,6 +42,7 @@ class ModelInCells {
   const Model<D>& model_;
   std::optional<Attenuation> unrelaxed_;
   std::vector<Property> left_out_;  // taken out of what was built
+  FitChoice fit_;                   // what rows of other cells follow: tops that lie on faces here, too
   bool as_built_ = false;
 };
 

@@ -92,6 +92,8 @@ std::optional<AccuracySetting> SettingSearch<D>::cheapest(double wanted, const K
   const double finest_m = scene_.model.grid().spacing_m / most_parts;
   for (const auto& scheme : schemes())
     for (const double cfl : scheme.courant_numbers) {
+      // Sweeps back in time have no criterion of monotonicity.
+      if (scheme.time_order == 4 && scene_.numerics.monotone) continue;
       AccuracySetting setting{scheme.order,      cfl,
                               largest_m_,        scene_.numerics.correction,
                               scheme.time_order, scene_.numerics.monotone,

@@ -33,6 +33,9 @@ class Search {
         settings_(runs, [this](const AccuracySetting& setting) { return fits(setting); }) {}
 
   ReachedError reached() {
+    if (limits_.seconds > 0)
+      if (const auto cheap = runs_.resized(setting_of(runs_.scene()), 2.25, Places::anywhere))
+        note_time(*cheap);
     for (int run = 0; run < most_runs; ++run) {
       const auto setting = chosen();
       if (!setting) break;
@@ -44,7 +47,8 @@ class Search {
       say_(name_of(*setting, runs_.scene()) + ": measured error " + shown(100 * best_->error.whole, 2) +
            " %, wanted " + shown(100 * wanted_, 2) + " %; smaller cells are next");
     }
-    if (!best_) throw Error(reason_.empty() ? "no setting was found that can be run" : reason_);
+    // What the user set is better than nothing.
+    if (!best_) best_ = measured_error(runs_, setting_of(runs_.scene()));
     ReachedError reached{std::move(*best_), false, reason_, 0};
     reached.good = reached.measured.error.whole <= wanted_;
     if (!reached.good && reached.reason.empty())
@@ -74,7 +78,9 @@ class Search {
       return false;
     }
     const auto seconds = seconds_of(setting);
-    if (limits_.seconds > 0 && seconds && runs_.seconds() + *seconds > limits_.seconds) {
+    // With the larger cells that it is measured in.
+    constexpr double with_larger = 1.4;
+    if (limits_.seconds > 0 && seconds && runs_.seconds() + with_larger * *seconds > limits_.seconds) {
       reason_ = "a smaller error would take more than the budget of " + shown(limits_.seconds, 3) + " s";
       return false;
     }

@@ -40,7 +40,9 @@ void expect_eigensystem(const SmallMatrix<N>& m) {
   const auto [values, vectors] = eigensystem_of(m);
   SmallMatrix<N> sum{};
   for (std::size_t n = 0; n < N; ++n) {
-    if (n > 0) EXPECT_GE(values[n - 1], values[n]);
+    if (n > 0) {
+      EXPECT_GE(values[n - 1], values[n]);
+    }
     for (std::size_t i = 0; i < N; ++i)
       for (std::size_t k = 0; k < N; ++k) sum[i][k] += values[n] * vectors[n][i] * vectors[n][k];
   }

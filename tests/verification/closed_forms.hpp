@@ -67,12 +67,12 @@ inline std::vector<ClosedForm<2>> closed_forms() {
   StackScene bed{"bed of a tenth of a wavelength", {rock, soft, hard}, {0, 13}};
   bed.source_b = -80;
   bed.receivers = along_layers(-200, 200, 80, -40);
-  bed.spacing_m = 5;
+  bed.spacing_m = 2.5;
   StackScene slot{"4 m of water in rock, upright", {rock, water, rock}, {0, 4}, false, 90};
   slot.source_b = -70;
   slot.force = Point<2>{1, 0};
   slot.receivers = along_layers(-150, 150, 60, 60);
-  slot.spacing_m = 2;
+  slot.spacing_m = 1;
   slot.duration_s = 0.4;
   StackScene lossy{"attenuating rock under attenuating rock", {soft, rock}, {0}};
   lossy.source_b = -100;
@@ -89,6 +89,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
       closed_form(with(space,
                        [](StackScene& s) {
                          s.name = "full space, explosion, order 7, near field";
+                         s.spacing_m = 5;
                          s.force.reset();
                          s.order = 7;
                          s.receivers.push_back({30, 25});
@@ -105,6 +106,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
       closed_form(with(floor,
                        [](StackScene& s) {
                          s.name = "sea floor, level, means";
+                         s.spacing_m = 3;
                          s.fitted = false;
                        })),
       closed_form(with(floor,
@@ -116,11 +118,13 @@ inline std::vector<ClosedForm<2>> closed_forms() {
       closed_form(with(near_floor,
                        [](StackScene& s) {
                          s.name = "the same, 30 degrees";
+        s.spacing_m = 3;
                          s.dip_deg = 30;
                        })),
       closed_form(with(floor,
                        [](StackScene& s) {
                          s.name = "receivers on an interface of rocks";
+                         s.spacing_m = 3;
                          s.rocks = {soft, hard};
                          s.shift = 0;
                          s.fitted = false;
@@ -139,7 +143,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
                          s.name = "ground roll, 10 m of 400/220 over rock";
                          s.rocks = {{400, 220, 1700}, {2000, 1000, 2000}};
                          s.faces_m = {0, 10};
-                         s.spacing_m = 0.75;
+                         s.spacing_m = 0.5;
                          s.peak_hz = 20;
                          s.source_b = 1.5;
                          s.margin_m = 25;
