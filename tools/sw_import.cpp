@@ -15,6 +15,7 @@
 #include "model/input_units.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/property_range.hpp"
 #include "model/raw_shape.hpp"
 #include "model/relations.hpp"
 #include "model/resample.hpp"
@@ -247,9 +248,14 @@ bool is_number(const std::string& text) {
 /// The number that stands in place of a file, in SI.
 std::optional<double> constant_of(const Settings& settings, Property property) {
   const auto& given = settings.file(property);
-  if (row_of(property).if_absent && given == "inf") return PropertyRow::infinite;
+  const auto& row = row_of(property);
+  if (row.if_absent == PropertyRow::infinite && given == "inf") return PropertyRow::infinite;
   if (!is_number(given)) return {};
-  return parse_number(given) * units_of(settings).factor(property);
+  const double value = parse_number(given) * units_of(settings).factor(property);
+  if (!is_in_range(row, value))
+    throw Error("--" + row.name + ": found " + given + ", expected " + expected_values(row),
+                ErrorKind::usage);
+  return value;
 }
 
 /// What is read of all files.

@@ -71,10 +71,10 @@ LasItem las_item(std::string_view line) {
 void take_las_numbers(std::string_view line, const std::string& place, Curves& curves,
                       std::vector<double>& row) {
   while (!line.empty()) {
-    const auto end = line.find_first_of(" \t");
+    const auto end = line.find_first_of(" \t,");
     const std::string word(line.substr(0, end));
     line = end == std::string_view::npos ? std::string_view() : line.substr(end);
-    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(" \t,"), line.size()));
     if (row.empty()) curves.places.push_back(place);
     row.push_back(word == "NaN" || word == "nan" ? missing : parse_number(word));
     if (row.size() < curves.headers.size()) continue;
@@ -106,7 +106,8 @@ Curves read_las(std::string_view text) {
       if (section == 'A' && curves.headers.empty()) throw Error("found data before the section ~Curve");
       if (section == 'A')
         take_las_numbers(line, lines.place(), curves, row);
-      else if (section == 'V' || section == 'W' || section == 'C')
+      else if (section == 'C' ||
+               ((section == 'V' || section == 'W') && line.find('.') != std::string_view::npos))
         take_las_item(section, las_item(line), curves);
     } catch (const Error& error) {
       throw Error(lines.place() + ": " + error.what());
@@ -212,9 +213,16 @@ void take_samples(const Curves& curves, const std::array<std::optional<Found>, 4
       ++log.left_out;
       continue;
     }
+    const auto refuse = [&](const std::string& sentence) {
+      throw Error(log.name + ": " + curves.places[n] + ": " + sentence);
+    };
+    for (const auto& [k, positive] : {std::pair(1, true), std::pair(2, false), std::pair(3, true)})
+      if (found[std::size_t(k)] && !(positive ? values[std::size_t(k)] > 0 : values[std::size_t(k)] >= 0))
+        refuse("found " + std::string(sought_curves()[std::size_t(k)].what) + " " +
+               shown(values[std::size_t(k)], 6) + ", expected it " + (positive ? "above 0" : "not below 0") +
+               "; missing values are " + shown(curves.null) + " (NULL), NaN or nothing");
     if (!log.depths_m.empty() && values[0] == log.depths_m.back())
-      throw Error(log.name + ": " + curves.places[n] + ": found depth " + shown(values[0]) +
-                  " m twice, expected each once");
+      refuse("found depth " + shown(values[0]) + " m twice, expected each once");
     log.depths_m.push_back(values[0]);
     log.materials.push_back({values[1], values[2], values[3]});
   }

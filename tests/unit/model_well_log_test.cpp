@@ -90,6 +90,9 @@ TEST(WellLog, SaysWhatIsMissingOrAmbiguous) {
   EXPECT_EQ(said("~Version\n VERS. 3.0 : CWLS\n"), "line 2: found LAS version '3.0', expected 1.2 or 2.0");
   EXPECT_EQ(said(las_head + "~A\n100 100 200 2.2\n"), "ends within a row of 5 values, begun on line 14");
   EXPECT_EQ(said(las_head + "~A\n100 100 200 2.2 x\n"), "line 14: found 'x', expected a number");
+  EXPECT_EQ(
+      said("depth dt.us/ft vs rho\n0 100 1000 2000\n1 -9999 1000 2000\n"),
+      "line 3: found vp -30.483, expected it above 0; missing values are -999.25 (NULL), NaN or nothing");
   EXPECT_EQ(said("depth vp vs rho\n0 2000 1000 2000\n0 2000 1000 2000\n"),
             "line 3: found depth 0 m twice, expected each once");
 }
