@@ -77,7 +77,10 @@ bool ModelInCells<D>::could_be_fitted() const {
 
 template <int D>
 std::size_t ModelInCells<D>::left_out(double spacing_m) const {
-  return as_built_ ? tops_left_out(model_.geology, covering(model_.grid(), spacing_m)) : 0;
+  if (!as_built_) return 0;
+  auto geology = model_.geology;
+  geology.fit = fit_;
+  return tops_left_out(geology, covering(model_.grid(), spacing_m));
 }
 
 template <int D>
