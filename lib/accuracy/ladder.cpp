@@ -7,8 +7,8 @@
 #include <map>
 #include <tuple>
 
-#include "model/model_in_cells.hpp"
 #include "base/error.hpp"
+#include "model/model_in_cells.hpp"
 
 namespace slipwave {
 namespace {

@@ -27,9 +27,10 @@ struct Named {
 };
 constexpr std::array<Named<Maker>, 3> makers = {
     {{"sw-layers", Maker::sw_layers}, {"sw-marmousi", Maker::sw_marmousi}, {"sw-import", Maker::sw_import}}};
-constexpr std::array<Named<CellResampling>, 3> resamplings = {{{"none", CellResampling::none},
-                                                           {"averaged", CellResampling::averaged},
-                                                           {"interpolated", CellResampling::interpolated}}};
+constexpr std::array<Named<CellResampling>, 3> resamplings = {
+    {{"none", CellResampling::none},
+     {"averaged", CellResampling::averaged},
+     {"interpolated", CellResampling::interpolated}}};
 constexpr std::array<Named<bool FitChoice::*>, 3> roles = {
     {{"surface", &FitChoice::surfaces}, {"floor", &FitChoice::floors}, {"layer", &FitChoice::layers}}};
 

@@ -6,8 +6,8 @@ namespace {
 /// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
 constexpr double least_thomsen = -0.5;
 
-/// The most anisotropic mineral, graphite (c11 1060, c33 36.5, c44 4, c66 440 GPa), has an epsilon of 14 and a
-/// gamma of 54; layers and cracks that waves still cross as one medium have less.
+/// The most anisotropic mineral, graphite (c11 1060, c33 36.5, c44 4, c66 440 GPa), has an epsilon of 14 and
+/// a gamma of 54; layers and cracks that waves still cross as one medium have less.
 constexpr double largest_epsilon = 20, largest_gamma = 100;
 
 PropertyRow thomsen(const std::string& name, const std::string& about) {

@@ -7,8 +7,8 @@
 
 #include "accuracy/direct_waves.hpp"
 #include "accuracy/ladder.hpp"
-#include "model/model_in_cells.hpp"
 #include "base/progress.hpp"
+#include "model/model_in_cells.hpp"
 
 namespace slipwave {
 

@@ -179,9 +179,10 @@ TEST_F(Accuracy, OfAShotIsMeasuredAsItIsAndChangesNoTrace) {
   done("cmp <(tail -c +3601 plain.sgy) <(tail -c +3601 measured.sgy)");
   const auto plan = done("sw-shoot m.nc " + shots + "--plan --measure");
   EXPECT_TRUE(has(plan, "\n  measured error")) << plan;
-  expect_refused("sw-shoot m.nc " + shots + "--plan --error 0.01", 2,
-                 "sw-shoot: found --plan with --error, which runs the scene to choose; --plan --measure measures "
-                 "its own setting");
+  expect_refused(
+      "sw-shoot m.nc " + shots + "--plan --error 0.01", 2,
+      "sw-shoot: found --plan with --error, which runs the scene to choose; --plan --measure measures "
+      "its own setting");
 }
 
 TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {

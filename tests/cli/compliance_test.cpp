@@ -220,7 +220,8 @@ TEST_F(Compliance, HasAResponseWhoseErrorIsMeasuredAndChosen) {
       "ricker:20 --time 0.3 ";
   // Both shots are computed alike.
   const std::string chosen =
-      " --error 0.2 --of response -o a.sgy 2>&1 >/dev/null | grep 'measured error' | sed 's/, centred.*//; s/: "
+      " --error 0.2 --of response -o a.sgy 2>&1 >/dev/null | grep 'measured error' | sed 's/, centred.*//; "
+      "s/: "
       "measured.*//'";
   const auto with = done("sw-shoot f.nc" + shot + chosen);
   EXPECT_TRUE(has(with, "order ")) << with;

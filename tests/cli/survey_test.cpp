@@ -42,8 +42,8 @@ TEST_F(SurveyOfSea, DepthsFromSurfaceAndFloorAreThoseOfTheModel) {
       "--source 100,10 --receivers 0:600:50,95 --receivers 300,100 --receivers 300,0");
 }
 
-/// Between columns the ground of other cells is a little higher or lower than that of the model, at x = 760 m by
-/// a millimetre.
+/// Between columns the ground of other cells is a little higher or lower than that of the model, at x = 760 m
+/// by a millimetre.
 TEST_F(SurveyOfSea, PlacesOnTheSurfaceFollowTheGroundOfCellsThatErrorChooses) {
   write("hills.txt", "0 60\n250 75\n500 40\n750 30\n1000 70\n");
   done("sw-layers -q --size 1000x500 --step 12.5 --layer smooth@hills.txt:1800:800:1900 -o hills.nc");
@@ -52,8 +52,7 @@ TEST_F(SurveyOfSea, PlacesOnTheSurfaceFollowTheGroundOfCellsThatErrorChooses) {
           "--record vz --time 0.3 --error 0.1 -o hills.sgy");
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_TRUE(has(ran.err, "measured error: ")) << ran.err;
-  EXPECT_TRUE(
-      has(done("sw-select hills.sgy --where receiver_x=760 | sw-info -"), "receiver z       30.6"));
+  EXPECT_TRUE(has(done("sw-select hills.sgy --where receiver_x=760 | sw-info -"), "receiver z       30.6"));
 }
 
 TEST_F(SurveyOfSea, AStreamerMovesWithItsSource) {

@@ -35,7 +35,8 @@ std::vector<std::pair<Arrival, std::array<double, 4>>> real_waves(const Material
                                                                   bool down) {
   const Complex omega(1, -1e-9);
   std::vector<std::pair<Arrival, std::array<double, 4>>> all;
-  for (const auto& wave : AnisotropicStack::waves(AnisotropicStack::RealPlane(elasticity_of<2>(rock)), rock.rho, down, omega, along)) {
+  for (const auto& wave : AnisotropicStack::waves(AnisotropicStack::RealPlane(elasticity_of<2>(rock)),
+                                                  rock.rho, down, omega, along)) {
     // exp(-m z) down, exp(m z) up, is exp(-i omega q z).
     const auto slowness = (down ? 1. : -1.) * wave.m / (Complex(0, 1) * omega);
     if (std::abs(slowness.imag()) > 1e-6 * std::abs(slowness.real())) continue;  // evanescent

@@ -118,7 +118,7 @@ inline std::vector<ClosedForm<2>> closed_forms() {
       closed_form(with(near_floor,
                        [](StackScene& s) {
                          s.name = "the same, 30 degrees";
-        s.spacing_m = 3;
+                         s.spacing_m = 3;
                          s.dip_deg = 30;
                        })),
       closed_form(with(floor,

@@ -14,8 +14,8 @@
 
 namespace slipwave::solver {
 
-/// Faces between cells that single fractures split (theory/fractures.md): each side has its own velocity, and the
-/// traction is that of a spring between them, none where it is open, at most its strength where it has
+/// Faces between cells that single fractures split (theory/fractures.md): each side has its own velocity, and
+/// the traction is that of a spring between them, none where it is open, at most its strength where it has
 /// friction (S40). Sweeps take such faces for welded ones; add() then gives both sides what is left of that
 /// (S35). The stencils beside them read images() (S36). Retains the tractions, and slip and opening.
 template <int D, class Real>
