@@ -6,6 +6,7 @@
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/column_header.hpp"
 #include "io/input_bytes.hpp"
 
@@ -31,12 +32,6 @@ double whole_half_cycles(const std::string& text, const std::string& number) {
                     " cycles, expected a multiple of 0.5 above 0 and up to 10000",
                 ErrorKind::usage);
   return cycles;
-}
-
-std::string_view trimmed(std::string_view line) {
-  const auto first = line.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return line.substr(first, line.find_last_not_of(" \t\r") - first + 1);
 }
 
 /// Columns between blanks, tabs or one comma or semicolon with blanks round it.

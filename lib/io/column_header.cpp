@@ -1,36 +1,12 @@
 #include "io/column_header.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 
 namespace slipwave {
-namespace {
-
-bool is_number(std::string_view text) {
-  try {
-    parse_number(text);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return small;
-}
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-}  // namespace
 
 UnitConversion ColumnHeader::conversion(const std::string& into) const {
   if (unit.empty()) return {};

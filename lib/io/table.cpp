@@ -5,18 +5,13 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/input_bytes.hpp"
 
 namespace slipwave {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
 
 std::string as_text(const std::vector<char>& bytes) { return {bytes.begin(), bytes.end()}; }
 
