@@ -6,8 +6,8 @@ namespace {
 /// Below it c11 or (c13 + c55)^2 is negative, whatever vp and vs are.
 constexpr double least_thomsen = -0.5;
 
-/// The most anisotropic mineral, graphite (c11 1060, c33 36.5, c44 4, c66 440 GPa), has an epsilon of 14 and a
-/// gamma of 54; layers and cracks that waves still cross as one medium have less.
+/// The most anisotropic mineral, graphite (c11 1060, c33 36.5, c44 4, c66 440 GPa), has an epsilon of 14 and
+/// a gamma of 54; layers and cracks that waves still cross as one medium have less.
 constexpr double largest_epsilon = 20, largest_gamma = 100;
 
 PropertyRow thomsen(const std::string& name, const std::string& about) {
@@ -16,7 +16,6 @@ PropertyRow thomsen(const std::string& name, const std::string& about) {
           .help = "Thomsen's " + name + " of layered rock, a file or a number",
           .units = "1",
           .shown_unit = "",
-          .si = {"1", ""},
           .least = least_thomsen,
           .largest = name.find("gamma") == std::string::npos ? largest_epsilon : largest_gamma,
           .mean = Mean::elastic,
@@ -37,7 +36,6 @@ PropertyRow dip(const std::string& name, const std::string& of, const std::strin
           .help = help,
           .units = "degree",
           .shown_unit = "degrees",
-          .si = {"degree", "degrees"},
           .least = -90,
           .largest = 90,
           .mean = Mean::elastic,
@@ -51,7 +49,6 @@ PropertyRow turn(const std::string& name, const std::string& long_name) {
           .help = long_name + ", degrees, in 3-D, a file or a number",
           .units = "degree",
           .shown_unit = "degrees",
-          .si = {"degree", "degrees"},
           .least = -360,
           .largest = 360,
           .mean = Mean::elastic,
@@ -78,39 +75,29 @@ PropertyRow of_cut_cells(PropertyRow row) {
 }  // namespace
 
 std::vector<PropertyRow> property_rows() {
-  const std::vector<std::string> m_s = {"m s-1", "m/s", "m s^-1"}, km_s = {"km s-1", "km/s", "km s^-1"},
-                                 kg_m3 = {"kg m-3", "kg/m3", "kg/m^3", "kg m^-3"},
-                                 g_cm3 = {"g cm-3", "g/cm3", "g/cc", "g/cm^3", "g cm^-3"};
   return {{.name = "vp",
            .long_name = "P-wave speed",
            .help = "P-wave speed: raw float32, SEG-Y or netCDF (FILE or FILE:VARIABLE), or a number",
            .units = "m s-1",
            .shown_unit = "m/s",
-           .si = m_s,
-           .thousand = km_s,
            .mean = Mean::elastic},
           {.name = "vs",
            .long_name = "S-wave speed, 0 = fluid",
            .help = "S-wave speed; 0 is fluid",
            .units = "m s-1",
            .shown_unit = "m/s",
-           .si = m_s,
-           .thousand = km_s,
            .mean = Mean::elastic},
           {.name = "rho",
            .long_name = "density, 0 = void",
            .help = "density; 0 is void (air)",
            .units = "kg m-3",
            .shown_unit = "kg/m3",
-           .si = kg_m3,
-           .thousand = g_cm3,
            .mean = Mean::elastic},
           {.name = "qp",
            .long_name = "quality factor of P waves, infinite = elastic",
            .help = "quality factor of P waves, a file or a number",
            .units = "1",
            .shown_unit = "",
-           .si = {"1", ""},
            .least = 1,
            .mean = Mean::harmonic,
            .if_absent = PropertyRow::infinite},
@@ -119,7 +106,6 @@ std::vector<PropertyRow> property_rows() {
            .help = "quality factor of S waves, a file or a number; fluids have none",
            .units = "1",
            .shown_unit = "",
-           .si = {"1", ""},
            .least = 1,
            .mean = Mean::harmonic,
            .if_absent = PropertyRow::infinite},
