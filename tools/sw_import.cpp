@@ -5,6 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "cli/tool.hpp"
 #include "io/input_bytes.hpp"
 #include "io/netcdf_container.hpp"
@@ -234,15 +235,6 @@ ImportedField read_file(const Settings& settings, const std::string& given, cons
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   if (segy::looks_like_segy(bytes)) return read_segy(settings, path, start.taken(), unit);
   throw Error(shown_input(path) + ": is neither netCDF nor SEG-Y; raw float32 needs --shape and --step");
-}
-
-bool is_number(const std::string& text) {
-  try {
-    parse_number(text);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
 }
 
 /// The number that stands in place of a file, in SI.

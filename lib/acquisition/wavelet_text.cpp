@@ -6,6 +6,7 @@
 #include "acquisition/wavelet.hpp"
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/column_header.hpp"
 #include "io/input_bytes.hpp"
 

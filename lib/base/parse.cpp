@@ -89,13 +89,6 @@ double parse_number(std::string_view text) { return number_of(text, text, "a num
 
 std::int64_t parse_integer(std::string_view text) { return integer_of(text, text, "a whole number"); }
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const auto first = text.find_first_not_of(blanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
-}
-
 std::vector<std::string> split(std::string_view text, char separator) {
   std::vector<std::string> parts;
   for (;;) {

@@ -19,9 +19,6 @@ std::int64_t parse_integer(std::string_view text);
 std::vector<double> parse_numbers(std::string_view text, char separator);
 /// The parts of `text` between separators: "a:b" gives "a", "b"; "" gives one empty part.
 std::vector<std::string> split(std::string_view text, char separator);
-
-/// The text without blanks, tabs and carriage returns at either end.
-std::string_view trimmed(std::string_view text);
 /// "vx, vz, p"; `last` stands before the last one: "vx, vz or p".
 std::string joined(const std::vector<std::string>& parts, const std::string& last = ", ");
 

@@ -1,30 +1,12 @@
 #include "io/column_header.hpp"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 
 namespace slipwave {
-namespace {
-
-bool is_number(std::string_view text) {
-  try {
-    parse_number(text);
-    return true;
-  } catch (const Error&) {
-    return false;
-  }
-}
-
-std::string lower(std::string_view text) {
-  std::string small(text);
-  for (char& c : small) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return small;
-}
-
-}  // namespace
 
 UnitConversion ColumnHeader::conversion(const std::string& into) const {
   if (unit.empty()) return {};

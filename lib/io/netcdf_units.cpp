@@ -2,24 +2,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <string_view>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 #include "io/netcdf_file.hpp"
 
 namespace slipwave {
 namespace {
 
-std::string lower(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
 std::string lower_attribute(const NetcdfFile& file, const std::string& variable, const std::string& name) {
-  return lower(file.text_attribute(variable, name).value_or(""));
+  return lower(trimmed(file.text_attribute(variable, name).value_or("")));
 }
 
 std::string place_of(const NetcdfFile& file, const std::string& variable) {
@@ -41,14 +35,14 @@ const char* shown(VerticalSense sense) { return sense == VerticalSense::up ? "up
 std::optional<VerticalSense> sense_of_name(const std::string& name) {
   const auto holds = [&](std::string_view word) { return name.find(word) != std::string::npos; };
   if (holds("depth")) return VerticalSense::down;
-  if (holds("altitude") || holds("elevation") || holds("height")) return VerticalSense::up;
+  if (holds("altitude") || holds("elevation") || holds("height") || holds("topo")) return VerticalSense::up;
   return {};
 }
 
 std::optional<VerticalSense> sense_of_positive(const NetcdfFile& file, const std::string& variable) {
   const auto given = file.text_attribute(variable, "positive");
   if (!given) return {};
-  const auto word = lower(*given);
+  const auto word = lower(trimmed(*given));
   if (word == "up") return VerticalSense::up;
   if (word == "down") return VerticalSense::down;
   throw Error(place_of(file, variable) + "found positive '" + excerpt(*given) + "', expected up or down");

@@ -5,10 +5,13 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
+#include "base/words.hpp"
 #include "io/input_bytes.hpp"
 
 namespace slipwave {
 namespace {
+
+constexpr std::string_view blanks = " \t\r";
 
 std::string as_text(const std::vector<char>& bytes) { return {bytes.begin(), bytes.end()}; }
 
@@ -114,7 +117,7 @@ bool Table::split(std::string_view line) {
   unquoted_.clear();
   if (separator_ == ' ') {
     for (line = trimmed(line); !line.empty();) {
-      const auto end = line.find_first_of(" \t\r");
+      const auto end = line.find_first_of(blanks);
       values_.push_back(line.substr(0, end));
       line = end == std::string_view::npos ? std::string_view() : trimmed(line.substr(end));
     }

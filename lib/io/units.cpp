@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/words.hpp"
 
 namespace slipwave {
 namespace {
@@ -38,12 +39,6 @@ ut_system* units() {
   return system.get();
 }
 
-std::string trimmed(const std::string& text) {
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) return "";
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 Unit parsed(const std::string& text) { return Unit(ut_parse(units(), text.c_str(), UT_UTF8)); }
 
 /// For udunits a radian is the number 1, and numbers are angles.
@@ -64,11 +59,6 @@ void refuse_grains(const std::string& text) {
   for (auto at = text.find("gr"); at != std::string::npos; at = text.find("gr", at + 1))
     if (is_word(text, at, 2))
       throw Error("found the unit '" + excerpt(text) + "', in which gr is the grain, expected g or kg");
-}
-
-std::string lower(std::string text) {
-  for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
-  return text;
 }
 
 /// Puts a name that udunits knows in place of each word that is another's for it.
@@ -122,7 +112,7 @@ constexpr std::array<Kind, 7> kinds = {{{"m", "one of length, as m, km or ft"},
 }  // namespace
 
 std::optional<UnitConversion> unit_conversion(const std::string& unit, const std::string& into) {
-  const auto name = trimmed(unit);
+  const std::string name(trimmed(unit));
   if (name == into) return UnitConversion{};
   refuse_grains(name);
   const Unit from = parsed(name), to = parsed(into);
@@ -138,7 +128,7 @@ std::optional<UnitConversion> unit_conversion(const std::string& unit, const std
 
 std::optional<UnitConversion> spelt_unit_conversion(const std::string& unit, const std::string& into) {
   const auto small = lower(trimmed(unit));
-  for (const auto& spelling : {trimmed(unit), small, respelt(small)})
+  for (const auto& spelling : {std::string(trimmed(unit)), small, respelt(small)})
     if (auto found = unit_conversion(spelling, into)) return found;
   return {};
 }

@@ -19,14 +19,12 @@ enum class Mean {
 /// All there is to know of a material property, one value a cell. Model files, import, resampling,
 /// subdomains, the identity of checkpoints, reports, pictures and export walk the table of these rows.
 struct PropertyRow {
-  std::string name;                        // in files and on command lines
-  std::string long_name;                   // in files
-  std::string help;                        // of the option of sw-import
-  std::string units;                       // in files
-  std::string shown_unit;                  // in reports
-  std::vector<std::string> si;             // units that foreign files may name, at least one
-  std::vector<std::string> thousand = {};  // units of 1000 times that
-  double least = 0, largest = infinite;    // of what check() lets through; infinite: any finite number
+  std::string name;                      // in files and on command lines
+  std::string long_name;                 // in files
+  std::string help;                      // of the option of sw-import
+  std::string units;                     // in files; foreign ones may have any that converts to it
+  std::string shown_unit;                // in reports
+  double least = 0, largest = infinite;  // of what check() lets through; infinite: any finite number
   Mean mean = Mean::arithmetic;
   std::optional<double> if_absent = {};  // stands for it where a model lacks it; none: every model has it
   bool computed = false;                 // what builders of models find out, not what users give them

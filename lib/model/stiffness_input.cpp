@@ -142,8 +142,7 @@ PropertyRow row_of(Modulus modulus) {
                                              : ", of orthorhombic rock") +
                   ", a file or a number",
           .units = "Pa",
-          .shown_unit = "Pa",
-          .si = {"Pa"}};
+          .shown_unit = "Pa"};
 }
 
 bool GivenStiffness::any() const {

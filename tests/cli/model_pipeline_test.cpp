@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -186,4 +187,36 @@ TEST_F(ModelPipeline, FracturesRockUnderItsWeightAndSaysSo) {
   EXPECT_TRUE(has(weak.err, "shot 1: 0 of 120 fractured cells slipped (0 %)")) << weak.err;
   done(shot + "e.sgy --amplitude 1e-3 --without slip");
   done("sw-compare w.sgy e.sgy --tolerance 0.001");
+}
+
+TEST_F(ModelPipeline, TakesVolumesInAsTheyWentOut) {
+  done(
+      "sw-layers -q --size 60x40x30 --step 10 --layer 0:2000:1000:2000 --layer 10:3000:1500:2300:20 --fit "
+      "none -o "
+      "v.nc");
+  for (const std::string format : {"", "--su ", "--revision 0 "}) {
+    done("sw-export v.nc --property vp " + format + "-o v.sgy");
+    done("sw-import --vp v.sgy --vs v.nc --rho v.nc --step 10 -o w.nc; sw-export w.nc --property vp " +
+         format + "-o w.sgy");
+    EXPECT_TRUE(has(done("sw-diff v.sgy w.sgy | sw-info -"), "amplitude 0,")) << format;
+  }
+  expect_refused("sw-import --vp v.sgy --vs v.nc --rho v.nc --step 5 -o w.nc", 1,
+                 "sw-import: v.sgy: traces of an in-line are 10 m apart (bytes 181 to 188), expected 5 m as "
+                 "--step says: "
+                 "give --step 10, then --resample for other cells; --allow-rough takes --step all the same");
+}
+
+TEST_F(ModelPipeline, TakesAWellLogWithOneLineOfReport) {
+  std::string log = "DEPTH.M;VP.KM/S;VS.KM/S;RHO.G/CC\n";
+  for (int n = 0; n < 2400; ++n)
+    log += std::to_string(0.15 * n) + (n % 3 == 0 ? ";2.5;1.1;2.2\n" : ";3;1.6;2.3\n");
+  write("well.csv", log);
+  const auto ran = run("sw-layers --size 50x400 --step 5 --log well.csv --backus -o m.nc");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_TRUE(
+      ran.err.starts_with("sw-layers: well.csv: 2400 samples from 0 to 359.85 m, depth (M), vp (KM/S), vs "
+                          "(KM/S), rho (G/CC): 72 Backus averages from 0 m on, vp "))
+      << ran.err;
+  EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << ran.err;
+  EXPECT_TRUE(has(done("sw-info m.nc"), "10 x 80 cells of 5 m"));
 }

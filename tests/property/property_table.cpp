@@ -11,7 +11,6 @@ std::span<const PropertyRow> material_properties() {
                     .help = "temperature, K",
                     .units = "K",
                     .shown_unit = "K",
-                    .si = {"K", "kelvin"},
                     .largest = 5000,
                     .if_absent = 288});
     return more;

@@ -209,7 +209,7 @@ TEST(PropertyTable, BeginsWithWhatEveryModelHas) {
   for (const Property property : all_properties()) {
     const auto& row = row_of(property);
     EXPECT_EQ(row.if_absent.has_value(), std::size_t(property) >= required_properties) << row.name;
-    EXPECT_FALSE(row.si.empty()) << row.name;
+    EXPECT_FALSE(row.units.empty()) << row.name;
     EXPECT_EQ(find_property(row.name), property);
   }
   EXPECT_EQ(row_of(Property::vp).name, "vp");
