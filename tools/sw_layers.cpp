@@ -4,6 +4,7 @@
 #include "io/output_file.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/property_range.hpp"
 
 using namespace slipwave;
 
@@ -62,6 +63,21 @@ void warn_of_three_dimensions(const std::vector<Layer>& layers, const cli::Conte
       }
 }
 
+/// Throws a usage Error on a value that a property can not have.
+void check_values(const Layer& layer) {
+  const auto check_value = [](Property property, double value) {
+    const auto& row = row_of(property);
+    if (!is_in_range(row, value))
+      throw Error(
+          "found " + std::string(row.name) + " of " + shown(value) + ", expected " + expected_values(row),
+          ErrorKind::usage);
+  };
+  check_value(Property::vp, layer.material.vp);
+  check_value(Property::vs, layer.material.vs);
+  check_value(Property::rho, layer.material.rho);
+  for (const auto& [property, value] : layer.others) check_value(property, value);
+}
+
 template <int D>
 void build(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
@@ -72,6 +88,7 @@ void build(const Settings& settings, const cli::Context& context) {
   std::vector<Layer> layers;
   for (const auto& text : settings.layers) {
     layers.push_back(in_place("--layer", [&] { return parse_layer(text, units); }));
+    in_place("--layer", [&] { check_values(layers.back()); });
   }
   const auto choice =
       settings.fit.empty() ? FitChoice() : in_place("--fit", [&] { return parse_fit(settings.fit); });

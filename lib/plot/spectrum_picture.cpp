@@ -162,6 +162,8 @@ Shown as_they_are(const Spectra& spectra, const Look& look) {
 }
 
 Axis place_axis(const Spectra& spectra, const std::vector<double>& edges) {
+  if (spectra.place == Spectra::Place::phase_velocity)
+    return {"phase velocity", "m/s", edges.front(), edges.back()};
   if (spectra.place == Spectra::Place::wavenumber) return {"wavenumber", "1/m", edges.front(), edges.back()};
   if (spectra.place == Spectra::Place::receiver_x) return {"receiver x", "m", edges.front(), edges.back()};
   return {"trace", "", edges.front(), edges.back(), false, true};

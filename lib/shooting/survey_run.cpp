@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
@@ -35,7 +36,8 @@ SurveyRun<D>::SurveyRun(const Scene<D>& scene, const OutputOptions& options, con
       state_(state_settings(provenance.version)),
       traces_(options,
               writes() && scene.survey.any_receiver() ? scene.recording.components : std::vector<Component>(),
-              textual_header_of(scene, provenance_.history, provenance.version)),
+              options.trace_format(scene.recording),
+              textual_header_of(scene, provenance_.history, provenance.version), messages.warn),
       at_once_(groups ? groups->groups() : shots_at_once(options, scene)) {}
 
 template <int D>
