@@ -6,6 +6,7 @@
 #include "accuracy/cases.hpp"
 #include "accuracy/ladder.hpp"
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "io/netcdf_file.hpp"

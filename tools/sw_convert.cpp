@@ -20,6 +20,7 @@ struct Settings {
   std::string text = "same";
   bool su = false;
   bool cube = false;
+  bool area = false;
   std::string input_format = "auto";
   std::string input_endian = "auto";
   bool input_su = false;
@@ -37,6 +38,8 @@ void declare(cli::Options& options, Settings& settings) {
               "write Seismic Unix: IEEE floats in the machine's byte order, no reel headers");
   options.add("cube", settings.cube,
               "number in-lines by shot and cross-lines by channel, for programs that expect a cube");
+  options.add("area", settings.area,
+              "number in-lines and cross-lines by the y and x of receivers that cover an area, likewise");
   options.add("input-format", settings.input_format, "NAME",
               "sample format of the input, overriding its header");
   options.add_choice("input-endian", settings.input_endian, {"auto", "big", "little"},
@@ -54,6 +57,7 @@ segy::Endian endian_named(const std::string& name) {
 
 segy::ReadOptions read_options(const Settings& settings) {
   segy::ReadOptions options;
+  options.to_damage = true;
   options.su = settings.input_su;
   if (settings.input_endian != "auto") options.endian = endian_named(settings.input_endian);
   if (settings.input_format != "auto") options.format = format_code("--input-format", settings.input_format);
@@ -89,10 +93,13 @@ void refuse_with_su(const Settings& settings) {
   if (settings.revision != "same") refuse("--revision");
   if (settings.text != "same") refuse("--text");
   if (settings.cube) refuse("--cube");
+  if (settings.area) refuse("--area");
 }
 
 void run(const Settings& settings, const cli::Context& context) {
   if (settings.su || segy::names_su(settings.output)) refuse_with_su(settings);
+  if (settings.cube && settings.area)
+    throw Error("found --cube and --area, expected one of them", ErrorKind::usage);
   const segy::ReadOptions options = read_options(settings);
   if (settings.format != "same") format_code("--format", settings.format);
   segy::Reader reader(settings.input, options);
@@ -105,10 +112,12 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Writer writer(out, info);
   const Progress progress = context.progress("converting");
   CubeNumbers cube;
+  AreaNumbers area;
   const auto copy = [&](auto trace) {
     while (reader.next(trace)) {
       in_place(reader.name(), [&] {
         if (settings.cube) cube.number(trace.words);
+        if (settings.area) area.number(trace.words);
         writer.write(trace, header.su);
       });
       if (progress && reader.size())
@@ -119,8 +128,13 @@ void run(const Settings& settings, const cli::Context& context) {
     copy(segy::RawTrace());
   else
     copy(segy::Trace());
-  in_place(reader.name(), [&] { cube.finish(); });
+  in_place(reader.name(), [&] {
+    cube.finish();
+    area.finish();
+  });
+  for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  reader.expect_whole();
 }
 
 }  // namespace

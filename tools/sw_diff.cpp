@@ -66,7 +66,9 @@ void run(const Settings& settings, const cli::Context& context) {
     subtract_floats(pair, writer, after_each);
   else
     subtract_numbers(pair, writer, after_each);
+  for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  pair.expect_whole();
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "base/parse.hpp"
+#include "base/history.hpp"
 #include "cli/tool.hpp"
 #include "grid/true_depth.hpp"
 #include "io/input_bytes.hpp"
@@ -91,17 +91,18 @@ Exported<D> of_snapshots(NetcdfFile file, const Settings& settings) {
 
 template <int D>
 void write_exported(NetcdfFile file, OutputFile& out, const Settings& settings, const cli::Context& context) {
-  std::string commands = file.text_attribute("", "history").value_or("");
-  append_history(commands, context.command_line);
+  std::string history = file.text_attribute("", "history").value_or("");
+  append_history(history, context.command_line);
   const bool is_model = kind_of(file) == "model";
   auto exported = is_model ? of_model<D>(file, settings) : of_snapshots<D>(std::move(file), settings);
   const bool fitted = exported.values.grid().rows != nullptr;
   exported.values = in_regular_depth(exported.values, exported.take);
   exported.facts.entries.push_back(context.version);
-  for (const auto& command : split(commands, '\n'))
-    if (!command.empty()) exported.facts.entries.emplace_back(command);
+  exported.facts.history = history;
   in_place(shown_input(settings.input), [&] {
-    write_section(out, exported.values, exported.facts, settings.output_options.file_format(settings.output));
+    const auto format = settings.output_options.file_format(settings.output);
+    for (const auto& sentence : write_section(out, exported.values, exported.facts, format))
+      context.warn(sentence);
   });
   out.commit();
   if (!fitted) return;

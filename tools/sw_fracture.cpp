@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "cli/tool.hpp"
 #include "fracture_options.hpp"
@@ -160,6 +161,19 @@ void warn_of_dense_cracks(const Settings& settings, const cli::Context& context)
   if (density > densest)
     context.warn("a crack density of " + shown(density) + " is above " + shown(densest) +
                  ", to which Hudson's theory of first order holds; usual are 0.01 to 0.1");
+}
+
+/// What is allowed and is seldom meant.
+void warn_of_slips(const Settings& settings, const cli::Context& context) {
+  // Rocks and faults have 0.1 to 1.
+  constexpr double largest_friction = 2;
+  if (settings.friction.value_or(0) > largest_friction)
+    context.warn(
+        "--friction " + shown(*settings.friction) +
+        ": the coefficient of friction of rocks is below 1; it is the tangent of the angle of friction");
+  if (!settings.dips.empty() && !settings.normals.empty())
+    context.warn("--dip and --normal each give planes of their own: the set has " +
+                 std::to_string(settings.dips.size() + settings.normals.size()) + " families of planes");
 }
 
 void refuse(const std::string& sentence) { throw Error(sentence, ErrorKind::usage); }
@@ -538,6 +552,7 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
     context.warn("the box at " + shown_box(whole.bounds) + " leaves the model, which is at " +
                  shown_box(box_of_grid(model.grid())) + ": planes end there");
   warn_of_dense_cracks(settings, context);
+  warn_of_slips(settings, context);
   const auto count = single(settings)     ? put_single(settings, model, context)
                      : settings.effective ? change_rock<D>(settings, model, systems, region)
                                           : put_set<D>(settings, model, systems, region, context);

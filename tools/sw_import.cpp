@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "base/words.hpp"
 #include "cli/tool.hpp"

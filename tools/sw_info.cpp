@@ -3,6 +3,7 @@
 
 #include "accuracy/table.hpp"
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "cli/tool.hpp"
 #include "io/input_bytes.hpp"
 #include "io/netcdf_container.hpp"
@@ -13,6 +14,7 @@
 #include "planning/plan.hpp"
 #include "segy/describe.hpp"
 #include "segy/gather_report.hpp"
+#include "segy/history.hpp"
 #include "segy/sniff.hpp"
 #include "trace_input.hpp"
 
@@ -22,7 +24,7 @@ namespace {
 
 struct Settings {
   std::vector<std::string> files;
-  bool json = false;
+  bool json = false, command = false;
   TraceInput traces;
 };
 
@@ -31,19 +33,24 @@ struct Finding {
   std::string kind;
   Report report;
   std::string damage;
+  std::string history;  // the commands that made it, as far as it says
 };
 
 void declare(cli::Options& options, Settings& settings) {
   options.positional(settings.files, "FILE");
   options.require("FILE");
   options.add("json", settings.json, "one JSON object per file and line");
+  options.add("command", settings.command,
+              "print instead the command that makes each file again, on standard output");
   settings.traces.declare(options);
 }
 
 Finding look_at_traces(const std::string& path, const segy::ReadOptions& options,
                        const std::vector<char>& taken) {
   const auto found = segy::describe(path, options, {taken.begin(), taken.end()});
-  return {"gather", segy::report_of(found), found.damage.value_or("")};
+  const auto history = segy::history_of(found.header);
+  return {"gather", segy::report_of(found), found.damage.value_or(""),
+          history.complete ? history.commands : ""};
 }
 
 bool holds_accuracy(const NetcdfFile& file) {
@@ -52,7 +59,7 @@ bool holds_accuracy(const NetcdfFile& file) {
 
 Finding look_at_accuracy(const NetcdfFile& file) {
   const auto table = read_accuracy_table(file);
-  Finding finding{"accuracy", report_of(table), ""};
+  Finding finding{"accuracy", report_of(table), "", ""};
   Report& report = finding.report;
   if (const auto source = file.text_attribute("", "source")) report.text("source", *source);
   report.text("history", table.history);
@@ -63,7 +70,7 @@ template <int D>
 Finding look_at_model(const NetcdfFile& file) {
   Scene<D> scene;
   scene.model = read_model<D>(file);
-  Finding finding{"model", report_of(scene.model), ""};
+  Finding finding{"model", report_of(scene.model), "", ""};
   try {
     check(scene.model, {.allow_auxetic = true, .allow_slow = true});
     scene.survey.sources.push_back({{}, Explosion{}, parse_wavelet("ricker:1")});
@@ -77,7 +84,7 @@ Finding look_at_model(const NetcdfFile& file) {
 Finding look_at_netcdf(const NetcdfFile& file) {
   const auto kind = kind_of(file);
   if (kind != "model" && holds_accuracy(file)) return look_at_accuracy(file);
-  if (kind != "model") return {kind, report_of(file), ""};
+  if (kind != "model") return {kind, report_of(file), "", ""};
   return dimension_of(file) == 3 ? look_at_model<3>(file) : look_at_model<2>(file);
 }
 
@@ -86,9 +93,11 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
   const InputStart start(path, 3600);
   const auto& first = start.bytes();
   if (begins_netcdf({first.data(), first.size()})) {
-    return look_at_netcdf(start.is_regular()
-                              ? NetcdfFile::open(path)
-                              : NetcdfFile::open(read_all(path, start.taken()), shown_input(path)));
+    const auto file = start.is_regular() ? NetcdfFile::open(path)
+                                         : NetcdfFile::open(read_all(path, start.taken()), shown_input(path));
+    auto finding = look_at_netcdf(file);
+    finding.history = file.text_attribute("", "history").value_or("");
+    return finding;
   }
   const std::vector<std::uint8_t> bytes(first.begin(), first.end());
   std::optional<std::uint64_t> size;
@@ -102,6 +111,8 @@ Finding look_at(const std::string& path, const segy::ReadOptions& options) {
 }
 
 void run(const Settings& settings, const cli::Context&) {
+  if (settings.json && settings.command)
+    throw Error("found --json and --command, expected one of them", ErrorKind::usage);
   const segy::ReadOptions options = settings.traces.read_options();
   OutputFile out("-", OutputFile::Content::text);
   const auto print = [&](const std::string& text) { out.write(text.data(), text.size()); };
@@ -115,7 +126,12 @@ void run(const Settings& settings, const cli::Context&) {
       throw;
     }
     const auto name = shown_input(path);
-    if (settings.json) {
+    if (settings.command) {
+      const auto command = pipeline_of(finding.history);
+      if (!command.starts_with("sw-"))
+        throw Error(name + ": does not say by which command of slipwave it was made");
+      print(command + "\n");
+    } else if (settings.json) {
       Report whole;
       whole.text("file", name);
       whole.text("kind", finding.kind);

@@ -6,6 +6,7 @@
 #include "io/output_file.hpp"
 #include "model/layers.hpp"
 #include "model/model_netcdf.hpp"
+#include "model/property_range.hpp"
 #include "model/well_log.hpp"
 
 using namespace slipwave;
@@ -117,6 +118,21 @@ void add_log(const Settings& settings, const InputUnits& units, std::vector<Laye
   layers.insert(after, std::move(layer));
 }
 
+/// Throws a usage Error on a value that a property can not have.
+void check_values(const Layer& layer) {
+  const auto check_value = [](Property property, double value) {
+    const auto& row = row_of(property);
+    if (!is_in_range(row, value))
+      throw Error(
+          "found " + std::string(row.name) + " of " + shown(value) + ", expected " + expected_values(row),
+          ErrorKind::usage);
+  };
+  check_value(Property::vp, layer.material.vp);
+  check_value(Property::vs, layer.material.vs);
+  check_value(Property::rho, layer.material.rho);
+  for (const auto& [property, value] : layer.others) check_value(property, value);
+}
+
 template <int D>
 void build(const Settings& settings, const cli::Context& context) {
   const auto size = in_place("--size", [&] { return parse_size<D>(settings.size); });
@@ -127,6 +143,7 @@ void build(const Settings& settings, const cli::Context& context) {
   std::vector<Layer> layers;
   for (const auto& text : settings.layers) {
     layers.push_back(in_place("--layer", [&] { return parse_layer(text, units); }));
+    in_place("--layer", [&] { check_values(layers.back()); });
   }
   add_log<D>(settings, units, layers, context);
   const auto choice =

@@ -45,7 +45,7 @@ std::optional<Expression> condition_of(const std::string& text) {
 /// The file header says how many traces follow. Files are read for it beforehand, pipes can not be: 0.
 SelectionCounts counts_of(const Settings& settings, const Expression& condition) {
   if (!is_regular_input(settings.input)) return {};
-  segy::Reader reader(settings.input, settings.input_options.read_options());
+  segy::Reader reader(settings.input, settings.input_options.to_damage());
   return count_selected(reader, condition);
 }
 
@@ -70,7 +70,9 @@ void run(const Settings& settings, const cli::Context& context) {
   if (!condition && !window) throw Error("nothing to select: give --where or --time", ErrorKind::usage);
   std::optional<SelectionCounts> counts;
   if (condition) counts = counts_of(settings, *condition);
-  segy::Reader reader(settings.input, settings.input_options.read_options());
+  segy::Reader reader(settings.input, settings.input_options.to_damage());
+  if (window && reader.axis_with_interval().count > 0)
+    in_place("--time", [&] { window->check_reach(reader.axis(), reader.name()); });
   OutputFile out(settings.output, OutputFile::Content::binary);
   const segy::FileInfo info = info_of(
       reader, context, segy::format_named_by(settings.output, segy::format_of(reader)), counts, window);
@@ -91,8 +93,10 @@ void run(const Settings& settings, const cli::Context& context) {
   if (condition && writer.written() == 0)
     throw Error(reader.name() + ": none of " + std::to_string(reader.delivered()) + " traces meets '" +
                 settings.where + "', expected at least one");
+  for (const std::string& sentence : writer.finish()) context.warn(sentence);
   context.note(std::to_string(writer.written()) + " of " + std::to_string(reader.delivered()) + " traces");
   out.commit();
+  reader.expect_whole();
 }
 
 }  // namespace

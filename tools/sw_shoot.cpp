@@ -26,6 +26,8 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
               "traces; - is standard output");
+  options.add_choice("revision", s.output.revision, {"auto", "0", "1", "2"},
+                     "revision of SEG-Y; auto: 1, and 2 where 1 can not hold the sampling");
   options.add("snapshots", s.output.snapshots, "FILE",
               "write snapshots of the wave field to this netCDF file");
   options.add("every", s.snapshot_every_s, "S", "time between snapshots, s");

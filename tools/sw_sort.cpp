@@ -75,16 +75,18 @@ void run(const Settings& settings, const cli::Context& context) {
   if (names.empty()) names.push_back("-");
   if (std::count(names.begin(), names.end(), "-") > 1)
     throw Error("found standard input twice, expected every input once", ErrorKind::usage);
-  segy::Reader reader(names.front(), settings.input_options.read_options());
+  segy::Reader reader(names.front(), settings.input_options.to_damage());
   OutputFile out(settings.output, OutputFile::Content::binary);
   const std::string directory = temporary_directory();
+  std::string damage;  // of the inputs but the first
   TraceSorter sorter(keys, static_cast<std::uint64_t>(settings.memory_mib) << 20, directory);
   add_all(reader, sorter, context.progress("reading"));
   for (std::size_t n = 1; n < names.size(); ++n) {
-    segy::Reader next(names[n], settings.input_options.read_options());
+    segy::Reader next(names[n], settings.input_options.to_damage());
     const std::string differs = segy::record_difference(next, reader);
     if (!differs.empty()) throw Error(next.name() + ": " + differs + " as in " + reader.name());
     add_all(next, sorter, context.progress("reading " + names[n]));
+    if (damage.empty()) damage = next.damage().value_or("");
   }
   note_needs(sorter.records(), directory, context);
   const segy::FileInfo info = info_of(
@@ -92,7 +94,10 @@ void run(const Settings& settings, const cli::Context& context) {
   segy::Writer writer(out, info);
   for (const std::string& sentence : segy::warnings_of(info)) context.warn(sentence);
   sorter.deliver([&](const segy::RawTrace& sorted) { writer.write(sorted, reader.header().su); });
+  for (const std::string& sentence : writer.finish()) context.warn(sentence);
   out.commit();
+  reader.expect_whole();
+  if (!damage.empty()) throw Error(damage + "; its whole traces were used");
 }
 
 }  // namespace

@@ -1,15 +1,19 @@
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "cli/tool.hpp"
 #include "gather/fk_file.hpp"
+#include "gather/phase_velocity.hpp"
 #include "gather/spectrum.hpp"
 #include "gather/spectrum_file.hpp"
 #include "io/output_file.hpp"
+#include "segy/history.hpp"
 #include "segy/reader.hpp"
 #include "trace_input.hpp"
 
@@ -22,7 +26,8 @@ struct Settings {
   std::string output = "-";
   std::string window = "none";
   SpectrumSettings spectrum;
-  bool each = false, fk = false;
+  std::string velocities;
+  bool each = false, fk = false, phase_velocity = false;
   bool text = false;
   TraceInput input_options;
 };
@@ -32,6 +37,10 @@ void declare(cli::Options& options, Settings& settings) {
   options.add("output,o", settings.output, "FILE", "output file; - is standard output");
   options.add("each", settings.each, "one spectrum per trace, not the mean of each component");
   options.add("fk", settings.fk, "over wavenumber and frequency; mean over the shots of each component");
+  options.add("phase-velocity", settings.phase_velocity,
+              "with --fk: over phase velocity instead of wavenumber (a dispersion image)");
+  options.add("velocities", settings.velocities, "V1:V2[:DV]",
+              "with --phase-velocity: these, m/s, negative towards falling positions [where the energy is]");
   options.add("power", settings.spectrum.power, "energy density instead of amplitude");
   options.add_choice("window", settings.window, window_names(),
                      "taper of the samples, with --fk also of the receivers");
@@ -44,6 +53,14 @@ void declare(cli::Options& options, Settings& settings) {
 std::vector<std::string> source_of(const segy::Reader& reader) {
   if (reader.header().su) return {};
   return segy::shown_lines(reader.header().text);
+}
+
+/// Commands up to this one.
+std::string history_of(const segy::Reader& reader, const cli::Context& context) {
+  const auto before = segy::history_of(reader.header());
+  std::string history = before.complete ? before.commands : "";
+  append_history(history, context.command_line);
+  return history;
 }
 
 /// Hands every trace to `take`; there must be one.
@@ -66,8 +83,8 @@ void write_spectra(segy::Reader& reader, const Settings& settings, OutputFile& o
   const SampleAxis axis = reader.axis_with_interval();
   SpectrumTransform transform(axis, settings.spectrum);
   const SpectrumFacts facts{transform.frequencies_hz(), settings.spectrum.power,
-                            definition_of(axis, settings.spectrum, transform.length()), context.command_line,
-                            source_of(reader)};
+                            definition_of(axis, settings.spectrum, transform.length()),
+                            history_of(reader, context), source_of(reader)};
   const auto file = settings.text ? spectrum_text(out, facts) : spectrum_netcdf(out, facts);
   std::map<Component, SpectrumMean> means;
   for_each_trace(reader, context.progress("transforming"),
@@ -82,16 +99,23 @@ void write_spectra(segy::Reader& reader, const Settings& settings, OutputFile& o
   file->finish();
 }
 
+std::optional<PhaseVelocityChoice> choice_of(const Settings& settings) {
+  if (!settings.phase_velocity) return std::nullopt;
+  if (settings.velocities.empty()) return PhaseVelocityChoice{};
+  return in_place("--velocities",
+                  [&] { return PhaseVelocityChoice{parse_velocity_range(settings.velocities).values()}; });
+}
+
 void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, const cli::Context& context) {
   const SampleAxis axis = reader.axis_with_interval();
-  FkSpectra spectra(axis, settings.spectrum);
+  FkSpectra spectra(axis, settings.spectrum, choice_of(settings));
   for_each_trace(
       reader, context.progress("transforming"),
       [&](const TraceHeader& header, std::span<const double> samples) { spectra.add(header, samples); });
   in_place(reader.name(), [&] { spectra.finish(); });
   context.note("took " + shown(spectra.bytes() / (1 << 20), 3) +
                " MiB for a shot, its transform and the spectra");
-  const FkFacts facts{axis, settings.spectrum, context.command_line, source_of(reader)};
+  const FkFacts facts{axis, settings.spectrum, history_of(reader, context), source_of(reader)};
   if (settings.text)
     write_fk_text(out, facts, spectra);
   else
@@ -101,13 +125,17 @@ void write_fk(segy::Reader& reader, const Settings& settings, OutputFile& out, c
 void run(Settings& settings, const cli::Context& context) {
   if (settings.fk && settings.each)
     throw Error("--fk and --each exclude each other: a gather has one f-k spectrum", ErrorKind::usage);
+  if (settings.phase_velocity && !settings.fk) throw Error("--phase-velocity needs --fk", ErrorKind::usage);
+  if (!settings.velocities.empty() && !settings.phase_velocity)
+    throw Error("--velocities needs --phase-velocity", ErrorKind::usage);
   settings.spectrum.window = window_named(settings.window);
-  segy::Reader reader(settings.input, settings.input_options.read_options());
+  segy::Reader reader(settings.input, settings.input_options.to_damage());
   OutputFile out(settings.output, settings.text ? OutputFile::Content::text : OutputFile::Content::binary);
   if (settings.fk)
     write_fk(reader, settings, out, context);
   else
     write_spectra(reader, settings, out, context);
+  reader.expect_whole();
 }
 
 }  // namespace

@@ -12,6 +12,14 @@ struct TraceInput : segy::InputOptions {
     options.add("format", format, "NAME", "sample format of the input: ibm, ieee, int16, ... or its code");
     options.add("su", su, "read the input as Seismic Unix");
   }
+
+  /// For tools that use the whole traces of an input that ends too early and then say so
+  /// (Reader::expect_whole).
+  segy::ReadOptions to_damage() const {
+    segy::ReadOptions options = read_options();
+    options.to_damage = true;
+    return options;
+  }
 };
 
 }  // namespace slipwave

@@ -29,8 +29,13 @@ struct OpenPair {
   segy::PairReader both{a, b};
 
   explicit OpenPair(const TracePair& inputs)
-      : a(first_of(inputs), inputs.input_options.read_options()),
-        b(inputs.b, inputs.input_options.read_options()) {}
+      : a(first_of(inputs), inputs.input_options.to_damage()),
+        b(inputs.b, inputs.input_options.to_damage()) {}
+  /// Throws an Error where an input ended too early, once all whole pairs were used.
+  void expect_whole() const {
+    a.expect_whole();
+    b.expect_whole();
+  }
   OpenPair(const OpenPair&) = delete;
   OpenPair& operator=(const OpenPair&) = delete;
 

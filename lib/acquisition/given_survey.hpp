@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "acquisition/place.hpp"
+#include "acquisition/wavelet.hpp"
 
 namespace slipwave {
 
@@ -27,7 +28,8 @@ struct MapFrame {
 /// A source as it was given; what is left out is as the options say.
 struct GivenSource {
   Place place;
-  std::string kind, wavelet;  // empty: left out
+  std::string kind, wavelet;          // empty: left out
+  std::optional<Wavelet> recorded{};  // instead of `wavelet`: the samples of a trace
   std::optional<double> amplitude;
   double factor = 1;  // on the amplitude
   double delay_s = 0;
@@ -58,6 +60,7 @@ struct GivenSurvey {
   bool numbered = false;    // shots have numbers of their own
   bool distinct = true;     // and no two have the same
   bool told_apart = false;  // shots have receivers of their own
+  bool in_files = false;    // any of it comes from a table or another file
   bool from_map = false;    // of a file that knows nothing of the model
   std::string doubt;        // what may be wrong with its coordinates; empty: nothing
 

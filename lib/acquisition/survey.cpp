@@ -116,10 +116,10 @@ bool needs_ground(const Survey<D>& survey) {
          });
 }
 
+namespace {
+
 template <int D>
-void place(Survey<D>& survey, Ground<D> ground) {
-  if (!survey.spreads) return;
-  survey.spreads->put_on(std::move(ground));
+void put_on_ground(Survey<D>& survey) {
   const auto* const spreads = &*survey.spreads;
   const auto* const given = &spreads->given();
   for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
@@ -139,6 +139,15 @@ void place(Survey<D>& survey, Ground<D> ground) {
   survey.spreads.reset();
 }
 
+}  // namespace
+
+template <int D>
+void place(Survey<D>& survey, Ground<D> ground) {
+  if (!survey.spreads) return;
+  survey.spreads->put_on(std::move(ground));
+  placing(survey, [&] { put_on_ground(survey); });
+}
+
 template <int D>
 void check(const Survey<D>& survey, const Grid<D>& grid) {
   const auto check_source = [&](const Source<D>& source, std::size_t shot, std::size_t which) {
@@ -150,14 +159,16 @@ void check(const Survey<D>& survey, const Grid<D>& grid) {
       throw Error(who + ": found an amplitude that is not finite, expected a number");
     check_inside<D>(who, source.position_m, grid, survey.spreads ? survey.spreads->remedy() : "");
   };
-  for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
-    const auto of_shot = survey.sources_of(shot);
-    for (std::size_t n = 0; n < of_shot.size(); ++n) check_source(*of_shot[n], shot, n);
-  }
-  each_receiver<D>(survey, [&](const Point<D>& point, std::size_t shot, std::size_t number) {
-    if (!is_inside<D>(point, grid))
-      check_inside<D>(name_of_receiver(survey, shot, number), point, grid,
-                      survey.spreads ? survey.spreads->remedy() : "");
+  placing(survey, [&] {
+    for (std::size_t shot = 1; shot <= survey.sources.size(); ++shot) {
+      const auto of_shot = survey.sources_of(shot);
+      for (std::size_t n = 0; n < of_shot.size(); ++n) check_source(*of_shot[n], shot, n);
+    }
+    each_receiver<D>(survey, [&](const Point<D>& point, std::size_t shot, std::size_t number) {
+      if (!is_inside<D>(point, grid))
+        check_inside<D>(name_of_receiver(survey, shot, number), point, grid,
+                        survey.spreads ? survey.spreads->remedy() : "");
+    });
   });
 }
 

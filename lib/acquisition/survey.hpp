@@ -8,6 +8,7 @@
 
 #include "acquisition/spreads.hpp"
 #include "acquisition/wavelet.hpp"
+#include "base/error.hpp"
 #include "grid/grid.hpp"
 #include "grid/tensor.hpp"
 
@@ -71,6 +72,8 @@ struct Survey {
   std::vector<std::vector<Source<D>>> blended = {};
   /// Of shots with receivers, channels or numbers of their own; none: channels count from 1, shots too.
   std::optional<Spreads<D>> spreads = {};
+  /// What a place is that can not be in the model: options' misuse, or wrong data of files.
+  ErrorKind misplaced = ErrorKind::data;
 
   std::vector<Receiver<D>> receivers_of(std::size_t shot) const;
   std::size_t receiver_count(std::size_t shot) const {
@@ -87,6 +90,16 @@ struct Survey {
   /// The first source of a shot and those that are blended with it.
   std::vector<const Source<D>*> sources_of(std::size_t shot) const;
 };
+
+/// Runs `body`; an Error leaving it is of the kind of misplaced places.
+template <int D, class Body>
+void placing(const Survey<D>& survey, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    throw Error(error.what(), survey.misplaced);
+  }
+}
 
 /// Calls `see` with every place where a receiver stands, and a shot (from 1) and number (from 1) that it has
 /// there; a place where one stands in many shots is seen once.

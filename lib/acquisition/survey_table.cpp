@@ -197,7 +197,9 @@ GivenSurvey read_survey(Table& table, int dimension) {
   for (auto& rows : shots) {
     auto& added = survey.shots.emplace_back();
     added.number = rows.number;
-    added.sources.push_back({rows.source, "", "", {}, 1, 0, rows.from});
+    auto& source = added.sources.emplace_back();
+    source.place = rows.source;
+    source.from = rows.from;
     collector.begin(survey.shots.size() - 1);
     std::map<std::int64_t, std::int64_t> lines;  // of channels
     for (std::size_t n = 0; n < rows.traces.size(); ++n) {

@@ -109,7 +109,7 @@ std::span<const double> RealTransform::backward(std::span<const std::complex<dou
 struct RealTransform2::Plan {
   std::size_t rows, length;
   std::unique_ptr<fftw_complex, Freed> complex;  // rows of bins; before the transform the samples lie in them
-  slipwave::Plan forward;
+  slipwave::Plan forward, backward;
 
   std::size_t bins() const { return length / 2 + 1; }
 };
@@ -125,7 +125,7 @@ RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {
   if (rows < 1 || length < 1 || rows > most || length > most)
     throw Error("a Fourier transform of " + size + " samples, expected 1 to 2147483647 along each axis");
   check_memory(bytes_for(rows, length), size);
-  plan_.reset(new Plan{rows, length, nullptr, nullptr});
+  plan_.reset(new Plan{rows, length, nullptr, nullptr, nullptr});
   plan_->complex.reset(fftw_alloc_complex(rows * plan_->bins()));
   if (!plan_->complex) throw Error("no memory for a Fourier transform of " + size + " samples");
   {
@@ -133,6 +133,9 @@ RealTransform2::RealTransform2(std::size_t rows, std::size_t length) {
     plan_->forward.reset(fftw_plan_dft_r2c_2d(static_cast<int>(rows), static_cast<int>(length),
                                               reinterpret_cast<double*>(plan_->complex.get()),
                                               plan_->complex.get(), FFTW_ESTIMATE));
+    plan_->backward.reset(
+        fftw_plan_dft_c2r_2d(static_cast<int>(rows), static_cast<int>(length), plan_->complex.get(),
+                             reinterpret_cast<double*>(plan_->complex.get()), FFTW_ESTIMATE));
   }
   clear();
 }
@@ -158,6 +161,17 @@ void RealTransform2::forward() { fftw_execute(plan_->forward.get()); }
 
 std::span<const std::complex<double>> RealTransform2::spectrum(std::size_t row) const {
   return {reinterpret_cast<const std::complex<double>*>(plan_->complex.get()) + row * bins(), bins()};
+}
+
+std::span<std::complex<double>> RealTransform2::spectrum(std::size_t row) {
+  return {reinterpret_cast<std::complex<double>*>(plan_->complex.get()) + row * bins(), bins()};
+}
+
+void RealTransform2::backward() {
+  fftw_execute(plan_->backward.get());
+  const double scale = 1 / (static_cast<double>(rows()) * static_cast<double>(length()));
+  for (std::size_t row = 0; row < rows(); ++row)
+    for (double& sample : samples(row)) sample *= scale;
 }
 
 }  // namespace slipwave

@@ -55,7 +55,7 @@ class RealTransform2 {
   std::size_t length() const noexcept;
   /// length()/2 + 1
   std::size_t bins() const noexcept;
-  /// Some 8 bytes per sample.
+  /// Some 8 bytes per sample, transformed in place.
   static double bytes_for(std::size_t rows, std::size_t length);
 
   /// Samples of row m, to be filled before forward(); all zero after clear().
@@ -64,6 +64,9 @@ class RealTransform2 {
   void forward();
   /// X_j0, X_j1, ... after forward().
   std::span<const std::complex<double>> spectrum(std::size_t row) const;
+  std::span<std::complex<double>> spectrum(std::size_t row);
+  /// The samples again, from the spectra: x_mn = 1/(rows length) sum X_jk exp(+2 pi i (...)).
+  void backward();
 
  private:
   struct Plan;

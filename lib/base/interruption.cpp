@@ -24,7 +24,9 @@ int SignalWatch::noted() const { return noted_signal; }
 
 bool note_signal(int signal_number) noexcept {
   int none = 0;
-  return signal_number != SIGPIPE && noted_signal.compare_exchange_strong(none, signal_number);
+  // A closed pipe takes no more output, and who quits wants the process to end where it is.
+  return signal_number != SIGPIPE && signal_number != SIGQUIT &&
+         noted_signal.compare_exchange_strong(none, signal_number);
 }
 
 void leave_line_open(bool open) noexcept { line_is_open = open; }

@@ -8,8 +8,8 @@ struct Interrupted {
   int signal_number;
 };
 
-/// While it lives the first INT, TERM or HUP is only noted; another one ends the process at once, as without
-/// it. One at a time. Needs the handlers of remove_temporaries_on_signals().
+/// While it lives the first signal but QUIT and PIPE is only noted; another one ends the process at once, as
+/// without it. One at a time. Needs the handlers of remove_temporaries_on_signals().
 class SignalWatch {
  public:
   SignalWatch();

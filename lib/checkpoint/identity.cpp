@@ -159,20 +159,6 @@ std::string shown_attenuation(const Attenuation& attenuation) {
          shown(mechanisms.high_hz()) + " Hz, speeds at " + shown(reference_hz) + " Hz";
 }
 
-const char* name_of(EdgeLaw law) {
-  switch (law) {
-    case EdgeLaw::free:
-      return "free";
-    case EdgeLaw::absorbing:
-      return "absorbing";
-    case EdgeLaw::rigid:
-      return "rigid";
-    case EdgeLaw::mirror:
-      return "mirror";
-  }
-  return "";
-}
-
 }  // namespace
 
 template <int D>
@@ -183,15 +169,16 @@ Identity identity_of(const Scene<D>& scene) {
   const auto& [order, cfl, given_step_s, zones, correction, double_precision, time_order, monotone, tiling] =
       numerics;
   const auto& [components, duration_s, interval_s, fibre] = recording;
-  const auto& [sources, receivers_m, blended, spreads] = survey;
-  static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);  // changes no result
+  const auto& [sources, receivers_m, blended, spreads, misplaced] = survey;
+  static_assert(std::is_same_v<std::remove_cvref_t<decltype(tiling)>, Tiling>);        // changes no result
+  static_assert(std::is_same_v<std::remove_cvref_t<decltype(misplaced)>, ErrorKind>);  // nor does this
   const double step_s = given_step_s ? *given_step_s : time_step_s(scene);
   std::string recorded;
   for (const auto component : components)
     recorded += (recorded.empty() ? "" : ",") + std::string(name_of(component));
   if (fibre)
-    recorded += " (fibre at " + shown(fibre->angle_deg) + ", " + shown(fibre->azimuth_deg) +
-                " degrees, gauge " + shown(fibre->gauge_m) + " m)";
+    recorded += " (fibre at " + shown(fibre->angle_deg) + ", " + shown(fibre->azimuth_deg) + " degrees" +
+                (fibre->along_path ? " along its path" : "") + ", gauge " + shown(fibre->gauge_m) + " m)";
   Identity identity = {
       {"grid", shown(model.grid())},
       {"order", std::to_string(order)},

@@ -100,16 +100,24 @@ void SnapshotLog<D>::put(const void* first, std::size_t count) {
 
 template <int D>
 void SnapshotLog<D>::append(double time_s, const std::vector<Field<D>>& fields) {
-  put(&time_s, sizeof time_s);
-  for (const auto& field : fields) {
-    assert(field.grid() == grid_);
-    put(field.data(), field.size() * sizeof(float));
+  if (!failure_.empty()) return;
+  const auto before = mark_;
+  try {
+    put(&time_s, sizeof time_s);
+    for (const auto& field : fields) {
+      assert(field.grid() == grid_);
+      put(field.data(), field.size() * sizeof(float));
+    }
+    ++mark_.times;
+  } catch (const Error& error) {
+    failure_ = error.what();
+    mark_ = before;
   }
-  ++mark_.times;
 }
 
 template <int D>
 SnapshotMark SnapshotLog<D>::synchronized() {
+  if (!failure_.empty()) throw Error(failure_);
   while (fsync(descriptor_) != 0)
     if (errno != EINTR) fail(path_, errno);
   return mark_;

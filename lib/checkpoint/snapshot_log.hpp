@@ -33,8 +33,10 @@ class SnapshotLog {
   SnapshotLog& operator=(const SnapshotLog&) = delete;
   ~SnapshotLog();
 
+  /// What does not fit the disk any more ends no run: the log stays as it was before, for the checkpoints
+  /// that there are, and takes no more.
   void append(double time_s, const std::vector<Field<D>>& fields);
-  /// All that was appended is on the disk.
+  /// All that was appended is on the disk. Throws an Error naming the file where it is not.
   SnapshotMark synchronized();
 
  private:
@@ -45,6 +47,7 @@ class SnapshotLog {
   int descriptor_ = -1;
   Grid<D> grid_;
   SnapshotMark mark_;
+  std::string failure_;  // why it takes no more; empty: it does
 };
 
 /// Removes all files whose names are `begin` and a number.

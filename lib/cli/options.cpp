@@ -18,6 +18,14 @@ int int_of(const std::string& text) {
   return int(value);
 }
 
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
+  std::string text;
+  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
+  return text;
+}
+
+}  // namespace
+
 bool truth_of(const std::string& text) {
   for (const char* yes : {"", "true", "yes", "on", "1"}) {
     if (text == yes) return true;
@@ -27,14 +35,6 @@ bool truth_of(const std::string& text) {
   }
   throw Error("found '" + text + "', expected true or false", ErrorKind::usage);
 }
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const auto& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
-}  // namespace
 
 Options::Options() = default;
 Options::~Options() = default;

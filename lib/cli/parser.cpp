@@ -17,8 +17,9 @@ namespace po = boost::program_options;
 
 // Not part of the provenance: the bytes of the output do not depend on them.
 const std::set<std::string> without_effect = {
-    "output",           "threads",           "quiet",          "verbose",       "checkpoint",
-    "checkpoint-every", "shots-in-parallel", "ranks-per-shot", "keep-unstable", "executor"};
+    "config",         "output",        "threads",          "quiet",
+    "verbose",        "checkpoint",    "checkpoint-every", "shots-in-parallel",
+    "ranks-per-shot", "keep-unstable", "executor"};
 // Only sensible on the command line.
 const std::set<std::string> not_in_config = {"help", "help-all", "version", "config"};
 
@@ -140,10 +141,13 @@ void Parser::read_command_line(int argc, const char* const* argv) {
     refuse(error.what());
   }
   command_line_ = info_.name;
-  for (const auto& option : parsed) {
+  for (const auto& option : parsed)
     if (option.string_key.empty()) {
       arguments_.insert(arguments_.end(), option.value.begin(), option.value.end());
-    } else {
+      for (const auto& word : option.original_tokens) command_line_ += ' ' + quoted(word);
+    }
+  for (const auto& option : parsed) {
+    if (!option.string_key.empty()) {
       // "--source --plan": Boost takes the next option for the value.
       if (option.original_tokens.size() == 2 && is_declared(option.original_tokens[1])) {
         refuse_without_value(option.string_key);
@@ -152,8 +156,8 @@ void Parser::read_command_line(int argc, const char* const* argv) {
       values.insert(values.end(), option.value.begin(), option.value.end());
       if (option.value.empty()) values.emplace_back();
     }
-    if (!is_provenance(option.string_key)) continue;
-    for (const auto& token : option.original_tokens) command_line_ += ' ' + quoted(token);
+    if (!option.string_key.empty())
+      add_to_command_line(option.string_key, option.value, option.original_tokens);
   }
 }
 
@@ -161,6 +165,14 @@ bool Parser::is_provenance(const std::string& name) const {
   return !without_effect.count(name) &&
          std::none_of(options_.options_.begin(), options_.options_.end(),
                       [&](const auto& option) { return option.name == name && !option.provenance; });
+}
+
+/// `words`: the option as it is written. Names of outputs that split what is recorded change what is in each.
+void Parser::add_to_command_line(const std::string& name, const std::vector<std::string>& values,
+                                 const std::vector<std::string>& words) {
+  const bool splits = name == "output" && !values.empty() && values.back().find('{') != std::string::npos;
+  if (!is_provenance(name) && !splits) return;
+  for (const auto& word : words) command_line_ += ' ' + quoted(word);
 }
 
 bool Parser::is_declared(const std::string& word) const {
@@ -214,6 +226,12 @@ void Parser::read_config() {
       in_place(option.name, [&] { option.store(found->second); });
     });
     given_[option.name];  // present, already stored
+    for (const auto& value : found->second) {
+      if (!option.placeholder.empty())
+        add_to_command_line(option.name, {value}, {"--" + option.name + "=" + value});
+      else if (truth_of(value))
+        add_to_command_line(option.name, {}, {"--" + option.name});
+    }
   }
 }
 

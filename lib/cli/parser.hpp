@@ -59,6 +59,8 @@ class Parser {
 
   void read_command_line(int argc, const char* const* argv);
   void read_config();
+  void add_to_command_line(const std::string& name, const std::vector<std::string>& values,
+                           const std::vector<std::string>& words);
   void store();
   bool is_declared(const std::string& word) const;
   bool has_more() const;
@@ -71,8 +73,11 @@ class Parser {
   CommonSettings common_;
   Values given_;
   std::vector<std::string> arguments_;
-  std::string command_line_;
+  std::string command_line_;  // inputs first, then options of the command line and of the config file
 };
+
+/// Whether a switch of that value in a config file is on; throws a usage Error on a word that says neither.
+bool truth_of(const std::string& text);
 
 /// `word` as a POSIX shell must be given it.
 std::string quoted(const std::string& word);

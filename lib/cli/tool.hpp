@@ -97,9 +97,9 @@ class Log {
 
 /// What run() gets beside its settings.
 struct Context {
-  /// Provenance: program name without path, arguments quoted as a shell needs them. What does not change the
-  /// bytes of the output is left out (-o, --threads, -q, -v, checkpoints), so they are the same wherever they
-  /// are written.
+  /// Provenance: program name without path, names of inputs, then options, those of --config among them,
+  /// quoted as a shell needs them. What does not change the bytes of the output is left out (-o that splits
+  /// nothing, --threads, -q, -v, checkpoints), so they are the same wherever they are written.
   std::string command_line;
   std::string tool;     // "sw-layers"
   std::string version;  // "slipwave 0.2.0"

@@ -10,8 +10,7 @@ namespace slipwave {
 
 /// Why two traces do not belong together: the first of shot, channel, component, source and receiver that
 /// differs, with both values ("receiver x is 105 m, expected 100 m"); "" when none does. A component that is
-/// not known goes with any. Positions agree to
-/// 0.5 mm, half of the finest step a file holds.
+/// not known goes with any. Positions agree to 0.5 mm, by which files of the same survey may round them.
 std::string geometry_difference(const TraceHeader& found, const TraceHeader& expected);
 
 /// Likewise for number of samples, interval (to a millionth of it) and start (to a thousandth of the

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "gather/spectrum_file.hpp"
 #include "io/netcdf_file.hpp"
 
@@ -22,7 +23,21 @@ std::string definition_of(const FkFacts& facts, const FkSpectra& spectra) {
          std::to_string(transform.zeros_in_time()) + " zeros appended to " +
          std::to_string(facts.axis.count) + " samples of dt = " + shown(facts.axis.interval_s) + " s, " +
          std::to_string(transform.zeros_in_space()) + " to " + std::to_string(transform.receivers()) +
-         " receivers every " + shown(transform.spacing_m(), 9) + " m";
+         " receivers every " + shown(transform.spacing_m(), 9) + " m" +
+         (spectra.velocities().empty() ? ""
+                                       : "; at k = f/c of each phase velocity c, receivers without zeros");
+}
+
+/// What spectra lie over beside the frequency.
+struct Rows {
+  std::string name, long_name, unit, column;
+  std::vector<double> values;
+};
+
+Rows rows_of(const FkSpectra& spectra) {
+  if (auto velocities = spectra.velocities(); !velocities.empty())
+    return {"phase_velocity", "phase velocity", "m s-1", "phase_velocity_m/s", std::move(velocities)};
+  return {"wavenumber", "wavenumber", "m-1", "wavenumber_1/m", spectra.transform().wavenumbers_per_m()};
 }
 
 std::string number(double value) {
@@ -55,14 +70,14 @@ void write_fk_netcdf(OutputFile& out, const FkFacts& facts, const FkSpectra& spe
     file.put_attribute(name, "units", unit);
     file.put(name, values.data());
   };
-  put_axis(
-      "wavenumber",
-      std::string("wavenumber along ") + spectra.direction() + ", above 0 for waves that travel that way",
-      "m-1", spectra.transform().wavenumbers_per_m());
+  const auto rows = rows_of(spectra);
+  put_axis(rows.name,
+           rows.long_name + " along " + spectra.direction() + ", above 0 for waves that travel that way",
+           rows.unit, rows.values);
   put_axis("frequency", "frequency", "Hz", spectra.transform().frequencies_hz());
   for (const auto& [component, mean] : spectra.means()) {
     const std::string name = name_of(component);
-    file.define_variable(name, Type::f64, {"wavenumber", "frequency"});
+    file.define_variable(name, Type::f64, {rows.name, "frequency"});
     file.put_attribute(name, "long_name",
                        std::string("mean f-k ") + (facts.settings.power ? "power" : "amplitude") + " of " +
                            name + " over " + std::to_string(mean.gathers) + " gathers");
@@ -77,14 +92,15 @@ void write_fk_netcdf(OutputFile& out, const FkFacts& facts, const FkSpectra& spe
 void write_fk_text(OutputFile& out, const FkFacts& facts, const FkSpectra& spectra) {
   const auto put = [&](const std::string& text) { out.write(text.data(), text.size()); };
   for (const std::string& line : facts.source) put("# " + line + "\n");
-  put("# " + facts.history + "\n# " + definition_of(facts, spectra) + "\n# wavenumber_1/m frequency_Hz");
+  put("# " + split(facts.history, '\n').back() + "\n# " + definition_of(facts, spectra) + "\n# " +
+      rows_of(spectra).column + " frequency_Hz");
   for (const auto& [component, mean] : spectra.means()) {
     const std::string unit = fk_unit(component, facts.settings.power);
     put(" " + std::string(name_of(component)) + (unit.empty() ? "" : "[" + unit + "]") + " (mean of " +
         std::to_string(mean.gathers) + ")");
   }
   put("\n");
-  const auto k = spectra.transform().wavenumbers_per_m();
+  const auto k = rows_of(spectra).values;
   const auto f = spectra.transform().frequencies_hz();
   for (std::size_t j = 0; j < k.size(); ++j) {
     for (std::size_t n = 0; n < f.size(); ++n) {

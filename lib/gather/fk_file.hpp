@@ -12,7 +12,7 @@ namespace slipwave {
 struct FkFacts {
   SampleAxis axis;
   SpectrumSettings settings;
-  std::string history;              // the command line
+  std::string history;              // commands, one a line
   std::vector<std::string> source;  // lines that say where the traces come from
 };
 
@@ -20,11 +20,12 @@ struct FkFacts {
 /// without.
 std::string fk_unit(Component component, bool power);
 
-/// netCDF-4: frequency(frequency) in Hz, wavenumber(wavenumber) in m-1 and a variable a component,
-/// vz(wavenumber, frequency). Commits the output.
+/// netCDF-4: frequency(frequency) in Hz, wavenumber(wavenumber) in m-1, or phase_velocity(phase_velocity) in
+/// m s-1, and a variable a component, vz(wavenumber, frequency). Commits the output.
 void write_fk_netcdf(OutputFile& out, const FkFacts& facts, const FkSpectra& spectra);
 
-/// Columns: wavenumber, frequency and one column a component; an empty line after each wavenumber. Commits.
+/// Columns: wavenumber or phase velocity, frequency and one column a component; an empty line after each
+/// wavenumber. Commits.
 void write_fk_text(OutputFile& out, const FkFacts& facts, const FkSpectra& spectra);
 
 }  // namespace slipwave

@@ -5,11 +5,13 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "gather/phase_velocity.hpp"
+#include "gather/receiver_line.hpp"
 
 namespace slipwave {
 namespace {
 
-constexpr double evenness = 1e-3;  // of the spacing
+constexpr double evenness = 1e-3;  // of the spacing, between gathers
 
 std::string receivers_shown(std::size_t count, double spacing_m) {
   return std::to_string(count) + " receivers every " + shown(spacing_m, 6) + " m";
@@ -71,6 +73,16 @@ void FkTransform::add(std::span<const std::vector<double>> traces, std::span<dou
   }
 }
 
+FkSpectra::FkSpectra(const SampleAxis& axis, const SpectrumSettings& settings,
+                     const std::optional<PhaseVelocityChoice>& over_velocity)
+    : axis_(axis), settings_(settings), over_velocity_(over_velocity) {}
+
+FkSpectra::~FkSpectra() = default;
+
+std::vector<double> FkSpectra::velocities() const {
+  return image_ ? image_->velocities() : std::vector<double>();
+}
+
 void FkSpectra::add(const TraceHeader& header, std::span<const double> samples) {
   if (static_cast<std::int64_t>(samples.size()) != axis_.count)
     throw Error(std::to_string(samples.size()) + " samples, expected " + std::to_string(axis_.count) +
@@ -109,34 +121,43 @@ double FkSpectra::bytes() const {
 }
 
 void FkSpectra::finish_gather(Component component, std::vector<Placed>& placed) {
-  if (placed.size() < 2) throw Error("has 1 receiver, expected a line of at least two");
-  if (!transform_) {  // along the first axis on which the receivers differ
-    while (direction_ < 2 && placed[0].receiver_m[direction_] == placed[1].receiver_m[direction_])
-      ++direction_;
-  }
-  const auto place = [&](const Placed& one) { return one.receiver_m[direction_]; };
-  std::stable_sort(placed.begin(), placed.end(),
-                   [&](const Placed& a, const Placed& b) { return place(a) < place(b); });
-  const double spacing_m = (place(placed.back()) - place(placed.front())) / double(placed.size() - 1);
-  if (!(spacing_m > 0)) throw Error("its receivers lie in one place, expected a line");
-  for (std::size_t m = 0; m + 1 < placed.size(); ++m) {
-    const double step_m = place(placed[m + 1]) - place(placed[m]);
-    if (!(std::fabs(step_m - spacing_m) <= evenness * spacing_m))
-      throw Error("receivers at " + std::string(1, direction()) + " = " + shown(place(placed[m])) + " and " +
-                  shown(place(placed[m + 1])) + " m, expected one every " + shown(spacing_m, 6) + " m");
-  }
+  std::vector<std::array<double, 3>> receivers_m;
+  for (const Placed& one : placed) receivers_m.push_back(one.receiver_m);
+  const auto line = line_of(receivers_m, transform_ ? &direction_ : nullptr);
+  direction_ = line.axis;
+  const double spacing_m = line.spacing_m;
   if (!transform_) transform_.emplace(axis_, placed.size(), spacing_m, settings_);
   if (placed.size() != transform_->receivers() ||
       std::fabs(spacing_m - transform_->spacing_m()) > evenness * spacing_m)
     throw Error(receivers_shown(placed.size(), spacing_m) + ", expected " +
                 receivers_shown(transform_->receivers(), transform_->spacing_m()) +
                 " as in the first gather");
-  Mean& mean = means_[component];
-  mean.values.resize(transform_->frequencies_hz().size() * transform_->wavenumbers_per_m().size());
-  ++mean.gathers;
   std::vector<std::vector<double>> traces;
-  for (Placed& one : placed) traces.push_back(std::move(one.samples));
-  transform_->add(traces, mean.values);
+  for (const std::size_t n : line.order) traces.push_back(std::move(placed[n].samples));
+  if (over_velocity_ && !image_) begin_image(traces);
+  Mean& mean = means_[component];
+  const auto rows = image_ ? image_->velocities().size() : transform_->wavenumbers_per_m().size();
+  mean.values.resize(transform_->frequencies_hz().size() * rows);
+  ++mean.gathers;
+  if (image_)
+    image_->add(traces, mean.values);
+  else
+    transform_->add(traces, mean.values);
+}
+
+/// The first gather chooses velocities where none are given.
+void FkSpectra::begin_image(const std::vector<std::vector<double>>& traces) {
+  auto velocities = over_velocity_->velocities;
+  if (velocities.empty()) {
+    SpectrumSettings settings = settings_;
+    settings.power = true;
+    FkTransform transform(axis_, transform_->receivers(), transform_->spacing_m(), settings);
+    std::vector<double> energy(transform.frequencies_hz().size() * transform.wavenumbers_per_m().size());
+    transform.add(traces, energy);
+    velocities = velocities_of_energy(transform, energy).values();
+  }
+  image_ = std::make_unique<PhaseVelocityTransform>(axis_, transform_->receivers(), transform_->spacing_m(),
+                                                    settings_, std::move(velocities));
 }
 
 }  // namespace slipwave

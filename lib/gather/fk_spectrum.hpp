@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -51,11 +52,20 @@ class FkTransform {
   RealTransform2 transform_;
 };
 
+class PhaseVelocityTransform;
+
+/// Spectra over phase velocity instead of wavenumber.
+struct PhaseVelocityChoice {
+  std::vector<double> velocities;  // m/s, ascending; empty: where the energy of the first gather is
+};
+
 /// The mean f-k spectra of the gathers of a file, one gather a shot and component, in the memory of one shot
 /// and of the spectra.
 class FkSpectra {
  public:
-  FkSpectra(const SampleAxis& axis, const SpectrumSettings& settings) : axis_(axis), settings_(settings) {}
+  FkSpectra(const SampleAxis& axis, const SpectrumSettings& settings,
+            const std::optional<PhaseVelocityChoice>& over_velocity = {});
+  ~FkSpectra();
 
   /// The traces of a shot together, in any order within. Throws Error: a shot that comes again, a trace of
   /// another length, receivers that are not evenly spaced (to a thousandth), a gather of other receivers.
@@ -64,11 +74,13 @@ class FkSpectra {
   void finish();
 
   struct Mean {
-    std::vector<double> values;  // a row of frequencies for each wavenumber
+    std::vector<double> values;  // a row of frequencies for each wavenumber or velocity
     std::int64_t gathers = 0;
   };
   const std::map<Component, Mean>& means() const { return means_; }
   const FkTransform& transform() const { return *transform_; }
+  /// Empty where the spectra are over wavenumber.
+  std::vector<double> velocities() const;
   /// What the largest shot, the transform and the spectra take.
   double bytes() const;
   /// 'x', 'y' or 'z': the receivers' positions along this axis.
@@ -81,10 +93,13 @@ class FkSpectra {
   };
   void finish_shot();
   void finish_gather(Component component, std::vector<Placed>& placed);
+  void begin_image(const std::vector<std::vector<double>>& traces);
 
   SampleAxis axis_;
   SpectrumSettings settings_;
+  std::optional<PhaseVelocityChoice> over_velocity_;
   std::optional<FkTransform> transform_;
+  std::unique_ptr<PhaseVelocityTransform> image_;
   std::size_t direction_ = 0;
   std::int64_t shot_ = 0;
   std::set<std::int64_t> shots_;

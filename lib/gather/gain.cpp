@@ -64,6 +64,8 @@ Gain parse_gain(const std::string& text) {
     const double value = in_place(row.name, [&] { return parse_number(text.substr(colon + 1)); });
     if ((row.kind == Gain::Kind::agc || row.kind == Gain::Kind::clip) && !(value > 0))
       throw Error("found '" + text + "', expected " + row.value + " above 0", ErrorKind::usage);
+    if (row.kind == Gain::Kind::scale && value == 0)
+      throw Error("found '" + text + "', expected C other than 0", ErrorKind::usage);
     return {row.kind, value};
   }
   refuse(text);

@@ -17,7 +17,7 @@ struct SpectrumFacts {
   std::vector<double> frequencies_hz;
   bool power = false;
   std::string definition;           // window, padding and formula in words (definition_of)
-  std::string history;              // the command line
+  std::string history;              // commands, one a line
   std::vector<std::string> source;  // lines that say where the traces come from
 };
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "gather/spectrum_file.hpp"
 
 namespace slipwave {
@@ -10,7 +11,7 @@ class SpectrumText final : public SpectrumFile {
  public:
   SpectrumText(OutputFile& out, const SpectrumFacts& facts) : out_(out), facts_(facts) {
     for (const std::string& line : facts.source) put("# " + line + "\n");
-    put("# " + facts.history + "\n# " + facts.definition + "\n");
+    put("# " + split(facts.history, '\n').back() + "\n# " + facts.definition + "\n");
   }
 
   void add(const TraceHeader& header, std::span<const double> values) override {

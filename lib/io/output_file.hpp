@@ -10,10 +10,10 @@ namespace slipwave {
 /// An output that appears whole or not at all.
 /// For a path: a private temporary beside it, renamed over it by commit(); the destructor without commit
 /// removes the temporary and leaves an older file of that name untouched. Ended by a signal (INT, TERM, HUP,
-/// PIPE): the temporary is removed too; by KILL: by the next OutputFile of that path. A path that exists and
-/// is no regular file (/dev/null, a fifo) is written in place. For "-": streams to stdout; binary to a
-/// terminal is refused. Every failed write throws Error naming file and cause ("gather.sgy: No space left on
-/// device").
+/// QUIT, PIPE, ...): the temporary is removed too; by KILL: by the next OutputFile of that path. A path that
+/// exists and is no regular file (/dev/null, a fifo) is written in place. For "-": streams to stdout; binary
+/// to a terminal is refused. Every failed write throws Error naming file and cause ("gather.sgy: No space
+/// left on device").
 class OutputFile {
  public:
   enum class Content { binary, text };
@@ -42,10 +42,11 @@ class OutputFile {
 /// output is of another kind, where that is a slip and would cost the input. "-" and "" are no files.
 void expect_other_files(const std::string& output, const std::vector<std::string>& inputs);
 
-/// Installs the handlers that remove the temporaries of all living OutputFiles when INT, TERM, HUP or PIPE
-/// ends the process; the process then dies of that signal, so the shell sees 128 + N. A signal that was
-/// ignored at start stays ignored (nohup), PIPE excepted: a closed pipe always ends the process quietly.
-/// XFSZ is ignored, so a file-size limit becomes an Error of write(). Call once, from main.
+/// Installs the handlers that remove the temporaries of all living OutputFiles when INT, TERM, HUP, QUIT,
+/// PIPE, or another signal from outside ends the process; the process then dies of that signal, so the shell
+/// sees 128 + N. A signal that was ignored at start stays ignored (nohup), PIPE excepted: a closed pipe
+/// always ends the process quietly. XFSZ is ignored, so a file-size limit becomes an Error of write(). Call
+/// once, from main.
 void remove_temporaries_on_signals();
 
 }  // namespace slipwave

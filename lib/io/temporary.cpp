@@ -56,6 +56,11 @@ void release_slot(Slot* slot) {
   slot->taken = false;
 }
 
+/// Those that end a process by default and are sent from outside, by users, terminals, timers and batch
+/// systems. Those that a fault of the program raises leave a core as it was.
+constexpr int ending_signals[] = {SIGINT,  SIGTERM,   SIGHUP,  SIGPIPE, SIGQUIT, SIGALRM,
+                                  SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2};
+
 enum class Lock {
   held,
   elsewhere,  // somebody else holds it
@@ -117,7 +122,7 @@ extern "C" void remove_and_die(int signal_number) {
 }  // namespace
 
 void remove_temporaries_on_signals() {
-  for (const int signal_number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE}) {
+  for (const int signal_number : ending_signals) {
     struct sigaction old_action {};
     sigaction(signal_number, nullptr, &old_action);
     if (old_action.sa_handler == SIG_IGN && signal_number != SIGPIPE) continue;

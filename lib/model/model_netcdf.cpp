@@ -510,11 +510,6 @@ void write_model(const Model<D>& model, const std::string& path) {
   write_model(model, out);
 }
 
-void append_history(std::string& history, const std::string& command) {
-  if (!history.empty() && history.back() != '\n') history += '\n';
-  history += command;
-}
-
 template std::vector<FractureSet<2>> read_fracture_sets<2>(const NetcdfFile&);
 template std::vector<FractureSet<3>> read_fracture_sets<3>(const NetcdfFile&);
 template Grid<2> read_model_grid(const NetcdfFile&);

@@ -38,7 +38,4 @@ void write_model(const Model<D>& model, const std::string& path);
 template <int D>
 void write_model(const Model<D>& model, OutputFile& out);
 
-/// Adds a command to a history attribute: one line each, the newest last, as the pipeline ran.
-void append_history(std::string& history, const std::string& command);
-
 }  // namespace slipwave

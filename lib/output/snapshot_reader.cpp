@@ -29,6 +29,13 @@ SnapshotReader<D>::SnapshotReader(NetcdfFile file)
 template <int D>
 std::size_t SnapshotReader<D>::nearest(double time_s) const {
   const auto nearer = [&](double a, double b) { return std::fabs(a - time_s) < std::fabs(b - time_s); };
+  // Beyond the ends by less than the time between two.
+  const double first = times_s_.front(), last = times_s_.back();
+  const double between = times_s_.size() > 1 ? (last - first) / double(times_s_.size() - 1) : last;
+  if (!(time_s >= first - between && time_s <= last + between))
+    throw Error(name() + ": found a time of " + shown(time_s) + " s, the snapshots are of " + shown(first) +
+                    " to " + shown(last) + " s",
+                ErrorKind::usage);
   return std::size_t(std::min_element(times_s_.begin(), times_s_.end(), nearer) - times_s_.begin());
 }
 

@@ -8,6 +8,7 @@
 #include "acquisition/fibre.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "scene/gauges.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/kernels.hpp"
 #include "solver/record/recorder.hpp"
@@ -153,11 +154,10 @@ Between<D> receivers_between(const Scene<D>& scene, std::size_t shot) {
       between.high[axis] = std::max(between.high[axis], receiver[axis]);
     }
   };
-  for (const auto& one : scene.survey.receivers_of(shot)) {
-    add(one.point_m);
-    if (!scene.recording.fibre) continue;
-    for (const auto& end : gauge_ends<D>(*scene.recording.fibre, one.point_m)) add(end);
-  }
+  for (const auto& one : scene.survey.receivers_of(shot)) add(one.point_m);
+  if (scene.recording.fibre)
+    for (const auto& gauge : gauges_of(scene, shot))
+      for (const auto& point : gauge) add(point.at_m);
   return between;
 }
 

@@ -240,6 +240,34 @@ Page page_of(const PlotOptions& options) {
   return page_of(in_place("--output", [&] { return format_of(options.output); }), options.page);
 }
 
+namespace {
+
+/// An option that means nothing to files of that kind is a slip.
+void refuse_options_of_others(const PlotOptions& options, Kind kind, const std::string& path) {
+  struct Owned {
+    const char* option;
+    bool given;
+    std::vector<Kind> by;
+  };
+  const std::vector<Kind> fields = {Kind::model, Kind::snapshots};
+  const Owned all[] = {{"--time", options.time_s.has_value(), {Kind::snapshots}},
+                       {"--field", !options.field.empty(), {Kind::snapshots}},
+                       {"--over", !options.over.empty(), {Kind::snapshots}},
+                       {"--minus", !options.minus.empty(), {Kind::snapshots}},
+                       {"--slice", options.slice || options.through, fields},
+                       {"--survey", !options.survey.empty(), fields},
+                       {"--shot", options.shot.has_value(), {Kind::gather}},
+                       {"--difference", options.gather.difference, {Kind::gather}},
+                       {"--component", options.component.has_value(), {Kind::gather, Kind::spectra}},
+                       {"--log", options.log, {Kind::spectra}}};
+  for (const auto& owned : all)
+    if (owned.given && std::find(owned.by.begin(), owned.by.end(), kind) == owned.by.end())
+      throw Error(shown_input(path) + ": " + owned.option + " does not apply to this kind of file",
+                  ErrorKind::usage);
+}
+
+}  // namespace
+
 Picture picture_of(const PlotOptions& options, const Page& given) {
   std::vector<InputFile> inputs;
   for (const auto& path : options.files) inputs.push_back(open_input(path, options.traces.su));
@@ -260,6 +288,7 @@ Picture picture_of(const PlotOptions& options, const Page& given) {
   const auto page = with_history(given, history);
   if (!options.at.empty() && kind != Kind::model)
     throw Error(shown_input(inputs.front().path) + ": holds no model, expected one for --at");
+  refuse_options_of_others(options, kind, inputs.front().path);
   if (kind == Kind::gather) return gather_picture(inputs, options, page);
   if (kind == Kind::model) return model_picture(inputs.front(), options, page);
   if (kind == Kind::snapshots) return snapshot_picture(inputs.front(), options, page);

@@ -72,11 +72,13 @@ void read_traces(const NetcdfFile& file, const std::string& variable, const std:
 }
 
 void read_fk(const NetcdfFile& file, const std::optional<Component>& wanted, Spectra& spectra) {
-  const std::vector<std::string> axes = {"wavenumber", "frequency"};
+  const bool over_velocity = file.has_variable("phase_velocity");
+  const std::string rows = over_velocity ? "phase_velocity" : "wavenumber";
+  const std::vector<std::string> axes = {rows, "frequency"};
   for (const auto& variable : file.variables()) {
     if (variable.dimensions != axes || (wanted && variable.name != name_of(*wanted))) continue;
-    spectra.places = file.get<double>("wavenumber");
-    spectra.place = Spectra::Place::wavenumber;
+    spectra.places = file.get<double>(rows);
+    spectra.place = over_velocity ? Spectra::Place::phase_velocity : Spectra::Place::wavenumber;
     const auto unit = unit_as_shown(file.text_attribute(variable.name, "units").value_or(""));
     const auto values = file.get<double>(variable.name);
     const auto bins = std::ptrdiff_t(spectra.frequencies_hz.size());
@@ -99,7 +101,7 @@ Spectra read_spectra(const NetcdfFile& file, const std::optional<Component>& com
                      file.text_attribute("", "title").value_or("").find("energy") != std::string::npos;
   spectra.quantity = power ? "energy density" : "amplitude";
   const std::string of_traces = power ? "power" : "amplitude";
-  if (file.has_variable("wavenumber"))
+  if (file.has_variable("wavenumber") || file.has_variable("phase_velocity"))
     read_fk(file, component, spectra);
   else if (file.has_variable(of_traces))
     read_traces(file, of_traces, component, spectra);

@@ -13,7 +13,7 @@ class NetcdfFile;
 namespace slipwave::plot {
 
 /// What a file of sw-spectrum holds: spectra of components, or of one component at many places, which are
-/// traces or wavenumbers.
+/// traces, wavenumbers or phase velocities.
 struct Spectra {
   struct Line {
     std::string name, unit;  // "vz", "m/s/Hz"
@@ -24,7 +24,7 @@ struct Spectra {
   std::vector<double> frequencies_hz;
   std::vector<Line> lines;     // of a component each, or all of one component, in ascending order of places
   std::vector<double> places;  // empty: the lines are of components
-  enum class Place { trace_number, receiver_x, wavenumber } place = Place::trace_number;
+  enum class Place { trace_number, receiver_x, wavenumber, phase_velocity } place = Place::trace_number;
   bool each() const { return !places.empty(); }
 };
 

@@ -193,6 +193,8 @@ Band band_of(const Spectra& spectra) {
 
 /// Of traces all; of wavenumbers those of the band, as far to both sides.
 Axis place_axis(const Spectra& spectra, const std::vector<double>& edges, const Band& band) {
+  if (spectra.place == Spectra::Place::phase_velocity)
+    return {"phase velocity", "m/s", edges.front(), edges.back()};
   if (spectra.place == Spectra::Place::receiver_x) return {"receiver x", "m", edges.front(), edges.back()};
   if (spectra.place == Spectra::Place::trace_number)
     return {"trace", "", edges.front(), edges.back(), false, true};

@@ -14,6 +14,14 @@ enum class EdgeLaw : std::uint8_t {
   mirror,     // a plane of symmetry: no motion across it, no shear traction
 };
 
+/// "free", "absorbing", "rigid" or "mirror", as options name it.
+constexpr const char* name_of(EdgeLaw law) {
+  return law == EdgeLaw::free     ? "free"
+         : law == EdgeLaw::rigid  ? "rigid"
+         : law == EdgeLaw::mirror ? "mirror"
+                                  : "absorbing";
+}
+
 /// Laws of the low ([axis][0]) and high ([axis][1]) edges; the low edge of the last axis is the top.
 template <int D>
 struct EdgeLaws {

@@ -17,6 +17,7 @@
 #include "model/parted_faces.hpp"
 #include "model/tilted_mean.hpp"
 #include "scene/anisotropy_check.hpp"
+#include "scene/gauges.hpp"
 #include "scene/model_ground.hpp"
 #include "scene/plane_wave.hpp"
 
@@ -89,15 +90,13 @@ template <int D>
 void check_fibre(const Scene<D>& scene) {
   const auto& fibre = *scene.recording.fibre;
   const auto grid = scene.subdomain.whole(scene.model.grid());
-  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
+  each_gauge_point<D>(scene, [&](const Point<D>& point, std::size_t shot, std::size_t number) {
     const auto who = [&] {
       return name_of_receiver(scene.survey, shot, number) + " with an end of its das gauge of " +
              shown(fibre.gauge_m) + " m";
     };
-    for (const auto& end : gauge_ends<D>(fibre, receiver)) {
-      if (!is_inside<D>(end, grid)) check_inside<D>(who(), end, grid);
-      refuse_void(scene, end, who);
-    }
+    if (!is_inside<D>(point, grid)) check_inside<D>(who(), point, grid);
+    refuse_void(scene, point, who);
   });
 }
 
@@ -112,7 +111,7 @@ void check_source(const Scene<D>& scene, const Source<D>& source, const std::fun
   if (wave)
     way_of_plane_wave(scene, source);
   else
-    refuse_void<D>(scene, source.position_m, who);
+    placing(scene.survey, [&] { refuse_void<D>(scene, source.position_m, who); });
   check_moment_in_fluid(scene, source);
   if (!std::isfinite(source.amplitude) || source.amplitude == 0)
     throw Error("found --amplitude " + shown(source.amplitude) + ", expected a finite number other than 0",
@@ -286,11 +285,13 @@ void check(const Scene<D>& scene) {
                 ErrorKind::usage);
   check(scene.survey, scene.subdomain.whole(scene.model.grid()));
   for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) check_sources(scene, shot);
-  each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
-    refuse_void<D>(scene, receiver, [&] { return name_of_receiver(scene.survey, shot, number); });
+  placing(scene.survey, [&] {
+    each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t shot, std::size_t number) {
+      refuse_void<D>(scene, receiver, [&] { return name_of_receiver(scene.survey, shot, number); });
+    });
   });
   check_components<D>(scene.recording);
-  if (scene.recording.fibre) check_fibre(scene);
+  if (scene.recording.fibre) placing(scene.survey, [&] { check_fibre(scene); });
   check_positive(scene.recording.duration_s, "--time", "s");
   check_positive(scene.recording.interval_s, "--dt", "s");
   check_count(scene.recording.duration_s, "--dt", scene.recording.interval_s, "samples");

@@ -7,6 +7,7 @@
 #include "grid/locate.hpp"
 #include "model/coefficients.hpp"
 #include "model/tilted_mean.hpp"
+#include "scene/gauges.hpp"
 
 namespace slipwave {
 namespace {
@@ -129,10 +130,11 @@ Subdomain subdomain_for(const Scene<D>& scene, const Grid<D>& whole, int number,
   std::vector<std::int64_t> points;  // rows of receivers
   each_receiver<D>(scene.survey, [&](const Point<D>& receiver, std::size_t, std::size_t) {
     points.push_back(cell_of(whole, receiver)[z]);
-    if (scene.recording.fibre)
-      for (const auto& end : gauge_ends<D>(*scene.recording.fibre, receiver))
-        points.push_back(cell_of(whole, end)[z]);
   });
+  if (scene.recording.fibre)
+    each_gauge_point<D>(scene, [&](const Point<D>& point, std::size_t, std::size_t) {
+      points.push_back(cell_of(whole, point)[z]);
+    });
   std::sort(points.begin(), points.end());
   const auto alone = [&](std::int64_t row) {  // no point reads across the boundary before this row
     const auto near = std::lower_bound(points.begin(), points.end(), row - beside_points);

@@ -1,8 +1,12 @@
 #include "segy/conversion.hpp"
 
 #include <algorithm>
+#include <iterator>
 
+#include "base/history.hpp"
+#include "base/parse.hpp"
 #include "gather/difference.hpp"
+#include "segy/history.hpp"
 #include "segy/sniff.hpp"
 
 namespace slipwave::segy {
@@ -36,16 +40,23 @@ FileInfo info_as(const Reader& reader, const std::string& entry, const FileForma
   info.raw_format = header.format;
   info.raw_endian = header.endian;
   info.lengths_vary = reader.lengths_by_trace() && (!header.su || format.su);
+  const History before = history_of(header);
+  info.history = before.commands;
+  append_history(info.history, entry);
+  const std::string shown = split(info.history, '\n').back();
+  if (!before.complete) info.history.clear();  // only what the text still shows
   if (header.su) {
-    info.text = lay_out_text(std::vector<std::string>{entry}, format.revision);
+    info.text = lay_out_text(std::vector<std::string>{shown}, format.revision);
     return info;
   }
   info.layout.traces = header.traces.value_or(0);
   info.layout.traces_per_shot = header.binary.get("ntrpr");
   if (header.major >= 2 && header.binary.get("xntrpr") > 0)
     info.layout.traces_per_shot = header.binary.get("xntrpr");
-  info.text = with_entry(header.text, entry, format.revision);
-  if (holds_extended_text(format)) info.extended = header.extended;
+  info.text = with_entry(header.text, shown, format.revision);
+  if (holds_extended_text(format))
+    std::copy_if(header.extended.begin(), header.extended.end(), std::back_inserter(info.extended),
+                 [](const ExtendedText& extended) { return !holds_history(extended); });
   // they may be in another code than the first text, and stay so where that one stays
   if (format.encoding != header.encoding)
     for (ExtendedText& extended : info.extended) extended.encoding = format.encoding;

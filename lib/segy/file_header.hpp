@@ -18,6 +18,7 @@ struct ReadOptions {
   std::optional<Endian> endian;
   std::optional<int> format;  // a code of sample_formats()
   bool su = false;            // a Seismic Unix file, also where it does not look like one
+  bool to_damage = false;     // an input that ends too early gives its whole traces, then Reader::damage()
 };
 
 /// One of the 3200-byte texts that may follow the binary header.

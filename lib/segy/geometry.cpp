@@ -15,46 +15,46 @@ namespace {
 
 constexpr double foot_m = 0.3048;
 
-/// All lengths that become words of one trace header.
-std::array<double, 10> lengths_of(const TraceHeader& h) {
-  return {h.source_m[0],
-          h.source_m[1],
-          h.source_m[2],
-          h.receiver_m[0],
-          h.receiver_m[1],
-          h.receiver_m[2],
-          (h.source_m[0] + h.receiver_m[0]) / 2,
-          (h.source_m[1] + h.receiver_m[1]) / 2,
-          h.water_depth_source_m,
-          h.water_depth_receiver_m};
+/// All lengths that become words of one trace header, but for midpoints.
+std::array<double, 8> lengths_of(const TraceHeader& h) {
+  return {h.source_m[0],   h.source_m[1],   h.source_m[2],          h.receiver_m[0],
+          h.receiver_m[1], h.receiver_m[2], h.water_depth_source_m, h.water_depth_receiver_m};
 }
 
 double distance(const std::array<double, 3>& a, const std::array<double, 3>& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1]);
 }
 
-/// Which scalars hold a length exactly, and in 32 bits: the state of the choice over all traces.
-struct ScalarChoice {
-  static constexpr std::array<int, 4> scalars = {1, -10, -100, -1000};
-  std::array<bool, 4> exact = {true, true, true, true};
-  std::array<bool, 4> fits = {true, true, true, true};
+/// The scalars of the standard that divide: the state of the choice over all lengths.
+class ScalarChoice {
+ public:
+  /// A length, that of a place or of a midpoint, which readers find from the places.
+  void see(double length, bool of_place) {
+    for (Candidate& candidate : candidates_) {
+      const double word = length * std::abs(candidate.scalar);
+      const double rounding = std::fabs(word - std::nearbyint(word));
+      candidate.rounding = std::max(candidate.rounding, rounding);
+      if (of_place) candidate.of_places = std::max(candidate.of_places, rounding);
+      candidate.fits = candidate.fits && std::fabs(word) < std::numeric_limits<std::int32_t>::max();
+    }
+  }
+  /// The coarsest that rounds nothing, else the finest whose words fit.
+  void choose(SurveyLayout& layout) const {
+    for (const Candidate& candidate : candidates_) {
+      if (!candidate.fits) break;
+      layout.coordinate_scalar = candidate.scalar;
+      layout.rounding_m = candidate.of_places / std::abs(candidate.scalar);
+      if (candidate.rounding < 1e-6) break;
+    }
+  }
 
-  void see(double length) {
-    for (std::size_t i = 0; i < scalars.size(); ++i) {
-      const double word = length * std::abs(scalars[i]);
-      exact[i] = exact[i] && std::fabs(word - std::nearbyint(word)) < 1e-6;
-      fits[i] = fits[i] && std::fabs(word) < std::numeric_limits<std::int32_t>::max();
-    }
-  }
-  int choose() const {
-    int best = 1;
-    for (std::size_t i = 0; i < scalars.size(); ++i) {
-      if (!fits[i]) break;
-      best = scalars[i];
-      if (exact[i]) break;
-    }
-    return best;
-  }
+ private:
+  struct Candidate {
+    int scalar;
+    double rounding = 0, of_places = 0;  // units
+    bool fits = true;
+  };
+  std::array<Candidate, 5> candidates_ = {{{1}, {-10}, {-100}, {-1000}, {-10000}}};
 };
 
 /// Where lines of receivers lie that run along one axis, counted along the other.
@@ -75,7 +75,7 @@ class Lines {
   }
 
  private:
-  static constexpr double coordinate_step_m = 1e-3;
+  static constexpr double coordinate_step_m = 1e-4;
   std::set<double> places_;
 };
 
@@ -142,7 +142,7 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
   SurveyLayout layout;
   layout.traces = static_cast<std::int64_t>(headers.size());
   ScalarChoice choice;
-  double spacing = 0;
+  double spacing = 0, closest = 0;
   Lines along_x, along_y;
   std::int64_t in_shot = 0;
   for (std::size_t i = 0; i < headers.size(); ++i) {
@@ -150,8 +150,12 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
       if (!(std::fabs(length) < std::numeric_limits<std::int32_t>::max()))
         throw Error("trace " + std::to_string(i + 1) + ": coordinate " + shown(length) +
                     " m, SEG-Y holds whole numbers of 32 bits");
-      choice.see(length);
+      choice.see(length, true);
     }
+    for (const std::size_t axis : {0, 1})
+      choice.see((headers[i].source_m[axis] + headers[i].receiver_m[axis]) / 2, false);
+    const double offset = distance(headers[i].source_m, headers[i].receiver_m);
+    if (offset > 0 && (closest == 0 || offset < closest)) closest = offset;
     const bool same_shot = i > 0 && headers[i].shot == headers[i - 1].shot;
     in_shot = same_shot ? in_shot + 1 : 1;
     layout.traces_per_shot = std::max(layout.traces_per_shot, in_shot);
@@ -162,7 +166,8 @@ SurveyLayout layout_of(std::span<const TraceHeader> headers) {
     const double step = distance(receiver, before);
     if (step > 0 && (spacing == 0 || step < spacing)) spacing = step;
   }
-  layout.coordinate_scalar = choice.choose();
+  choice.choose(layout);
+  layout.closest_m = spacing > 0 && spacing < closest ? spacing : closest;
   if (spacing > 0) {
     layout.bin_m = along_y.bin(spacing / 2);
     layout.bin_y_m = along_x.bin(spacing / 2);

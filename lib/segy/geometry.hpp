@@ -28,7 +28,9 @@ enum class Numbering {
 
 /// What all trace headers of a file share.
 struct SurveyLayout {
-  int coordinate_scalar = 1;         // 1, -10, -100 or -1000
+  int coordinate_scalar = 1;         // 1, -10, -100, -1000 or -10000
+  double rounding_m = 0;             // of any place, by that scalar
+  double closest_m = 0;              // smallest distance of receivers, or of one and its source; 0: none
   double bin_m = 1;                  // width of a midpoint bin along x
   double bin_y_m = 1;                // and along y
   std::int64_t traces_per_shot = 1;  // of the shot that has most
@@ -36,12 +38,12 @@ struct SurveyLayout {
   Numbering numbering = Numbering::bins;
 };
 
-/// The coarsest scalar of 1, -10, -100, -1000 that keeps every coordinate, depth and midpoint exactly; where
-/// none does, the finest whose words fit 32 bits. Bins are half the smallest distance between receivers of
-/// consecutive traces of a shot (1 m where there is only one receiver), across lines of receivers at most
-/// half the smallest distance between two of them: no line has the number of another. Numbering counts shots
-/// where all midpoints lie in one bin of y. Throws Error when a
-/// coordinate is not finite or does not fit 32 bits in whole metres.
+/// The coarsest scalar of 1, -10, -100, -1000, -10000 that keeps every coordinate, depth and midpoint
+/// exactly; where none does, the finest whose words fit 32 bits. Bins are half the smallest distance between
+/// receivers of consecutive traces of a shot (1 m where there is only one receiver), across lines of
+/// receivers at most half the smallest distance between two of them: no line has the number of another.
+/// Numbering counts shots where all midpoints lie in one bin of y. Throws Error when a coordinate is not
+/// finite or does not fit 32 bits in whole metres.
 SurveyLayout layout_of(std::span<const TraceHeader> headers);
 
 /// Number of the bin of width bin_m whose centre is nearest to the midpoint: 1 for 0 m, 2 for bin_m, ...

@@ -25,6 +25,7 @@ bool PairReader::next_of_both(AnyTrace& a, AnyTrace& b) {
   if (more_a != more_b) {
     const Reader& shorter = more_a ? b_ : a_;
     const Reader& longer = more_a ? a_ : b_;
+    if (shorter.damage()) throw Error(*shorter.damage());
     throw Error(shorter.name() + ": has " + std::to_string(shorter.delivered()) + " traces, " +
                 longer.name() + " has more");
   }

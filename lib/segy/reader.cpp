@@ -21,7 +21,7 @@ constexpr std::uint64_t most_heads = 100;
 }  // namespace
 
 Reader::Reader(const std::string& path, const ReadOptions& options, std::vector<std::uint8_t> already_read)
-    : source_(path, std::move(already_read)) {
+    : source_(path, std::move(already_read)), to_damage_(options.to_damage) {
   in_place(name(), [&] {
     header_ = read_file_header(source_, options);
     look_at_first_trace();
@@ -36,6 +36,7 @@ void Reader::look_at_first_trace() {
     return;
   }
   const TraceWords words(first.first<TraceLayout::size>(), header_.endian);
+  blank_headers_ = words == TraceWords();
   std::optional<ExtensionWords> extension;
   if (header_.extra_headers > 0) extension = extension_of(first.subspan(TraceLayout::size), header_.endian);
   if (header_.samples == 0) {
@@ -103,6 +104,20 @@ bool Reader::at_trailer() {
   return header_.major >= 2 && header_.binary.get("trailers") != 0 && begins_stanza(source_.peek(2));
 }
 
+/// Files that were tapes are filled with zeros to whole blocks. Whole traces of zeros may be traces.
+bool Reader::at_padding() {
+  const auto is_0 = [](std::uint8_t byte) { return byte == 0; };
+  const auto head = source_.peek(TraceLayout::size);
+  if (blank_headers_ || !std::all_of(head.begin(), head.end(), is_0)) return false;
+  const auto rest = source_.peek(ByteSource::peek_limit);
+  const auto length = static_cast<std::size_t>(TraceLayout::size * (1 + header_.extra_headers) +
+                                               axis_.count * header_.format->bytes);
+  if (rest.size() == ByteSource::peek_limit || rest.size() % length == 0) return false;
+  if (!std::all_of(rest.begin(), rest.end(), is_0)) return false;
+  throw Error("ends with " + std::to_string(rest.size()) + " bytes of zeros behind trace " +
+              std::to_string(delivered_));
+}
+
 void Reader::read_extensions(std::vector<std::uint8_t>& into) {
   into.clear();
   if (header_.extra_headers == 0) return;
@@ -150,6 +165,7 @@ std::span<const std::uint8_t> Reader::read_samples(std::uint64_t count, std::uin
 
 bool Reader::read_trace(RawTrace& trace) {
   if (at_trailer()) return false;
+  if (at_padding()) return false;
   const auto head = source_.take(TraceLayout::size);
   if (head.empty()) return false;
   if (head.size() < TraceLayout::size) refuse_end(head.size(), "the 240 header");
@@ -164,17 +180,31 @@ bool Reader::read_trace(RawTrace& trace) {
 }
 
 bool Reader::next(RawTrace& trace) {
-  return in_place(name(), [&] {
-    if (header_.traces && delivered_ == *header_.traces) return false;
-    if (!read_trace(trace)) {
-      if (header_.traces)
-        throw Error("ends after " + std::to_string(delivered_) + " of " + std::to_string(*header_.traces) +
-                    " traces (byte 3513)");
-      return false;
-    }
-    ++delivered_;
-    return true;
-  });
+  if (damage_) return false;
+  try {
+    return in_place(name(), [&] {
+      if (header_.traces && delivered_ == *header_.traces) return false;
+      if (!read_trace(trace)) {
+        if (header_.traces)
+          throw Error("ends after " + std::to_string(delivered_) + " of " + std::to_string(*header_.traces) +
+                      " traces (byte 3513)");
+        return false;
+      }
+      ++delivered_;
+      return true;
+    });
+  } catch (const Error& error) {
+    if (!to_damage_ || delivered_ == 0) throw;
+    damage_ = error.what();
+    return false;
+  }
+}
+
+void Reader::expect_whole() const {
+  if (damage_)
+    throw Error(*damage_ + (delivered_ == 1
+                                ? "; its whole trace was used"
+                                : "; its " + std::to_string(delivered_) + " whole traces were used"));
 }
 
 bool Reader::next(Trace& trace) {

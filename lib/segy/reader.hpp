@@ -55,10 +55,15 @@ class Reader {
 
   /// The next trace into `trace`, whose memory is used again; false after the last one.
   /// Throws Error when the input ends within a trace (after every whole one was delivered) or with fewer
-  /// traces than it says.
+  /// traces than it says; with ReadOptions::to_damage it returns false there, too. Zeros behind the last
+  /// trace that are no whole number of traces, of a file whose trace headers are not zero, are such an end.
   bool next(Trace& trace);
   /// The same without decoding the samples.
   bool next(RawTrace& trace);
+  /// What is wrong with the end of the input, once next() has come to it ("a.sgy: ends within trace 4: ...").
+  const std::optional<std::string>& damage() const noexcept { return damage_; }
+  /// Throws an Error of damage(), if there is any: after its whole traces have been written.
+  void expect_whole() const;
   /// Traces delivered so far.
   std::int64_t delivered() const noexcept { return delivered_; }
 
@@ -84,6 +89,7 @@ class Reader {
   std::int64_t extra_headers_of(const std::optional<ExtensionWords>& extension) const;
   std::int64_t samples_of(const TraceWords& words, const std::optional<ExtensionWords>& extension) const;
   bool at_trailer();
+  bool at_padding();
   bool read_trace(RawTrace& trace);
   std::span<const std::uint8_t> read_samples(std::uint64_t count, std::uint64_t before);
   void read_extensions(std::vector<std::uint8_t>& into);
@@ -95,6 +101,8 @@ class Reader {
   bool lengths_by_trace_ = false;
   PositionsGiven positions_;
   std::int64_t delivered_ = 0;
+  bool to_damage_ = false, blank_headers_ = false;  // those of the first trace
+  std::optional<std::string> damage_;
   RawTrace raw_;
   std::vector<std::uint8_t> bytes_;
 };

@@ -38,13 +38,14 @@ char transliterated(char character) {
   }
 }
 
-/// The columns of one entry: broken at blanks where there are some, what follows the first line indented.
+/// The columns of one entry: broken at blanks where there are some, what follows the first line indented by
+/// two columns, and by one where a word was broken.
 std::vector<std::string> wrapped(const std::string& entry) {
   std::string rest = entry;
   std::transform(rest.begin(), rest.end(), rest.begin(), transliterated);
   std::vector<std::string> lines;
+  std::string indent;
   while (true) {
-    const std::string indent = lines.empty() ? "" : "  ";
     const std::size_t room = width - indent.size();
     if (rest.size() <= room) {
       lines.push_back(indent + rest);
@@ -53,7 +54,9 @@ std::vector<std::string> wrapped(const std::string& entry) {
     std::size_t cut = rest.rfind(' ', room);
     if (cut == std::string::npos || cut == 0) cut = room;
     lines.push_back(indent + rest.substr(0, cut));
-    rest.erase(0, rest[cut] == ' ' ? cut + 1 : cut);
+    const bool at_blank = rest[cut] == ' ';
+    rest.erase(0, at_blank ? cut + 1 : cut);
+    indent = at_blank ? "  " : " ";
   }
 }
 
@@ -145,9 +148,17 @@ std::string lay_out_text(std::span<const std::string> entries, std::span<const s
       longest->pop_back();
       longest->back() = "  ...";
     } else if (first.size() > beginning) {
-      // The command that came last says most.
-      lines -= first[first.size() - 2].size();
-      first.erase(first.end() - 2);
+      // The command that came last says most; a line "..." stands for those before it.
+      const std::vector<std::string> gap = {"..."};
+      const auto last_but_one = first.end() - 2;
+      const auto victim = *last_but_one == gap ? last_but_one - 1 : last_but_one;
+      lines -= victim->size();
+      if (victim != last_but_one) {
+        first.erase(victim);
+      } else {
+        *victim = gap;
+        ++lines;
+      }
       continue;
     } else {
       break;

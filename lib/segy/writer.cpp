@@ -4,8 +4,11 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "segy/extension.hpp"
+#include "segy/history.hpp"
 #include "segy/sniff.hpp"
+#include "segy/time_words.hpp"
 #include "segy/writer_headers.hpp"
 
 namespace slipwave::segy {
@@ -23,10 +26,15 @@ std::vector<Component> components_of(const Gather& gather) {
 }  // namespace
 
 Writer::Writer(OutputFile& out, FileInfo info)
-    : out_(out), info_(std::move(info)), sample_format_(checked_format(info_)) {
+    : out_(out), info_(std::move(info)), sample_format_(checked_format(info_)), rounding_(sample_format_) {
   interval_word_ = interval_word(info_.axis.interval_s);
   if (info_.format.su) return;
   if (info_.text.empty()) info_.text = lay_out_text({}, info_.format.revision);
+  const History shown = history_in_text(info_.text);
+  if (!info_.history.empty() && info_.format.revision >= 1 &&
+      (!shown.complete || shown.commands != info_.history))
+    for (ExtendedText& block : history_stanza(info_.history, info_.format.encoding))
+      info_.extended.push_back(std::move(block));
   const auto put_text = [&](const std::string& text, TextEncoding encoding) {
     const auto bytes = encode_text(text, encoding);
     out_.write(bytes.data(), bytes.size());
@@ -42,10 +50,10 @@ void Writer::write(const TraceHeader& header, std::span<const double> samples) {
   in_place("trace " + std::to_string(written_ + 1), [&] {
     TraceWords words = words_from_si(header, info_.layout);
     words.set("cdpt", ++in_bin_[words.get("cdp")]);
-    words.set("delrt", delay_word(info_.axis.start_s));
+    set_first_sample(words, info_.axis.start_s, has_time_scalar(info_.format));
     words.set("tracl", written_ + 1);
     put_headers(words, {}, static_cast<std::int64_t>(samples.size()));
-    put_samples(samples);
+    put_samples(header.component, samples);
   });
 }
 
@@ -53,7 +61,7 @@ void Writer::write(const Trace& trace, bool from_su) {
   in_place("trace " + std::to_string(written_ + 1), [&] {
     put_headers(carried(trace.words, from_su), trace.extensions,
                 static_cast<std::int64_t>(trace.samples.size()));
-    put_samples(trace.samples);
+    put_samples(component_of_code(trace.words.get("trid")), trace.samples);
   });
 }
 
@@ -75,14 +83,14 @@ void Writer::write(const RawTrace& trace, bool from_su) {
 }
 
 /// The words of another file as this one's revision reads them.
-TraceWords Writer::carried(TraceWords words, bool from_su) const {
-  const bool has_time_scalar = info_.format.su || info_.format.revision >= 1;
+TraceWords Writer::carried(TraceWords words, bool from_su) {
+  const bool with_scalar = has_time_scalar(info_.format);
   if (from_su)
     fill_revision_1(words);
-  else if (info_.carried_revision == 0 && has_time_scalar)
+  else if (info_.carried_revision == 0 && with_scalar)
     words.set("tscal", 1);
-  else if (info_.carried_revision >= 1 && !has_time_scalar)
-    apply_time_scalar(words);
+  else if (info_.carried_revision >= 1 && !with_scalar && apply_time_scalar(words))
+    ++times_rounded_;
   if (words.get("tracl") == 0) words.set("tracl", written_ + 1);
   return words;
 }
@@ -98,7 +106,7 @@ void Writer::put_headers(TraceWords words, std::vector<std::uint8_t> extensions,
   words.set("tracr", written_ + 1);
   words.set("ns", fits ? samples : 0);
   words.set("dt", interval_word_);
-  if (info_.format.su) clear_for_su(words);
+  if (info_.format.su) words.clear(181, 240);
   const auto head = words.in_file_order(info_.format.endian);
   out_.write(head.data(), head.size());
   if (info_.extra_headers == 0) return;
@@ -107,11 +115,22 @@ void Writer::put_headers(TraceWords words, std::vector<std::uint8_t> extensions,
   out_.write(extensions.data(), extensions.size());
 }
 
-void Writer::put_samples(std::span<const double> samples) {
+void Writer::put_samples(Component component, std::span<const double> samples) {
   bytes_.resize(samples.size() * static_cast<std::size_t>(sample_format_.bytes));
   encode_samples(samples, sample_format_, info_.format.endian, bytes_);
+  rounding_.see(component, samples, bytes_, info_.format.endian);
   out_.write(bytes_.data(), bytes_.size());
   ++written_;
+}
+
+std::vector<std::string> Writer::finish() const {
+  auto sentences = rounding_.sentences();
+  if (times_rounded_ > 0)
+    sentences.push_back(
+        "times of " + std::to_string(times_rounded_) +
+        " traces (bytes 95 to 114, not the first sample's) were rounded to milliseconds; SEG-Y "
+        "revision 1 holds them");
+  return sentences;
 }
 
 FileFormat format_named_by(const std::string& path, const FileFormat& format) {
@@ -123,8 +142,8 @@ FileFormat format_named_by(const std::string& path, const FileFormat& format) {
   return su;
 }
 
-void write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
-                  const std::vector<std::string>& entries) {
+std::vector<std::string> write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
+                                      const Heading& heading) {
   std::vector<TraceHeader> headers;
   for (const slipwave::Trace& trace : gather.traces) headers.push_back(trace.header);
   FileInfo info;
@@ -132,9 +151,16 @@ void write_gather(OutputFile& out, const Gather& gather, const FileFormat& forma
   info.axis = gather.axis;
   info.layout = layout_of(headers);
   const auto conventions = convention_entries(components_of(gather), info.axis, info.layout);
+  info.history = heading.history;
+  auto entries = heading.entries;
+  for (std::string& command : split(heading.history, '\n'))
+    if (!command.empty()) entries.push_back(std::move(command));
   info.text = lay_out_text(entries, conventions, format.revision);
+  auto sentences = places_rounded(info.layout);
   Writer writer(out, std::move(info));
   for (const slipwave::Trace& trace : gather.traces) writer.write(trace.header, trace.samples);
+  for (auto& sentence : writer.finish()) sentences.push_back(std::move(sentence));
+  return sentences;
 }
 
 }  // namespace slipwave::segy

@@ -11,6 +11,7 @@
 #include "io/output_file.hpp"
 #include "segy/geometry.hpp"
 #include "segy/reader.hpp"
+#include "segy/rounding.hpp"
 #include "segy/text.hpp"
 
 namespace slipwave::segy {
@@ -34,7 +35,8 @@ struct FileInfo {
   SampleAxis axis;
   SurveyLayout layout;
   std::string text;                    // 3200 characters (lay_out_text, with_entry); empty: stamps only
-  std::vector<ExtendedText> extended;  // of 3200 characters each
+  std::vector<ExtendedText> extended;  // of 3200 characters each, without that of the history
+  std::string history;  // commands, one a line (base/history.hpp), which the text shows as far as it has room
   std::optional<BinaryWords> carried;  // the binary header of the input, for what this does not say
   int carried_revision = 1;            // of the file that carried traces come from: 0 has no time scalar
   bool lengths_vary = false;           // every trace has its own length, axis has the first one's
@@ -42,6 +44,9 @@ struct FileInfo {
   const SampleFormat* raw_format = nullptr;  // of raw traces that are written, if not the file's
   Endian raw_endian = Endian::big;           // and their byte order
 };
+
+/// Whether only revision 2 holds this sampling: no whole microseconds, or above 16 bits.
+bool needs_revision_2(const SampleAxis& axis);
 
 /// Sentences about what some readers will not take (samples or interval above 32767).
 std::vector<std::string> warnings_of(const FileInfo& info);
@@ -70,10 +75,14 @@ class Writer {
 
   std::int64_t written() const noexcept { return written_; }
 
+  /// Once, before the output is committed: sentences about what the file holds less exactly than it was
+  /// given. Throws Error where rounding has left nothing but zeros.
+  std::vector<std::string> finish() const;
+
  private:
-  TraceWords carried(TraceWords words, bool from_su) const;
+  TraceWords carried(TraceWords words, bool from_su);
   void put_headers(TraceWords words, std::vector<std::uint8_t> extensions, std::int64_t samples);
-  void put_samples(std::span<const double> samples);
+  void put_samples(Component component, std::span<const double> samples);
 
   OutputFile& out_;
   FileInfo info_;
@@ -82,6 +91,8 @@ class Writer {
   std::int64_t written_ = 0;
   std::unordered_map<std::int64_t, std::int64_t> in_bin_;
   std::vector<std::uint8_t> bytes_;
+  Rounding rounding_;
+  std::int64_t times_rounded_ = 0;  // traces that have such
 };
 
 /// Entries of the textual header that any gather in SI needs: components with unit, code and sign convention,
@@ -89,9 +100,17 @@ class Writer {
 std::vector<std::string> convention_entries(std::span<const Component> components, const SampleAxis& axis,
                                             const SurveyLayout& layout);
 
-/// A whole gather, traces sorted by shot: layout from its headers, text from `entries` (program, source,
-/// scheme, command lines) followed by convention_entries.
-void write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
-                  const std::vector<std::string>& entries);
+/// What stands in the textual header of a gather beside conventions: lines about program, source and scheme,
+/// and the commands that made it, one a line.
+struct Heading {
+  std::vector<std::string> entries;
+  std::string history;
+};
+
+/// A whole gather, traces sorted by shot: layout from its headers, text from the heading followed by
+/// convention_entries. Returns sentences about what the file holds less
+/// exactly than it was given.
+std::vector<std::string> write_gather(OutputFile& out, const Gather& gather, const FileFormat& format,
+                                      const Heading& heading);
 
 }  // namespace slipwave::segy

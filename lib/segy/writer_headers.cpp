@@ -5,12 +5,15 @@
 #include <cstdio>
 
 #include "base/error.hpp"
+#include "segy/time_words.hpp"
 
 namespace slipwave::segy {
 namespace {
 
 constexpr std::int64_t highest_signed_16 = 32767;
 constexpr std::int64_t highest_signed_32 = 2147483647;
+/// Share of the smallest distance of a survey that rounding of places may take without a word.
+constexpr double tolerated_rounding = 0.01;
 
 std::string file_kind(const FileFormat& format) {
   return format.su ? "Seismic Unix" : "SEG-Y revision " + std::to_string(format.revision);
@@ -21,6 +24,11 @@ bool is_whole(double value) { return std::fabs(value - std::nearbyint(value)) <=
 
 bool has_wide_words(const FileFormat& format) { return !format.su && format.revision >= 2; }
 
+bool fits_interval_word(double interval_s) {
+  const double us = interval_s * 1e6;
+  return is_whole(us) && us <= static_cast<double>(highest_16);
+}
+
 void check_sampling(const FileInfo& info) {
   const SampleAxis& axis = info.axis;
   const std::string kind = file_kind(info.format);
@@ -28,14 +36,15 @@ void check_sampling(const FileInfo& info) {
   const std::int64_t most = wide ? highest_signed_32 : highest_16;
   if (axis.count < 1 || axis.count > most)
     throw Error(std::to_string(axis.count) + " samples a trace, " + kind + " holds 1 to " +
-                std::to_string(most));
+                std::to_string(most) + (wide || axis.count < 1 ? "" : "; SEG-Y revision 2 holds them"));
   if (!(axis.interval_s >= 0) || !std::isfinite(axis.interval_s))
     throw Error("sample interval " + shown(axis.interval_s) + " s, expected a positive number");
-  const double us = axis.interval_s * 1e6;
-  if (!wide && (!is_whole(us) || us > static_cast<double>(highest_16)))
+  if (!wide && !fits_interval_word(axis.interval_s))
     throw Error("sample interval " + shown(axis.interval_s) + " s, " + kind +
-                " holds whole microseconds up to 65535 (resample, or write revision 2)");
-  if (!info.carried) delay_word(axis.start_s);  // carried traces have a word of their own
+                " holds whole microseconds up to 65535; SEG-Y revision 2 holds any");
+  if (info.carried) return;  // carried traces have a delay of their own
+  TraceWords words;
+  set_first_sample(words, axis.start_s, has_time_scalar(info.format));
 }
 
 void set_unless_carried(BinaryWords& words, FieldName<BinaryLayout> name, std::int64_t value) {
@@ -65,10 +74,13 @@ const SampleFormat& checked_format(const FileInfo& info) {
   if (info.format.revision < 0 || info.format.revision > 2)
     throw Error("revision " + std::to_string(info.format.revision) + ", expected 0, 1 or 2");
   if (info.format.su && format->code != 5)
-    throw Error(std::string("sample format ") + format->name + ", Seismic Unix holds ieee only");
+    throw Error(std::string("sample format ") + format->name + ", Seismic Unix holds ieee only",
+                ErrorKind::usage);
   if (info.format.revision < 2 && format->since >= 2)
     throw Error(std::string("sample format ") + format->name +
-                " exists since revision 2, the file is of revision " + std::to_string(info.format.revision));
+                    " exists since revision 2, the file is of revision " +
+                    std::to_string(info.format.revision),
+                ErrorKind::usage);
   check_sampling(info);
   return *format;
 }
@@ -113,27 +125,18 @@ std::int64_t interval_word(double interval_s) {
   return us <= static_cast<double>(highest_16) ? static_cast<std::int64_t>(us) : 0;
 }
 
-std::int64_t delay_word(double start_s) {
-  const double ms = start_s * 1e3;
-  if (!is_whole(ms) || !(std::fabs(ms) <= static_cast<double>(highest_signed_16)))
-    throw Error("first sample at " + shown(start_s) + " s, SEG-Y holds whole milliseconds up to 32.767 s");
-  return std::llround(ms);
+bool has_time_scalar(const FileFormat& format) { return !format.su && format.revision >= 1; }
+
+bool needs_revision_2(const SampleAxis& axis) {
+  return axis.count > highest_16 || !fits_interval_word(axis.interval_s);
 }
 
-void apply_time_scalar(TraceWords& words) {
-  const std::int64_t scalar = words.get("tscal");
-  if (scalar != 0 && scalar != 1)
-    for (const Field& field : TraceLayout::fields) {
-      if (field.byte < 95 || field.byte > 113) continue;
-      const FieldName<TraceLayout> name(field);
-      words.set(name, std::llround(scaled(words.get(name), scalar)));
-    }
-  words.set("tscal", 1);
-}
-
-void clear_for_su(TraceWords& words) {
-  apply_time_scalar(words);
-  words.clear(181, 240);
+std::vector<std::string> places_rounded(const SurveyLayout& layout) {
+  if (layout.rounding_m <= tolerated_rounding * layout.closest_m) return {};
+  return {"places are rounded by up to " + shown(layout.rounding_m, 2) +
+          " m, the scalar (bytes 69 and 71) being " + std::to_string(layout.coordinate_scalar) + ": " +
+          shown(100 * layout.rounding_m / layout.closest_m, 2) + " % of the smallest distance, " +
+          shown(layout.closest_m, 3) + " m"};
 }
 
 std::vector<std::string> warnings_of(const FileInfo& info) {

@@ -19,13 +19,11 @@ BinaryWords::Bytes with_revision_stamp(BinaryWords::Bytes bytes, const FileForma
 /// Microseconds for a 16-bit word, rounded; 0 when they do not fit (revision 2 has a double beside it).
 std::int64_t interval_word(double interval_s);
 
-/// Whole milliseconds of the first sample's time; throws Error when they are not whole or do not fit 16 bits.
-std::int64_t delay_word(double start_s);
+/// A sentence about places that the scalar rounds by a noticeable share of the smallest distance; none where
+/// it does not.
+std::vector<std::string> places_rounded(const SurveyLayout& layout);
 
-/// Applies the time scalar (byte 215) to the times of bytes 95 to 114 and makes it 1.
-void apply_time_scalar(TraceWords& words);
-
-/// Makes bytes 181 to 240 zero, the time scalar applied to the times before.
-void clear_for_su(TraceWords& words);
+/// Whether trace headers of that format have a time scalar (byte 215).
+bool has_time_scalar(const FileFormat& format);
 
 }  // namespace slipwave::segy

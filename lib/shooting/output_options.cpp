@@ -19,16 +19,43 @@ namespace {
 /// What shots that are simulated at once may take of memory together.
 constexpr std::int64_t most_together_bytes = std::int64_t(1) << 30;
 
-/// What the trace files can not hold is refused before anything is computed.
-void check_sampling(const Recording& recording, const std::function<void(const std::string&)>& warn) {
-  segy::FileInfo info;
-  info.axis.count = recording.samples();
-  info.axis.interval_s = recording.interval_s;
-  segy::checked_format(info);
-  for (const auto& sentence : segy::warnings_of(info)) warn(sentence);
-}
+SampleAxis axis_of(const Recording& recording) { return {recording.samples(), recording.interval_s, 0}; }
 
 }  // namespace
+
+segy::FileFormat OutputOptions::trace_format(const Recording& recording) const {
+  segy::FileFormat format;
+  if (revision != "auto")
+    format.revision = std::stoi(revision);
+  else if (segy::needs_revision_2(axis_of(recording)))
+    format.revision = 2;
+  return format;
+}
+
+/// What the trace files can not hold is refused before anything is computed.
+void OutputOptions::check_sampling(const Recording& recording,
+                                   const std::function<void(const std::string&)>& warn) const {
+  segy::FileInfo info;
+  info.format = segy::format_named_by(traces, trace_format(recording));
+  info.axis = axis_of(recording);
+  if (info.format.su && revision != "auto")
+    throw Error("found --revision " + revision + " and -o " + traces +
+                    ", expected one of them: Seismic Unix has no revision",
+                ErrorKind::usage);
+  try {
+    segy::checked_format(info);
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + " (--time " + shown(recording.duration_s) + ", --dt " +
+                    shown(recording.interval_s) + "; " +
+                    (info.format.su ? "name the output .sgy" : "--revision 2, or a longer --dt") + ")",
+                ErrorKind::usage);
+  }
+  if (revision == "auto" && info.format.revision == 2)
+    warn(
+        "traces are written in SEG-Y revision 2: revision 1 holds up to 65535 samples at whole microseconds; "
+        "--revision 1 with another --dt or --time keeps to it");
+  for (const auto& sentence : segy::warnings_of(info)) warn(sentence);
+}
 
 bool OutputOptions::wants_slip() const {
   const auto names = split(snapshot_fields, ',');
@@ -86,6 +113,9 @@ void OutputOptions::check_checkpoint() const {
 }
 
 void OutputOptions::check_parallel() const {
+  if (ranks_per_shot < 0)
+    throw Error("--ranks-per-shot: found " + std::to_string(ranks_per_shot) + ", expected 0 or more",
+                ErrorKind::usage);
   if (shots_in_parallel < 0)
     throw Error("--shots-in-parallel: found " + std::to_string(shots_in_parallel) + ", expected 0 or more",
                 ErrorKind::usage);

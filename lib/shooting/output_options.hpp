@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "segy/writer.hpp"
 
 namespace slipwave {
 
@@ -14,7 +15,8 @@ namespace slipwave {
 /// and {component}; what they do not tell apart goes into one file.
 struct OutputOptions {
   std::string traces = "-";
-  std::string snapshots;  // empty: none
+  std::string revision = "auto";  // of SEG-Y: 0, 1, 2, or 1 where it holds the sampling and 2 where not
+  std::string snapshots;          // empty: none
   std::string snapshot_fields = "vx,vz";
   std::string slice;                      // of 3-D snapshots, empty: all of the volume
   int first_shot = 1;                     // number of the first source
@@ -31,6 +33,8 @@ struct OutputOptions {
   std::size_t number_of(std::size_t shot) const {
     return shot_labels.empty() ? shot + std::size_t(first_shot - 1) : std::size_t(shot_labels[shot - 1]);
   }
+  /// Of files with the traces of such a recording, Seismic Unix aside.
+  segy::FileFormat trace_format(const Recording& recording) const;
   /// Throws a usage Error on options that contradict each other or can not hold all shots.
   template <int D>
   void check(std::size_t shots) const;
@@ -41,6 +45,7 @@ struct OutputOptions {
  private:
   template <int D>
   void check_names(std::size_t shots) const;
+  void check_sampling(const Recording& recording, const std::function<void(const std::string&)>& warn) const;
   void check_checkpoint() const;
   void check_parallel() const;
 };

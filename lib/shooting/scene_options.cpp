@@ -41,6 +41,10 @@ class Once {
 template <int D>
 Survey<D> make_survey(const SceneOptions& s) {
   Survey<D> survey;
+  if (!s.survey.inject.empty() && (!s.wavelet.empty() || s.kind != SceneOptions().kind))
+    throw Error("found --inject and " + std::string(s.wavelet.empty() ? "--kind" : "--wavelet") +
+                    ", expected one of them: traces are wavelets, their components say the kind",
+                ErrorKind::usage);
   auto given = s.survey.read(D);
   Once<Wavelet> wavelets;
   Once<Mechanism<D>> kinds;
@@ -50,16 +54,17 @@ Survey<D> make_survey(const SceneOptions& s) {
   });
   const auto source_of = [&](const GivenSource& source) {
     const bool own_wavelet = !source.wavelet.empty(), own_kind = !source.kind.empty();
+    const auto& kind =
+        kinds.get(own_kind ? source.kind : s.kind, own_kind ? source.from : "--kind", parse_mechanism<D>);
+    const double amplitude = source.amplitude.value_or(s.amplitude) * source.factor;
+    if (source.recorded) return Source<D>{{}, kind, *source.recorded, amplitude, source.delay_s};
     if (!own_wavelet && s.wavelet.empty())
       throw Error(any_wavelet ? source.from + ": found no wavelet, expected one there or --wavelet W"
                               : "--wavelet is missing; expected --wavelet W",
                   ErrorKind::usage);
     const auto& wavelet = wavelets.get(own_wavelet ? source.wavelet : s.wavelet,
                                        own_wavelet ? source.from : "--wavelet", wavelet_named);
-    const auto& kind =
-        kinds.get(own_kind ? source.kind : s.kind, own_kind ? source.from : "--kind", parse_mechanism<D>);
-    return Source<D>{
-        {}, kind, wavelet, source.amplitude.value_or(s.amplitude) * source.factor, source.delay_s};
+    return Source<D>{{}, kind, wavelet, amplitude, source.delay_s};
   };
   bool any_blended = false;
   for (const auto& shot : given.shots) {
@@ -70,6 +75,9 @@ Survey<D> make_survey(const SceneOptions& s) {
   for (std::size_t shot = 0; any_blended && shot < survey.sources.size(); ++shot)
     for (std::size_t n = 1; n < given.shots[shot].sources.size(); ++n)
       survey.blended[shot].push_back(source_of(given.shots[shot].sources[n]));
+  for (auto& shot : given.shots)
+    for (auto& source : shot.sources) source.recorded.reset();  // the sources have it now
+  if (!given.in_files) survey.misplaced = ErrorKind::usage;
   survey.spreads.emplace(std::move(given));
   return survey;
 }

@@ -10,6 +10,8 @@
 #include "model/model_netcdf.hpp"
 #include "model/model_zeros.hpp"
 #include "planning/plan.hpp"
+#include "scene/magnitude.hpp"
+#include "scene/timing.hpp"
 #include "shooting/measured_survey.hpp"
 #include "shooting/output_names.hpp"
 #include "shooting/rank_groups.hpp"
@@ -60,6 +62,10 @@ Scene<D> make_scene(const ShootingOptions& options) {
     if (!options.snapshot_every_s)
       throw Error("--snapshots needs --every, the time between snapshots", ErrorKind::usage);
     scene.snapshot_every_s = options.snapshot_every_s;
+  } else if (options.snapshot_every_s || !output.slice.empty()) {
+    throw Error(
+        std::string(options.snapshot_every_s ? "--every" : "--slice") + " needs --snapshots, where they go",
+        ErrorKind::usage);
   }
   scene.slip_diary = options.balance || (any_snapshot && output.wants_slip());
   output.check<D>(scene.survey.sources.size());
@@ -124,6 +130,8 @@ void shoot_model(const ShootingOptions& options, const Provenance& provenance, c
   if (options.plan) return print_plan(scene, options, messages);
   const OutputOptions output = labelled(options.output, scene.survey);
   output.check_scene(scene, messages.warn);
+  check_magnitudes(scene);
+  for (const auto& sentence : timing_warnings(scene)) messages.warn(sentence);
   if (measures(options)) return shoot_measured(scene, options, output, provenance, messages);
   SurveyRun<D>(scene, output, provenance, messages, nullptr).run();
   messages.close([&] { return result_in_words(scene); });
@@ -142,7 +150,11 @@ void shoot_model_on_ranks(const ShootingOptions& options, const Provenance& prov
   release_freed_memory();
   const OutputOptions output = labelled(options.output, scene.survey);
   collective_try(&ranks, [&] { output.check_scene(scene, messages.warn); });
-  if (groups.leads()) warn_of_projection(scene.survey, messages);
+  collective_try(&ranks, [&] { check_magnitudes(scene, groups.group()); });
+  if (groups.leads()) {
+    warn_of_projection(scene.survey, messages);
+    for (const auto& sentence : timing_warnings(scene)) messages.warn(sentence);
+  }
   // Of each kind the first one's.
   for (const auto& sentences : {of_model, warnings(scene)})
     for (const auto& sentence : allgather_texts(ranks, sentences.empty() ? "" : sentences.back()))

@@ -13,6 +13,7 @@
 #include "io/input_bytes.hpp"
 #include "segy/sniff.hpp"
 #include "shooting/geometry_segy.hpp"
+#include "shooting/injection.hpp"
 
 namespace slipwave {
 namespace {
@@ -141,7 +142,8 @@ void select_shots(GivenSurvey& survey, const std::string& list) {
       if (shot.number >= first && shot.number <= last) selected.push_back(shot);
     if (selected.size() == before)
       throw Error("found no shot " + text + " in the survey, whose shots are numbered " +
-                  std::to_string(least->number) + " to " + std::to_string(most->number));
+                      std::to_string(least->number) + " to " + std::to_string(most->number),
+                  ErrorKind::usage);
   }
   survey.shots = std::move(selected);
   settle_numbers(survey);
@@ -176,8 +178,12 @@ void SurveyOptions::check() const {
        {std::pair(!origin.empty(), "--origin"), std::pair(azimuth_deg.has_value(), "--azimuth"),
         std::pair(!source_depth.empty(), "--source-depth"),
         std::pair(!receiver_depth.empty(), "--receiver-depth")})
-    if (given && geometry.empty())
+    if (given && geometry.empty() && inject.empty())
       refuse(std::string("found ") + name + " without --geometry, expected both");
+  if (!inject.empty() && (!sources.empty() || !geometry.empty()))
+    refuse("found --inject and " + std::string(sources.empty() ? "--geometry" : "--source") +
+           ", expected one of them");
+  if (reverse && inject.empty()) refuse("found --reverse without --inject, expected both");
 }
 
 MapFrame SurveyOptions::frame() const {
@@ -192,6 +198,12 @@ MapFrame SurveyOptions::frame() const {
 
 GivenSurvey SurveyOptions::read_lines(int dimension) const {
   GivenSurvey survey;
+  if (!inject.empty()) {
+    survey = read_injection(inject, reverse, dimension);
+    survey.frame = frame();
+  }
+  survey.in_files = !inject.empty() || std::any_of(sources.begin(), sources.end(), is_table) ||
+                    std::any_of(receivers.begin(), receivers.end(), is_table);
   for (const auto& text : sources) {
     if (is_table(text)) {
       Table table(text.substr(1));
@@ -249,6 +261,7 @@ GivenSurvey SurveyOptions::read_geometry(int dimension) const {
     Table table(shown_input(geometry.front()), {bytes.begin(), bytes.end()});
     survey = read_survey(table, dimension);
   }
+  survey.in_files = true;
   survey.frame = frame();
   survey.from_map = true;
   const auto set_depth = [](Place& place, const GivenDepth& depth) {

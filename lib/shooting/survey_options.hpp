@@ -12,6 +12,8 @@ namespace slipwave {
 /// Where sources and receivers are, as options of the tools say it.
 struct SurveyOptions {
   std::vector<std::string> sources, receivers;  // places, or @FILE: tables
+  std::string inject;                           // instead of sources: a gather whose traces are sources
+  bool reverse = false;                         // in time
   std::vector<std::string> geometry;            // instead of both: a file of traces, a table, or SPS files
   std::string origin;                           // of the model on the map of the geometry, "X,Y"
   std::optional<double> azimuth_deg;
@@ -19,7 +21,7 @@ struct SurveyOptions {
   std::string blend;                         // a table
   std::string shots;                         // numbers of those that are shot, "3,10:20"; empty: all
 
-  bool any_source() const { return !sources.empty() || !geometry.empty(); }
+  bool any_source() const { return !sources.empty() || !geometry.empty() || !inject.empty(); }
   bool any_receiver() const { return !receivers.empty() || !geometry.empty(); }
   /// Reads all that the options name, for a model of that dimension. Throws a usage Error naming the option,
   /// or an Error naming file and line.

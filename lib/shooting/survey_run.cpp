@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "model/model_netcdf.hpp"
 #include "parallel/threads.hpp"
@@ -22,17 +23,6 @@ std::string history_of(const Scene<D>& scene, const Provenance& provenance) {
   return history;
 }
 
-template <int D>
-std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
-                                           const Provenance& provenance) {
-  auto entries = textual_header_of(scene, history, provenance.version);
-  // Before the history, which may be cut off.
-  if (!provenance.measured.empty())
-    entries.insert(entries.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(entries.size())),
-                   provenance.measured);
-  return entries;
-}
-
 }  // namespace
 
 template <int D>
@@ -46,7 +36,8 @@ SurveyRun<D>::SurveyRun(const Scene<D>& scene, const OutputOptions& options, con
       state_(state_settings(provenance.version)),
       traces_(options,
               writes() && scene.survey.any_receiver() ? scene.recording.components : std::vector<Component>(),
-              textual_header_of(scene, provenance_.history, provenance)),
+              options.trace_format(scene.recording),
+              textual_header_of(scene, provenance_.history, provenance), messages.warn),
       at_once_(groups ? groups->groups() : shots_at_once(options, scene)) {}
 
 template <int D>

@@ -8,13 +8,30 @@ namespace slipwave {
 
 namespace {
 
-/// "explosion", "plane:20"
+/// "explosion", "force:0,1", "plane:20": as --kind takes it.
 template <int D>
 std::string kind_of(const Mechanism<D>& mechanism) {
-  const auto* wave = std::get_if<PlaneWave<D>>(&mechanism);
-  return name_of<D>(mechanism) +
-         (wave ? ":" + shown(wave->angle_deg) + (wave->azimuth_deg != 0 ? "," + shown(wave->azimuth_deg) : "")
-               : std::string());
+  std::vector<double> parameters;
+  if (const auto* force = std::get_if<PointForce<D>>(&mechanism))
+    parameters.assign(force->vector.begin(), force->vector.end());
+  if (const auto* moment = std::get_if<MomentTensor<D>>(&mechanism)) {
+    for (int i = 0; i < D; ++i) parameters.push_back(moment->tensor(i, i));
+    for (int i = 0; i < D; ++i)
+      for (int j = i + 1; j < D; ++j) parameters.push_back(moment->tensor(i, j));
+  }
+  if (const auto* wave = std::get_if<PlaneWave<D>>(&mechanism)) {
+    parameters.push_back(wave->angle_deg);
+    if (wave->azimuth_deg != 0) parameters.push_back(wave->azimuth_deg);
+  }
+  std::string text = name_of<D>(mechanism);
+  for (std::size_t n = 0; n < parameters.size(); ++n) text += (n == 0 ? ":" : ",") + shown(parameters[n]);
+  return text;
+}
+
+template <int D>
+std::string boundaries_entry(const EdgeLaws<D>& edges) {
+  return std::string("boundaries: top ") + name_of(edges[D - 1][0]) + ", sides " + name_of(edges[0][0]) +
+         ", bottom " + name_of(edges[D - 1][1]);
 }
 
 /// What all sources have in common, by the first of them.
@@ -43,30 +60,32 @@ std::string source_entry(const Survey<D>& survey) {
 }  // namespace
 
 template <int D>
-std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
-                                           const std::string& version) {
+segy::Heading textual_header_of(const Scene<D>& scene, const std::string& history,
+                                const Provenance& provenance) {
   const auto& n = scene.numerics;
   std::vector<std::string> entries = {
-      version + ": synthetic seismograms",
+      provenance.version + ": synthetic seismograms",
       source_entry(scene.survey),
       "scheme: grid-characteristic, order " + std::to_string(n.order) + ", time step " +
           shown(time_step_s(scene)) + " s, grid " + shown(scene.subdomain.whole(scene.model.grid())) +
+          (n.time_order == 2 ? "" : ", order in time " + std::to_string(n.time_order)) +
+          (n.monotone ? ", monotone" : "") + (n.double_precision ? ", double precision" : "") +
           (scene.slips() || scene.subdomain.slips ? std::string(", slip: ") + name_of(n.correction)
                                                   : std::string(", no slip")),
+      boundaries_entry<D>(scene.edges),
   };
+  if (!provenance.measured.empty()) entries.push_back(provenance.measured);
   if (const auto& fibre = scene.recording.fibre)
-    entries.push_back("das: strain rate along a fibre, mean over a gauge of " + shown(fibre->gauge_m) +
-                      " m; fibre " + shown(fibre->angle_deg) + " degrees from down towards +x" +
-                      (D == 3 ? ", turned by " + shown(fibre->azimuth_deg) + " degrees from x to y" : ""));
-  for (std::size_t begin = 0; begin < history.size();) {
-    const auto end = std::min(history.find('\n', begin), history.size());
-    if (end > begin) entries.push_back(history.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return entries;
+    entries.push_back(
+        "das: strain rate along a fibre, mean over a gauge of " + shown(fibre->gauge_m) + " m; fibre " +
+        (fibre->along_path
+             ? "through the receivers in their order"
+             : shown(fibre->angle_deg) + " degrees from down towards +x" +
+                   (D == 3 ? ", turned by " + shown(fibre->azimuth_deg) + " degrees from x to y" : "")));
+  return {std::move(entries), history};
 }
 
-template std::vector<std::string> textual_header_of(const Scene<2>&, const std::string&, const std::string&);
-template std::vector<std::string> textual_header_of(const Scene<3>&, const std::string&, const std::string&);
+template segy::Heading textual_header_of(const Scene<2>&, const std::string&, const Provenance&);
+template segy::Heading textual_header_of(const Scene<3>&, const std::string&, const Provenance&);
 
 }  // namespace slipwave

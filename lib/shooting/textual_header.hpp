@@ -1,16 +1,17 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "scene/scene.hpp"
+#include "shooting/provenance.hpp"
+#include "segy/writer.hpp"
 
 namespace slipwave {
 
-/// What the textual header of SEG-Y says of a run: the program, the source, the scheme, and a line of each
-/// command of the history.
+/// What the textual header of SEG-Y says of a run: the program, the source, the scheme, the boundaries, and
+/// the commands of the history.
 template <int D>
-std::vector<std::string> textual_header_of(const Scene<D>& scene, const std::string& history,
-                                           const std::string& version);
+segy::Heading textual_header_of(const Scene<D>& scene, const std::string& history,
+                                const Provenance& provenance);
 
 }  // namespace slipwave

@@ -11,10 +11,13 @@
 namespace slipwave {
 
 TraceFiles::TraceFiles(const OutputOptions& options, std::vector<Component> components,
-                       std::vector<std::string> textual_header)
+                       const segy::FileFormat& format, segy::Heading textual_header,
+                       std::function<void(const std::string&)> warn)
     : options_(options),
       components_(std::move(components)),
+      format_(format),
       textual_header_(std::move(textual_header)),
+      warn_(std::move(warn)),
       one_per_shot_(holds(options.traces, "{shot}")) {}
 
 std::string TraceFiles::name(std::size_t shot, Component component) const {
@@ -51,13 +54,21 @@ std::map<std::string, Gather> TraceFiles::gathers_by_file(RunState& state, std::
   return gathers;
 }
 
+void TraceFiles::write_file(const std::string& name, OutputFile& file, const Gather& gather,
+                            const segy::Heading& textual_header) const {
+  const auto sentences =
+      segy::write_gather(file, gather, segy::format_named_by(name, format_), textual_header);
+  file.commit();
+  for (const auto& sentence : sentences)
+    if (warned_.insert(sentence).second) warn_(sentence);
+}
+
 void TraceFiles::write(RunState& state, std::size_t shots) {
   for (std::size_t shot = 1; shot <= shots; ++shot)
     if (state.gather(shot)) open(shot);
   auto gathers = gathers_by_file(state, shots);
   for (auto& [name, file] : files_) {
-    segy::write_gather(file, gathers[name], segy::format_named_by(name), textual_header_);
-    file.commit();
+    write_file(name, file, gathers[name], textual_header_);
   }
   files_.clear();
   for (std::size_t shot = 1; shot <= shots; ++shot)
@@ -66,19 +77,17 @@ void TraceFiles::write(RunState& state, std::size_t shots) {
 
 void TraceFiles::write_finished(RunState& state, std::size_t shots) {
   for (const auto& [name, gather] : gathers_by_file(state, shots)) {
-    segy::write_gather(files_.at(name), gather, segy::format_named_by(name), textual_header_);
-    files_.at(name).commit();
+    write_file(name, files_.at(name), gather, textual_header_);
   }
 }
 
 void TraceFiles::write_unstable(RunState& state, std::size_t shots, const std::string& line,
                                 std::vector<std::string>& written) const {
   auto textual_header = textual_header_;
-  textual_header.push_back(line);
+  textual_header.entries.push_back(line);
   for (const auto& [name, gather] : gathers_by_file(state, shots)) {
     OutputFile file(unstable_name(name), OutputFile::Content::binary);
-    segy::write_gather(file, gather, segy::format_named_by(name), textual_header);
-    file.commit();
+    write_file(name, file, gather, textual_header);
     written.push_back(unstable_name(name));
   }
 }

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "checkpoint/run_state.hpp"
 #include "gather/trace.hpp"
 #include "io/output_file.hpp"
+#include "segy/writer.hpp"
 #include "shooting/output_options.hpp"
 
 namespace slipwave {
@@ -16,8 +19,9 @@ namespace slipwave {
 class TraceFiles {
  public:
   /// `components`: what is recorded; empty where there are no traces. `textual_header`: of every file.
-  TraceFiles(const OutputOptions& options, std::vector<Component> components,
-             std::vector<std::string> textual_header);
+  /// `warn` hears, once each, what a file holds less exactly than it was recorded.
+  TraceFiles(const OutputOptions& options, std::vector<Component> components, const segy::FileFormat& format,
+             segy::Heading textual_header, std::function<void(const std::string&)> warn);
 
   /// Whether every shot has files of its own.
   bool one_per_shot() const { return one_per_shot_; }
@@ -35,12 +39,17 @@ class TraceFiles {
                       std::vector<std::string>& written) const;
 
  private:
+  void write_file(const std::string& name, OutputFile& file, const Gather& gather,
+                  const segy::Heading& textual_header) const;
   std::string name(std::size_t shot, Component component) const;
   std::map<std::string, Gather> gathers_by_file(RunState& state, std::size_t shots) const;
 
   const OutputOptions& options_;
   std::vector<Component> components_;
-  std::vector<std::string> textual_header_;
+  segy::FileFormat format_;
+  segy::Heading textual_header_;
+  std::function<void(const std::string&)> warn_;
+  mutable std::set<std::string> warned_;
   bool one_per_shot_;
   std::map<std::string, OutputFile> files_;  // open ones
 };

@@ -36,4 +36,31 @@ class CubeNumbers {
   std::size_t next_ = 0;  // within its shot
 };
 
+/// Numbers the traces of receivers that cover an area as a regular cube: in-lines along x, one for each y of
+/// receivers, cross-lines by their x, and the place of the offset counts the records of a receiver (shot and
+/// component) from 1, fastest. Positions stay.
+class AreaNumbers {
+ public:
+  /// Traces in the order of receiver y, receiver x, shot, component. Throws Error where lines differ in their
+  /// x, or receivers in their records.
+  void number(segy::TraceWords& words);
+  /// After the last trace: throws Error when the last line, or its last receiver, lacks some.
+  void finish() const;
+
+ private:
+  struct Record {
+    std::int64_t shot = 0, component = 0;
+    bool operator==(const Record&) const = default;
+  };
+  static std::string shown(const Record& record);
+  [[noreturn]] static void refuse(const std::string& what);
+  void begin_receiver(std::int64_t y, std::int64_t x, const std::string& found);
+
+  std::vector<std::int64_t> x_of_line_;  // of the first one
+  std::vector<Record> records_;          // of the first receiver
+  std::int64_t x_ = 0, y_ = 0;
+  std::size_t line_ = 0, column_ = 0, next_ = 0;  // of those, from 0; next_ among the records
+  std::int64_t traces_ = 0;
+};
+
 }  // namespace slipwave

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.hpp"
+#include "base/parse.hpp"
 #include "gather/trace.hpp"
 #include "grid/grid.hpp"
 #include "segy/geometry.hpp"
@@ -17,6 +18,8 @@ template <int D>
 std::vector<std::string> text_of(const Grid<D>& grid, const SectionFacts& facts,
                                  const segy::SurveyLayout& layout) {
   std::vector<std::string> entries = facts.entries;
+  for (auto& command : split(facts.history, '\n'))
+    if (!command.empty()) entries.push_back(std::move(command));
   const std::string scalar = std::to_string(layout.coordinate_scalar);
   entries.push_back((D == 2 ? "Section in depth: " : "Volume in depth: ") + facts.quantity +
                     (facts.unit.empty() ? "" : ", " + facts.unit));
@@ -71,8 +74,8 @@ void check_values(const Field<D>& section, const std::string& quantity) {
 }  // namespace
 
 template <int D>
-void write_section(OutputFile& out, const Field<D>& section, const SectionFacts& facts,
-                   const segy::FileFormat& format) {
+std::vector<std::string> write_section(OutputFile& out, const Field<D>& section, const SectionFacts& facts,
+                                       const segy::FileFormat& format) {
   const Grid<D>& grid = section.grid();
   check_values(section, facts.quantity);
   const auto headers = headers_of(grid);
@@ -81,6 +84,7 @@ void write_section(OutputFile& out, const Field<D>& section, const SectionFacts&
   info.format = format;
   info.axis = {grid.shape[D - 1], grid.spacing_m * seconds_a_metre, 0};
   info.layout = segy::layout_of(headers);
+  info.history = facts.history;
   info.text = segy::lay_out_text(text_of(grid, facts, info.layout), format.revision);
   segy::Writer writer(out, info);
   segy::Trace trace;
@@ -93,9 +97,12 @@ void write_section(OutputFile& out, const Field<D>& section, const SectionFacts&
       trace.samples[k] = static_cast<double>(section[k * headers.size() + n]);
     writer.write(trace, false);
   }
+  return writer.finish();
 }
 
-template void write_section(OutputFile&, const Field<2>&, const SectionFacts&, const segy::FileFormat&);
-template void write_section(OutputFile&, const Field<3>&, const SectionFacts&, const segy::FileFormat&);
+template std::vector<std::string> write_section(OutputFile&, const Field<2>&, const SectionFacts&,
+                                                const segy::FileFormat&);
+template std::vector<std::string> write_section(OutputFile&, const Field<3>&, const SectionFacts&,
+                                                const segy::FileFormat&);
 
 }  // namespace slipwave

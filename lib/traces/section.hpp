@@ -16,21 +16,22 @@ inline constexpr double seconds_a_metre = 1e-3;
 struct SectionFacts {
   std::string quantity;              // "vp", "vz at 0.4 s"
   std::string unit;                  // "m/s", "Pa", ...
-  std::vector<std::string> entries;  // of the textual header: where it comes from, commands
+  std::vector<std::string> entries;  // of the textual header: where it comes from
+  std::string history = {};          // commands that made it, one a line
 };
 
 /// Writes a section or a volume as traces, a column each, from the top down: sample n lies at depth (n - 1/2)
 /// h for n = 1, 2, ..., with h the step of the grid and h/1 m the sample interval in ms. Traces and midpoints
 /// (cdp) count from 1, x fastest; cross-lines and shot points count along x, in-lines along y; source,
 /// receiver and midpoint lie at the x and y of the column. Throws Error when the format cannot hold the step
-/// or a value. Committing `out` is the caller's business.
+/// or a value; returns sentences about what it holds less exactly. Committing `out` is the caller's business.
 template <int D>
-void write_section(OutputFile& out, const Field<D>& section, const SectionFacts& facts,
-                   const segy::FileFormat& format);
+std::vector<std::string> write_section(OutputFile& out, const Field<D>& section, const SectionFacts& facts,
+                                       const segy::FileFormat& format);
 
-extern template void write_section(OutputFile&, const Field<2>&, const SectionFacts&,
-                                   const segy::FileFormat&);
-extern template void write_section(OutputFile&, const Field<3>&, const SectionFacts&,
-                                   const segy::FileFormat&);
+extern template std::vector<std::string> write_section(OutputFile&, const Field<2>&, const SectionFacts&,
+                                                       const segy::FileFormat&);
+extern template std::vector<std::string> write_section(OutputFile&, const Field<3>&, const SectionFacts&,
+                                                       const segy::FileFormat&);
 
 }  // namespace slipwave

@@ -5,7 +5,7 @@
 
 #include "base/error.hpp"
 #include "base/parse.hpp"
-#include "segy/geometry.hpp"
+#include "segy/time_words.hpp"
 
 namespace slipwave {
 namespace {
@@ -23,15 +23,6 @@ Span span_of(const TimeWindow& window, const SampleAxis& axis) {
           static_cast<std::int64_t>(std::clamp(end, 0.0, last))};
 }
 
-void set_start(segy::TraceWords& words, const segy::FileHeader& file, double start_s) {
-  const bool has_scalar = !file.su && file.major >= 1;
-  const double unit_s = 1e-3 * segy::scaled(1, has_scalar ? words.get("tscal") : 1);
-  const double word = start_s / unit_s;
-  if (std::fabs(word - std::nearbyint(word)) > 1e-6)
-    throw Error("its first sample would be at " + shown(start_s, 9) + " s, SEG-Y holds whole milliseconds");
-  words.set("delrt", std::llround(word));
-}
-
 }  // namespace
 
 TimeWindow parse_time_window(const std::string& text) {
@@ -47,6 +38,18 @@ SampleAxis TimeWindow::cut(const SampleAxis& axis) const {
           axis.start_s + static_cast<double>(span.first) * axis.interval_s};
 }
 
+std::size_t TimeWindow::first_of(const SampleAxis& axis) const {
+  return static_cast<std::size_t>(span_of(*this, axis).first);
+}
+
+void TimeWindow::check_reach(const SampleAxis& axis, const std::string& name) const {
+  if (cut(axis).count < 1)
+    throw Error("found " + shown(from_s) + ":" + shown(to_s) + ", no sample of " + name +
+                    " lies there: it goes from " + shown(axis.start_s) + " to " +
+                    shown(axis.start_s + static_cast<double>(axis.count - 1) * axis.interval_s, 9) + " s",
+                ErrorKind::usage);
+}
+
 void TimeWindow::cut(segy::RawTrace& trace, const segy::Reader& reader) const {
   const auto bytes = static_cast<std::size_t>(reader.header().format->bytes);
   reader.axis_with_interval();  // refuses a file that does not say its interval
@@ -56,9 +59,10 @@ void TimeWindow::cut(segy::RawTrace& trace, const segy::Reader& reader) const {
     throw Error("has no samples from " + shown(from_s) + " to " + shown(to_s) + " s, it goes from " +
                 shown(axis.start_s) + " to " +
                 shown(axis.start_s + static_cast<double>(axis.count - 1) * axis.interval_s, 9) + " s");
-  const auto first = static_cast<std::size_t>(span_of(*this, axis).first);
+  const auto first = first_of(axis);
   trace.samples = trace.samples.subspan(first * bytes, static_cast<std::size_t>(left.count) * bytes);
-  set_start(trace.words, reader.header(), left.start_s);
+  const auto& file = reader.header();
+  segy::set_first_sample(trace.words, left.start_s, !file.su && file.major >= 1);
 }
 
 }  // namespace slipwave

@@ -13,8 +13,12 @@ struct TimeWindow {
   /// Leaves these samples of a trace that `reader` delivered and sets its delay (byte 109). Throws Error when
   /// there are none of them, or when the header cannot hold the time of the first.
   void cut(segy::RawTrace& trace, const segy::Reader& reader) const;
+  /// Throws a usage Error where it leaves nothing of an axis, that of `name`.
+  void check_reach(const SampleAxis& axis, const std::string& name) const;
   /// What is left of an axis; count 0 when nothing is.
   SampleAxis cut(const SampleAxis& axis) const;
+  /// The sample of that axis that is the first of what is left.
+  std::size_t first_of(const SampleAxis& axis) const;
 };
 
 /// "T0:T1" in s, T0 <= T1; else a usage Error.

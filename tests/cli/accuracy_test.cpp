@@ -209,7 +209,7 @@ TEST_F(Accuracy, OfBadInputIsRefusedInOneLineBeforeAnythingIsRun) {
        "--source is missing; give it, or --case full-space"},
       {tool + "--source 1,1 --wavelet ricker:15 --receivers 1,1", 2,
        "--time is missing; give it, or --case full-space"},
-      {tool + endless + "--source 700,1", 1,
+      {tool + endless + "--source 700,1", 2,
        "source 2 at x=700 z=1 lies outside the model, expected x=0..600 z=0..600"},
       {"timeout 60 sw-accuracy none.nc -o t.nc " + endless, 1, "none.nc: No such file or directory"},
       {"timeout 60 sw-accuracy m.nc -o nowhere/t.nc " + endless, 1,

@@ -28,7 +28,7 @@ TEST_F(Convert, CopiesBytesThatKeepTheirFormat) {
   done("sw-convert g.sgy | cmp -i 3200 - g.sgy");
   done("cat g.sgy | sw-convert | cmp -i 3200 - g.sgy");
   done("sw-convert g.sgy -o out.sgy; cmp -i 3200 out.sgy g.sgy");
-  EXPECT_TRUE(has(done("head -c 3200 out.sgy | dd conv=ascii status=none"), "sw-convert g.sgy"));
+  EXPECT_TRUE(has(done("head -c 3200 out.sgy | dd conv=ascii status=none"), "sw-convert "));
 }
 
 TEST_F(Convert, GoesThereAndBackThroughPipes) {
@@ -87,7 +87,7 @@ TEST_F(Convert, RefusesWhatIsNoSegyAndLeavesNothing) {
       {"sw-convert notes", 1,
        "notes: is neither SEG-Y nor Seismic Unix: no textual header, no sample format, no plausible trace "
        "header"},
-      {"head -c 5000 g.sgy | sw-convert", 1, "standard input: ends within trace 2: 356 of 1044 bytes"},
+      {"head -c 4000 g.sgy | sw-convert", 1, "standard input: ends within trace 1: 400 of 1044 bytes"},
       {"head -c 2000 g.sgy | sw-convert", 1,
        "standard input: 2000 bytes, expected at least the 3600 of the SEG-Y headers"},
       {"sw-convert g.sgy --format int16 --revision 3", 2,
@@ -96,9 +96,9 @@ TEST_F(Convert, RefusesWhatIsNoSegyAndLeavesNothing) {
        "--format: sample format \"float\", expected one of ibm, int32, int16, ieee, double, int24, int8, "
        "int64, "
        "uint32, uint16, uint64, uint24, uint8"},
-      {"sw-convert g.sgy --format double", 1,
+      {"sw-convert g.sgy --format double", 2,
        "sample format double exists since revision 2, the file is of revision 1"},
-      {"sw-convert g.sgy --su --format ibm", 1, "sample format ibm, Seismic Unix holds ieee only"},
+      {"sw-convert g.sgy --su --format ibm", 2, "sample format ibm, Seismic Unix holds ieee only"},
       {"sw-convert g.sgy --su --revision 1", 2,
        "found --su and --revision, expected one of them: Seismic Unix has no such thing"},
       {"sw-convert g.sgy --su --text ascii", 2,

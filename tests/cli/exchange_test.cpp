@@ -68,6 +68,27 @@ TEST_F(Exchange, SegyioFindsTheSortingOfCubes) {
             "[1, 2, 3, 4] 6 [0] (4, 6, 3)\nTrue\n");
 }
 
+TEST_F(Exchange, SegyioOpensAnAreaOfReceiversByItsLines) {
+  if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
+  done(
+      "sw-layers --size 100x80x60 --step 10 --layer 0:2000:1000:2000 | sw-shoot - -q --source 45,45,10 "
+      "--source "
+      "55,35,10 --wavelet ricker:20 --receivers 15:85:10,15:65:10,5 --time 0.02 --record vz,p -o area.sgy");
+  done("sw-sort area.sgy --key gy,gx,fldr,trid | sw-convert --area -o cube.sgy");
+  EXPECT_EQ(python("import segyio, numpy\n"
+                   "with segyio.open('cube.sgy') as f:\n"
+                   "    print(len(f.ilines), len(f.xlines), list(f.offsets), segyio.tools.cube(f).shape)\n"
+                   "    whole = segyio.open('area.sgy', ignore_geometry=True)\n"
+                   "    one = [t for t, h in zip(whole.trace.raw[:], whole.header)\n"
+                   "           if h[9] == 2 and h[29] == 11 and h[85] == 350 // 10 and h[81] == 650 // 10]\n"
+                   "    print(numpy.array_equal(f.gather[3, 6, 3], one[0]))\n"),
+            "6 8 [1, 2, 3, 4] (6, 8, 4, 21)\nTrue\n");
+  expect_refused(
+      "sw-convert area.sgy --area -o no.sgy", 1,
+      "sw-convert: area.sgy: trace 49: found a receiver at y=15 x=15 (bytes 85 and 81) behind one at y=65 "
+      "x=85; an area needs the same records of every receiver, sorted by sw-sort --key gy,gx,fldr,trid");
+}
+
 TEST_F(Exchange, SegyioFindsTheSortingOfLinesAndWells) {
   if (!has_segyio()) GTEST_SKIP() << "python3-segyio is not there";
   const std::string program =

@@ -88,7 +88,7 @@ TEST_F(Plot, KeepsTheCommandsThatLedToIt) {
     EXPECT_TRUE(has(svg, "\nsw-plot " + input + "</desc>")) << svg.substr(0, 1000);
   }
   const auto svg = done("sw-plot -q g.sgy -o p.svg; cat p.svg");
-  EXPECT_TRUE(has(svg, "sw-shoot m.nc --source 300,50")) << svg.substr(0, 4000);
+  EXPECT_TRUE(has(svg, "sw-shoot --source 300,50")) << svg.substr(0, 4000);
 }
 
 TEST_F(Plot, HasTheSizeThatWasAskedFor) {

@@ -105,7 +105,7 @@ TEST_F(ShotByRanks, SaysOnceWhatIsWrong) {
   };
   expect("none.nc --source 1,1 --wavelet ricker:25 --time 1 --receivers 1,1 -o o.sgy", 1,
          "none.nc: No such file or directory");
-  expect("m.nc --source 900,1 --wavelet ricker:25 --time 1 --receivers 1,1 -o o.sgy", 1,
+  expect("m.nc --source 900,1 --wavelet ricker:25 --time 1 --receivers 1,1 -o o.sgy", 2,
          "source 1 at x=900 z=1 lies outside the model, expected x=0..800 z=0..900");
   expect(
       "m.nc --source 400,10 --kind plane:0 --top absorbing --wavelet ricker:25 --time 1 --receivers 1,1 "

@@ -36,7 +36,7 @@ inline Gather survey_gather(std::int64_t samples = 51, int receivers = 4, double
 inline void write_file(const std::string& path, const Gather& gather, const FileFormat& format) {
   OutputFile out(path, OutputFile::Content::binary);
   write_gather(out, gather, format,
-               {"slipwave test", "sw-shoot model.nc --source 1050,7.5 -o {component}.sgy"});
+               {{"slipwave test"}, "sw-shoot model.nc --source 1050,7.5 -o {component}.sgy"});
   out.commit();
 }
 

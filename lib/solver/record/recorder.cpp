@@ -9,6 +9,7 @@
 
 #include "base/error.hpp"
 #include "scene/empty_gather.hpp"
+#include "scene/gauges.hpp"
 #include "solver/record/component_weights.hpp"
 
 namespace slipwave::solver {
@@ -65,30 +66,31 @@ std::vector<std::vector<ValueWeight>> Recorder<D, Real>::all_weights(const Layou
                                                                      const Domain<D>& domain,
                                                                      const Scene<D>& scene,
                                                                      std::size_t shot) {
-  std::vector<std::vector<ValueWeight>> firsts, seconds;
+  std::vector<std::vector<ValueWeight>> firsts, others;
   const auto receivers = scene.survey.receivers_of(shot);
   const auto owned = [&](const Point<D>& point) { return domain.subdomain.owns(domain.model_grid, point); };
-  // The mean strain rate is the difference of the velocities at both ends, along the fibre, over its length.
-  const auto end_weights = [&](const Point<D>& end, double sign) {
-    auto vector = direction_of<D>(*scene.recording.fibre);
-    for (auto& part : vector) part *= sign / scene.recording.fibre->gauge_m;
-    return owned(end) ? velocity_along<D>(layout, domain, end, vector) : std::vector<ValueWeight>{};
+  const auto weights_at = [&](const GaugePoint<D>& point) {
+    return owned(point.at_m) ? velocity_along<D>(layout, domain, point.at_m, point.weight_per_m)
+                             : std::vector<ValueWeight>{};
   };
+  const auto gauges =
+      scene.recording.fibre ? gauges_of(scene, shot) : std::vector<std::vector<GaugePoint<D>>>{};
   for (const Component component : scene.recording.components)
-    for (const auto& receiver : receivers) {
-      const auto& point_m = receiver.point_m;
+    for (std::size_t n = 0; n < receivers.size(); ++n) {
       if (component == Component::das) {
-        const auto ends = gauge_ends<D>(*scene.recording.fibre, point_m);
-        second_ends_.push_back({firsts.size(), {}});
-        second_ends_.back().samples.reserve(std::size_t(gather_.axis.count));
-        seconds.push_back(end_weights(ends[0], -1));
-        firsts.push_back(end_weights(ends[1], 1));
+        for (std::size_t point = 1; point < gauges[n].size(); ++point) {
+          gauge_parts_.push_back({firsts.size(), {}});
+          gauge_parts_.back().samples.reserve(std::size_t(gather_.axis.count));
+          others.push_back(weights_at(gauges[n][point]));
+        }
+        firsts.push_back(weights_at(gauges[n].front()));
       } else {
+        const auto& point_m = receivers[n].point_m;
         firsts.emplace_back();
         if (owned(point_m)) firsts.back() = component_weights<D>(layout, domain, point_m, component);
       }
     }
-  firsts.insert(firsts.end(), seconds.begin(), seconds.end());
+  firsts.insert(firsts.end(), others.begin(), others.end());
   return firsts;
 }
 
@@ -103,7 +105,7 @@ void Recorder<D, Real>::find_spans(const Scene<D>& scene, std::size_t shot) {
     spans_.back().last += receivers_;
     any_integral_ = any_integral_ || what == InTime::integral;
   }
-  if (!second_ends_.empty()) spans_.push_back({gather_.traces.size(), series(), InTime::value});
+  if (!gauge_parts_.empty()) spans_.push_back({gather_.traces.size(), series(), InTime::value});
   if (any_integral_) integrals_.assign(series(), 0);
 }
 
@@ -129,7 +131,7 @@ Gather Recorder<D, Real>::take() {
       next = end;
     }
   }
-  for (const auto& [trace, samples] : second_ends_) {
+  for (const auto& [trace, samples] : gauge_parts_) {
     auto& sum = gather_.traces[trace].samples;
     for (std::size_t n = 0; n < sum.size(); ++n) sum[n] += samples[n];
   }

@@ -77,7 +77,7 @@ class Recorder : public Record<D, Real> {
   static constexpr std::size_t series_together = 64;
   /// Steps whose values are still to be made series, and those that are in progress.
   static constexpr std::int64_t slots = most_steps_in_progress + steps_at_once;
-  /// Weights of the first series of each trace, and of further ones where a trace is the sum of two.
+  /// Weights of the first series of each trace, and of further ones where a trace is the sum of several.
   std::vector<std::vector<ValueWeight>> all_weights(const Layout<D>& layout, const Domain<D>& domain,
                                                     const Scene<D>& scene, std::size_t shot);
   void find_spans(const Scene<D>& scene, std::size_t shot);
@@ -99,12 +99,12 @@ class Recorder : public Record<D, Real> {
   void weigh(std::size_t chunk, std::size_t first, std::size_t last);
   void interpolate(std::size_t first, std::size_t last);
   void combine(const TimeWeights& weights, std::size_t first, std::size_t last, double* sums) const;
-  /// The samples of a series: those of its trace, or kept beside it until both ends of a fibre are known.
+  /// The samples of a series: those of its trace, or kept beside it until all points of a gauge are known.
   std::vector<double>& samples_of(std::size_t series) {
     const auto traces = gather_.traces.size();
-    return series < traces ? gather_.traces[series].samples : second_ends_[series - traces].samples;
+    return series < traces ? gather_.traces[series].samples : gauge_parts_[series - traces].samples;
   }
-  std::size_t series() const { return gather_.traces.size() + second_ends_.size(); }
+  std::size_t series() const { return gather_.traces.size() + gauge_parts_.size(); }
   Real* values_of(std::int64_t step) { return values_.data() + step % slots * values_a_step_; }
 
   /// Neighbouring cells of a row that any trace reads, once however many traces do.
@@ -133,16 +133,16 @@ class Recorder : public Record<D, Real> {
     std::size_t first, last;
     InTime what;
   };
-  /// The velocity along a fibre at its other end (with the sign it counts with): a series that is added to a
-  /// trace when all are known, since another rank may own that end.
-  struct SecondEnd {
+  /// What one more point of a gauge takes part with: a series that is added to a trace when all are known,
+  /// since another rank may own that point.
+  struct GaugePart {
     std::size_t trace;
     std::vector<double> samples;
   };
   Ranks* ranks_;
   Gather gather_;
-  std::vector<SecondEnd> second_ends_;
-  std::vector<Span> spans_;    // of all series: traces, then second ends
+  std::vector<GaugePart> gauge_parts_;
+  std::vector<Span> spans_;    // of all series: traces, then other points of gauges
   bool any_integral_ = false;  // then every step is read
   std::vector<double>
       integrals_;  // of each series, times 1/s, up to half of `kept` before the newest instant

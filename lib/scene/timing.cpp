@@ -1,0 +1,70 @@
+#include "scene/timing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.hpp"
+#include "model/coefficients.hpp"
+
+namespace slipwave {
+namespace {
+
+/// When a wavelet of samples begins: before its first sample other than 0 nothing is radiated.
+double onset_s(const Wavelet& wavelet) {
+  const auto* sampled = std::get_if<shape::Sampled>(&wavelet.shape());
+  if (!sampled) return 0;
+  const auto& values = sampled->values();
+  const auto first = std::find_if(values.begin(), values.end(), [](double value) { return value != 0; });
+  const auto before = std::max<std::ptrdiff_t>(0, first - values.begin() - 1);
+  return sampled->times_s()[std::size_t(before)];
+}
+
+/// How many traces of the survey no wave can reach by the end of the record, and when the last could be.
+struct Unreached {
+  std::int64_t traces = 0, of = 0;
+  double needed_s = 0;
+};
+
+template <int D>
+Unreached unreached_traces(const Scene<D>& scene) {
+  const double fastest = std::max(fastest_speed(scene.model.medium), scene.subdomain.fastest);
+  Unreached unreached;
+  for (std::size_t shot = 1; shot <= scene.survey.sources.size(); ++shot) {
+    const auto sources = scene.survey.sources_of(shot);
+    const bool plane = std::holds_alternative<PlaneWave<D>>(sources.front()->mechanism);
+    for (const auto& receiver : scene.survey.receivers_of(shot)) {
+      ++unreached.of;
+      if (plane) continue;
+      double earliest_s = std::numeric_limits<double>::infinity();
+      for (const auto* source : sources) {
+        double squares = 0;
+        for (std::size_t axis = 0; axis < std::size_t(D); ++axis)
+          squares += std::pow(receiver.point_m[axis] - source->position_m[axis], 2);
+        earliest_s =
+            std::min(earliest_s, source->delay_s + onset_s(source->wavelet) + std::sqrt(squares) / fastest);
+      }
+      if (earliest_s <= scene.recording.duration_s) continue;
+      ++unreached.traces;
+      unreached.needed_s = std::max(unreached.needed_s, earliest_s);
+    }
+  }
+  return unreached;
+}
+
+}  // namespace
+
+template <int D>
+std::vector<std::string> timing_warnings(const Scene<D>& scene) {
+  const auto unreached = unreached_traces(scene);
+  if (unreached.traces == 0) return {};
+  return {"no wave can have reached " + std::to_string(unreached.traces) + " of " +
+          std::to_string(unreached.of) + " receivers by the end of the record (--time " +
+          shown(scene.recording.duration_s) + "); the farthest needs at least " +
+          shown(unreached.needed_s, 3) + " s"};
+}
+
+template std::vector<std::string> timing_warnings(const Scene<2>&);
+template std::vector<std::string> timing_warnings(const Scene<3>&);
+
+}  // namespace slipwave
