@@ -3,8 +3,8 @@
 #include <string>
 
 #include "scene/scene.hpp"
-#include "shooting/provenance.hpp"
 #include "segy/writer.hpp"
+#include "shooting/provenance.hpp"
 
 namespace slipwave {
 
