@@ -250,16 +250,17 @@ void refuse_options_of_others(const PlotOptions& options, Kind kind, const std::
     std::vector<Kind> by;
   };
   const std::vector<Kind> fields = {Kind::model, Kind::snapshots};
-  const Owned all[] = {{"--time", options.time_s.has_value(), {Kind::snapshots}},
-                       {"--field", !options.field.empty(), {Kind::snapshots}},
-                       {"--over", !options.over.empty(), {Kind::snapshots}},
-                       {"--minus", !options.minus.empty(), {Kind::snapshots}},
-                       {"--slice", options.slice || options.through, fields},
-                       {"--survey", !options.survey.empty(), fields},
-                       {"--shot", options.shot.has_value(), {Kind::gather}},
-                       {"--difference", options.gather.difference, {Kind::gather}},
-                       {"--component", options.component.has_value(), {Kind::gather, Kind::spectra}},
-                       {"--log", options.log, {Kind::spectra}}};
+  const Owned all[] = {
+      {"--time", options.time_s.has_value(), {Kind::snapshots}},
+      {"--field", !options.field.empty(), {Kind::snapshots}},
+      {"--over", !options.over.empty(), {Kind::snapshots}},
+      {"--minus", !options.minus.empty(), {Kind::snapshots}},
+      {"--slice", options.slice || options.through, fields},
+      {"--survey", !options.survey.empty(), fields},
+      {"--shot", options.shot.has_value(), {Kind::gather}},
+      {"--difference", options.gather.difference, {Kind::gather}},
+      {"--component", options.of.all || !options.of.components.empty(), {Kind::gather, Kind::spectra}},
+      {"--log", options.log, {Kind::spectra}}};
   for (const auto& owned : all)
     if (owned.given && std::find(owned.by.begin(), owned.by.end(), kind) == owned.by.end())
       throw Error(shown_input(path) + ": " + owned.option + " does not apply to this kind of file",
