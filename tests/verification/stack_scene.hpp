@@ -130,7 +130,7 @@ struct StackScene {
   Model<2> layered() const {
     const auto from = origin();
     std::ostringstream command;
-    command.precision(12);
+    command.precision(17);
     command << "sw-layers --size " << double(shape()[0]) * spacing_m << 'x' << double(shape()[1]) * spacing_m
             << " --step " << spacing_m << " --average isotropic" << (fitted ? "" : " --fit none");
     std::vector<Layer> layers;
