@@ -14,6 +14,14 @@ namespace slipwave {
 /// Waves that travel along an axis: with motion along it, and across it.
 enum Wave : int { wave_p, wave_s };
 
+/// Whether a medium may have more than speeds and a density: else it is isotropic in all cells.
+template <int D>
+bool has_elastic_options(const Medium<D>& medium) {
+  for (const Property property : medium.properties())
+    if (std::size_t(property) >= required_properties && row_of(property).mean == Mean::elastic) return true;
+  return false;
+}
+
 /// Their speed c, m/s; 0 in a cell that does not carry the wave. In an anisotropic cell the P wave along x is
 /// faster by sqrt(1 + 2 epsilon) (theory.md (V1)). Where its axis is tilted, waves with motion along and
 /// across an axis of the grid are not independent: then these are the speeds of the diagonal of (T3).
@@ -91,6 +99,12 @@ class FastestOfTilted {
 template <int D>
 double fastest_speed(const Medium<D>& medium) {
   double fastest = 0;
+  if (!has_elastic_options(medium)) {
+    float largest = 0;
+    for (std::size_t cell = 0; cell < medium.vp.size(); ++cell)
+      largest = std::max(largest, medium.is_void(cell) ? 0 : medium.vp[cell]);
+    return double(largest);
+  }
   // Whose stiffness may be anything that is positive.
   const bool shear_too = D == 3 && medium.has(Property::gamma);
   FastestOfTilted<D> of_tilted;

@@ -12,14 +12,19 @@ Field<D>& Medium<D>::optional(Property property) {
 }
 
 template <int D>
-const Field<D>& Medium<D>::optional(Property property) const {
-  static const Field<D> absent;
-  return optional_.empty() ? absent : optional_[std::size_t(property) - required_properties];
+const Field<D>& Medium<D>::absent() {
+  static const Field<D> none;
+  return none;
 }
 
 template <int D>
-bool Medium<D>::has(Property property) const {
-  return std::size_t(property) < required_properties || !(*this)[property].empty();
+double Medium<D>::value_if_absent(Property property) {
+  static const auto values = [] {
+    std::vector<double> of_rows;
+    for (const auto& row : material_properties()) of_rows.push_back(row.if_absent.value_or(0));
+    return of_rows;
+  }();
+  return values[std::size_t(property)];
 }
 
 template <int D>
@@ -28,12 +33,6 @@ std::vector<Property> Medium<D>::properties() const {
   for (const Property property : all_properties())
     if (has(property)) present.push_back(property);
   return present;
-}
-
-template <int D>
-double Medium<D>::value(Property property, std::size_t cell) const {
-  if (has(property)) return double((*this)[property][cell]);
-  return row_of(property).if_absent.value();
 }
 
 template <int D>

@@ -42,11 +42,16 @@ class Medium {
     return std::size_t(property) < required_properties ? this->*required[std::size_t(property)]
                                                        : optional(property);
   }
-  bool has(Property property) const;
+  bool has(Property property) const {
+    if (std::size_t(property) < required_properties) return true;
+    return !optional_.empty() && !optional_[std::size_t(property) - required_properties].empty();
+  }
   /// Those it has, in the order of the table.
   std::vector<Property> properties() const;
   /// Of a cell; what the property's row says where the medium lacks it.
-  double value(Property property, std::size_t cell) const;
+  double value(Property property, std::size_t cell) const {
+    return has(property) ? double((*this)[property][cell]) : value_if_absent(property);
+  }
   /// Are two cells of one material?
   bool same(std::size_t a, std::size_t b) const;
 
@@ -54,7 +59,11 @@ class Medium {
   static constexpr std::array<Field<D> Medium::*, required_properties> required = {&Medium::vp, &Medium::vs,
                                                                                    &Medium::rho};
   Field<D>& optional(Property property);
-  const Field<D>& optional(Property property) const;
+  const Field<D>& optional(Property property) const {
+    return optional_.empty() ? absent() : optional_[std::size_t(property) - required_properties];
+  }
+  static const Field<D>& absent();
+  static double value_if_absent(Property property);
 
   std::vector<Field<D>> optional_;  // of the rows after the required ones; none where all are absent
 };

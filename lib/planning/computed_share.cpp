@@ -8,6 +8,7 @@
 #include "acquisition/fibre.hpp"
 #include "grid/locate.hpp"
 #include "model/anisotropy.hpp"
+#include "model/coefficients.hpp"
 #include "scene/gauges.hpp"
 #include "scene/splitting.hpp"
 #include "solver/kernels/kernels.hpp"
@@ -55,6 +56,7 @@ class Arrivals {
     Index<D> zone{};
     for (std::size_t axis = 0; axis < D; ++axis)
       zone[axis] = std::llround((medium.grid().origin_m[axis] - grid.origin_m[axis]) / grid.spacing_m);
+    const bool plain = !has_elastic_options(medium);
     for (std::int64_t n = 0; n < grid.size(); ++n) {
       auto at = grid.index(n), in_model = at;
       for (std::size_t axis = 0; axis < D; ++axis) {
@@ -65,11 +67,15 @@ class Arrivals {
       if (medium.is_void(cell)) continue;
       const auto number = std::size_t(blocks_.flat(at));
       auto& slowest = slowness_[number];
-      const auto material = material_of(medium, cell);
-      if (D == 3 && material.orthorhombic && !(material == last))
-        fastest_of_last = fastest_p_speed<3>(last = material);
-      slowest = std::min(
-          slowest, 1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed<2>(material)));
+      if (plain) {
+        slowest = std::min(slowest, 1 / double(medium.vp[cell]));
+      } else {
+        const auto material = material_of(medium, cell);
+        if (D == 3 && material.orthorhombic && !(material == last))
+          fastest_of_last = fastest_p_speed<3>(last = material);
+        slowest = std::min(
+            slowest, 1 / (D == 3 && material.orthorhombic ? fastest_of_last : fastest_p_speed<2>(material)));
+      }
       heights_[number] += medium.grid().height(in_model) / grid.spacing_m;
       ++rows[number];
     }

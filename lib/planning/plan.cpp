@@ -73,11 +73,12 @@ std::array<double, 2> cells_of_a_second(const Medium<D>& medium) {
   return slowest;
 }
 
-/// Processor time of a step: the median of several.
+/// Processor time of a step: the median of several; one after another is timed as long as that takes hardly
+/// anything of `shot_steps` of them.
 template <int D, class Real>
-double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
+double seconds_of_step(solver::ShotSimulation<D, Real>& step, double shot_steps) {
   constexpr std::int64_t warm_up = 2, most = 15;
-  constexpr double enough_s = 0.6;
+  constexpr double enough_s = 0.6, hardly = 0.01;
   std::vector<double> seconds;
   double sum = 0;
   // A plan takes a small part of the run's time.
@@ -88,7 +89,9 @@ double seconds_of_step(solver::ShotSimulation<D, Real>& step) {
     step.run_to(n + 1);
     const double taken = processor_time_s() - start;
     sum += taken;
-    if (n >= std::min(warm_up, count - 1)) seconds.push_back(taken);
+    if (n == warm_up) seconds.clear();  // caches are filled
+    seconds.push_back(taken);
+    if (sum > hardly * shot_steps * taken) break;
   }
   const auto middle = seconds.begin() + std::ptrdiff_t(seconds.size() / 2);
   std::nth_element(seconds.begin(), middle, seconds.end());
@@ -159,8 +162,9 @@ Plan<D> plan_as(const Scene<D>& scene) {
   plan.slip = expected_slip(scene);
   plan.cell_dependence = cell_dependence(scene);
   plan.computed_share = expected_share(scene, plan.computed);
-  plan.seconds = double(scene.survey.sources.size()) *
-                 (build_s + plan.computed_share * double(plan.steps) * seconds_of_step(step));
+  const double shot_steps = plan.computed_share * double(plan.steps);
+  plan.seconds =
+      double(scene.survey.sources.size()) * (build_s + shot_steps * seconds_of_step(step, shot_steps));
   plan.measuring_seconds = plan.seconds / double(scene.survey.sources.size()) *
                            double(representative_shots(scene.survey).size()) * measuring_share(D);
   plan.instruction_set = solver::instruction_set();

@@ -22,6 +22,9 @@ double length(const SymmetricTensor<D, double>& tensor) {
   return std::sqrt(sum);
 }
 
+/// Steps that a run takes after the last sample, which is interpolated between them, at most.
+constexpr double steps_beyond = 8;
+
 /// Of the wavelet up to some time: its integral, taken positive, and its largest value.
 struct Strength {
   double integral_s = 0, largest = 0;
@@ -60,7 +63,8 @@ double largest_velocity(const Scene<D>& scene, std::size_t shot, Ranks* ranks) {
     const auto injection = point_injection(source);
     // At t = 0 all of the wavelet may already stand in the model as a plane wave.
     const auto strength = strength_of(
-        source.wavelet, injection ? scene.recording.duration_s : source.wavelet.duration_s(), dt_s);
+        source.wavelet,
+        injection ? scene.recording.duration_s + steps_beyond * dt_s : source.wavelet.duration_s(), dt_s);
     if (injection) {
       if (scene.subdomain.owns(grid, source.position_m)) {
         const auto at = cell_of(grid, source.position_m);

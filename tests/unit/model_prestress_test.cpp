@@ -129,7 +129,8 @@ TEST(Prestress, GoesWithItsCellsToOtherGrids) {
   const auto fine = resampled(model, 10.0);
   EXPECT_EQ(fine.prestress_pa[1]({5, 13}), model.prestress_pa[1]({2, 6}));
   const auto coarse = regridded(model, 40.0);
-  EXPECT_EQ(coarse.prestress_pa[1]({1, 4}), model.prestress_pa[1]({3, 9}));
+  const auto& of_parts = model.prestress_pa[1];
+  EXPECT_NEAR(coarse.prestress_pa[1]({1, 4}), (of_parts({3, 8}) + of_parts({3, 9})) / 2, 1);
   const auto part = cropped(model, Box<2>{{20, 100}, {80, 200}});
   EXPECT_EQ(part.prestress_pa[1]({0, 0}), model.prestress_pa[1]({1, 5}));
 }

@@ -31,7 +31,16 @@ void ActiveCells<D, Real>::mark(std::int64_t line, const IndexRange& columns) {
       for (std::int64_t i = 0; i < count; ++i) any |= Bits(bits_of(cells[i]) << 1);  // all but the signs
     }
     active[n] = any != 0;
+    if (any != 0) lines_[std::size_t(line)] = 1;
   }
+}
+
+template <int D, class Real>
+void ActiveCells<D, Real>::serialize(Archive& archive) {
+  archive.fixed(active_);
+  for (std::size_t line = 0; line < lines_.size(); ++line)
+    lines_[line] =
+        std::memchr(active_.data() + std::int64_t(line) * blocks_, 1, std::size_t(blocks_)) != nullptr;
 }
 
 template class ActiveCells<2, float>;

@@ -383,9 +383,9 @@ void TiledExecutor<D, Real>::sweep_plane(const Stage& stage, std::int64_t row, c
     each_chunk([&](const IndexRange& cells) {
       march(
           1, {0, 0, row}, steps, cells, stage.fraction, ring, worker,
-          [&](std::int64_t step) {
-            return is_zero(stage.time, {row - flank_rows, row + flank_rows + 1},
-                           {step - behind - 1 - sweeps_.reach(), step + 1}, read_across(cells));
+          [&](const IndexRange& lines_read) {
+            return is_zero(stage.time, {row - flank_rows, row + flank_rows + 1}, lines_read,
+                           read_across(cells));
           },
           [&](std::int64_t step) {
             const auto done = step - behind;
@@ -401,11 +401,19 @@ template <class IsZero, class End>
 void TiledExecutor<D, Real>::march(int axis, const Index<D>& at, const IndexRange& steps,
                                    const IndexRange& cells, Real fraction, Ring<Real>& ring, Worker& worker,
                                    IsZero&& is_zero, End&& end) {
+  // While nothing is swept what was zero stays so: only what each step reads anew is looked at.
+  auto zero_to = std::numeric_limits<std::int64_t>::min();
   for (auto step = steps.first; step < steps.last; ++step) {
-    if (is_zero(step)) {
-      sweeps_.skip(step, cells, ring);
+    // All that a row depends on, also rows that have been advanced since.
+    const auto first = step - sweeps_.rows_behind() - 1 - sweeps_.reach();
+    if (is_zero({std::max(first, zero_to), step + 1})) {
+      zero_to = step + 1;
+      const auto row = step - sweeps_.reach();
+      if (row >= 0 && !ring.take_zeros(row, cells)) sweeps_.skip(step, cells, ring);
       continue;
     }
+    zero_to = std::numeric_limits<std::int64_t>::min();
+    ring.fill(cells);
     worker.ahead.fetch();
     sweeps_.across(axis, at, step, cells, fraction, ring, worker.work);
     end(step);
@@ -421,10 +429,13 @@ bool TiledExecutor<D, Real>::is_zero(const StepTime& time, const IndexRange& row
     return IndexRange{std::max<std::int64_t>(some.first, 0), std::min(some.last, cells)};
   };
   const IndexRange all = D == 2 ? IndexRange{0, 1} : within(lines, cut_cells_), of = within(rows, rows_);
-  for (auto row = of.first; row < of.last; ++row)
+  for (auto row = of.first; row < of.last; ++row) {
+    const auto first = line_of(row, all.first);
+    if (!step_.any_enters() && active_.are_zero({first, first + all.count()})) continue;
     for (auto y = all.first; y < all.last; ++y)
       if (!active_.is_zero(line_of(row, y), columns) || step_.enters(time, line_of(row, y), columns))
         return false;
+  }
   return true;
 }
 
@@ -450,11 +461,11 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
                                  {columns.first == 0 ? 0 : columns.first + beside, columns.last + beside});
   };
   worker.work.time() = {stage.time.step, stage.sweep};
-  // All that a row depends on, also rows that have been advanced since.
-  const auto read = [&](std::int64_t step) {
-    return IndexRange{step - behind - 1 - sweeps_.reach(), step + 1};
-  };
   if constexpr (D == 2) {
+    // All that a row depends on, also rows that have been advanced since.
+    const auto read = [&](std::int64_t step) {
+      return IndexRange{step - behind - 1 - sweeps_.reach(), step + 1};
+    };
     auto& ring = tile.rings[std::size_t(stage.number)];
     for (auto step = needed.first; step < needed.last; ++step) {
       // Corrections are computed a block ahead, and read some cells of the columns beside these.
@@ -474,9 +485,8 @@ void TiledExecutor<D, Real>::along_z(const Stage& stage, const IndexRange& steps
       each_chunk([&](const IndexRange& cells) {
         march(
             D - 1, {0, y, 0}, needed, cells, stage.fraction, ring, worker,
-            [&](std::int64_t step) {
-              return is_zero(stage.time, read(step), with_surface_rows(D - 1, {y, y + 1}),
-                             read_across(cells));
+            [&](const IndexRange& rows_read) {
+              return is_zero(stage.time, rows_read, with_surface_rows(D - 1, {y, y + 1}), read_across(cells));
             },
             [&](std::int64_t step) { end_across_z(stage, step, y, cells, worker); });
       });
@@ -506,7 +516,7 @@ void TiledExecutor<D, Real>::along_x(const StepTime& time, std::int64_t line, co
   const auto row = at[D - 1], y = at[D - 2];
   if (is_zero(time, with_surface_rows(0, {row, row + 1}), with_surface_rows(0, {y, y + 1}),
               {columns.first - reach, columns.last + reach})) {
-    boundary = {};
+    if (columns.count() < layout_.shape()[0]) boundary = {};  // nothing continues a whole line
     return;
   }
   sweeps_.along_x(line, columns, fraction, boundary, worker.work, begins);

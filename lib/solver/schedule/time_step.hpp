@@ -99,7 +99,8 @@ class TimeStep {
   bool reads(const StepTime& time, std::int64_t row) const;
   /// Whether an effect may change a row whose fields are zero.
   bool injects(const StepTime& time, std::int64_t row) const;
-  /// Whether a filter may change cells of a row that are zero.
+  /// Whether any filter may change cells that are zero; whether one may those of a row.
+  bool any_enters() const { return !entering_.empty(); }
   bool enters(const StepTime& time, std::int64_t row, const IndexRange& columns) const {
     for (const auto* effect : entering_)
       if (effect->enters(time, row, columns)) return true;

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <vector>
 
 #include "solver/sweep/state.hpp"
 
@@ -28,7 +30,8 @@ class Ring {
         outgoing_rows_(outgoing_rows),
         face_rows_(face_rows),
         pairs_(pairs),
-        values_(pitch_ * 2 * pairs * (outgoing_rows + face_rows)) {
+        values_(pitch_ * 2 * pairs * (outgoing_rows + face_rows)),
+        zeros_(std::size_t(width / gap + 1)) {
     std::fill(values_.data(), values_.data() + values_.size(), Real(0));
   }
   /// From column x on, of row -1 or a later one.
@@ -43,12 +46,30 @@ class Ring {
   int pairs() const { return pairs_; }
   std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
 
+  /// Whether zeros for a row in these columns are in the ring already: those of all rows before it that the
+  /// ring holds have been put there one by one since the columns were filled. Pieces of columns begin blocks
+  /// apart and do not overlap.
+  bool take_zeros(std::int64_t row, const IndexRange& columns) {
+    auto& zeros = zeros_[std::size_t((columns.first - first_) / gap)];
+    const bool goes_on = zeros.next_row == row && zeros.last_column == columns.last;
+    zeros = {row + 1, columns.last, goes_on ? zeros.rows + 1 : 1};
+    return zeros.rows > std::max(outgoing_rows_, face_rows_);
+  }
+  /// Something else than zeros is about to be put there.
+  void fill(const IndexRange& columns) { zeros_[std::size_t((columns.first - first_) / gap)] = {}; }
+
  private:
   static constexpr std::int64_t gap = 16;
   Real* at(int row, std::int64_t x) { return values_.data() + row * pitch_ + gap + x - first_; }
   std::int64_t first_, pitch_;
   int outgoing_rows_, face_rows_, pairs_;
   Buffer<Real> values_;
+  /// Of the columns that begin a block: rows that were set to zero one after the other, and the next one.
+  struct Zeros {
+    std::int64_t next_row = -1, last_column = 0;
+    int rows = 0;
+  };
+  std::vector<Zeros> zeros_;
 };
 
 /// Rows of memory to prefetch, half a row after each loop over a piece: stripes are too short for the
