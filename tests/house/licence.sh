@@ -1,6 +1,9 @@
 #!/bin/sh
-# licence.sh ROOT [--write]: every source begins with the line of its licence, behind a #! or a man page's first macro where
-# it has one. --write puts the line where it is missing and replaces another one; twice is once.
+# SPDX-License-Identifier: BSD-3-Clause
+# licence.sh ROOT [--write]: every source begins with the line of its licence, behind a #! where it has one.
+# --write puts the line where it is missing and replaces another one; twice is once.
+# Read as a whole before it runs, since it writes itself, too.
+{
 set -eu
 cd "$1"
 licence=BSD-3-Clause
@@ -32,3 +35,5 @@ while IFS= read -r file; do
   rm -f "$made"
 done)
 [ -z "$faults" ] || { printf '%s\n' "$faults"; exit 1; }
+exit 0
+}
