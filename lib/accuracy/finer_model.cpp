@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/finer_model.hpp"
 
 #include <string>

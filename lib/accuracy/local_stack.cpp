@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/local_stack.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/wave_train.hpp"
 
 #include <cmath>

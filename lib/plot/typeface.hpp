@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 struct _cairo;  // NOLINT(bugprone-reserved-identifier): the library calls it so

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Tables of sw-accuracy in: a line for each of measured over expected error and time, lowest and highest of its settings.
 /^#/ { next }
 { time = $11 / $12; n = FILENAME; sub(/.*\//, "", n); sub(/\.txt$/, "", n) }

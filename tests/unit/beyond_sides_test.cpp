@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What an interface that dips reflects from beyond a side of the model: image sources in the plane.
 #include <gtest/gtest.h>
 

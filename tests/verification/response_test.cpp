@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What --plan promises of the response of fractures, and what --error --of response chooses by it, against
 // converged runs of drawn scenes.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/bent_tilted_cells_in_space.hpp"
 
 #include <algorithm>

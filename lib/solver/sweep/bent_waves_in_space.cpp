@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/bent_waves_in_space.hpp"
 
 #include <cmath>
