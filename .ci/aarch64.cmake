@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # 64-bit ARM from any other machine: the compiler of Debian's g++-aarch64-linux-gnu, libraries that .ci/aarch64 put into
 # build/arm64-root, and an emulator for what is run.
 set(CMAKE_SYSTEM_NAME Linux)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # find_package(slipwave) gives the target slipwave::slipwave; includes are written as inside, "solver/simulation.hpp".
 include(CMakeFindDependencyMacro)
 find_dependency(Threads)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # Sourced by surveys/run, tests/run and .ci/run: from a bare Debian 12 to built tools.
 # The caller sets `root`, the checkout. POSIX sh; the environment may set
 #   SLIPWAVE_BUILD       the build directory           (build/release)

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # For a survey that includes this after survey.mk: from $(OUT)/model.nc and shot.cfg to two shots, with slip and
 # without, their difference, spectra, pictures, and a summary. The survey may set
 SHOT =# options of sw-shoot beside those of shot.cfg

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The base of every survey: `include ../survey.mk`, then rules from models to gathers and pictures.
 #   make            everything the survey makes, in $(OUT)
 #   make -j N       N simulations at once, each of one thread

@@ -1,1 +1,2 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Holds nothing: CMake wants a source to compile headers for.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # completion.sh TOOL FOLDER [EMULATOR...]: writes the completions of a tool for bash (bash/TOOL), zsh (zsh/_TOOL) and fish
 # (fish/TOOL.fish), all made from one table of what its --help-all says:
 #   a|b|c                 one of them

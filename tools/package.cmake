@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # `cpack -G DEB` in a build directory: slipwave (tools, man pages, completions, surveys) and libslipwave-dev.
 # Read twice: by cmake, and again by cpack, which then knows the version that was built.
 if(CPACK_GENERATOR)

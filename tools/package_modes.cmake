@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # By cpack, once everything is in place: everybody may look into the folders, whatever the umask of who builds the packages.
 file(CHMOD_RECURSE ${CPACK_TEMPORARY_DIRECTORY}
      DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

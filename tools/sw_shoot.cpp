@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "cli/ranks.hpp"
 #include "cli/tool.hpp"
 #include "output/snapshot_netcdf.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/direct_waves.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "accuracy/full_space.hpp"
 
 #include <cmath>

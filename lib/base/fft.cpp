@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "base/fft.hpp"
 
 #include <fftw3.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint/file_lock.hpp"
 
 #include <fcntl.h>

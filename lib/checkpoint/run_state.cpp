@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint/run_state.hpp"
 
 #include <unistd.h>

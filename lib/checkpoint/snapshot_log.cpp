@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "checkpoint/snapshot_log.hpp"
 
 #include <fcntl.h>

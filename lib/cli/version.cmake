@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # cmake -DROOT= -DRELEASE= -DOUTPUT= -P version.cmake: writes the version as a header, when it has changed.
 # Of a git checkout it names the last commit that touches what the tools are made of, so that other commits build nothing
 # again; without git (a tarball) it is the release of CMakeLists.txt.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Exponential and logarithm that both compilers turn into vectors. No standard header here: this is compiled

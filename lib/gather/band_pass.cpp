@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "gather/band_pass.hpp"
 
 #include <cmath>

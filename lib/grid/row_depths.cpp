@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "grid/row_depths.hpp"
 
 #include <algorithm>

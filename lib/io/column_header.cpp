@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/column_header.hpp"
 
 #include <algorithm>

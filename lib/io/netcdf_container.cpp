@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/netcdf_container.hpp"
 
 #include <algorithm>

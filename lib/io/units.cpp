@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "io/units.hpp"
 
 #include <udunits2.h>

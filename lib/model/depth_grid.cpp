@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model/depth_grid.hpp"
 
 #include <algorithm>

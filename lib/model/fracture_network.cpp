@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model/fracture_network.hpp"
 
 #include <algorithm>

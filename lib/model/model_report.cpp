@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model/model_report.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model/points_file.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "parallel/threads.hpp"
 
 #include <tbb/blocked_range.h>

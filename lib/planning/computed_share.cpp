@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "planning/computed_share.hpp"
 
 #include <algorithm>

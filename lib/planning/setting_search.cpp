@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "planning/setting_search.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "plot/canvas.hpp"
 
 #include <cairo/cairo-pdf.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "plot/point_labels.hpp"
 
 #include <algorithm>

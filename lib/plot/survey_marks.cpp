@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "plot/survey_marks.hpp"
 
 #include <algorithm>

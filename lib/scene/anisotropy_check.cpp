@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/anisotropy_check.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "scene/empty_gather.hpp"
 
 #include "grid/locate.hpp"

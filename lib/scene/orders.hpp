@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// No standard header here: the inner loops include this, compiled once for each instruction set.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "segy/file_header.hpp"
 
 #include <algorithm>

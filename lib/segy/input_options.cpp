@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "segy/input_options.hpp"
 
 #include "base/error.hpp"

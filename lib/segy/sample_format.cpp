@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "segy/sample_format.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/output_names.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/output_options.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/textual_header.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/trace_files.hpp"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/trace_wavelet.hpp"
 
 #include <unistd.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "traces/cube_numbers.hpp"
 
 #include "base/error.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "traces/float_difference.hpp"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "traces/header_key.hpp"
 
 #include <algorithm>

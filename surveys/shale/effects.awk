@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # NRMS of the reflections by NAME.txt of sw-compare, and processor times by NAME.times, the output of `times`, whose second line is
 # of the programs that were run: user and system, each as 0m1.23s. elastic.times is what the others are divided by.
 function seconds(text,  part) {

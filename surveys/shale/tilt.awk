@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # The dip of the beds of a model, from its vs: columns from left to right, a line each, 60 numbers of its trace header first.
 # Prints it cell by cell as raw little-endian float32, depth fastest, in whole degrees, deepening towards +x; 0 in fluid.
 # -v step=H -v reach=M

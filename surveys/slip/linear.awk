@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # linear.awk -v angle=DEG -v ratio=R -v strip=K SPECTRA: p of the wave that comes in and of what the slipping row adds, at
 # the receivers 1 (above) and 2 (below), against the closed form of an interface. Files in this order:
 # intact-1 slip-1 intact-2 slip-2, columns of sw-spectrum --text.

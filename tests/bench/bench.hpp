@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Each file of benchmarks registers its own. Names are paths of NAME:VALUE, which `report` takes apart.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole steps in three dimensions.
 #include <benchmark/benchmark.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What each effect costs: the same scene of 600 x 500 cells with and without it.
 #include "bench.hpp"
 #include "parallel/threads.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // How cost grows: with the number of cells, in time and memory, and with the number of shots.
 #include <fstream>
 #include <string>

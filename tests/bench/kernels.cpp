@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inner loops alone, on rows that stay in the first cache.
 #include <vector>
 

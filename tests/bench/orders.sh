@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # orders.sh [BIN]: processor time of a step in each order, over that of order 5; one thread, the least of three runs.
 # The choice of settings (lib/planning/setting_search.cpp) ranks them by these ratios.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # receivers.sh BIN [PAIRS [FOLDER]]: what 1000 receivers cost beside one: processor time, reading and writing included, of whole
 # shots over four layers, in pairs run in turn, as a table: least of each, and the median of the pairs. On a busy machine take more PAIRS (8).
 set -eu

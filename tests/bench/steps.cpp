@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Whole steps by order, size of the grid, material, precision, threads and tiling.
 #include "bench.hpp"
 #include "run.hpp"

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # traces.sh BIN [FOLDER]: seconds that tools take for a gather of 1 GB beside cat and cp, best of five, as a table. FOLDER
 # (default $TMPDIR or /tmp) needs 4 GB. On a busy machine read user and system seconds, which are behind the elapsed ones.
 set -eu

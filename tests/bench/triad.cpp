@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What memory gives: the triad a = b + s c of STREAM, and a += s b, which writes where it has read as the
 // solver does.
 #include <atomic>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Loaded in front of the C library (LD_PRELOAD), it makes reads and writes go wrong as SLIPWAVE_FAULT says:
 //   short        every call moves a third of what it was asked for at most, and every fifth is interrupted
 //   write:N:E    the N-th write that makes a regular file longer, and all such after it, fail with errno E:

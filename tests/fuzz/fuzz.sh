@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # fuzz.sh BIN FOLDER SEEDS TARGET...: libFuzzer on each target (segy, text, model, checkpoint) for SLIPWAVE_FUZZ_SECONDS (10),
 # beginning with files by our own writer and those in SEEDS. What it finds stays in FOLDER/TARGET as crash-*,
 # timeout-* or oom-*.

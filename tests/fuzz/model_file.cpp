@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model_file.hpp"
 
 #include <fuzzer/FuzzedDataProvider.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "segy_shared.hpp"
 #include "segy_target.hpp"
 

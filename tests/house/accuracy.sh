@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # accuracy.sh ROOT BUILD: the survey accuracy with its short ladders: tables, pictures, what it leaves out and says so.
 set -eu
 root=$1

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # bench.sh ROOT BUILD: the benchmarks run and `report` makes tables of what they say. What they measure is not judged.
 set -eu
 program=$2/bin/slipwave_bench

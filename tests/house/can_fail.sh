@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # can_fail.sh ROOT: breaks each rule of the house once, in a small house of its own, and wants it noticed by name.
 set -eu
 rules=$1/tests/house

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # cluster3d.sh ROOT BUILD: the survey in three dimensions in short, in cells of 20 m: a response, lines of an area of receivers,
 # slices across y and z.
 set -eu

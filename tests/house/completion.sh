@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # completion.sh BUILD TOOL...: what bash offers behind the tools, typed with tabs into a bash on a terminal of its own; and
 # zsh and fish where they are installed.
 set -eu

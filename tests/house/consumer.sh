@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # consumer.sh ROOT BUILD CXX: somebody else's project finds the installed library, builds against it and shoots.
 set -eu
 root=$1

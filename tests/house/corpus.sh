@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # corpus.sh BUILD SHARED: field files of other programs, shared/data/segy-corpus, as geometry: all that have one are shot and go
 # through sw-diff trace by trace; the others say what is missing. Ends with 77 where the files are not there.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # equations.sh ROOT [--write]: every equation tag (E1), (S2a) ... of docs/theory/*.md stands once and has a test that
 # proves it, and docs/theory/tests.md lists them as the tests say: --write makes that page.
 # A tag is defined where it ends a line of mathematics. A test says "// Proves (E1), (S2a)." above its first line.

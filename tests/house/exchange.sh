@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # exchange.sh ROOT BUILD SHARED: the recipes of docs/exchange.md in a folder of their own, where Debian's package of the
 # program is installed, and what they print; header words and netCDF conventions that other programs rely on.
 # Exit 77 when all is well but a program or checker is not there: what was left out is said.

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """exchange_bytes.py: are the words where docs/exchange.md tells other programs to look? Run in the folder of its recipes;
 reads bytes by numpy alone. The survey: shots at x = 100, 200, 300 m, receivers every 20 m from 0 to 600 m, vz and vx."""
 import sys

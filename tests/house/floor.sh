@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # floor.sh ROOT BUILD: the survey floor in larger cells and with two shots: on the fitted grid the error is a fraction of that over
 # stairs, and below that over stairs of half the height; what larger cells say of it stands beside it.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # guide.sh ROOT BUILD PAGE: the commands of docs/guide/PAGE.md, one after the other in a folder of their own, and the answer
 # that they give. In cells and at wavelengths 2.5 times as large, which weakens thin beds, so with a tenth of the noise;
 # SLIPWAVE_LONG=1: as they stand there, where KEEP may name a folder for the pictures.

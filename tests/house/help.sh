@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # help.sh ROOT BIN TOOL...: --help fits a screen and ends with its example; --help-all names what it names and more; every
 # tool has a man page that names the same options, all exit statuses and an example.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # install.sh ROOT BUILD TOOL...: `cmake --install` brings every tool, its man page and its completion, pages and surveys, and nothing else.
 set -eu
 root=$1

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # land.sh ROOT BUILD: the survey land in short: shots and geophones are those of the tables, geophones stand on the ground, and a
 # shot taken as geometry gives its own traces again.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # layers.sh ROOT: includes of lib/ and among folders of lib/solver go downwards only, and each foreign library is included in its own place.
 set -eu
 cd "$1"

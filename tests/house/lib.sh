@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # shellcheck shell=sh
 # What tests of the house begin with: a folder of their own that goes in the end, and a word for what is broken.
 # Source it; what a script ends with is `exit "$status"`.

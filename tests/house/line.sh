@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # line.sh ROOT BUILD: the survey line in short: a target a shot, sorted traces, an interrupted run continues, and the array job
 # makes the same bytes.
 set -eu

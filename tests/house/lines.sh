@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # lines.sh ROOT [--write]: lines of pages and man pages, and cells of tables, are of at most 200 characters. --write wraps
 # paragraphs that have longer ones; code and cells stay as they are.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # links.sh ROOT: relative links of the documentation lead to files that exist, and to headings that these have.
 set -eu
 cd "$1"

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """netcdf_conventions.py FILE...: do netCDF files follow CF 1.10 and, where they name it, SGRID 0.3?
 
 No checker of CF is in Debian, so what the conformance document of CF requires of such files stands here, and what SGRID

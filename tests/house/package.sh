@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # package.sh BUILD TOOL...: `cpack -G DEB` makes packages that say what they depend on, and whose tools run, under a umask of
 # people who keep to themselves.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # pages.sh ROOT BUILD [--write] [--in FOLDER] [PAGE...]: figures on pages are those of the run. A figure stands between <!--=NAME--> and
 # <!--/-->; a comment of the page says how it is made, in the folder where the commands of the page have run:
 #   <!-- figures

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # paper_marmousi.sh ROOT BUILD SHARED: the survey paper-marmousi in Marmousi-II, where that is at hand.
 set -eu
 data=${SLIPWAVE_SHARED:-$3}/data/marmousi2

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # papers.sh ROOT BUILD: the surveys of the paper's figures with coarse cells: everything they tell of is made, both orders of
 # slip are told apart, Marmousi-II and the model like it go the same way, another setting makes everything again.
 set -eu

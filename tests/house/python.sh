@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # python.sh ROOT BUILD: the blocks of docs/python.md, one after the other in a folder of their own, in one Python.
 # Exit 77 where a package that they need is not there.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # quickstart.sh ROOT BUILD: the survey quickstart: its figures, files that make trusts, bits that do not depend on
 # the number of threads.
 set -eu

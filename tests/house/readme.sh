@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # readme.sh ROOT BUILD: runs the ```sh blocks of README.md and docs/tools.md in a temporary directory, a block at a
 # time; every command must succeed, but for ./surveys/run quickstart and ./tests/run, which are tests of their own.
 set -eu

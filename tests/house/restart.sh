@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # restart.sh ROOT BUILD: `make -j` of a survey, interrupted and begun again: shots that were finished are kept, no part of a
 # shot is taken for one, and the result is that of a survey that ran through.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # shale.sh ROOT BUILD: the survey shale in larger cells: its axes dip as beds do, each effect changes the reflections as it should,
 # and what is switched off is as if it had never been there.
 set -eu

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # slip.sh ROOT BUILD: the survey slip with few cases in large cells: what does not slip sends nothing back, what does
 # sends what the closed form says, and pictures are there.
 set -eu

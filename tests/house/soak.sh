@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # soak.sh ROOT BUILD [SHOTS]: the survey line under `make -j 2` while its disk is filled at intervals, its memory is limited now and
 # then, and tools are killed at random. Whatever file is there is the one of a quiet run, every failure says so, and make
 # completes the rest once it is left in peace.

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # style.sh ROOT: what the house keeps out of its sources, and how long a function may be.
 set -eu
 cd "$1"

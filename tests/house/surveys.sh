@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # surveys.sh ROOT BUILD: what every survey has and says, and that a survey without its data says so and makes nothing.
 set -eu
 root=$1

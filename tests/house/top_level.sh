@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # top_level.sh ROOT: the top of the house holds its rooms and nothing else; names are plain.
 set -eu
 cd "$1"

@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # tutorial.sh ROOT BUILD: the commands of docs/tutorial.md, one after the other in a folder of their own, and what they
 # make. In cells and at wavelengths 2.5 times as large, a sixteenth of the work; SLIPWAVE_LONG=1: as it stands there.
 set -eu

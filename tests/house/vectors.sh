@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # vectors.sh BUILD: whether every inner loop of lib/solver/kernels/kernels_level.cpp, slip_level.cpp and relaxation_level.cpp was compiled into vectors
 # of the full width of its instruction set. Compilers fall back to single numbers without a word, and to a tenth of the speed.
 #

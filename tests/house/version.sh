@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # version.sh ROOT TOOL: the version that version.cmake finds, in a checkout of its own at every stage.
 set -eu
 script=$1/lib/cli/version.cmake

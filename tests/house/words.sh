@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
 # words.sh ROOT: no file names somebody's machine, a package host, an issue number or work left undone, and each thing bears
 # its one word of docs/notation.md.
 set -eu

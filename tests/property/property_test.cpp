@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A material property that is nothing but a row of the table (property_table.cpp) goes wherever the others
 // go.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Energy in anisotropic media, cell by cell as different as they can be.
 #include <algorithm>
 #include <random>

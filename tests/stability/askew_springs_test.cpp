@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes that give way as springs at any angle to the axes of anisotropic rock: the energy of waves and
 // springs never rises above that of the beginning (docs/theory.md (S25), (S34b)).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Attenuation only takes energy: that of the waves and of what has relaxed, together, never rises.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Small boxes in 3-D: no wave and no stress at rest grows between free edges, at any order
 // (docs/theory/interfaces.md).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Single fractures in 3-D: the energy of waves and springs never rises, however stiff or soft discs are and
 // wherever they cross (docs/theory.md (S25), (S30)).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Energy of anisotropic rock in 3-D, upright and tilted, in rows that bend.
 #include <cmath>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Energy of anisotropic rock, upright and tilted, in rows that bend.
 #include <cmath>
 #include <numbers>

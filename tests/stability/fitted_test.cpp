@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // On fitted grids, too, nothing may grow: slopes, curves, thin rows and strong contrasts.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes that give way as springs: the energy of waves and springs never rises above that of the beginning,
 // however stiff or soft they are (docs/theory.md (S25)).
 #include <algorithm>

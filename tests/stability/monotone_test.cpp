@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The criterion of monotonicity in hard media.
 #include <algorithm>
 

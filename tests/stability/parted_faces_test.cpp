@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fractures on faces between cells: the energy of waves and springs falls in the long run, in any rock, open
 // or not, with friction and without (docs/theory/fractures.md).
 #include <algorithm>

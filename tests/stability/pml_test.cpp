@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The PML has a memory of its own, so the energy of the wave field alone need not fall at every step. It must
 // stay bounded and vanish in the end, whatever lies beside the layer.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // ringing [FILE]: one stiff cell by all rules of slip. A table of columns, or a gather of one trace each.
 #include <cstdio>
 #include <exception>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip in rock under prestress. Slip by a strain e takes the energy s:e out of the stress s of the waves
 // (the mean of before and after), and what becomes heat is (s0 + s):e >= 0, s0 being the prestress: it
 // has done the work s0:e. So the energy of the waves may rise. What never rises is

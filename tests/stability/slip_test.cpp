@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip takes energy out of the waves: friction, viscosity and the opening of planes can do nothing else. With
 // stress that the scene was built with it is another sum that falls, see slip_prestress_test.cpp.
 #include <cmath>

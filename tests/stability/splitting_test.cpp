@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fourth order in time runs back in time in some of its sweeps, and its steps may be twice as long as those
 // of second order: neither may make anything grow.
 #include <tuple>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Energy in cells that interfaces cut, whose axes of symmetry do not lie along the grid.
 #include <algorithm>
 #include <cmath>

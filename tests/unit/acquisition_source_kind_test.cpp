@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "acquisition/source_kind.hpp"
 
 #include <gtest/gtest.h>

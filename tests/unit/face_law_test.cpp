@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The law of a plane on a face, against its equations in ten thousand small steps (docs/theory/fractures.md,
 // (S40) to (S43)).
 #include "fracture/face_law.hpp"

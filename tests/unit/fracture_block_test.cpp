@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Several slip systems in one cell, planes that open, and the functions slip is solved with.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Shared by the slip law tests: every correction, scalar type and dimension, on random cells and planes.
 #pragma once
 

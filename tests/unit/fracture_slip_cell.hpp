@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // One slip system in one cell, through the kernels that whole lines go through.
 #pragma once
 

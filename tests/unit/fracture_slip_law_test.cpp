@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // What the slip corrections must hold whatever the numbers: symmetry, invariance, energy.
 #include "fracture_slip_cases.hpp"
 

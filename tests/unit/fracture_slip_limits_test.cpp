@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip at the ends of the range of its constants: dry, rigid, open, absurd.
 #include "fracture_slip_cases.hpp"
 

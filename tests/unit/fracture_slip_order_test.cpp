@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Time accuracy of the slip corrections against the slip law itself, tau' = E' - mu g, solved by other means.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip weakening: its limit, its closed form, its order in time, its energy.
 #include <functional>
 #include <numbers>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "grid/true_depth.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "model/layers.hpp"
 #include "model/resample.hpp"
 #include "model_cases.hpp"

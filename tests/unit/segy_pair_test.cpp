@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "segy/pair.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
 #!/usr/bin/python3
+# SPDX-License-Identifier: BSD-3-Clause
 """segyio_reads.py FILE ENDIAN EXPECTED: does segyio find in FILE what EXPECTED says?
 
 EXPECTED holds lines: "bin BYTE VALUE" of the binary header, "text LINE" (40 of them), and for every trace

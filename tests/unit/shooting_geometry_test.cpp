@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "shooting/geometry_segy.hpp"
 
 #include <gtest/gtest.h>

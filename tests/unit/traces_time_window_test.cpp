@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "traces/time_window.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane waves in anisotropic rock of 3-D: against the Christoffel equation, the solver in 2-D, the same
 // experiment turned, and themselves in wider models.
 #include <gtest/gtest.h>

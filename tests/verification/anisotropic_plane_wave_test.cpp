@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane waves that fall on anisotropic rock, against closed forms of their own.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waves in anisotropic rock against plane-wave (wave number) solutions, symmetry and each other.
 #include <gtest/gtest.h>
 

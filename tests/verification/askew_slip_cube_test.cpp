@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip in anisotropic rock of 3-D against isotropic rock, the solver in 2-D, the same experiment turned, and
 // its own energy.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip on planes that lie askew to the axes of anisotropic rock, against the same experiment turned.
 #include <gtest/gtest.h>
 

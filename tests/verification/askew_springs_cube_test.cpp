@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes that give way as springs in anisotropic rock of 3-D against isotropic rock, the solver in 2-D, the
 // medium that both are to long waves, the same experiment turned, and their own energy.
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waves in anisotropic rock that attenuates, against plane-wave solutions with complex stiffnesses.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Anisotropic rock in 3-D that attenuates against complex moduli, the solver in 2-D, symmetry and itself.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Attenuation gives the same bits whoever executes it, in pieces or as a whole.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waves in attenuating rock and fluid against closed forms with complex moduli.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Constants of planes that give way: on command lines, in files, in checks, and the viscosities that go with
 // waves (docs/slip.md).
 #include <gtest/gtest.h>

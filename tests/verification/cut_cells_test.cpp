@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Clusters whose edges cut cells: against laminates, and against waves that know nothing of cells.
 #include <gtest/gtest.h>
 

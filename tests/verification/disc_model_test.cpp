@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Single fractures of models in 3-D: what cells get of discs and polygons, files, pictures and networks.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Single fractures of models in 3-D, discs that cells beside them share, against closed forms and 2-D
 // (docs/theory.md (S30)).
 #include <gtest/gtest.h>

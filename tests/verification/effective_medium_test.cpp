@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rock full of planes that give way, as springs in its cells and as the effective medium of Schoenberg &
 // Sayers, against plane-wave (wave number) solutions for the closed form of its stiffness (docs/theory.md
 // (S26)).

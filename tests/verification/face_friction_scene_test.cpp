@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes with friction on faces between cells in whole scenes: who computes them makes no difference
 // (docs/theory/fractures.md, (S40) to (S43)).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes with friction on faces between cells under plane waves, against closed forms and equations solved in
 // small steps (docs/theory/fractures.md, (S40) to (S43)).
 #include <gtest/gtest.h>

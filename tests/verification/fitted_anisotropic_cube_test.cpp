@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Anisotropic rock in 3-D in rows that bend against the solver in 2-D, sums over plane waves, level rows,
 // symmetry and itself.
 #include <gtest/gtest.h>

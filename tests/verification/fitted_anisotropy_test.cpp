@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Anisotropic rock in rows that bend: an experiment turned with its layers is one of tilted rock under level
 // layers, whose field is known by wave number (AnisotropicStack).
 #include <gtest/gtest.h>

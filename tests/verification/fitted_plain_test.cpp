@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "fitted_scenes.hpp"
 #include "plain_and_tiled.hpp"
 

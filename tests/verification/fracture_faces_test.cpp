@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Fractures on faces between cells: who computes them makes no difference (docs/theory/fractures.md).
 #include <gtest/gtest.h>
 

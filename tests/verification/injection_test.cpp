@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Recorded traces as sources (theory.md (A20)): waves come back to where they began, and the run with them is
 // the adjoint of the run that recorded them (A21).
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes that give way as springs: what they make of the stress of a cell, of the speeds of a cluster, and of
 // friction above them (docs/theory/fractures.md).
 #include <gtest/gtest.h>

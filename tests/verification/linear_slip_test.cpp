@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Planes that give way as springs, one row of cells of them, are an interface of Schoenberg's (1980): P and S
 // waves that fall onto it at an angle, against his closed form (docs/slip.md).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Single fractures of a model: what cells get of them, files, and networks drawn from a seed.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Single fractures, lines that cells beside them share, against boundary elements (docs/theory.md (S30)).
 #include <gtest/gtest.h>
 

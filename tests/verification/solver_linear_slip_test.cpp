@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The linear limit of slip, a row of cells that slips at a rate that goes with its traction, is an interface
 // of Schoenberg's (1980) whose compliance is that of a dashpot (docs/slip.md).
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The criterion of monotonicity (theory.md (C1)): waves without overshoots.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Plane waves at an angle: through layers, from below a free surface, in 3-D, and what the edges add to the
 // field that a body scatters.
 #include <gtest/gtest.h>

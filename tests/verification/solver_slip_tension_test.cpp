@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // A plane P wave straight through a layer of planes at 45 degrees whose strength is friction under the wave's
 // own pressure: none while the wave pulls. The rules of a step then differ by when the waves feel what slip
 // takes off.

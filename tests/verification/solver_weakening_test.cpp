@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Slip weakening in whole shots: its limits, and that its state is stored and sent between ranks.
 #include <gtest/gtest.h>
 

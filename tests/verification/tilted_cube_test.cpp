@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Rock in 3-D whose axes are tilted against sums over plane waves, the solver in 2-D, symmetry and itself.
 #include <gtest/gtest.h>
 

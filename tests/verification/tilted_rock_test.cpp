@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Waves in rock whose axis of symmetry is tilted, against plane-wave (wave number) solutions and symmetry.
 #include <gtest/gtest.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // Cells whose axes of symmetry do not lie along the grid: tilted means.
 #include <gtest/gtest.h>
 

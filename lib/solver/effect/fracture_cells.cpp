@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/effect/fracture_cells.hpp"
 
 #include <algorithm>

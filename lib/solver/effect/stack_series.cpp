@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/effect/stack_series.hpp"
 
 #include <algorithm>

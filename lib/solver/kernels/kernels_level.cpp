@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inner loops, compiled once for each instruction set: CMake sets SLIPWAVE_LEVEL to its name. Nothing
 // from the standard library may be instantiated here: the linker could keep this copy for everybody.
 #include "solver/kernels/bent_rows.hpp"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
 /// Reconstruction of the outgoing waves of a cell at its two faces (theory.md (E4), (E5)): weights of the

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of records, compiled once for each instruction set as kernels_level.cpp is, but with every
 // product rounded: traces depend on the instruction set by the fields alone.
 #include <cstring>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 // The inner loops of slip, compiled once for each instruction set as kernels_level.cpp is, under the same
 // rules.
 #include "fracture/coulomb.hpp"

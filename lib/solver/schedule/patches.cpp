@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/schedule/patches.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/interface_stencils.hpp"
 
 #include <algorithm>

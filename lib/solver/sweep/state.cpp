@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: BSD-3-Clause
 #include "solver/sweep/state.hpp"
 
 #include <sys/mman.h>

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: BSD-3-Clause
 # What the tables of bad input need beside them; run in an empty folder, where bad_models has put the models that no
 # tool of ours would write.
 set -eu
