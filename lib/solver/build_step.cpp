@@ -80,8 +80,6 @@ Effects<D, Real> StepBuilder<D, Real>::effects(std::size_t shot, double unit, Ra
   if (scene.attenuates())
     all.push_back(std::make_unique<RelaxingStress<D, Real>>(state.layout, domain, scene, dt_s, points));
   add_slip<D, Real>(state, domain, scene, dt_s, unit, all);
-  if (!domain.parted.empty())
-    all.push_back(std::make_unique<PartedFaces<D, Real>>(state, domain, dt_s, unit));
   return all;
 }
 
@@ -90,8 +88,6 @@ TimeStep<D, Real> StepBuilder<D, Real>::time_step(Sweeps<D, Real>& sweeps, const
                                                   const std::vector<Record<D, Real>*>& records,
                                                   std::int64_t steps) const {
   if (scene.numerics.monotone) sweeps.keep_monotone();
-  for (const auto& effect : effects)
-    if (auto* const faces = dynamic_cast<PartedFaces<D, Real>*>(effect.get())) sweeps.part(faces);
   std::vector<Effect<D, Real>*> filters;
   std::vector<Entry<D, Real>> before, after, between, step;
   for (const auto& effect : effects) {

@@ -111,7 +111,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       domain_(domain_of(scene, medium(), shot)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
-      effects_(builder().effects(shot, unit_, ranks)),
+      effects_(make_effects()),
       recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
       sink_(sink),
       snapshots_(state_.layout, domain_, sink ? scene.snapshot_every_s : std::nullopt,
@@ -131,6 +131,13 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
   if (changed) executor_->fields_changed();
 }
 
+/// Faces that fractures split are there before what exchanges memory with other ranks asks how much there is.
+template <int D, class Real>
+Effects<D, Real> ShotSimulation<D, Real>::make_effects() {
+  sweeps_.split_faces(domain_, dt_s_, unit_);
+  return builder().effects(shot_, unit_, ranks_);
+}
+
 template <int D, class Real>
 std::vector<Record<D, Real>*> ShotSimulation<D, Real>::records() {
   std::vector<Record<D, Real>*> records = {&recorder_};
@@ -144,6 +151,7 @@ std::unique_ptr<Halo<D, Real>> ShotSimulation<D, Real>::make_halo() {
   return std::make_unique<Halo<D, Real>>(*ranks_, domain_, state_,
                                          [this](const IndexRange& rows, const auto& to) {
                                            for (auto& effect : effects_) effect->exchange(rows, to);
+                                           if (auto* const faces = sweeps_.split()) faces->exchange(rows, to);
                                          });
 }
 
@@ -171,6 +179,7 @@ void ShotSimulation<D, Real>::serialize(Archive& archive) {
   archive.fixed(state_.fields.data(), std::size_t(state_.fields.size()));
   executor_->serialize(archive);
   for (const auto& effect : effects_) effect->serialize(archive);
+  if (auto* const faces = sweeps_.split()) faces->serialize(archive);
   recorder_.serialize(archive, done_);
 }
 
@@ -228,6 +237,7 @@ template <int D, class Real>
 ShotReport ShotSimulation<D, Real>::report() const {
   ShotReport report;
   for (const auto& effect : effects_) effect->report(report);
+  if (const auto* const faces = sweeps_.split()) faces->report(report);
   report.energy_left += energy(state_, domain_, scene_->model.medium) / (unit_ * unit_);
   return ranks_ ? of_all(report, *ranks_) : report;
 }
@@ -248,8 +258,11 @@ std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
     entries.push_back({std::string("sweep along ") + axis_names<D>()[std::size_t(axis)] +
                            (sweeps_.shear() ? ", P and S" : ", P only"),
                        1});
-  for (const auto& effect : effects_)
-    for (const auto& share : effect->shares()) entries.push_back({share.name, double(share.cells) / all});
+  const auto add = [&](const std::vector<EffectShare>& shares) {
+    for (const auto& share : shares) entries.push_back({share.name, double(share.cells) / all});
+  };
+  for (const auto& effect : effects_) add(effect->shares());
+  if (const auto* const faces = sweeps_.split()) add(faces->shares());
   entries.push_back({"stability check", 1. / StabilityCheck<D, Real>::every});
   entries.push_back({"receivers", double(recorder_.cells()) / all});
   return entries;
@@ -261,6 +274,7 @@ std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
                        std::int64_t(state_.uniform_runs.size() * sizeof(UniformRun<Real>)) +
                        sweeps_.memory_bytes() + executor_->memory_bytes() +
                        (halo_ ? halo_->memory_bytes() : 0);
+  if (const auto* const faces = sweeps_.split()) bytes += faces->memory_bytes();
   for (const auto& effect : effects_) bytes += effect->memory_bytes();
   return bytes;
 }

@@ -11,7 +11,7 @@
 #include "base/progress.hpp"
 #include "parallel/ranks.hpp"
 #include "scene/scene.hpp"
-#include "solver/record/shot_report.hpp"
+#include "solver/sweep/shot_report.hpp"
 
 namespace slipwave {
 

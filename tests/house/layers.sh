@@ -1,5 +1,5 @@
 #!/bin/sh
-# layers.sh ROOT: includes of lib/ go downwards only, and each foreign library is included in its own place.
+# layers.sh ROOT: includes of lib/ and among folders of lib/solver go downwards only, and each foreign library is included in its own place.
 set -eu
 cd "$1"
 find lib tools -name '*.?pp' | sort | xargs awk '
@@ -23,6 +23,12 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     below["shooting"] = below["planning"] " checkpoint output segy shooting"
     below["plot"] = below["output"] " segy accuracy plot"
     below["cli"] = "base io parallel cli"
+    # Folders of lib/solver; the files beside them may include all.
+    inside["kernels"] = "kernels"
+    inside["sweep"] = inside["kernels"] " sweep"
+    inside["effect"] = inside["sweep"] " effect"
+    inside["record"] = inside["sweep"] " record"
+    inside["schedule"] = inside["effect"] " record schedule"
   }
   function broken(what) {
     printf "%s:%d: %s\n", FILENAME, FNR, what
@@ -32,13 +38,20 @@ find lib tools -name '*.?pp' | sort | xargs awk '
     if (header !~ library) return
     if (FILENAME !~ place) broken("<" header "> belongs in " place)
   }
-  FNR == 1 { split(FILENAME, part, "/"); room = part[1] == "lib" ? part[2] : "" }
+  FNR == 1 {
+    parts = split(FILENAME, part, "/")
+    room = part[1] == "lib" ? part[2] : ""
+    folder = room == "solver" && parts == 4 ? part[3] : ""
+    if (folder != "" && !(folder in inside)) broken("lib/solver/" folder " has no place in the order of folders")
+  }
   FNR == 1 && room != "" && !(room in below) { broken("lib/" room " has no place in the order of rooms") }
   /^[ \t]*#[ \t]*include[ \t]*"/ {
     split($0, quoted, "\"")
     if (room == "") next
     if (quoted[2] !~ "^[a-z0-9_]+(/[a-z0-9_]+)?/[a-z0-9_]+[.]hpp$") broken("include \"" quoted[2] "\": write \"room/file.hpp\"")
-    split(quoted[2], part, "/")
+    parts = split(quoted[2], part, "/")
+    if (folder != "" && part[1] == "solver" && index(" " inside[folder] " ", " " (parts == 3 ? part[2] : "-") " ") == 0)
+      broken("lib/solver/" folder " must not include \"" quoted[2] "\"")
     # Dispersion is that of the reconstruction that the kernels use; the header includes nothing.
     formula = room == "accuracy" && quoted[2] == "solver/kernels/reconstruction.hpp"
     if (index(" " below[room] " ", " " part[1] " ") == 0 && !formula) broken(room " must not include \"" quoted[2] "\"")

@@ -64,10 +64,7 @@ Lab<Real>::Lab(const Setup& setup)
   solver::fill_material(state_, domain_, model.medium, dt_s_);
   sweeps_ = std::make_unique<solver::Sweeps<2, Real>>(state_, domain_, setup.order);
   if (setup.monotone) sweeps_->keep_monotone();
-  if (!domain_.parted.empty()) {
-    parted_ = std::make_unique<solver::PartedFaces<2, Real>>(state_, domain_, dt_s_, 1);
-    sweeps_->part(parted_.get());
-  }
+  sweeps_->split_faces(domain_, dt_s_, 1);
   const bool zones = domain_.grid.size() > domain_.model_grid.size();
   const double vp_max = fastest_speed(model.medium);
   if (zones && setup.layer_hz > 0) {
@@ -212,7 +209,7 @@ double Lab<Real>::sum(Stress which) const {
 template <class Real>
 double Lab<Real>::energy() const {
   return sum(Stress::of_waves) + (springs_ ? springs_->stored_energy() : 0) +
-         (parted_ ? parted_->stored_energy() : 0);
+         (sweeps_->split() ? sweeps_->split()->stored_energy() : 0);
 }
 
 template <class Real>
@@ -230,7 +227,7 @@ double Lab<Real>::kinetic_energy() const {
 
 template <class Real>
 double Lab<Real>::energy_with_prestress() const {
-  return sum(Stress::all) + (parted_ ? parted_->stored_energy() : 0);
+  return sum(Stress::all) + (sweeps_->split() ? sweeps_->split()->stored_energy() : 0);
 }
 
 template <class Real>

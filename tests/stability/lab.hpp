@@ -100,7 +100,6 @@ class Lab {
   std::unique_ptr<solver::Pml<2, Real>> layer_;
   std::unique_ptr<Sponge<2, Real>> sponge_;
   std::unique_ptr<solver::Effect<2, Real>> slip_;
-  std::unique_ptr<solver::PartedFaces<2, Real>> parted_;
   std::unique_ptr<solver::LinearSlip<2, Real>> springs_;
   /// What (vx2 + vz2), (sxx + szz)2, (sxx - szz)2 and sxz2 count for in the energy of isotropic cells.
   struct CellEnergy {

@@ -92,7 +92,7 @@ Waves solved(const Case& of) {
     lab.sweep(1, 1);
   }
   ShotReport report;
-  lab.parted()->report(report);
+  lab.split()->report(report);
   const auto slip = report.slip.value_or(SlipTotals{});
   waves.heat_j_m2 = slip.dissipated / (2 * of.h), waves.out_of_waves_j_m2 = slip.out_of_waves / (2 * of.h);
   return waves;

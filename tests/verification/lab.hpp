@@ -45,15 +45,13 @@ class Lab {
         sweeps_(*state_, domain_, order),
         splitting_(splitting(2, time_order)) {
     fill_material(*state_, domain_, medium_, dt_s);
-    if (domain_.parted.empty()) return;
-    parted_ = std::make_unique<PartedFaces<2, Real>>(*state_, domain_, dt_s, 1);
-    sweeps_.part(parted_.get());
+    sweeps_.split_faces(domain_, dt_s, 1);
   }
   Real& operator()(Row row, std::int64_t i, std::int64_t k) { return state_->field_row({0, k}, row)[i]; }
   const Grid<2>& grid() const { return domain_.grid; }
   State<2, Real>& state() { return *state_; }
   const Domain<2>& domain() const { return domain_; }
-  PartedFaces<2, Real>* parted() { return parted_.get(); }
+  SplitFaces<2, Real>* split() { return sweeps_.split(); }
   double energy() const { return solver::energy(*state_, domain_, medium_); }
 
   void keep_monotone() { sweeps_.keep_monotone(); }
@@ -84,7 +82,6 @@ class Lab {
   Domain<2> domain_;
   std::unique_ptr<State<2, Real>> state_;  // the sweeps keep a reference
   Sweeps<2, Real> sweeps_;
-  std::unique_ptr<PartedFaces<2, Real>> parted_;
   std::vector<SweepFraction> splitting_;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -9,24 +8,10 @@
 
 #include "base/archive.hpp"
 #include "scene/scene.hpp"
-#include "solver/record/shot_report.hpp"
-#include "solver/sweep/state.hpp"
-#include "solver/sweep/workspace.hpp"
+#include "solver/sweep/shot_report.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 
 namespace slipwave::solver {
-
-/// The end of time step number `step` (0-based).
-struct StepTime {
-  std::int64_t step = 0;
-  double dt_s = 0;
-  double end_s() const { return double(step + 1) * dt_s; }
-};
-
-/// How many cells something works on, for --plan.
-struct EffectShare {
-  std::string name;
-  std::int64_t cells = 0;
-};
 
 /// Where an effect acts on the fields at the end of a step.
 enum class ActsOn {
@@ -53,30 +38,12 @@ constexpr unsigned all_fields = (1U << FieldRows<D>::count) - 1;
 template <int D>
 constexpr unsigned all_stresses = all_fields<D> & ~all_velocities<D>;
 
-/// Cells of a row that a sweep has advanced, of an effect that filters what it added.
-template <int D, class Real>
-struct SweptCells {
-  int axis;
-  Real fraction;  // of the step
-  const Index<D>& row;
-  IndexRange cells;
-  std::span<const int> field_rows;  // that the sweep changes
-  /// Of the first cell: those field rows before the sweep, one after another; field row 0 now.
-  const Real* before;
-  std::int64_t before_pitch;
-  Real* now;
-  std::int64_t pitch;
-  SweepTime time{};
-};
-
 /// A change of the wave field besides the sweeps. It exists only in scenes that need it.
 /// Rows of cells along x are numbered as the lines of Layout; an effect is given one row, or part of it, at a
 /// time, in any order and by any thread, but never the same row by two.
 template <int D, class Real>
-class Effect {
+class Effect : public SweepFilter<D, Real> {
  public:
-  virtual ~Effect() = default;
-
   // What it declares.
   virtual EffectDeclaration declaration() const = 0;
   virtual std::string name() const = 0;
@@ -97,7 +64,6 @@ class Effect {
   /// Before the first row of each step, step after step. What it prepares for a step must last until
   /// most_steps_in_progress steps after it have begun: rows may be some steps apart.
   virtual void begin(const StepTime&) {}
-  static constexpr std::int64_t most_steps_in_progress = 32;
   /// Acts on these cells at the end of the step, before they are recorded.
   virtual void apply(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
   /// Acts on them after recording: the next step begins with this.
@@ -106,19 +72,12 @@ class Effect {
   /// Acts on them inside the step, after a sweep along the last axis.
   virtual void apply_between(const StepTime&, const RowFields<Real>&, const IndexRange&) {}
 
-  // What it does within sweeps, where it declares so.
-  /// Cells of these whose changes by a sweep along `axis` it filters: up to two ranges in order, else empty.
-  virtual std::array<IndexRange, 2> filtered(int /*axis*/, const Index<D>& /*row*/, const IndexRange&) const {
-    return {};
-  }
+  // What it does within sweeps, where it declares so: filtered() and filter() of SweepFilter.
   /// Whether in a sweep of that step (or the one that the next begins with) it may change cells of these
   /// columns of a row while they and their neighbours are zero.
   virtual bool enters(const StepTime&, std::int64_t /*row*/, const IndexRange& /*columns*/) const {
     return false;
   }
-  /// Changes the increments in such a range. Only with `remember` its memory advances.
-  virtual void filter(const SweptCells<D, Real>&, bool /*remember*/) {}
-
   // What it retains.
   /// Writes or reads all that it retains from one step to the next.
   virtual void serialize(Archive&) {}

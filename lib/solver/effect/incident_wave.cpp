@@ -168,8 +168,7 @@ class Column {
         work_(sweeps_.make_workspace(state_.layout.padded_nx())),
         pml_(make_pml(scene, source, depths_of_rows(main), form, dt_s, vp_max)),
         cells_(domain_.grid.shape[0]),
-        slots_(std::size_t((Effect<2, Real>::most_steps_in_progress + 1) *
-                               SweepClocks<2>(sweeps_of_step_, dt_s).along_last() +
+        slots_(std::size_t((most_steps_in_progress + 1) * SweepClocks<2>(sweeps_of_step_, dt_s).along_last() +
                            1)) {
     domain_.release_impedances();
     sweeps_.use(pml_.get());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/effect/effect.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 
 namespace slipwave::solver {
 

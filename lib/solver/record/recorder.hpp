@@ -76,7 +76,7 @@ class Recorder : public Record<D, Real> {
   static constexpr std::int64_t steps_at_once = std::int64_t{4} * steps_together;
   static constexpr std::size_t series_together = 64;
   /// Steps whose values are still to be made series, and those that are in progress.
-  static constexpr std::int64_t slots = Effect<D, Real>::most_steps_in_progress + steps_at_once;
+  static constexpr std::int64_t slots = most_steps_in_progress + steps_at_once;
   /// Weights of the first series of each trace, and of further ones where a trace is the sum of two.
   std::vector<std::vector<ValueWeight>> all_weights(const Layout<D>& layout, const Domain<D>& domain,
                                                     const Scene<D>& scene, std::size_t shot);

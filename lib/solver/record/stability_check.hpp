@@ -4,8 +4,8 @@
 #include <functional>
 
 #include "base/error.hpp"
-#include "solver/effect/effect.hpp"
 #include "solver/sweep/domain.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 
 namespace slipwave::solver {
 

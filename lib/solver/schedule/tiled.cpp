@@ -54,7 +54,7 @@ TiledExecutor<D, Real>::TiledExecutor(Sweeps<D, Real>& sweeps, State<D, Real>& s
   band_rows_ = std::max(fewest_band_rows, longest_ + std::max(std::int64_t(2) * max_reach, rows_beside));
   bands_ = std::max<std::int64_t>(1, rows_ / band_rows_);
   const int threads = parallel_threads();
-  const auto most = std::int64_t(Effect<D, Real>::most_steps_in_progress / steps_per_tile_);
+  const auto most = std::int64_t(most_steps_in_progress / steps_per_tile_);
   in_progress_.resize(std::size_t(threads > 1 ? std::clamp<std::int64_t>(threads + 1, 1, most) : 1));
   const auto ring = [&](int axis) { return sweeps.make_ring(axis, 0, layout_.padded_nx()); };
   for (auto& tile : in_progress_)

@@ -110,7 +110,7 @@ class TimeStep {
   Box needed(const StepTime& time, const Box& growth) const;
 
  private:
-  static constexpr std::int64_t most_in_progress = Effect<D, Real>::most_steps_in_progress;
+  static constexpr std::int64_t most_in_progress = most_steps_in_progress;
   static bool acts_on(ActsOn where, Cells cells);
 
   std::int64_t rows_;

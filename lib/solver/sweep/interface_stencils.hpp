@@ -96,7 +96,7 @@ using SlotBefore = std::function<std::int32_t(const Index<D>& at)>;
 /// s at the beginning of a sweep and besides in one over a whole step; and how stiff the fracture is for
 /// waves of half a cell. The other side is the slot that differs in the last bit.
 template <class Real>
-struct PartedImage {
+struct SplitImage {
   Real v = 0, s = 0, swept = 0;
   Real stiffness = 0;             // 0: open
   Real share_v = 0, share_s = 0;  // of what is read across it, were it welded (E10)
@@ -105,7 +105,7 @@ struct PartedImage {
 template <class Real>
 struct PairCorrections {
   const Real *v, *s;
-  const PartedImage<Real>* parted = nullptr;
+  const SplitImage<Real>* parted = nullptr;
 };
 
 /// v and s of a pair at the 2 reach + 1 places about a cell, extended beyond interfaces and edges as its

@@ -182,9 +182,14 @@ void Sweeps<D, Real>::find_plain_lines() {
 }
 
 template <int D, class Real>
-void Sweeps<D, Real>::use(Effect<D, Real>* filter) {
+void Sweeps<D, Real>::use(SweepFilter<D, Real>* filter) {
   if (filters_.size() == most_filters) throw std::length_error("too many effects filter sweeps");
   filters_.push_back(filter);
+}
+
+template <int D, class Real>
+void Sweeps<D, Real>::split_faces(const Domain<D>& domain, double dt_s, double unit) {
+  if (!domain.parted.empty()) split_ = std::make_unique<SplitFaces<D, Real>>(state_, domain, dt_s, unit);
 }
 
 template <int D, class Real>
@@ -485,8 +490,8 @@ void Sweeps<D, Real>::update(int axis, const Index<D>& line, const IndexRange& c
       split_by_runs(state_.uniform_interior[std::size_t(axis)].of(number), 0, columns, without_faces,
                     between_faces);
       add_missing_stress(axis, line, columns, fields, pitch, std::abs(own_scale), flux);
-      if (parted_)
-        parted_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
+      if (split_)
+        split_->add(axis, number, columns, own_scale, flux.lo, flux.hi, swept(columns.first), remember);
     }
     work.prefetch().prefetch_one();
   });
@@ -533,7 +538,7 @@ void Sweeps<D, Real>::along(int axis, Real scale, const SweepTime& time) {
       surface_tractions_[std::size_t(side)].update(state_, 0, std::numeric_limits<std::int64_t>::max());
   }
   if (axis == z_axis) corrections_.update_all(state_);
-  if (axis == z_axis && parted_) parted_->update_all();
+  if (axis == z_axis && split_) split_->update_all();
   const std::int64_t sheets = layout.lines() / rows;
   parallel_for(sheets * stripes, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t n = begin; n < end; ++n) {
@@ -893,7 +898,7 @@ bool Sweeps<D, Real>::fuses(int axis, const Index<D>& at, std::int64_t row, cons
   Index<D> here = at, below = at, advanced = at;
   here[axis] = row, below[axis] = row - 1, advanced[axis] = done;
   const auto lines = {layout.line_number(here), layout.line_number(below), layout.line_number(advanced)};
-  if (parted_ && parted_->beside(axis, layout.line_number(advanced))) return false;
+  if (split_ && split_->beside(axis, layout.line_number(advanced))) return false;
   // Rows in between become those before and behind others.
   if (scale_of(axis, here, 1) != scale_of(axis, advanced, 1)) return false;
   const auto& plain = plain_lines_[std::size_t(axis)];
@@ -1011,7 +1016,7 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
     const auto row = state_.layout.line_index(line)[std::size_t(axis)];
     return IndexRange{row, row + 1};
   }();
-  if (axis == 0 && parted_) parted_->retain(line, lagging(columns));
+  if (axis == 0 && split_) split_->retain(line, lagging(columns));
   auto& edges = free_surfaces_[axis];
   if (at.first == 0 && !edges[0].empty()) edges[0].retain(state_, line);
   if (at.last == state_.layout.shape()[std::size_t(axis)] && !edges[1].empty()) edges[1].retain(state_, line);
@@ -1019,7 +1024,7 @@ void Sweeps<D, Real>::retain(int axis, std::int64_t line, const IndexRange& colu
 
 template <int D, class Real>
 void Sweeps<D, Real>::correct_side_surfaces(std::int64_t line, const IndexRange& columns) {
-  if (parted_) parted_->update_line(line, lagging(columns));
+  if (split_) split_->update_line(line, lagging(columns));
   for (auto& edge : free_surfaces_[0])
     if (!edge.empty()) edge.update_corrections(state_, line, line + 1);
 }
@@ -1041,7 +1046,7 @@ void Sweeps<D, Real>::correct_end_surfaces(std::int64_t step, const IndexRange& 
   if (step == reach_) correct(0);
   if (step == state_.layout.shape()[z_axis]) correct(1);
   corrections_.update(state_, step, {columns.first * cells, columns.last * cells});
-  if (parted_) parted_->update(step, columns);
+  if (split_) split_->update(step, columns);
 }
 
 /// Fills the ghost cells that stencils read beyond an end of a row.

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "scene/edges.hpp"
-#include "solver/effect/effect.hpp"
 #include "solver/sweep/anisotropic_cells.hpp"
 #include "solver/sweep/bent_stencils.hpp"
 #include "solver/sweep/domain.hpp"
@@ -12,9 +12,10 @@
 #include "solver/sweep/interface_corrections.hpp"
 #include "solver/sweep/interface_stencils.hpp"
 #include "solver/sweep/metric.hpp"
-#include "solver/sweep/parted_faces.hpp"
+#include "solver/sweep/split_faces.hpp"
 #include "solver/sweep/state.hpp"
 #include "solver/sweep/surface_tractions.hpp"
+#include "solver/sweep/sweep_filter.hpp"
 #include "solver/sweep/workspace.hpp"
 
 namespace slipwave::solver {
@@ -30,11 +31,14 @@ class Sweeps {
   /// Where the state has the rows of fluid alone, all loops are of the P pair. Keeps a reference to the state
   /// only.
   Sweeps(State<D, Real>& state, const Domain<D>& domain, int order);
-  /// From now on this effect filters what sweeps add; it must outlive them. Throws std::length_error beyond
+  /// From now on this filters what sweeps add; it must outlive them. Throws std::length_error beyond
   /// most_filters.
-  void use(Effect<D, Real>* filter);
-  /// From now on these faces are parted; they must outlive this.
-  void part(PartedFaces<D, Real>* faces) { parted_ = faces; }
+  void use(SweepFilter<D, Real>* filter);
+  /// From now on the faces of the domain that fractures split are so; `unit` of the fields. Does nothing
+  /// where there are none.
+  void split_faces(const Domain<D>& domain, double dt_s, double unit);
+  /// Null where there are none.
+  SplitFaces<D, Real>* split() const { return split_.get(); }
   static constexpr std::size_t most_filters = 2;
   /// From now on outgoing waves keep to the criterion of monotonicity (C1). Throws std::logic_error where
   /// rows are bent.
@@ -81,7 +85,7 @@ class Sweeps {
   /// there of free_surface_reach cells on all sides as they were before the sweep.
   bool corrects_surface(int axis) const {
     return !free_surfaces_[axis][0].empty() || !free_surfaces_[axis][1].empty() ||
-           (axis == z_axis && !corrections_.empty()) || (parted_ && parted_->any(axis));
+           (axis == z_axis && !corrections_.empty()) || (split_ && split_->any(axis));
   }
   /// Cells the reconstruction reads to each side.
   std::int64_t reach() const { return reach_; }
@@ -211,7 +215,7 @@ class Sweeps {
 
   State<D, Real>& state_;
   std::array<const Kernels<Real>*, 2> kernels_;  // [uniform]
-  std::vector<Effect<D, Real>*> filters_;
+  std::vector<SweepFilter<D, Real>*> filters_;
   EdgeLaws<D> edges_;
   int order_, reach_;
   bool shear_, anisotropic_, couples_all_, monotone_ = false;
@@ -230,16 +234,16 @@ class Sweeps {
   }
   Cells anisotropic_cells_;
   AnisotropicCellsAcross<D, Real> anisotropic_across_;  // in curvilinear rows
-  PartedFaces<D, Real>* parted_ = nullptr;
+  std::unique_ptr<SplitFaces<D, Real>> split_;
   Metric<D, Real> metric_;
   /// [axis][line]: whether no cell of it needs more than a fused row: level, without stencils of its own.
   std::array<std::vector<char>, std::size_t(D)> plain_lines_;
   InterfaceCorrections<D, Real> corrections_;
   /// Those of a pair of the sweep along an axis.
   PairCorrections<Real> corrections_of(int axis, int pair) const {
-    const auto* const parted = parted_ ? parted_->images(pair) : nullptr;
-    if (axis != z_axis) return {nullptr, nullptr, parted};
-    return {corrections_.velocity(pair), corrections_.traction(pair), parted};
+    const auto* const images = split_ ? split_->images(pair) : nullptr;
+    if (axis != z_axis) return {nullptr, nullptr, images};
+    return {corrections_.velocity(pair), corrections_.traction(pair), images};
   }
   BentStencils<D, Real> bent_stencils_;
   std::array<std::array<Pair, D>, D> pairs_;                          // [axis]: P, then S by axes

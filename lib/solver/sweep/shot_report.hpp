@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 namespace slipwave {
 
@@ -19,4 +20,13 @@ struct ShotReport {
   double energy_left = 0;             // kinetic and elastic, in rock and springs of the model at the end
 };
 
+namespace solver {
+
+/// How many cells something works on, for --plan.
+struct EffectShare {
+  std::string name;
+  std::int64_t cells = 0;
+};
+
+}  // namespace solver
 }  // namespace slipwave

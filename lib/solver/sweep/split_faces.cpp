@@ -1,4 +1,4 @@
-#include "solver/sweep/parted_faces.hpp"
+#include "solver/sweep/split_faces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,8 +25,8 @@ Real stiffness_to_stencils(double spring, double held, bool loose) {
 }  // namespace
 
 template <int D, class Real>
-PartedFaces<D, Real>::PartedFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s,
-                                  double unit)
+SplitFaces<D, Real>::SplitFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s,
+                                double unit)
     : state_(state), spacing_m_(domain.grid.spacing_m), unit_(unit), dt_s_(dt_s), own_(domain.own) {
   for (auto& of_pair : images_) of_pair.resize(2 * domain.parted.size());
   for (const auto& parted : domain.parted) {
@@ -45,8 +45,8 @@ PartedFaces<D, Real>::PartedFaces(const State<D, Real>& state, const Domain<D>& 
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted,
-                                 double dt_s) {
+void SplitFaces<D, Real>::place(Face& face, const Domain<D>& domain, const PartedFace<D>& parted,
+                                double dt_s) {
   const auto& layout = state_.layout;
   const auto before = parted.before();
   face.axis = parted.axis;
@@ -80,7 +80,7 @@ void PartedFaces<D, Real>::place(Face& face, const Domain<D>& domain, const Part
 
 /// Differences along the face need its neighbours, and no other fracture that crosses between them.
 template <int D, class Real>
-void PartedFaces<D, Real>::find_along(Face& face) const {
+void SplitFaces<D, Real>::find_along(Face& face) const {
   const auto along = std::size_t(face.axis == 0 ? D - 1 : 0);
   auto line = state_.layout.line_index(face.line);
   line[0] = face.x;
@@ -102,7 +102,7 @@ void PartedFaces<D, Real>::find_along(Face& face) const {
 /// Whether a fracture across the other axis lies within reach of the differences along a face, on either
 /// side.
 template <int D, class Real>
-bool PartedFaces<D, Real>::crossed(const Face& face) const {
+bool SplitFaces<D, Real>::crossed(const Face& face) const {
   const int other = face.axis == 0 ? D - 1 : 0;
   const auto across = std::size_t(face.axis), along = std::size_t(other);
   for (const int side : {-1, 0})
@@ -120,8 +120,8 @@ bool PartedFaces<D, Real>::crossed(const Face& face) const {
 }
 
 template <int D, class Real>
-std::array<std::size_t, 2> PartedFaces<D, Real>::find(int axis, std::int64_t line,
-                                                      const IndexRange& columns) const {
+std::array<std::size_t, 2> SplitFaces<D, Real>::find(int axis, std::int64_t line,
+                                                     const IndexRange& columns) const {
   const auto at = [&](std::int64_t x) {
     const auto found = std::lower_bound(
         faces_.begin(), faces_.end(), std::tie(axis, line, x),
@@ -132,12 +132,12 @@ std::array<std::size_t, 2> PartedFaces<D, Real>::find(int axis, std::int64_t lin
 }
 
 template <int D, class Real>
-bool PartedFaces<D, Real>::any(int axis) const {
+bool SplitFaces<D, Real>::any(int axis) const {
   return std::any_of(faces_.begin(), faces_.end(), [axis](const Face& face) { return face.axis == axis; });
 }
 
 template <int D, class Real>
-bool PartedFaces<D, Real>::beside(int axis, std::int64_t line) const {
+bool SplitFaces<D, Real>::beside(int axis, std::int64_t line) const {
   auto next = state_.layout.line_index(line);
   const auto [first, last] = find(axis, line, whole_line());
   if (first < last || axis == 0) return first < last;
@@ -148,7 +148,7 @@ bool PartedFaces<D, Real>::beside(int axis, std::int64_t line) const {
 
 /// What the images gain from motion along the face, as at a free surface (E11), and from the spring.
 template <int D, class Real>
-void PartedFaces<D, Real>::put_images(std::size_t n) {
+void SplitFaces<D, Real>::put_images(std::size_t n) {
   using Rows = FieldRows<D>;
   const Face& face = faces_[n];
   if (!face.inside) return;
@@ -185,7 +185,7 @@ void PartedFaces<D, Real>::put_images(std::size_t n) {
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::update(std::int64_t row, const IndexRange& columns) {
+void SplitFaces<D, Real>::update(std::int64_t row, const IndexRange& columns) {
   Index<D> at{};
   at[D - 1] = row;
   if (row >= state_.layout.shape()[D - 1]) return;
@@ -194,19 +194,19 @@ void PartedFaces<D, Real>::update(std::int64_t row, const IndexRange& columns) {
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::update_all() {
+void SplitFaces<D, Real>::update_all() {
   for (std::size_t n = 0; n < faces_.size(); ++n)
     if (faces_[n].axis == D - 1) put_images(n);
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::update_line(std::int64_t line, const IndexRange& columns) {
+void SplitFaces<D, Real>::update_line(std::int64_t line, const IndexRange& columns) {
   const auto [first, last] = find(0, line, columns);
   for (auto n = first; n < last; ++n) put_images(n);
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) {
+void SplitFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) {
   const auto [first, last] = find(0, line, columns);
   for (auto n = first; n < last; ++n)
     for (const std::size_t side : {0, 1})
@@ -217,9 +217,9 @@ void PartedFaces<D, Real>::retain(std::int64_t line, const IndexRange& columns) 
 
 /// Of a face with friction whose traction is that of `welded` rock, in a sweep over `size` of the step.
 template <int D, class Real>
-typename PartedFaces<D, Real>::Swept PartedFaces<D, Real>::solve(std::size_t n,
-                                                                 const std::array<Real, D>& welded,
-                                                                 Real size) const {
+typename SplitFaces<D, Real>::Swept SplitFaces<D, Real>::solve(std::size_t n,
+                                                               const std::array<Real, D>& welded,
+                                                               Real size) const {
   const Face& face = faces_[n];
   const auto& law = face.law;
   const double time_s = dt_s_ * double(size);
@@ -252,8 +252,8 @@ typename PartedFaces<D, Real>::Swept PartedFaces<D, Real>::solve(std::size_t n,
 
 /// The mean traction during the sweep less that of the welded face.
 template <int D, class Real>
-std::array<Real, D> PartedFaces<D, Real>::changes_of(std::size_t n, const std::array<Real, D>& welded,
-                                                     Real size) const {
+std::array<Real, D> SplitFaces<D, Real>::changes_of(std::size_t n, const std::array<Real, D>& welded,
+                                                    Real size) const {
   if (faces_[n].law.any()) return solve(n, welded, size).change;
   std::array<Real, D> changes{};
   for (std::size_t pair = 0; pair < D; ++pair) {
@@ -266,7 +266,7 @@ std::array<Real, D> PartedFaces<D, Real>::changes_of(std::size_t n, const std::a
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
+void SplitFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
   const Face& face = faces_[n];
   auto& slip = slips_[n];
   auto& work = work_[n];
@@ -291,9 +291,9 @@ void PartedFaces<D, Real>::advance(std::size_t n, const Swept& swept) {
 /// Puts that mean on one of its cells; `side` is 1 before the face and -1 behind it. Both cells see their own
 /// wave come back.
 template <int D, class Real>
-void PartedFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale,
-                                       const Real* face, std::int64_t pitch, std::int64_t i, Real side,
-                                       const SweptRows<Real>& rows) const {
+void SplitFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::int64_t x, Real scale,
+                                      const Real* face, std::int64_t pitch, std::int64_t i, Real side,
+                                      const SweptRows<Real>& rows) const {
   const auto material = state_.material_from(state_.layout.line_index(line), x, faces_[n].axis);
   const Real b = *material.b, zp = *material.zp, zs = *material.zs, size = std::abs(scale);
   const auto changes = changes_of(n, tractions_at(face, pitch), size);
@@ -313,16 +313,16 @@ void PartedFaces<D, Real>::add_to_cell(std::size_t n, std::int64_t line, std::in
 
 /// Of all pairs of a face state.
 template <int D, class Real>
-std::array<Real, D> PartedFaces<D, Real>::tractions_at(const Real* face, std::int64_t pitch) {
+std::array<Real, D> SplitFaces<D, Real>::tractions_at(const Real* face, std::int64_t pitch) {
   std::array<Real, D> all;
   for (int pair = 0; pair < D; ++pair) all[std::size_t(pair)] = face[(2 * pair + 1) * pitch];
   return all;
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& columns, Real scale,
-                               InterfaceStates<Real> lo, InterfaceStates<Real> hi,
-                               const SweptRows<Real>& rows, bool remember) {
+void SplitFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& columns, Real scale,
+                              InterfaceStates<Real> lo, InterfaceStates<Real> hi, const SweptRows<Real>& rows,
+                              bool remember) {
   auto next = state_.layout.line_index(line);
   const std::int64_t shift = axis == 0 ? 1 : 0;
   if (axis > 0) ++next[std::size_t(axis)];
@@ -355,8 +355,8 @@ void PartedFaces<D, Real>::add(int axis, std::int64_t line, const IndexRange& co
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::exchange(const IndexRange& rows,
-                                    const std::function<void(Real*, std::int64_t)>& to) {
+void SplitFaces<D, Real>::exchange(const IndexRange& rows,
+                                   const std::function<void(Real*, std::int64_t)>& to) {
   const auto lines_a_row = state_.layout.lines() / state_.layout.shape()[D - 1];
   for (const int axis : {0, D - 1}) {
     const auto first = find(axis, rows.first * lines_a_row, whole_line())[0],
@@ -370,7 +370,7 @@ void PartedFaces<D, Real>::exchange(const IndexRange& rows,
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::serialize(Archive& archive) {
+void SplitFaces<D, Real>::serialize(Archive& archive) {
   archive.fixed(tractions_);
   if (slips_.empty()) return;
   archive.fixed(slips_);
@@ -378,8 +378,8 @@ void PartedFaces<D, Real>::serialize(Archive& archive) {
 }
 
 template <int D, class Real>
-std::vector<EffectShare> PartedFaces<D, Real>::shares() const {
-  std::vector<EffectShare> all = {{name(), cells()}};
+std::vector<EffectShare> SplitFaces<D, Real>::shares() const {
+  std::vector<EffectShare> all = {{"fractures on faces", std::int64_t(faces_.size())}};
   const auto count = [&](const auto& has) {
     return std::int64_t(std::count_if(faces_.begin(), faces_.end(), has));
   };
@@ -391,7 +391,7 @@ std::vector<EffectShare> PartedFaces<D, Real>::shares() const {
 }
 
 template <int D, class Real>
-void PartedFaces<D, Real>::report(ShotReport& report) const {
+void SplitFaces<D, Real>::report(ShotReport& report) const {
   report.energy_left += stored_energy();
   if (slips_.empty()) return;
   SlipTotals totals = report.slip.value_or(SlipTotals{});
@@ -407,23 +407,23 @@ void PartedFaces<D, Real>::report(ShotReport& report) const {
 }
 
 template <int D, class Real>
-bool PartedFaces<D, Real>::owns(std::size_t n) const {
+bool SplitFaces<D, Real>::owns(std::size_t n) const {
   const auto row = state_.layout.line_index(faces_[n].line)[D - 1];
   return row >= own_.first && row < own_.last;
 }
 
 template <int D, class Real>
-std::int64_t PartedFaces<D, Real>::memory_bytes() const {
+std::int64_t SplitFaces<D, Real>::memory_bytes() const {
   std::size_t bytes = faces_.size() * sizeof(Face) + slips_.size() * (sizeof(Slip) + sizeof(Work)) +
                       (tractions_.size() + retained_.size()) * sizeof(Real);
-  for (const auto& of_pair : images_) bytes += of_pair.size() * sizeof(PartedImage<Real>);
+  for (const auto& of_pair : images_) bytes += of_pair.size() * sizeof(SplitImage<Real>);
   return std::int64_t(bytes);
 }
 
 /// Half of traction times jump, that is C times traction, of each face, and of what holds back tips. An open
 /// one has no traction.
 template <int D, class Real>
-double PartedFaces<D, Real>::stored_energy() const {
+double SplitFaces<D, Real>::stored_energy() const {
   double energy = 0;
   for (std::size_t n = 0; n < faces_.size(); ++n) {
     if (!owns(n)) continue;
@@ -439,9 +439,9 @@ double PartedFaces<D, Real>::stored_energy() const {
   return energy * std::pow(spacing_m_, D - 1);
 }
 
-template class PartedFaces<2, float>;
-template class PartedFaces<2, double>;
-template class PartedFaces<3, float>;
-template class PartedFaces<3, double>;
+template class SplitFaces<2, float>;
+template class SplitFaces<2, double>;
+template class SplitFaces<3, float>;
+template class SplitFaces<3, double>;
 
 }  // namespace slipwave::solver

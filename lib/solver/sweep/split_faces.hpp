@@ -6,28 +6,23 @@
 #include <string>
 #include <vector>
 
-#include "solver/effect/effect.hpp"
+#include "base/archive.hpp"
 #include "solver/sweep/domain.hpp"
 #include "solver/sweep/interface_stencils.hpp"
+#include "solver/sweep/shot_report.hpp"
+#include "solver/sweep/state.hpp"
 
 namespace slipwave::solver {
 
-/// Faces between cells that single fractures part (theory.md 2.8): each side has its own velocity, and the
+/// Faces between cells that single fractures split (theory.md 2.8): each side has its own velocity, and the
 /// traction is that of a spring between them, none where it is open, at most its strength where it has
 /// friction (S40). Sweeps take such faces for welded ones; add() then gives both sides what is left of that
 /// (S35). The stencils beside them read images() (S36). Retains the tractions, and slip and opening.
 template <int D, class Real>
-class PartedFaces : public Effect<D, Real> {
+class SplitFaces {
  public:
   /// Keeps a reference to the state; `unit` of its fields.
-  PartedFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s, double unit);
-
-  EffectDeclaration declaration() const override {
-    return {ActsOn::nothing, false, all_fields<D>, all_fields<D>, true};
-  }
-  std::string name() const override { return "fractures on faces"; }
-  /// The faces.
-  std::int64_t cells() const override { return std::int64_t(faces_.size()); }
+  SplitFaces(const State<D, Real>& state, const Domain<D>& domain, double dt_s, double unit);
 
   /// Whether any is across this axis.
   bool any(int axis) const;
@@ -39,7 +34,7 @@ class PartedFaces : public Effect<D, Real> {
            InterfaceStates<Real> hi, const SweptRows<Real>& rows, bool remember);
 
   /// Of a pair, by slot: twice the place of the face in the domain's list, and 1 for the side behind it.
-  const PartedImage<Real>* images(int pair) const { return images_[std::size_t(pair)].data(); }
+  const SplitImage<Real>* images(int pair) const { return images_[std::size_t(pair)].data(); }
   /// Computes them for a sweep along the last axis, of the faces before row `row` in these columns, from
   /// velocities as they are before the sweep up to free_surface_reach cells beside them.
   void update(std::int64_t row, const IndexRange& columns);
@@ -49,13 +44,16 @@ class PartedFaces : public Effect<D, Real> {
   void update_line(std::int64_t line, const IndexRange& columns);
   void retain(std::int64_t line, const IndexRange& columns);
 
-  void serialize(Archive& archive) override;
-  void exchange(const IndexRange& rows,
-                const std::function<void(Real* values, std::int64_t count)>& to) override;
-  std::int64_t memory_bytes() const override;
-  std::vector<EffectShare> shares() const override;
+  /// Writes or reads all that it retains from one step to the next.
+  void serialize(Archive& archive);
+  /// Gives access to what it retains of these rows of the last axis (in 3-D planes), for neighbouring
+  /// subdomains.
+  void exchange(const IndexRange& rows, const std::function<void(Real* values, std::int64_t count)>& to);
+  std::int64_t memory_bytes() const;
+  /// How many faces there are, and how many that slide or open.
+  std::vector<EffectShare> shares() const;
   /// Adds the energy of the springs to what is left in the model, and the work of slip.
-  void report(ShotReport& report) const override;
+  void report(ShotReport& report) const;
   /// Of the springs of the rows that this process owns, J/m.
   double stored_energy() const;
 
@@ -75,7 +73,7 @@ class PartedFaces : public Effect<D, Real> {
   /// Of a face with friction, from step to step.
   struct Slip {
     Real opening = 0, slip = 0;       // m times the unit of the fields
-    std::array<Real, 2> stiffness{};  // PartedImage::stiffness, as the plane sticks or slides
+    std::array<Real, 2> stiffness{};  // SplitImage::stiffness, as the plane sticks or slides
     Real slid = 0;                    // 1: it has
   };
   static constexpr int reals_of_slip = 5;
@@ -114,7 +112,7 @@ class PartedFaces : public Effect<D, Real> {
   std::vector<Slip> slips_;      // of each, or of none where no face has friction
   std::vector<Work> work_;
   std::vector<Real> retained_;  // velocities before and behind each across x
-  std::array<std::vector<PartedImage<Real>>, D> images_;
+  std::array<std::vector<SplitImage<Real>>, D> images_;
 };
 
 }  // namespace slipwave::solver
