@@ -270,11 +270,8 @@ std::vector<PlannedEntry> ShotSimulation<D, Real>::planned() const {
 
 template <int D, class Real>
 std::int64_t ShotSimulation<D, Real>::memory_bytes() const {
-  std::int64_t bytes = (state_.fields.size() + state_.material.size()) * std::int64_t(sizeof(Real)) +
-                       std::int64_t(state_.uniform_runs.size() * sizeof(UniformRun<Real>)) +
-                       sweeps_.memory_bytes() + executor_->memory_bytes() +
+  std::int64_t bytes = state_.memory_bytes() + sweeps_.memory_bytes() + executor_->memory_bytes() +
                        (halo_ ? halo_->memory_bytes() : 0);
-  if (const auto* const faces = sweeps_.split()) bytes += faces->memory_bytes();
   for (const auto& effect : effects_) bytes += effect->memory_bytes();
   return bytes;
 }

@@ -41,10 +41,6 @@ std::int64_t CellList::end_of_run(std::int64_t begin, std::int64_t end) const {
   return n;
 }
 
-std::int64_t CellList::memory_bytes() const {
-  return std::int64_t(cells.size() * sizeof(Cell) + first.size() * sizeof(std::int64_t));
-}
-
 template <int D, class Real>
 auto AnisotropicCells<D, Real>::of_axis(const AnisotropicMedium<D>& medium, int axis) -> OfAxis {
   const auto c = medium.elasticity.times(medium.rho);
@@ -365,13 +361,6 @@ void AnisotropicCells<D, Real>::add_stress(int axis, std::int64_t line, const In
     }
     first = end;
   }
-}
-
-template <int D, class Real>
-std::int64_t AnisotropicCells<D, Real>::memory_bytes() const {
-  std::size_t bytes = media_.size() * sizeof(Medium);
-  for (const auto& endings : endings_) bytes += endings.size() * sizeof(Ending);
-  return list_.memory_bytes() + std::int64_t(bytes);
 }
 
 template class AnisotropicCells<2, float>;

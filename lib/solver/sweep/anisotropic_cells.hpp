@@ -28,7 +28,7 @@ struct CellList {
   IndexRange in(std::int64_t line, const IndexRange& columns) const;
   /// The first number behind cells that follow each other from `begin` on, at most `end`.
   std::int64_t end_of_run(std::int64_t begin, std::int64_t end) const;
-  std::int64_t memory_bytes() const;
+  std::int64_t memory_bytes() const { return bytes_of(cells) + bytes_of(first); }
 };
 /// Calls what(columns) for runs of at most `most` faces beside cells of the list: `lo` and `hi` are the lines
 /// before and behind the faces, the cell before a face stands `shift` columns before that behind it.
@@ -117,7 +117,7 @@ class AnisotropicCells {
                   InterfaceStates<Real> lo, InterfaceStates<Real> hi, const SweptRows<Real>& rows,
                   Real* shear) const;
 
-  std::int64_t memory_bytes() const;
+  std::int64_t memory_bytes() const { return list_.memory_bytes() + bytes_of(media_) + bytes_of(endings_); }
 
  private:
   static constexpr std::size_t motions = std::size_t(D * D), stresses = Elasticity<D>::components;
@@ -187,7 +187,9 @@ class AnisotropicCellsAcross {
   /// Adds to the stresses of these columns; `size` is that of the fraction of the step.
   void add_stress(std::int64_t line, const IndexRange& columns, Real size, const BentUpdate<Real>& of) const;
 
-  std::int64_t memory_bytes() const;
+  std::int64_t memory_bytes() const {
+    return list_.memory_bytes() + bytes_of(media_) + values_.size() * std::int64_t(sizeof(Real));
+  }
 
  private:
   static constexpr std::size_t motion_parts = std::size_t(2 * D), stresses = Elasticity<D>::components;

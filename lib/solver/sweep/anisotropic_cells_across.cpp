@@ -296,12 +296,6 @@ void AnisotropicCellsAcross<D, Real>::add_stress(std::int64_t line, const IndexR
   }
 }
 
-template <int D, class Real>
-std::int64_t AnisotropicCellsAcross<D, Real>::memory_bytes() const {
-  return list_.memory_bytes() + std::int64_t(media_.size() * sizeof(Medium)) +
-         values_.size() * std::int64_t(sizeof(Real));
-}
-
 template class AnisotropicCellsAcross<2, float>;
 template class AnisotropicCellsAcross<2, double>;
 template class AnisotropicCellsAcross<3, float>;

@@ -54,6 +54,9 @@ class BentStencils {
                const Metric<D, Real>& metric);
 
   std::size_t size() const { return cells_.size(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(cells_) + bytes_of(starts_) + bytes_of(anisotropic_of_) + bytes_of(anisotropic_);
+  }
   /// Overwrites the outgoing waves of the listed cells of these columns of a row. All pointers begin with the
   /// first of them.
   void correct(int order, std::int64_t line, const IndexRange& columns, Real scale,

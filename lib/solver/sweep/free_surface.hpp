@@ -50,6 +50,10 @@ class FreeSurface {
   FreeSurface(const Layout<D>& layout, const Domain<D>& domain, int axis, int side);
 
   bool empty() const { return cells_.empty(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(cells_) + bytes_of(bent_ends_) + bytes_of(tilted_ends_) + bytes_of(terms_) +
+           bytes_of(retained_) + bytes_of(velocity_corrections_) + bytes_of(traction_corrections_);
+  }
   /// Copies the velocities of the edge's cells on this row as they are now, at an edge of another axis than
   /// the last: update_corrections() reads the copy, since sweeps change row after row.
   void retain(const State<D, Real>& state, std::int64_t line);

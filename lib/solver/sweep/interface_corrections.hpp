@@ -22,6 +22,10 @@ class InterfaceCorrections {
   InterfaceCorrections(const State<D, Real>& state, const Domain<D>& domain, const Metric<D, Real>& metric);
 
   bool empty() const { return slots_.empty(); }
+  std::int64_t memory_bytes() const {
+    return bytes_of(slots_) + bytes_of(matrices_) + bytes_of(first_) + bytes_of(velocities_) +
+           bytes_of(tractions_);
+  }
   /// Slot of the face between a cell and the one before it along z, or `none` where nothing is corrected.
   std::int32_t slot(const Index<D>& below_face) const;
   static constexpr std::int32_t none = -1;

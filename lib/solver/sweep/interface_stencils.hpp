@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "grid/field.hpp"
 #include "model/coefficients.hpp"
 #include "scene/edges.hpp"
@@ -173,6 +174,7 @@ class InterfaceStencils {
   const InterfaceStencil* find(std::int64_t line, std::int64_t x) const;
 
   std::size_t size() const { return cells_.size(); }
+  std::int64_t memory_bytes() const { return bytes_of(cells_) + bytes_of(starts_); }
   /// Whether it would correct anything of these columns.
   bool any(std::int64_t line, const IndexRange& columns) const {
     return starts_[std::size_t(line)] < starts_[std::size_t(line) + 1] && any_of_line(line, columns);

@@ -19,7 +19,10 @@ class Metric {
   explicit Metric(const Domain<D>& domain);
 
   bool any_bent() const { return !bent_.empty(); }
-  std::int64_t memory_bytes() const { return values_.size() * std::int64_t(sizeof(Real)); }
+  std::int64_t memory_bytes() const {
+    return values_.size() * std::int64_t(sizeof(Real)) + bytes_of(bent_) + bytes_of(inverse_heights_) +
+           bytes_of(fluid_);
+  }
   /// Whether a row (in 3-D a plane of rows), counted along z, or any that its stencils read is not level.
   bool bent_row(std::int64_t row) const { return !bent_.empty() && bent_[std::size_t(row)]; }
   bool bent(std::int64_t line) const { return !bent_.empty() && bent_[std::size_t(line / lines_a_row_)]; }

@@ -414,10 +414,8 @@ bool SplitFaces<D, Real>::owns(std::size_t n) const {
 
 template <int D, class Real>
 std::int64_t SplitFaces<D, Real>::memory_bytes() const {
-  std::size_t bytes = faces_.size() * sizeof(Face) + slips_.size() * (sizeof(Slip) + sizeof(Work)) +
-                      (tractions_.size() + retained_.size()) * sizeof(Real);
-  for (const auto& of_pair : images_) bytes += of_pair.size() * sizeof(SplitImage<Real>);
-  return std::int64_t(bytes);
+  return bytes_of(faces_) + bytes_of(slips_) + bytes_of(work_) + bytes_of(tractions_) + bytes_of(retained_) +
+         bytes_of(images_);
 }
 
 /// Half of traction times jump, that is C times traction, of each face, and of what holds back tips. An open

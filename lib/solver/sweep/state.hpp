@@ -226,6 +226,12 @@ struct State {
   /// By axis, of these runs.
   std::array<UniformInterior, D> uniform_interior;
 
+  std::int64_t memory_bytes() const {
+    std::int64_t bytes = (fields.size() + material.size()) * std::int64_t(sizeof(Real)) +
+                         bytes_of(uniform_runs) + bytes_of(first_uniform_run);
+    for (const auto& of_axis : uniform_interior) bytes += of_axis.memory_bytes();
+    return bytes;
+  }
   /// Of a field row that is stored.
   Real* field_row(const Index<D>& at, int row) {
     return fields.data() + layout.line(at) + FieldRows<D>::stored(layout, row) * layout.row_pitch();

@@ -246,6 +246,14 @@ SurfaceTractions<D, Real>::SurfaceTractions(const Layout<D>& layout, const Domai
 }
 
 template <int D, class Real>
+std::int64_t SurfaceTractions<D, Real>::memory_bytes() const {
+  auto bytes = bytes_of(cells_) + bytes_of(patterns_) + bytes_of(tractions_) + bytes_of(bends_);
+  for (const auto& pattern : patterns_)
+    for (const auto& of_pair : pattern) bytes += bytes_of(of_pair);
+  return bytes;
+}
+
+template <int D, class Real>
 void SurfaceTractions<D, Real>::update(const State<D, Real>& state, std::int64_t first, std::int64_t last) {
   auto cell = std::lower_bound(cells_.begin(), cells_.end(), first,
                                [](const Cell& one, std::int64_t number) { return one.number < number; });

@@ -21,6 +21,7 @@ class SurfaceTractions {
   SurfaceTractions(const Layout<D>& layout, const Domain<D>& domain, int side);
 
   bool empty() const { return cells_.empty(); }
+  std::int64_t memory_bytes() const;
   /// Computes them at cells first <= number < last of the surface, numbered as by FreeSurface, from the
   /// fields before the sweep, up to free_surface_reach cells beyond.
   void update(const State<D, Real>& state, std::int64_t first, std::int64_t last);

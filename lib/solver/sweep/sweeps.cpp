@@ -222,6 +222,19 @@ std::int64_t Sweeps<D, Real>::interface_stencil_cells() const {
 }
 
 template <int D, class Real>
+std::int64_t Sweeps<D, Real>::memory_bytes() const {
+  std::int64_t bytes = bent_stencils_.memory_bytes() + metric_.memory_bytes() + corrections_.memory_bytes() +
+                       anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes() +
+                       bytes_of(plain_lines_) + (split_ ? split_->memory_bytes() : 0);
+  for (const auto& of_axis : stencils_)
+    for (const auto& of_pair : of_axis) bytes += of_pair.memory_bytes();
+  for (const auto& of_axis : free_surfaces_)
+    for (const auto& of_side : of_axis) bytes += of_side.memory_bytes();
+  for (const auto& of_side : surface_tractions_) bytes += of_side.memory_bytes();
+  return bytes;
+}
+
+template <int D, class Real>
 auto Sweeps<D, Real>::make_pairs(int axis) const -> std::array<Pair, D> {
   using Rows = FieldRows<D>;
   std::array<Pair, D> all{};

@@ -105,11 +105,8 @@ class Sweeps {
   Workspace<Real> make_workspace(std::int64_t widest) const;
   /// Cells with stencils of their own, beside strong interfaces, voids and contrasts: all axes and waves.
   std::int64_t interface_stencil_cells() const;
-  /// What it holds of each cell: stencils beside interfaces and the metric.
-  std::int64_t memory_bytes() const {
-    return interface_stencil_cells() * std::int64_t(sizeof(InterfaceStencil)) + metric_.memory_bytes() +
-           anisotropic_cells_.memory_bytes() + anisotropic_across_.memory_bytes();
-  }
+  /// What it holds besides the state.
+  std::int64_t memory_bytes() const;
   /// Whether S waves are swept at all.
   bool shear() const { return shear_; }
 

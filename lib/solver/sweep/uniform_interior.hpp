@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "base/memory.hpp"
 #include "solver/kernels/kernels.hpp"
 
 namespace slipwave::solver {
@@ -21,6 +22,7 @@ class UniformInterior {
     return {runs_.data() + first_[number], first_[number + 1] - first_[number]};
   }
   bool empty() const { return runs_.empty(); }
+  std::int64_t memory_bytes() const { return bytes_of(runs_) + bytes_of(first_); }
 
  private:
   std::vector<IndexRange> runs_;
