@@ -112,7 +112,7 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
       domain_(domain_of(scene, medium(), shot)),
       state_(make_filled_state<D, Real>(domain_, medium(), dt_s_)),
       sweeps_(state_, domain_, scene.numerics.order),
-      effects_(builder().effects(shot, unit_, ranks)),
+      effects_(make_effects()),
       recorder_(state_.layout, domain_, scene, shot, unit_, ranks),
       sink_(sink),
       snapshots_(state_.layout, domain_, sink ? scene.snapshot_every_s : std::nullopt,
@@ -131,6 +131,13 @@ ShotSimulation<D, Real>::ShotSimulation(const Scene<D>& scene, std::size_t shot,
   bool changed = false;
   for (auto& effect : effects_) changed |= effect->initialize(state_);
   if (changed) executor_->fields_changed();
+}
+
+/// Faces that fractures split are there before what exchanges memory with other ranks asks how much there is.
+template <int D, class Real>
+Effects<D, Real> ShotSimulation<D, Real>::make_effects() {
+  sweeps_.split_faces(domain_, dt_s_, unit_);
+  return builder().effects(shot_, unit_, ranks_);
 }
 
 template <int D, class Real>

@@ -56,6 +56,7 @@ class ShotSimulation {
  private:
   StepBuilder<D, Real> builder() { return {*scene_, domain_, state_, dt_s_}; }
   const Medium<D>& medium() const { return attenuating_ ? *attenuating_ : scene_->model.medium; }
+  Effects<D, Real> make_effects();
   std::vector<Record<D, Real>*> records();
   std::unique_ptr<Halo<D, Real>> make_halo();
   void check_together();
