@@ -157,6 +157,8 @@ void build(const Settings& settings, const cli::Context& context) {
                    .fit = choice,
                    .average = settings.no_average ? Average::none : average,
                    .layers = layers};
+  // Files hold no profiles: what a log says is in the cells alone.
+  if (!settings.log.empty()) model.geology.layers.clear();
   model.medium =
       in_place("--layer", [&] { return layered_medium(fit.grid, layers, model.geology.average, fit.rows); });
   check(model, settings.limits);
