@@ -18,6 +18,9 @@ void declare(cli::Options& options, ShootingOptions& s) {
               "what --error is of: traces, or response (what fractures add to them)");
   options.add("plan", s.plan, "print expected error, time and memory, and stop; with -v all details");
   options.add("json", s.json, "with --plan: print all of it as one JSON object");
+  options.add("inject", s.scene.survey.inject, "GATHER",
+              "traces as sources where they were recorded: velocities as forces, p as explosions");
+  options.add("reverse", s.scene.survey.reverse, "with --inject: reversed in time");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
               "traces; - is standard output");
@@ -42,7 +45,8 @@ void declare(cli::Options& options, ShootingOptions& s) {
               "keep the output of an unstable run, in files unstable-NAME");
   options.require("time");
   options.add_threads();
-  options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
+  options.headings(
+      {{"inject", "Recorded traces as sources"}, {"output", "Output"}, {"shots-in-parallel", "The run"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",
                   "plan", "output", "snapshots", "every", "threads"});
 }
