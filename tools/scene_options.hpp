@@ -27,9 +27,6 @@ inline void declare_scene(cli::Options& options, SceneOptions& s) {
   options.add("receivers", s.survey.receivers, "X0:X1:DX,Z",
               "line of receivers, or one at X,Z, m; repeatable; +X0:+X1:DX moves with the source; Z may be "
               "surface+D or floor-D; @FILE: a table; in 3-D also an area, X0:X1:DX,Y0:Y1:DY,Z");
-  options.add("inject", s.survey.inject, "GATHER",
-              "traces as sources where they were recorded: velocities as forces, p as explosions");
-  options.add("reverse", s.survey.reverse, "with --inject: reversed in time");
   options.add("geometry", s.survey.geometry, "FILE",
               "the survey of a SEG-Y, SU or CSV file, or of SPS files");
   options.add("origin", s.survey.origin, "X,Y", "with --geometry: the model's origin on its map");

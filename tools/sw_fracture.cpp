@@ -553,12 +553,12 @@ void fracture(const Settings& settings, const NetcdfFile& file, OutputFile& out,
     context.warn("the box at " + shown_box(whole.bounds) + " leaves the model, which is at " +
                  shown_box(box_of_grid(model.grid())) + ": planes end there");
   warn_of_dense_cracks(settings, context);
-  warn_of_slips(settings, context);
   const auto count = single(settings)     ? put_single(settings, model, context)
                      : settings.effective ? change_rock<D>(settings, model, systems, region)
                                           : put_set<D>(settings, model, systems, region, context);
   check(model, {.allow_auxetic = true, .allow_slow = true});
   if (const auto fault = fault_in_anisotropic_rock(model)) throw Error(fault->text);
+  warn_of_slips(settings, context);
   if (!settings.effective) warn_of_large_cells(model, context);
   if (count.left && single(settings)) {
     context.warn("fractures end where rock does: " + std::to_string(count.left) +

@@ -24,6 +24,9 @@ void declare(cli::Options& options, ShootingOptions& s) {
               "write the measured error of each trace here, as SEG-Y");
   options.add("plan", s.plan, "print dispersion, time and memory, and stop; with -v all details");
   options.add("json", s.json, "with --plan, --measure, --error: print all of it as one JSON object");
+  options.add("inject", s.scene.survey.inject, "GATHER",
+              "traces as sources where they were recorded: velocities as forces, p as explosions");
+  options.add("reverse", s.scene.survey.reverse, "with --inject: reversed in time");
   options.add("output,o", s.output.traces, "GATHER",
               "SEG-Y, Seismic Unix if the name ends in .su; {component} and {shot} in the name split the "
               "traces; - is standard output");
@@ -49,7 +52,8 @@ void declare(cli::Options& options, ShootingOptions& s) {
   options.require("time");
   options.add_log();
   options.add_threads();
-  options.headings({{"output", "Output"}, {"shots-in-parallel", "The run"}});
+  options.headings(
+      {{"inject", "Recorded traces as sources"}, {"output", "Output"}, {"shots-in-parallel", "The run"}});
   options.common({"source", "kind", "wavelet", "amplitude", "receivers", "time", "record", "top", "error",
                   "measure", "plan", "output", "snapshots", "every", "threads"});
 }
