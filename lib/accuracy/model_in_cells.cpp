@@ -99,6 +99,7 @@ ModelInCells<D>::ModelInCells(const Scene<D>& scene) : scene_(scene) {
         !equal(medium_of(parse_number(command_->step), command_->choice, false), scene.model.medium))
       command_.reset();
     if (command_ && on_faces()) command_->choice = {};
+    tops_cut_cells_ = command_ && !scene.model.grid().rows && !on_faces();
   } catch (const Error&) {
     command_.reset();
   }

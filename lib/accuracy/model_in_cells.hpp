@@ -24,6 +24,9 @@ class ModelInCells {
   bool from_layers() const { return command_ != nullptr; }
   /// Whether the model is of layers whose tops no rows follow, though they could.
   bool could_be_fitted() const;
+  /// Whether tops cut cells, which no rows follow: where they do so differs from size to size, and no more
+  /// than first order is kept.
+  bool tops_cut_cells() const { return tops_cut_cells_; }
   /// How many tops rows of other cells can not follow, though they were to; 0 where there are none.
   std::size_t left_out(double spacing_m) const;
   /// Throws an Error where it cannot be made.
@@ -39,6 +42,7 @@ class ModelInCells {
 
   const Scene<D>& scene_;
   std::unique_ptr<Command> command_;
+  bool tops_cut_cells_ = false;
 };
 
 }  // namespace slipwave
