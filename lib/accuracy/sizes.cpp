@@ -6,8 +6,9 @@
 
 namespace slipwave {
 
-double order_of_sizes(double d1, double d2, double r1, double r2) {
-  constexpr double lowest = 1, highest = 2;
+double order_of_sizes(double d1, double d2, double r1, double r2, double kept) {
+  constexpr double lowest = 1;
+  const double highest = kept;
   if (!(d1 > 0)) return highest;
   const auto ratio = [&](double p) { return (std::pow(r2, p) - 1) / (std::pow(r1, p) - 1); };
   double low = lowest, high = highest;
@@ -20,7 +21,7 @@ double order_of_sizes(double d1, double d2, double r1, double r2) {
   return (low + high) / 2;
 }
 
-ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_two) {
+ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_two, double kept) {
   const auto& found = *sizes[0].traces;
   const auto difference = [&](std::size_t n) { return sum_of(*sizes[n].traces, found, -1); };
   const auto ratio = [&](std::size_t n) { return sizes[n].spacing_m / sizes[0].spacing_m; };
@@ -36,7 +37,7 @@ ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_
   of.order = order_of_two;
   if (sizes.size() > 2)
     of.order =
-        order_of_sizes(rest, rest_of(size_of_error(difference(2), found).whole, 2), ratio(1), ratio(2));
+        order_of_sizes(rest, rest_of(size_of_error(difference(2), found).whole, 2), ratio(1), ratio(2), kept);
   const double grown = std::pow(ratio(1), of.order) - 1;  // below 0 in smaller cells
   of.rest = rest / std::abs(grown);
   of.error = std::hypot(of.share * sizes[0].derived, of.rest);

@@ -17,9 +17,9 @@ struct SizedTraces {
 
 /// The order of the error, by the differences of traces in cells of three sizes: with |u1 - u0| = d1 and
 /// |u2 - u0| = d2 in cells r1 and r2 times as large as those of u0, (r2^p - 1)/(r1^p - 1) = d2/d1. It is kept
-/// between 1 and the second order that the scheme keeps wherever it is smooth: what is of a higher order
-/// falls faster and hides what is not.
-double order_of_sizes(double d1, double d2, double r1, double r2);
+/// between 1 and the order that the scheme keeps wherever it is smooth: what is of a higher order falls
+/// faster and hides what is not.
+double order_of_sizes(double d1, double d2, double r1, double r2, double kept = 2);
 
 /// What is wrong with the traces in the first cells (exact ones taken away), by those in the others: of an
 /// error of order p, u_n - u_0 = (r_n^p - 1) e. Dispersion of the direct waves is of a higher order, and what
@@ -34,6 +34,6 @@ struct ErrorOfSizes {
   double error = 0;           // of both
   std::vector<Gather> wrong;  // u_1 - u_0, scaled to that error
 };
-ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_two = 1);
+ErrorOfSizes error_of_sizes(std::span<const SizedTraces> sizes, double order_of_two = 1, double kept = 2);
 
 }  // namespace slipwave

@@ -115,7 +115,7 @@ MeasuredError measured_error(SceneRuns<D>& runs, const AccuracySetting& setting,
     throw Error("the scene holds cells of one other size only, " + shown(coarsest.spacing_m, 4) +
                 " m: its error is measured by running it");
   // Where none of the sizes is its own, of second order is the best guess there is.
-  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2);
+  auto of_cells = error_of_sizes(sizes, what.itself ? 1 : 2, runs.model().tops_cut_cells() ? 1 : 2);
   measured.order = of_cells.order;
   measured.nearest_apart = of_cells.apart;
   measured.by_cells = of_cells.error;
