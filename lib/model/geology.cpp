@@ -1,5 +1,7 @@
 #include "model/geology.hpp"
 
+#include <utility>
+
 #include "base/error.hpp"
 
 namespace slipwave {
@@ -11,29 +13,44 @@ FitChoice as_can_be(FitChoice choice) {
   return choice;
 }
 
-Medium<2> marmousi_medium_of(const Geology& geology, const Grid<2>& regular) {
-  const auto fit = fit_marmousi(regular, *geology.marmousi, as_can_be(geology.fit));
-  return marmousi_medium(fit.grid, *geology.marmousi, geology.average != Average::none);
-}
-Medium<3> marmousi_medium_of(const Geology&, const Grid<3>&) {
-  throw Error("found a geology like Marmousi's in 3-D, expected it in 2-D");
-}
-
-}  // namespace
-
-template <int D>
-Medium<D> medium_of(const Geology& geology, const Grid<D>& regular) {
-  if (geology.marmousi) return marmousi_medium_of(geology, regular);
-  auto layers = geology.layers;
+/// Tops that are level beyond their ends.
+std::vector<Layer> endless(std::vector<Layer> layers) {
   for (auto& layer : layers) {
     auto shape = layer.top.shape();
     shape.endless = true;
     layer.top = Horizon(std::move(shape));
   }
-  const auto fit = fit_layers(regular, layers, as_can_be(geology.fit));
-  return layered_medium(fit.grid, layers, geology.average, fit.rows);
+  return layers;
 }
 
+Fit<2> marmousi_fit(const Geology& geology, const Grid<2>& regular) {
+  return fit_marmousi(regular, *geology.marmousi, as_can_be(geology.fit));
+}
+Medium<2> marmousi_in(const Geology& geology, const Grid<2>& grid) {
+  return marmousi_medium(grid, *geology.marmousi, geology.average != Average::none);
+}
+Fit<3> marmousi_fit(const Geology&, const Grid<3>&) {
+  throw Error("found a geology like Marmousi's in 3-D, expected it in 2-D");
+}
+Medium<3> marmousi_in(const Geology&, const Grid<3>& grid) { return Medium<3>(grid); }
+
+}  // namespace
+
+template <int D>
+Fit<D> fit_of(const Geology& geology, const Grid<D>& regular) {
+  if (geology.marmousi) return marmousi_fit(geology, regular);
+  return fit_layers(regular, endless(geology.layers), as_can_be(geology.fit));
+}
+
+template <int D>
+Medium<D> medium_of(const Geology& geology, const Grid<D>& regular) {
+  const auto fit = fit_of(geology, regular);
+  if (geology.marmousi) return marmousi_in(geology, fit.grid);
+  return layered_medium(fit.grid, endless(geology.layers), geology.average, fit.rows);
+}
+
+template Fit<2> fit_of(const Geology&, const Grid<2>&);
+template Fit<3> fit_of(const Geology&, const Grid<3>&);
 template Medium<2> medium_of(const Geology&, const Grid<2>&);
 template Medium<3> medium_of(const Geology&, const Grid<3>&);
 
