@@ -32,18 +32,15 @@ struct Geology {
   bool knows_places() const { return !layers.empty() || marmousi.has_value(); }
 };
 
+/// How rows of a regular grid follow the horizons of a geology (Geology::fit), as far as they can. Throws as
+/// fit_layers() and fit_marmousi().
+template <int D>
+Fit<D> fit_of(const Geology& geology, const Grid<D>& regular);
+
 /// The medium of a geology in the cells of a regular grid, or of one whose rows follow its horizons as far as
 /// they can (Geology::fit); tops of layers that end with the model it was built for are level beyond. Throws
 /// as fit_layers(), layered_medium() and marmousi_medium().
 template <int D>
 Medium<D> medium_of(const Geology& geology, const Grid<D>& regular);
-
-/// How many tops of layers the rows of such a medium cannot follow, though they were to.
-template <int D>
-std::size_t tops_left_out(const Geology& geology, const Grid<D>& regular);
-
-/// Whether all tops of layers, and there are some, lie on faces of the cells of a regular grid.
-template <int D>
-bool tops_on_faces(const Geology& geology, const Grid<D>& regular);
 
 }  // namespace slipwave

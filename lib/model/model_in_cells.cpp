@@ -44,19 +44,38 @@ void clear_beside_rock(Model<D>& model) {
 
 template <int D>
 ModelInCells<D>::ModelInCells(const Model<D>& model, const std::optional<Attenuation>& unrelaxed)
-    : model_(model), unrelaxed_(unrelaxed) {
+    : model_(model), unrelaxed_(unrelaxed), fit_(model.geology.fit) {
   if (!model.geology.knows_places()) return;
   try {
-    auto own = medium_of_geology(model.grid().spacing_m, model.geology.fit);
+    auto own = medium_of_geology(model.grid().spacing_m, fit_);
     for (const auto property : own.properties())
-      if (!model.medium.has(property)) left_out_.push_back(property), own[property] = {};
+      if (!model.medium.has(property)) taken_out_.push_back(property), own[property] = {};
     as_built_ = equal(own, model.medium);
-    const bool on_faces =
-        !model.grid().rows && tops_on_faces(model.geology, covering(model.grid(), model.grid().spacing_m));
-    fit_ = on_faces ? FitChoice{} : model.geology.fit;
+    if (as_built_ && on_faces())
+      fit_ = {};
+    else
+      tops_cut_cells_ = as_built_ && !model.grid().rows;
   } catch (const Error&) {
     // It cannot be built so any more.
   }
+}
+
+/// Whether every horizon lies on faces of the cells as they are. In other cells that takes rows that follow.
+template <int D>
+bool ModelInCells<D>::on_faces() const {
+  if (model_.grid().rows) return false;
+  auto geology = model_.geology;
+  geology.fit = {};
+  const auto fit = fit_of(geology, covering(model_.grid(), model_.grid().spacing_m));
+  return !fit.grid.rows && fit.left_out.empty();
+}
+
+template <int D>
+std::size_t ModelInCells<D>::left_out(double spacing_m) const {
+  if (!as_built_) return 0;
+  auto geology = model_.geology;
+  geology.fit = fit_;
+  return fit_of(geology, covering(model_.grid(), spacing_m)).left_out.size();
 }
 
 /// What was changed in all cells that were built is changed again.
@@ -65,23 +84,14 @@ Medium<D> ModelInCells<D>::medium_of_geology(double spacing_m, const FitChoice& 
   auto geology = model_.geology;
   geology.fit = choice;
   auto medium = medium_of(geology, covering(model_.grid(), spacing_m));
-  for (const auto property : left_out_) medium[property] = {};
+  for (const auto property : taken_out_) medium[property] = {};
   if (unrelaxed_) unrelax(medium, *unrelaxed_);
   return medium;
 }
 
 template <int D>
 bool ModelInCells<D>::could_be_fitted() const {
-  const auto& [surfaces, floors, layers, asked, always] = fit_;
-  return as_built_ && !(surfaces && floors && layers);
-}
-
-template <int D>
-std::size_t ModelInCells<D>::left_out(double spacing_m) const {
-  if (!as_built_) return 0;
-  auto geology = model_.geology;
-  geology.fit = fit_;
-  return tops_left_out(geology, covering(model_.grid(), spacing_m));
+  return as_built_ && !(fit_.surfaces && fit_.floors && fit_.layers);
 }
 
 template <int D>

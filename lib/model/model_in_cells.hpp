@@ -13,7 +13,8 @@ namespace slipwave {
 /// them: from where horizons and beds are, as far as the model knows (Geology) and still is what was built,
 /// else from the old cells: regridded(), or resampled() where the builder had interpolated for smaller ones.
 /// Cells begin where those of the model do; where its extent is no whole number of them it is covered
-/// (Extent). Clusters are as regridded() has them, single fractures stay where they are.
+/// (Extent). Where all horizons lie on faces of the model's cells, rows of other cells follow them. Clusters
+/// are as regridded() has them, single fractures stay where they are.
 template <int D>
 class ModelInCells {
  public:
@@ -27,8 +28,11 @@ class ModelInCells {
   bool as_built() const { return as_built_; }
   /// Whether it does and rows follow fewer kinds of horizons than they might (fitted()).
   bool could_be_fitted() const;
-  /// How many tops of layers rows of other cells cannot follow, though they were to; 0 where none are known.
+  /// How many horizons rows of other cells can not follow, though they were to; 0 where nothing is known.
   std::size_t left_out(double spacing_m) const;
+  /// Whether horizons cut cells, which no rows follow: where they do so differs from size to size, and no more
+  /// than first order is kept.
+  bool tops_cut_cells() const { return tops_cut_cells_; }
   /// Throws a usage Error where the size is not above zero or the model would not fit the memory, an Error as
   /// regridded() where a fitted grid cannot be made anew.
   Model<D> of(double spacing_m) const;
@@ -36,15 +40,16 @@ class ModelInCells {
   Model<D> fitted(double spacing_m) const;
 
  private:
+  bool on_faces() const;
   Medium<D> medium_of_geology(double spacing_m, const FitChoice& choice) const;
   Model<D> of_cells(double spacing_m) const;
   Model<D> with_medium(Medium<D> medium) const;
 
   const Model<D>& model_;
   std::optional<Attenuation> unrelaxed_;
-  std::vector<Property> left_out_;  // taken out of what was built
-  FitChoice fit_;                   // what rows of other cells follow: tops that lie on faces here, too
-  bool as_built_ = false;
+  FitChoice fit_;                    // which horizons rows of other cells follow
+  std::vector<Property> taken_out_;  // of what was built
+  bool as_built_ = false, tops_cut_cells_ = false;
 };
 
 /// ModelInCells::of(), once.

@@ -155,6 +155,21 @@ TEST(CellsOfSize, AreLevelBeyondTheEndsOfACurve) {
   EXPECT_NEAR(7 * fluid(57), 150, 3.5);
 }
 
+TEST(CellsOfSize, FollowHorizonsThatLieOnFacesNow) {
+  Geology geology{.maker = Maker::sw_layers, .fit = parse_fit("none")};
+  geology.layers = {{0, 1500, 0, 1000}, {100, 3000, 1600, 2200}, {200, 4000, 2300, 2400}};
+  const auto model = built<2>(geology, {400, 300}, 10);
+  ASSERT_EQ(model.grid().rows, nullptr);
+  const ModelInCells cells(model);
+  ASSERT_NE(cells.of(6).grid().rows, nullptr);
+  EXPECT_EQ(cells.left_out(6), 0u);
+  geology.layers[1].top = Horizon(103);
+  const auto cut = built<2>(geology, {400, 300}, 10);
+  EXPECT_EQ(ModelInCells(cut).of(6).grid().rows, nullptr);
+  EXPECT_TRUE(ModelInCells(cut).could_be_fitted());
+  EXPECT_NE(ModelInCells(cut).fitted(6).grid().rows, nullptr);
+}
+
 TEST(CellsOfSize, AreThoseOfTheOldCellsWhereTheGeologyDoesNotGiveThem) {
   auto model = built<2>(flat, {400, 300}, 10);
   EXPECT_TRUE(ModelInCells(model).as_built());
