@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/history.hpp"
 #include "base/parse.hpp"
 #include "io/output_file.hpp"
 #include "planning/plan.hpp"
@@ -117,18 +118,22 @@ Report report_of(const MeasuredError& measured, const SceneRuns<D>& runs) {
 /// The error of each trace, found less exact, in a file of its own.
 template <int D>
 void write_error_gather(const MeasuredError& measured, const SceneRuns<D>& runs, OutputFile& out,
-                        const Provenance& provenance) {
+                        const Provenance& provenance, const Messages& messages) {
   Gather all;
   for (const auto& gather : measured.wrong) {
     all.axis = gather.axis;
     all.traces.insert(all.traces.end(), gather.traces.begin(), gather.traces.end());
   }
-  std::vector<std::string> text = {
-      provenance.version + ": errors of synthetic seismograms, found less exact, as measured",
-      provenance.measured};
-  if (runs.observed().response) text.push_back("of what fractures add to the traces");
-  segy::write_gather(out, all, segy::format_named_by(out.shown_name()), text);
+  auto history = runs.scene().model.history;
+  append_history(history, provenance.command_line);
+  segy::Heading heading{
+      {provenance.version + ": errors of synthetic seismograms, found less exact, as measured",
+       provenance.measured},
+      std::move(history)};
+  if (runs.observed().response) heading.entries.push_back("of what fractures add to the traces");
+  const auto sentences = segy::write_gather(out, all, segy::format_named_by(out.shown_name()), heading);
   out.commit();
+  for (const auto& sentence : sentences) messages.warn(out.shown_name() + ": " + sentence);
 }
 
 /// "measured error: 0.82 % of all traces (...), by cells of 3.75 and 5.625 m, order 1.9".
@@ -151,7 +156,7 @@ void say(const MeasuredError& measured, const SceneRuns<D>& runs, double all_s, 
 /// Names that can not be written cost no computing.
 void expect_writable(const OutputOptions& output, const std::vector<Component>& components,
                      const std::vector<std::size_t>& shots) {
-  TraceFiles files(output, components, {});
+  TraceFiles files(output, components, {}, {}, {});
   for (const auto shot : shots) files.open(shot);
 }
 
@@ -208,7 +213,7 @@ void shoot_measured(const Scene<D>& scene, const ShootingOptions& options, const
                   ": " + reached.reason);
   auto own = provenance;
   own.measured = line_of(measured, runs);
-  if (errors) write_error_gather(measured, runs, *errors, own);
+  if (errors) write_error_gather(measured, runs, *errors, own, messages);
   if (options.json) {
     const std::string text = report_of(measured, runs).json() + "\n";
     OutputFile out("-", OutputFile::Content::text);
